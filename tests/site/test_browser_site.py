@@ -17,8 +17,9 @@ from evenbreak.handicaps.charts.level_skills import level_skills
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import SCALES
 from evenbreak.site.names import PublicNames
-from evenbreak.site.pages import Fixture, site_files, tournament_of
+from evenbreak.site.pages import Fixture, site_files
 from evenbreak.site.races import LeagueRaces
+from evenbreak.site.tournaments import tournament_of
 from published_leagues import published
 from tournament_nights import night
 from web.chromium import browser as browser

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from evenbreak.errors import DataError
 from evenbreak.files.store.tournament import new_tournament
 from evenbreak.site.names import PublicNames, by_appearance, file_names
-from evenbreak.site.pages import site_files, tournament_of
+from evenbreak.site.pages import site_files
+from evenbreak.site.tournaments import tournament_of
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result
 from leagues import HOSTILE
 from published_leagues import PLAYERS, published, season

@@ -22,8 +22,10 @@ from evenbreak.ratings import Results, fit
 from evenbreak.ratings.usual import rated_alike
 from evenbreak.site.league import WEEK
 from evenbreak.site.pages import MOST_BYTES, Fixture, site_files
+from evenbreak.site.tournaments import tournament_of
 from leagues import HOSTILE
 from published_leagues import PLAYERS, published, season
+from tournament_nights import night
 
 
 @pytest.fixture(scope="module")
@@ -202,13 +204,19 @@ def test_a_player_is_told_why_a_race_is_what_it_is(rule) -> None:
 
 
 @pytest.mark.slow
-def test_a_large_league_has_small_pages() -> None:
-    """100 players of long names, 3,000 matches."""
-    players = tuple(f"Maximiliana-Josephine Featherstonehaugh {k:02}" for k in range(100))
+@pytest.mark.parametrize("many", [100, 250])
+def test_a_large_league_has_small_pages(many: int) -> None:
+    """100 players of long names, 3,000 matches; more of them; and a bracket of 64."""
+    players = tuple(f"Maximiliana-Josephine Featherstonehaugh {k:03}" for k in range(many))
     league = published(_drawn(players, 3000))
-    league.__dict__.update(_worth={}, history=[])  # what takes long, and few bytes
-    for name, content in site_files(league).items():
+    league.__dict__.update(_worth={}, history=[])
+    object.__setattr__(league, "one_more", lambda *_: [])  # what takes long, and few bytes
+    tournament = tournament_of("open", night(64, "double", 999), league.names)
+    files = site_files(league, [tournament])
+    for name, content in files.items():
         assert not name.endswith(".html") or len(content) <= MOST_BYTES, (name, len(content))
+    assert ("standings-2.html" in files) == (many > 100)
+    assert b"tournament-open-side-2.html" in files["tournament-open.html"]
 
 
 def _drawn(players: tuple[str, ...], many: int) -> Results:

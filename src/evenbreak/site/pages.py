@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -20,24 +19,24 @@ from evenbreak.answers.kit.scales import like_scale_words
 from evenbreak.answers.league.rate import unlinked_words
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.answers.league.standings import rules_words
-from evenbreak.answers.tournament.bracket_view import Box, Panel, bracket_panels
 from evenbreak.league.tables.table import LeagueTable
 from evenbreak.sheets.bracket_page import drawn_panel
 from evenbreak.sheets.html_page import environment, own_file, policy
 from evenbreak.site import pictures
 from evenbreak.site.bundle import bundle
 from evenbreak.site.league import RECENT, PublishedLeague
-from evenbreak.site.names import PublicNames, file_names
 from evenbreak.site.pictures import short_day
-from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.site.tournaments import Tournament
 from evenbreak.words import ordinal
 
 ROOM = "evenbreak.site"
 MOST_BYTES = 60_000
 """The largest page."""
 
-MOST_LISTED = 100
-"""Matches on a player's page; the others are in the list of all matches."""
+MOST_ROWS, MOST_LISTED = 100, 80
+"""Players on a page, and matches on a player's; the others are on the next or in the tables."""
+
+_ROUND_A_BRACKET = 14_000  # bytes of a bracket's page besides
 
 _TABLES = {
     "standings.csv": "Standings",
@@ -47,17 +46,6 @@ _TABLES = {
     "changes.csv": "What has changed in a week",
     "manifest.json": "What is in these files, with a checksum of each",
 }
-
-
-class Tournament(NamedTuple):
-    """A finished tournament under public names: its file, title, day, players and bracket."""
-
-    file: str
-    title: str
-    day: str
-    players: int
-    won_by: str
-    panels: Sequence[Panel]
 
 
 class Fixture(NamedTuple):
@@ -76,56 +64,20 @@ def site_files(
 ) -> dict[str, bytes]:
     """Return every file of a site by its name, the tables and their manifest among them."""
     maker = _Pages(league, tournaments, fixtures)
-    written = {"index.html": maker.standings(), "ratings.html": maker.ratings()}
+    written = {**maker.standings(), **maker.ratings()}
     written |= {"races.html": maker.races(), "season.html": maker.season()}
     if fixtures:
         written["fixtures.html"] = maker.fixture_list()
     if tournaments:
         written["tournaments.html"] = maker.tournaments()
-        written |= {one.file: maker.tournament(one) for one in tournaments}
+        for one in tournaments:
+            written |= maker.tournament(one)
     written |= {file: maker.player(name) for name, file in league.pages.items()}
     written["about.html"] = maker.about()
     if league.logo is not None:
         name, content = league.logo
         written[name] = content
     return {**written, **bundle(league, written)}
-
-
-def tournament_of(name: str, state: Evening, names: PublicNames) -> Tournament | None:
-    """Return a tournament under public names; None unless it is over and has a bracket.
-
-    Parameters
-    ----------
-    name
-        that of its file.
-    state
-        what was played.
-    names
-        what players are called; guests of the tournament are named as the strictest rule has it.
-    """
-    if not state.drawn or state.plan.form == "chips" or state.standing.to_play:
-        return None
-
-    def public(box: Box) -> Box:
-        first, second = (
-            replace(one, text=names[one.text] if one.known else str(one.text)) for one in box.lines
-        )
-        return replace(box, lines=(first, second))
-
-    panels = [
-        replace(panel, boxes=tuple(map(public, panel.boxes))) for panel in bracket_panels(state)
-    ]
-    finals = [
-        state.counted[match.name].winner
-        for match in state.bracket.matches
-        if match.side in ("final", "second final") and match.name in state.counted
-    ]
-    title = " ".join(name.replace("_", " ").replace("-", " ").split())
-    title = title[:1].upper() + title[1:]
-    file = next(iter(file_names([title]).values()))
-    day = state.events[0].at[:10]
-    won_by = names[finals[-1]] if finals else ""
-    return Tournament(f"tournament-{file}.html", title, day, len(state.order), won_by, panels)
 
 
 class _Pages:
@@ -176,23 +128,30 @@ class _Pages:
             "change": lambda points: signed(points, decimals),
         }
 
-    def standings(self) -> bytes:
-        """Return the first page."""
+    def standings(self) -> dict[str, bytes]:
+        """Return the first page, and more where there are too many players for one."""
         league = self.league
-        tables = [(league.standings, "Player", True)]
+        players = self._table(league.standings, "Player", players=True)
+        teams = []
         if league.team_standings is not None:
-            tables.insert(0, (league.team_standings, "Team", False))
-        return self._page(
-            "standings.html",
-            league.title,
-            here="index.html",
-            two=True,
-            tables=[self._table(*one) for one in tables],
-            rule=_sentence(rules_words(league.rules, sets=False)),
-            last=self._last_night(),
-        )
+            teams = [self._table(league.team_standings, "Team", players=False)]
+        made = {}
+        for parts, file, rows in _parted(players["rows"], "index.html", "standings"):
+            first = file == "index.html"
+            made[file] = self._page(
+                "standings.html",
+                league.title,
+                here="index.html",
+                two=first,
+                parts=parts,
+                file=file,
+                tables=[*(teams if first else []), {**players, "rows": rows}],
+                rule=_sentence(rules_words(league.rules, sets=False)),
+                last=self._last_night() if first else None,
+            )
+        return made
 
-    def _table(self, table: LeagueTable, who: str, players: bool) -> dict[str, Any]:
+    def _table(self, table: LeagueTable, who: str, *, players: bool) -> dict[str, Any]:
         """Return a table of players or teams as its template takes it."""
         drawn, matches = bool(table.drawn.any()), self.league.matches
         rows = []
@@ -222,27 +181,33 @@ class _Pages:
             matches.append({"a": a, "b": b, "score": f"{scores[0]}-{scores[1]}" * any(scores)})
         return {"day": day, "matches": matches, "more": len(rows) - len(matches)}
 
-    def ratings(self) -> bytes:
-        """Return the page of ratings."""
+    def ratings(self) -> dict[str, bytes]:
+        """Return the page of ratings, and more where there are too many players for one."""
         league = self.league
         decimals = league.decimals
         changed = {}
         if league.week_before is not None:
             rows: Any = league.changes.itertuples(index=False)
             changed = {row.player: _arrow(row.change, decimals) for row in rows}
-        return self._page(
-            "ratings.html",
-            "Ratings",
-            here="ratings.html",
-            rated=league.rated,
-            changed=changed,
-            unlinked=" ".join(unlinked_words(league.ratings)),
-            about=(
-                f"From {league.ratings.matches:,} matches, on "
-                f"{like_scale_words(league.ratings.scale)}. A player's true rating is within the "
-                "give or take about two times in three."
-            ),
+        about = (
+            f"From {league.ratings.matches:,} matches, on "
+            f"{like_scale_words(league.ratings.scale)}. A player's true rating is within the "
+            "give or take about two times in three."
         )
+        return {
+            file: self._page(
+                "ratings.html",
+                "Ratings",
+                here="ratings.html",
+                parts=parts,
+                file=file,
+                rated=rated,
+                changed=changed,
+                unlinked=" ".join(unlinked_words(league.ratings)),
+                about=about,
+            )
+            for parts, file, rated in _parted(league.rated, "ratings.html", "ratings")
+        }
 
     def races(self) -> bytes:
         """Return the page on which two taps give a race."""
@@ -252,7 +217,6 @@ class _Pages:
             "races.html",
             "Races",
             here="races.html",
-            data=data,
             json=text.replace("<", "\\u003c").replace("\u2028", "\\u2028"),
             script=own_file("race.js", ROOM),
             tonight=self._tonight(),
@@ -348,11 +312,14 @@ class _Pages:
         )
 
     def _races_of(self, name: str) -> list[tuple[str, str, str]]:
-        hidden, races = self.league.names.hidden, self.league.races.by_pair
+        """Return the race against everyone; of very many the last opponents, then the others."""
+        races, met = self.league.races.by_pair, self.league.matches.get(name, [])
+        others = dict.fromkeys([*(one.opponent for one in met), *self.league.pages])
+        chosen = [one for one in others if one in self.league.pages and (name, one) in races]
         return [
-            (other, f"{found[0]}-{found[1]}", _percent(found[2]))
-            for other in sorted(self.league.pages, key=str.casefold)
-            if other not in hidden and (found := races.get((name, other))) is not None
+            (other, f"{m}-{n}", _percent(p))
+            for other in sorted(chosen[:MOST_ROWS], key=str.casefold)
+            for m, n, p in [races[name, other]]
         ]
 
     def _why(self, name: str) -> tuple[str, list[str]] | None:
@@ -400,15 +367,32 @@ class _Pages:
             "tournaments.html", "Tournaments", here="tournaments.html", tournaments=self.played
         )
 
-    def tournament(self, one: Tournament) -> bytes:
-        """Return a tournament with its bracket."""
+    def tournament(self, one: Tournament) -> dict[str, bytes]:
+        """Return a tournament with its bracket: a page, or one for each side of a large one."""
         panels = [
             (f"side-{k}", panel.title or "Bracket", drawn_panel(panel, f"side-{k}"))
             for k, panel in enumerate(one.panels, 1)
         ]
-        shown = one._replace(panels=panels)  # type: ignore[arg-type]
+        stem = one.file.removesuffix(".html")
+        files = [one.file, *(f"{stem}-side-{k}.html" for k in range(2, len(panels) + 1))]
+        if sum(len(html) for _, _, html in panels) < MOST_BYTES - _ROUND_A_BRACKET:
+            return {one.file: self._bracket(one, panels, [], one.file)}
+        parts = [(file, title) for file, (_, title, _) in zip(files, panels, strict=True)]
+        return {
+            file: self._bracket(one, [panel], parts, file)
+            for file, panel in zip(files, panels, strict=True)
+        }
+
+    def _bracket(
+        self, one: Tournament, panels: Sequence[Any], parts: Sequence[Any], file: str
+    ) -> bytes:
         return self._page(
-            "tournament.html", one.title, here="tournaments.html", one=shown, panels=1
+            *("tournament.html", one.title),
+            here="tournaments.html",
+            one=one,
+            panels=panels,
+            parts=parts,
+            file=file,
         )
 
     def about(self) -> bytes:
@@ -424,6 +408,20 @@ class _Pages:
             tables=[(f"data/{file}", text) for file, text in _TABLES.items()],
             made_by=f"Made by evenbreak {__version__}.",
         )
+
+
+def _parted(
+    rows: Sequence[Any], first: str, then: str
+) -> Iterator[tuple[list[tuple[str, str]], str, Sequence[Any]]]:
+    """Yield the pages of a long list: links to all of them, the page's file, and its rows."""
+    starts = range(0, max(len(rows), 1), MOST_ROWS)
+    files = [first, *(f"{then}-{k}.html" for k in range(2, len(starts) + 1))]
+    parts = [
+        (file, f"{start + 1} to {min(start + MOST_ROWS, len(rows))}")
+        for file, start in zip(files, starts, strict=True)
+    ]
+    for file, start in zip(files, starts, strict=True):
+        yield parts if len(parts) > 1 else [], file, rows[start : start + MOST_ROWS]
 
 
 def _names_words(ways: Mapping[str, str]) -> str:

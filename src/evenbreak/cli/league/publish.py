@@ -28,8 +28,9 @@ if TYPE_CHECKING:
     from evenbreak.ratings.scale import Scale
     from evenbreak.site.league import PublishedLeague
     from evenbreak.site.names import PublicNames
-    from evenbreak.site.pages import Fixture, Tournament
+    from evenbreak.site.pages import Fixture
     from evenbreak.site.races import LeagueRaces
+    from evenbreak.site.tournaments import Tournament
 
 
 @command_of(Publish, "publish", page=False, always_text=True)
@@ -250,7 +251,7 @@ def _logo(path: str | None) -> tuple[str, bytes] | None:
 def _tournaments(folder: str | None, names: PublicNames) -> list[Tournament]:
     """Return the tournaments of a folder that are over, the last one first, under public names."""
     from evenbreak.files.store.tournament import tournaments_in
-    from evenbreak.site.pages import tournament_of
+    from evenbreak.site.tournaments import tournament_of
 
     if folder is None:
         return []

@@ -99,7 +99,15 @@ function race(first, second) {
   return {m, n, p: unsaid ? null : chance(apart, m, n)};
 }
 
-const buttons = [...document.querySelectorAll("button[data-player]")];
+const buttons = data.players.map((player, k) => {
+  const button = document.createElement("button"), who = document.createElement("bdi");
+  who.textContent = player[NAME];
+  button.type = "button";
+  button.dataset.player = k;
+  button.append(who);
+  return button;
+});
+document.querySelector(".names").append(...buttons);
 const shown = document.getElementById("race"), said = document.getElementById("said");
 let picked = [];
 
