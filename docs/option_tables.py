@@ -9,7 +9,7 @@ those that the other command does not have, `<!-- options: NAME, as OTHER -->` t
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +31,16 @@ def question_of(name: str) -> type:
         command = command.get_command(click.Context(command), word)
     question: type = command.question
     return question
+
+
+def commands_asking(group: Any = program) -> Iterator[type]:
+    """Yield the questions of all commands."""
+    for name in group.list_commands(click.Context(group)):
+        command: Any = group.get_command(click.Context(group), name)
+        if isinstance(command, click.Group):
+            yield from commands_asking(command)
+        elif hasattr(command, "question"):
+            yield command.question
 
 
 def table_of(question: type, fields: Iterable[Declared] | None = None) -> str:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import click
 import column_tables
+import league_keys
 import option_tables
 import pytest
 
@@ -245,6 +246,11 @@ def test_every_option_is_described_and_no_other(name: str) -> None:
 def test_the_tables_of_options_are_those_of_the_questions(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     assert option_tables.with_tables(text) == text, "run make option-tables"
+
+
+def test_the_keys_of_a_leagues_file_are_those_of_its_declaration():
+    text = league_keys.PAGE.read_text("utf-8")
+    assert league_keys.with_tables(text) == text, "run make option-tables"
 
 
 def test_the_tables_of_columns_are_those_of_the_schemas() -> None:

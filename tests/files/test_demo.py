@@ -97,3 +97,18 @@ def test_serving_the_demo_touches_nothing_else(
     assert read_tournament(place).counted
     assert not any(Path().iterdir())
     assert CliRunner().invoke(program, ["serve", "tonight.db", "--demo"]).exit_code == 2
+
+
+def test_in_its_folder_the_commands_take_their_defaults_from_the_leagues_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_demo(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    for words in (
+        "matchups --pairs demo_pairs.csv -v",
+        "league table",
+        'odds "Ines Valbrecht" "Søren Lindqvall"',
+    ):
+        shown = CliRunner().invoke(program, shlex.split(words))
+        assert shown.exit_code == 0, shown.output
+    assert "From league.toml: " in CliRunner().invoke(program, ["chart", "audit", "-v"]).stderr

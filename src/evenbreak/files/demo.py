@@ -24,6 +24,7 @@ DEMO: Mapping[str, str] = {
     "practice_scores.csv": "practice scores before a change",
     "practice_scores_after.csv": "practice scores after it",
     "practice_shots.csv": "practice of single shots",
+    "league.toml": "the league's file: commands run in the folder begin with what it says",
 }
 """The files of the demo: what each holds."""
 
@@ -44,7 +45,7 @@ def write_demo(folder: str | Path) -> list[str]:
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     len(write_demo(folder)), write_demo(folder)
-    (9, [])
+    (11, [])
     """
     there = Path(folder)
     content = {name: _place(name).read_bytes() for name in DEMO}

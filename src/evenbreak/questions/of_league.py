@@ -2,7 +2,7 @@
 
 One map says which key of `league.toml` is the default of which field, for all questions. What is
 typed wins: a default that a question refuses next to it is left out, such as the league's chart
-where a race is typed. How far that goes is in docs/explanation/decisions/defaults-of-a-league.md.
+where a race is typed. How far that goes is in decisions/0026-defaults-of-a-league.md.
 """
 
 from __future__ import annotations

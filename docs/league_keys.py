@@ -1,0 +1,55 @@
+"""The tables of keys in the reference of league.toml, made from the declaration that reads them.
+
+`python docs/league_keys.py` (`make option-tables`) writes them between their marks:
+`<!-- keys: team -->` and `<!-- end of keys -->`; `<!-- keys: top -->` has those above all tables.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from pathlib import Path
+
+from option_tables import commands_asking
+
+from evenbreak.cli.kit.asked import spelled
+from evenbreak.fields.question import declared
+from evenbreak.files.league.league_file import SECTIONS, LeagueFile, Source
+from evenbreak.files.league.new_file import EXAMPLES
+from evenbreak.questions.of_league import key_of
+
+PAGE = Path(__file__).parent / "reference" / "league-file.md"
+TABLE = re.compile(r"(<!-- keys: (\w+) -->\n)(?:.*?\n)??(<!-- end of keys -->)", re.DOTALL)
+
+
+def options_of_keys() -> dict[str, list[str]]:
+    """Return the options whose default each key is, in the order of the commands."""
+    options: defaultdict[str, dict[str, None]] = defaultdict(dict)
+    for question in commands_asking():
+        for one in declared(question):
+            for key in key_of(question, one.name).split(" or "):
+                options[key][spelled(question, one.name)] = None
+    return {key: list(names) for key, names in options.items()}
+
+
+def table_of(name: str) -> str:
+    """Return the table of the keys of a part of the file."""
+    of = {"top": LeagueFile, "results": Source}.get(name) or SECTIONS[name]
+    section = "" if name == "top" else f"{name}."
+    options = options_of_keys()
+    lines = ["| key | meaning | such as | default of |", "|---|---|---|---|"]
+    for one in declared(of):
+        key = section + one.name
+        named = ", ".join(f"`{option}`" for option in options.get(key, []))
+        such = EXAMPLES.get(key, '"dmy"' if one.name == "dates" else '"autumn.csv"')
+        lines.append(f"| `{one.name}` | {one.field.help} | `{such}` | {named} |")
+    return "\n".join([*lines, ""])
+
+
+def with_tables(text: str) -> str:
+    """Return the page with its tables as they are now."""
+    return TABLE.sub(lambda mark: mark[1] + table_of(mark[2]) + mark[3], text)
+
+
+if __name__ == "__main__":
+    PAGE.write_text(with_tables(PAGE.read_text("utf-8")), "utf-8")
