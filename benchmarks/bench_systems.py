@@ -10,7 +10,8 @@ import pytest
 from scipy.linalg import solve
 from scipy.special import expit
 
-from evenbreak.handicaps import Entries, FargoLike, History, Matches
+from evenbreak.handicaps import FargoLike
+from evenbreak.handicaps.systems.history import Entries, History, Matches
 
 Beside = Callable[..., float]
 

@@ -5,9 +5,6 @@ import pytest
 
 from evenbreak.handicaps import (
     Averages,
-    Entries,
-    History,
-    Matches,
     NapaLike,
     apa_like,
     games_of_18,
@@ -16,6 +13,7 @@ from evenbreak.handicaps import (
     tap_like,
 )
 from evenbreak.handicaps.charts.chart_of import chart_of
+from evenbreak.handicaps.systems.history import Entries, History, Matches
 from evenbreak.handicaps.systems.level_review import LevelReview, applied_score, level_of_innings
 
 

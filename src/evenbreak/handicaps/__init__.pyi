@@ -81,9 +81,6 @@ from .systems.catalogue import system_of as system_of
 from .systems.elo import elo_system as elo_system
 from .systems.fargo_like import FargoLike as FargoLike
 from .systems.fixed import fixed_length_system as fixed_length_system
-from .systems.history import Entries as Entries
-from .systems.history import History as History
-from .systems.history import Matches as Matches
 from .systems.laws import broken_laws as broken_laws
 from .systems.level_review import LevelReview as LevelReview
 from .systems.level_review import apa_like as apa_like

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps import Entries, History, LevelLadder, LevelSteps, Matches, system_of
+from evenbreak.handicaps import LevelLadder, LevelSteps, system_of
 from evenbreak.handicaps.charts.level_skills import level_skills
+from evenbreak.handicaps.systems.history import Entries, History, Matches
 from evenbreak.matches import race_win_probability
 
 SKILLS = level_skills("apa_8ball")

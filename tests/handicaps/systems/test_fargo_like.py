@@ -7,9 +7,10 @@ import pytest
 from scipy.optimize import minimize
 from scipy.special import log_expit
 
-from evenbreak.handicaps import Entries, FargoLike, History, Matches
+from evenbreak.handicaps import FargoLike
 from evenbreak.handicaps.systems import fargo_like
 from evenbreak.handicaps.systems.fargo_like import performance
+from evenbreak.handicaps.systems.history import Entries, History, Matches
 from evenbreak.handicaps.systems.laws import entries_for, played_nights
 
 UNIT = 100.0 / np.log(2.0)

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps import Entries, History, Matches, System, step_after, system_of, updated
+from evenbreak.handicaps import System, step_after, system_of, updated
 from evenbreak.handicaps.systems.by_match import PlayedMatch
+from evenbreak.handicaps.systems.history import Entries, History, Matches
 from evenbreak.handicaps.systems.system import checked_races
 
 PLAYERS, REPLICAS, NIGHTS = 6, 4, 5

@@ -132,7 +132,8 @@ def updated(system: System, history: History) -> Floats:
     InputError
         if the system returns another shape, or something that is not a finite number.
 
-    >>> from evenbreak.handicaps import Matches, system_of
+    >>> from evenbreak.handicaps import system_of
+    >>> from evenbreak.handicaps.systems.history import Matches
     >>> night = Matches.of_night(1, [0], [1], [5], [3], [5], [4], [92.0], [80.0])
     >>> begun = np.array([92.0, 80.0])
     >>> updated(system_of("npl"), History(Entries.of(begun), begun, begun, 1, night))
