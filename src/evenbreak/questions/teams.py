@@ -124,6 +124,17 @@ Count: TypeAlias = Annotated[
 ]
 
 
+Squads: TypeAlias = Annotated[
+    str | None,
+    Field(
+        File("TEAMS.csv"),
+        "A list of all teams: OURS and THEIRS may then be names of teams in it.",
+        section=_RULES,
+        more="It has the columns team, player, and rating or level.",
+    ),
+]
+
+
 @dataclass(frozen=True, kw_only=True)
 class OfTeams(Starters):
     """A question about the matches between teams: their ratings, and what is raced to."""
@@ -143,7 +154,7 @@ class OfTeams(Starters):
         ),
     ] = None
     scale: ScaleOf = None
-    results: LevelResults = None
+    results: Annotated[LevelResults, Says(section="Ratings")] = None
 
     def check(self) -> None:
         """Refuse races that are missing, or given twice."""
@@ -181,6 +192,7 @@ class Capped(Question):
                 "Limit on strong players: how many at which level or above, such as 2:6 (blank: "
                 "none)"
             ),
+            section=_RULES,
         ),
     ] = None
     count: Count = "sets"
@@ -203,13 +215,22 @@ class Lineup(OfTeams, Capped):
 """
     ours: Annotated[str, Field(File("OURS.csv"), argument=True)]
     theirs: Annotated[str, Field(File("THEIRS.csv"), argument=True)]
+    roster: Squads = None
     sets: Annotated[
         Sets,
         Says(
-            usual="as many as the smaller team can fill, and 5 at most under a cap",
+            usual="as many as the smaller team can fill, under a cap 5 at most",
             label=say("Sets (blank: one per player of the smaller team; under a cap at most 5)"),
         ),
     ] = None
+    absent: Annotated[
+        tuple[str, ...],
+        Field(
+            Named(names_in, "NAME,..."),
+            "Who is not there tonight, of both teams.",
+            section=_RULES,
+        ),
+    ] = ()
     used: Annotated[
         tuple[str, ...],
         Field(
@@ -307,6 +328,7 @@ class Round(OfTeams):
     lengths = ("single_games", *OfTeams.lengths)
     ours: Annotated[str, Field(File("OURS.csv"), argument=True)]
     theirs: Annotated[str, Field(File("THEIRS.csv"), argument=True)]
+    roster: Squads = None
     single_games: Annotated[
         int | None,
         Field(Whole(1, 100), "Each match is K single games.", metavar="K", old=("games",)),

@@ -114,6 +114,32 @@ def test_a_round_and_the_caps_of_a_league_of_levels(ask, run, tmp_path):
         [("Racks", *one) for one in OURS.items()] + [("Cues", *one) for one in THEIRS.items()],
         "team,player,level",
     )
+    by_name = (
+        "racks",
+        "Cues",
+        "--roster",
+        teams,
+        "--chart",
+        "apa_8ball",
+        "--cap",
+        "18",
+        "--sets",
+        "4",
+    )
+    told = ask("lineup", *by_name)
+    assert told["set"] == 1
+    assert {row["name"] for row in told["options"]} <= set(OURS)
+    away = ask("lineup", *by_name, "--absent", "ann,Zed")
+    assert {row["name"] for row in away["options"]} <= set(OURS) - {"Ann"}
+    some = [
+        written(
+            tmp_path / f"{side}.csv", [one for one in team.items() if one[0] not in ("Ann", "Zed")]
+        )
+        for side, team in (("here", OURS), ("there", THEIRS))
+    ]
+    assert away["options"] == ask("lineup", *some, *by_name[4:])["options"]
+    assert "is in neither team" in run("lineup", *by_name, "--absent", "Xaver").stderr
+    assert "is neither a file nor a team" in run("lineup", "Rackets", *by_name[1:]).stderr
     asked = ("caps", teams, "--chart", "apa_8ball", "--cap", "16", "--sets", "4")
     for more in ((), ("--count", "points"), ("--at-most", "1:6")):
         told = ask(*asked, *more)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from evenbreak import files, handicaps, league, ratings, teams
@@ -16,6 +16,7 @@ from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale, with_st
 from evenbreak.errors import InputError
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import form_of_lists
+from evenbreak.files.tables.names import KnownNames
 from evenbreak.handicaps.charts.level_skills import FARGO
 from evenbreak.questions.results import in_one
 from evenbreak.questions.teams import Capped, Caps, Lineup, OfTeams, Round, Season
@@ -266,12 +267,53 @@ class Strengths(NamedTuple):
 
 def two_teams(asked: Lineup | Round, race: Any) -> tuple[tuple[TeamList, TeamList], Strengths]:
     """Return the lists of two teams, and how strong their players are."""
-    lists = files.read_team(asked.ours), files.read_team(asked.theirs)
+    lists = _team(asked, "ours"), _team(asked, "theirs")
+    if isinstance(asked, Lineup) and asked.absent:
+        lists = _without_absent(asked, lists)
     found = strengths_of(asked, lists, race)
     if asked.sure:
         sure = [ratings.Roster(one.players, one.rating, level=one.level) for one in found.rosters]
         found = found._replace(rosters=sure)
     return lists, found
+
+
+def _without_absent(asked: Lineup, lists: tuple[TeamList, TeamList]) -> tuple[TeamList, TeamList]:
+    """Return the lists without those who are not there tonight."""
+    known = [KnownNames(one.file.roster.players) for one in lists]
+    gone: tuple[set[int], set[int]] = set(), set()
+    for name in asked.absent:
+        places = [each.place(name) for each in known]
+        if places == [None, None]:
+            every = KnownNames([name for one in lists for name in one.file.roster.players])
+            asked.refuse(
+                "{part}: {name!r} is in neither team{hint}",
+                part=Parameter("absent"),
+                name=name,
+                hint=every.hint(name),
+            )
+        for side, place in zip(gone, places, strict=True):
+            side |= set() if place is None else {place}
+    ours, theirs = (one.without(side) for one, side in zip(lists, gone, strict=True))
+    return ours, theirs
+
+
+def _team(asked: Lineup | Round, side: str) -> TeamList:
+    """Return the list of a team: of a file, or by its name in the list of all teams."""
+    name: str = getattr(asked, side)
+    if asked.roster is None or name == "-" or (Path(name).exists() and not Path(name).is_dir()):
+        return files.read_team(name)
+    squads = files.read_squads(asked.roster)
+    known = KnownNames(list(squads))
+    place = known.place(name)
+    if place is None:
+        asked.refuse(
+            "{part} {name!r} is neither a file nor a team of {roster}{hint}",
+            part=Parameter(side),
+            name=name,
+            roster=asked.roster,
+            hint=known.hint(name),
+        )
+    return list(squads.values())[place]
 
 
 def strengths_of(asked: OfTeams, lists: Sequence[TeamList], race: Any) -> Strengths:

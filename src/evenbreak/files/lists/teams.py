@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from functools import partial
 from itertools import compress
 from pathlib import Path
@@ -26,6 +26,7 @@ from evenbreak.files.tables.problems import quoted, refusal, warning
 from evenbreak.files.tables.schema import Number, Schema, Text, Whole
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.tables.table import TextTable
+from evenbreak.ratings.roster import Roster
 from evenbreak.words import say
 
 TEAM = (
@@ -124,6 +125,16 @@ class TeamList:
     def weights(self) -> Floats:
         """What a cap counts: the levels, or the ratings where the file states no level."""
         return self.file.roster.rating if np.isnan(self.levels).all() else self.levels
+
+    def without(self, places: Collection[int]) -> TeamList:
+        """Return the list without the players at some places."""
+        kept = np.array([k for k in range(len(self.levels)) if k not in places], dtype=np.int64)
+        roster = self.file.roster
+        some = {one.name: getattr(roster, one.name)[kept] for one in fields(roster)[1:]}
+        names = [roster.players[place] for place in kept.tolist()]
+        left = Roster(names, some.pop("rating"), some.pop("standard_error"), **some)
+        file = replace(self.file, roster=left, lines=self.file.lines[kept])
+        return TeamList(file, self.levels[kept])
 
     @property
     def without_weight(self) -> str:
