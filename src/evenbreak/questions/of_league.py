@@ -146,15 +146,18 @@ def taken(question: Any, typed: Mapping[str, Any], league: LeagueFile) -> list[T
     has = {*typed, *(one.name for one in every)}
     if not all(one.name in has for one in declared(question) if one.required):
         return [one for one in every if one.name not in NEEDED]
-    needless = [
-        one
-        for one in every
-        if one.name in NEEDED and _refusal(question, typed, _without(every, [one])) is None
-    ]
+    needless = [one for one in every if one.name in NEEDED]
+    if needless and _refusal(question, typed, _settled(question, typed, _without(every, needless))):
+        needless = []
     by_level = [one for one in every if _is_for_levels(question, one.name, typed)]
     if by_level and not _has_levels(typed, _without(every, needless), league):
         needless += by_level
-    kept, left_out = _without(every, needless), list[Taken]()
+    return _settled(question, typed, _without(every, needless))
+
+
+def _settled(question: Any, typed: Mapping[str, Any], every: list[Taken]) -> list[Taken]:
+    """Return defaults without those that a question refuses next to what is typed."""
+    kept, left_out = [*every], list[Taken]()
     while (why := _refusal(question, typed, kept)) is not None:
         named = _parameters(why)
         wrong = [one for one in kept if one.name in named]

@@ -121,3 +121,28 @@ def test_a_list_without_the_levels_is_refused(run, club, text, says):
     result = run("odds", "Ann", "Bo", "--from", club(text), *APA)
     assert result.exit_code == 2
     assert says in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("chart", "typed", "says"),
+    [
+        ("apa_8ball", ("odds", "5", "3"), "Race 4:2"),
+        ("apa_8ball", ("odds", "Ann", "Bo"), "Ann level 5, Bo level 3"),
+        ("apa_8ball", ("odds", "612", "521", "--race", "7:5"), "A rated 612"),
+        ("apa_8ball", ("odds", "--p", "0.6", "--race", "7:5"), "probability 0.6"),
+        ("apa_8ball", ("fair", "612", "521", "--race-to", "7"), "A rated 612"),
+        ("apa_9ball", ("odds", "5", "3"), "38 points against 25"),
+        ("fargo_r6_hot", ("odds", "612", "521"), "Race 7:4"),
+        ("fargo_r6_hot", ("fair", "612", "521", "--race-to", "7"), "A rated 612"),
+    ],
+)
+def test_in_a_leagues_folder_its_chart_gives_way_to_what_is_typed(run, club, chart, typed, says):
+    club("player,level\nAnn,5\nBo,3\n")
+    club("player_a,player_b,score_a,score_b\nAnn,Bo,4,1\n", "season.csv")
+    league = club(
+        f'chart = "{chart}"\n[files]\nroster = "club.csv"\n[[results]]\nfile = "season.csv"\n',
+        "league.toml",
+    )
+    result = run(*typed, "--league", league)
+    assert result.exit_code == 0, result.stderr
+    assert says in result.stderr
