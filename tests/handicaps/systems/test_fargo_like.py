@@ -7,7 +7,8 @@ import pytest
 from scipy.optimize import minimize
 from scipy.special import log_expit
 
-from evenbreak.handicaps import FargoLike
+from evenbreak.errors import InputError
+from evenbreak.handicaps import FargoLike, broken_laws, system_of
 from evenbreak.handicaps.systems import fargo_like
 from evenbreak.handicaps.systems.fargo_like import performance
 from evenbreak.handicaps.systems.history import Entries, History, Matches
@@ -116,3 +117,12 @@ def test_a_performance_is_the_rating_at_which_a_score_is_expected():
     """The published table of ten games against 550."""
     shown = [233, 350, 428, 492, 550, 608, 672, 750, 867]
     assert [round(performance(won, 10, 550.0)) for won in range(1, 10)] == shown
+
+
+def test_races_are_of_the_chart_or_the_most_even_of_a_length():
+    assert FargoLike().chart.name == "fargo_r6_hot"
+    system = system_of("fargo-like games=9")
+    assert sum(map(int, system.race(600.0, 500.0))) == 10
+    assert broken_laws(system) == []
+    with pytest.raises(InputError, match="games is 8"):
+        FargoLike(games=8)

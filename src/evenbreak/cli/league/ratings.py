@@ -132,13 +132,25 @@ def _by_system(asked: Rate, system: handicaps.System, roster: str) -> Answer:
 
 def _by_all_results(asked: Rate, system: handicaps.System, roster: str) -> Answer:
     """Return the list after all nights of a file by a system that looks at all its results."""
+    import numpy as np
+
     if asked.chart is not None:
         system = system.on_chart(files.find_chart(asked.chart))
     last = files.read_roster(roster)
     refuse_for_system(last, system)
     season = files.read_seasons(asked.results, **asked.reading)
     moves = answers.rating_changes_of_season(system, last, season, chart=system)
-    return answers.rating_changes_answer(moves, last, season)
+    answer = answers.rating_changes_answer(moves, last, season)
+    stated, begun = last.roster.rating, moves.before.rating
+    other = np.flatnonzero(~np.isnan(stated) & (stated != begun))
+    if not other.size:
+        return answer
+    first = int(other[0])
+    doubt = (
+        f"{last.source}: {len(other)} of the ratings cannot be numbers of the system "
+        f"{system.name}, such as {stated[first]:g}; these players start at {begun[first]:g}"
+    )
+    return replace(answer, warnings=[*answer.warnings, doubt])
 
 
 def _first_night(results: Results) -> Results:

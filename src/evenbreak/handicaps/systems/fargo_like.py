@@ -23,6 +23,7 @@ entry, so the work does not grow with the matches of a pair.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,6 +34,7 @@ from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import number, whole
 from evenbreak.errors import AccuracyError
 from evenbreak.handicaps.charts.chart import Chart, chart
+from evenbreak.handicaps.charts.design import fixed_length_chart
 from evenbreak.handicaps.systems.history import Entries, History, Matches, column_of
 from evenbreak.handicaps.systems.system import System
 from evenbreak.ratings.scale import SCALES
@@ -80,6 +82,8 @@ class FargoLike(System):
         the most games that a rating on the list rests on.
     starter
         the rating of a player without one.
+    games
+        the most games of a match, for the most even race at each difference; None: by the chart.
     own_chart
         which sets the races; None: `fargo_r6_hot`.
     """
@@ -89,6 +93,7 @@ class FargoLike(System):
     pseudo_games: float = 2.0
     past: int = 500
     starter: float = 525.0
+    games: int | None = None
     own_chart: Chart | None = None
     name: str = "fargo-like"
 
@@ -104,11 +109,15 @@ class FargoLike(System):
         number(self.pseudo_games, "pseudo_games", above=0.0, high=1e6)
         whole(self.established, "established", at_least=0)
         whole(self.past, "past", at_least=0)
+        if self.games is not None:
+            _of_games(self.games)
 
     @property
     def chart(self) -> Chart:
         """The chart that sets the races."""
-        return self.own_chart or chart("fargo_r6_hot")
+        if self.own_chart is not None or self.games is None:
+            return self.own_chart or chart("fargo_r6_hot")
+        return _of_games(self.games)
 
     def initial(self, entries: Entries) -> Floats:
         """Return the stated ratings, the starter for a player without one."""
@@ -173,6 +182,9 @@ class FargoLike(System):
         pair, replica = np.divmod(keys, across)
         low, high = np.divmod(pair, shape[0])
         return _Games(low * across + replica, high * across + replica, won, played)
+
+
+_of_games = lru_cache(maxsize=8)(partial(fixed_length_chart, scale=_SCALE))
 
 
 def _games(matches: Matches) -> Any:
