@@ -235,7 +235,8 @@ def test_every_option_is_described_and_no_other(name: str) -> None:
         if text.startswith("--")
     }
     common = described(commands_page())
-    assert common == {"--text", "--csv", "--json", "--html", "--verbose", "--help-all"}
+    forms = {"--text", "--csv", "--json", "--html", "--verbose"}
+    assert common == {*forms, "--league", "--help-all"}
     section = page_of_each_command()[name][1]
     assert options - {"--help"} - common <= described(section) <= options
 

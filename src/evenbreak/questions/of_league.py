@@ -299,4 +299,6 @@ def says_taken(every: list[Taken], league: LeagueFile) -> str:
 def _shown(one: Taken, league: LeagueFile) -> str:
     if one.key == "aliases":
         return "[aliases]"
-    return ", ".join(source.file for source in league.results) if one.key == "results" else one.text
+    if one.text == str(league.path):
+        return ", ".join(source.file for source in league.results)
+    return one.text

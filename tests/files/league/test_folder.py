@@ -123,6 +123,13 @@ def test_of_the_demo_files_those_of_the_largest_league_are_taken(tmp_path):
     assert league.files.roster == "demo_league_roster.csv"
 
 
+def test_results_of_home_and_away_alone_are_those_of_a_team_season_too(tmp_path):
+    (tmp_path / "nights.csv").write_text(FILES["nights.csv"])
+    _, league = written(tmp_path)
+    assert league.files.team_results == "nights.csv"
+    assert [one.file for one in league.results] == ["nights.csv"]
+
+
 def test_an_empty_folder_proposes_a_league_too(tmp_path):
     _, league = written(tmp_path)
     assert (league.name, league.race_to, league.results) == ("Tuesday", 7, ())

@@ -11,7 +11,7 @@ from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.files.charts import DIFFERENCES, LEVELS, read_chart
 from evenbreak.files.foreign.results import export_of
 from evenbreak.files.lists.roster import read_roster
-from evenbreak.files.lists.teams import FIXTURES, TEAM, TEAMS
+from evenbreak.files.lists.teams import FIXTURES, TEAM, TEAM_RESULTS, TEAMS
 from evenbreak.files.results.aliases import ALIASES, read_aliases
 from evenbreak.files.results.columns import RESULTS_FILE
 from evenbreak.files.results.proposals import readings_of
@@ -53,6 +53,8 @@ class SeenFile:
     about: Sentence
     columns: Mapping[str, str] = field(default_factory=dict)
     players: frozenset[str] = frozenset()
+    sides: bool = False
+    """Whether results are titled as those of home and away."""
     teams: frozenset[str] = frozenset()
     """The teams that it names, likewise."""
     holds: Any = None
@@ -157,7 +159,10 @@ def _aliases(path: Path) -> SeenFile | None:
 def _results(path: Path) -> SeenFile | None:
     """Return a file of results whose titles are known."""
     table = _table(RESULTS_FILE, path, exported=export_of)
-    return None if table is None else _results_by(path, {})
+    if table is None:
+        return None
+    sides = _table(TEAM_RESULTS, path) is not None
+    return replace(_results_by(path, {}), sides=sides)
 
 
 def _results_by_rows(path: Path) -> SeenFile | None:

@@ -93,6 +93,8 @@ def proposed(seen: Sequence[SeenFile], name: str) -> NewLeague:
     for what in ("fixtures", "teams", "team_results"):
         if what in of_kind:
             values[f"files.{what}"] = of_kind[what][0].name
+    if not rosters and "team_results" not in of_kind and len(results) == 1 and results[0].sides:
+        values["files.team_results"] = results[0].name  # of teams or players: nothing says which
     levels = _levels(rosters[0] if rosters else None, results)
     has_ratings = bool(rosters) and not rosters[0].holds.levels
     if has_ratings and (scale := _scale(rosters[0])):
