@@ -21,6 +21,7 @@ from evenbreak.handicaps.charts.chart_of import level_chart_of
 from evenbreak.handicaps.charts.level_audit import audit_levels
 from evenbreak.handicaps.charts.level_chart import LevelChart, level_chart
 from evenbreak.handicaps.charts.played_chart import level_numbers_of
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.words import Sentence, say
@@ -84,6 +85,9 @@ class LevelSkills:
     spread: float
     source: Literal["results", "measured", "chart"]
     matches: int = 0
+
+    def __repr__(self) -> str:
+        return f"<LevelSkills of {self.chart.name}: {self.source}>"
 
     @property
     def levels(self) -> tuple[int, ...]:
@@ -189,6 +193,7 @@ def level_skills(chart: LevelChart | str, results: Results | None = None) -> Lev
     usual = _measured(chart) or _assumed(chart)
     if results is None:
         return usual
+    check_results(results)
     level_a, level_b = level_numbers_of(results)
     rows = results.counted & (results.score_a + results.score_b > 0)
     rows &= np.isin(level_a, chart.levels) & np.isin(level_b, chart.levels)

@@ -82,6 +82,10 @@ class PointsOdds:
     share_2: float | None
     mean_innings: float
 
+    def __repr__(self) -> str:
+        m, n = self.needs
+        return f"<PointsOdds of {m} points against {n}: {self.p_win_1:.4f}>"
+
     @property
     def p_win_1(self) -> float:
         """P(player 1 wins)."""
