@@ -18,6 +18,8 @@ from evenbreak.files.csv_writer import to_csv
 from evenbreak.league.tables.table import LeagueTable
 from evenbreak.site.league import PublishedLeague
 
+MANIFEST = "data/manifest.json"
+
 SCHEMA_VERSION = 1
 """Counts up when a column is renamed, removed or changes its meaning; new ones come last."""
 
@@ -50,7 +52,7 @@ def bundle(league: PublishedLeague, pages: Iterable[str]) -> dict[str, bytes]:
         "pages": sorted(pages),
     }
     text = json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
-    return {**written, "data/manifest.json": text.encode()}
+    return {**written, MANIFEST: text.encode()}
 
 
 _OURS = re.compile(r"(?:players/)?[a-z0-9-]+\.html|logo\.(?:png|jpg|webp)|[a-z]+\.csv", re.ASCII)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import pandas as pd
@@ -11,7 +10,6 @@ import pytest
 from evenbreak.files.csv_writer import to_csv
 from evenbreak.files.store.tournament import new_tournament
 from evenbreak.ratings import Results
-from places import ROOT
 from published_leagues import season
 from tournament_nights import night
 
@@ -99,6 +97,15 @@ def test_a_player_who_wants_to_be_hidden_loses_the_page(run, folder: Path) -> No
     assert site["mine.html"] == b"kept"
 
 
+def test_a_page_of_somebody_elses_is_not_replaced(run, folder: Path) -> None:
+    (folder / "site").mkdir()
+    (folder / "site" / "index.html").write_text("my own")
+    done = run("publish")
+    assert done.exit_code == 2
+    assert "was not made by an earlier run" in " ".join(done.stderr.split())
+    assert content_of(folder / "site") == {"index.html": b"my own"}
+
+
 def test_a_slip_in_a_name_leaves_the_site_as_it_was(run, folder: Path) -> None:
     run("publish")
     site = content_of(folder / "site")
@@ -132,10 +139,10 @@ def test_finished_tournaments_have_their_brackets(run, tmp_path: Path) -> None:
     new_tournament(tmp_path / "nights" / "fall-open.db", whole.events)
     new_tournament(tmp_path / "nights" / "tonight.db", part.events)
     (tmp_path / "nights" / "other.db").write_bytes(b"something else")
-    shutil.copy(ROOT / "data" / "demo_league.csv", tmp_path)
+    (tmp_path / "fall.csv").write_bytes(results_csv(season(rounds=1)))
     out = tmp_path / "site"
     done = run(
-        *("publish", str(tmp_path / "demo_league.csv"), "--out", str(out), "--scale", "fargo"),
+        *("publish", str(tmp_path / "fall.csv"), "--out", str(out)),
         *("--tournaments", str(tmp_path / "nights")),
     )
     assert done.exit_code == 0, done.stderr

@@ -234,3 +234,48 @@ def test_a_link_to_nowhere_is_no_folder(tmp_path):
     with pytest.raises(NotADirectoryError, match="a link to something that does not exist"):
         check_folder(tmp_path / "link")
     assert [path.name for path in tmp_path.iterdir()] == ["link"]
+
+
+SITE = {"index.html": b"1", "players/ann.html": b"2", "players/bo.html": b"3", "data/a.csv": b"4"}
+CHANGED = {**dict.fromkeys(SITE, b"new" * 1000), "players/bo.html": None, "data/b.csv": b"5"}
+
+
+def whole(folder: Path) -> dict[str, bytes]:
+    files = (path for path in folder.rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+
+
+def test_names_lead_into_folders_and_files_are_removed(tmp_path):
+    for there in (tmp_path, tmp_path / "new" / "site"):
+        write_files(there, SITE)
+        assert {name: whole(there)[name] for name in SITE} == SITE
+    write_files(there, {**CHANGED, "gone.html": None})
+    assert whole(there) == {name: body for name, body in CHANGED.items() if body is not None}
+
+
+def test_a_single_file_in_a_folder_is_written_or_removed(folder):
+    write_files(folder, {"x/y.csv": b"1"})
+    assert whole(folder) == {**OLD, "x/y.csv": b"1"}
+    write_files(folder, {"x/y.csv": None})
+    assert whole(folder) == OLD
+
+
+@pytest.mark.parametrize("failing", range(5))
+def test_what_cannot_be_changed_leaves_every_file_in_every_folder(tmp_path, monkeypatch, failing):
+    write_files(tmp_path, SITE)
+    moved, removed, done = Path.replace, Path.unlink, []
+
+    def counted(self, *where, **how):
+        if self.name.startswith("new-") or self.name == "bo.html":
+            done.append(self)
+            if len(done) > failing:
+                raise OSError(28, "No space left on device")
+        return (moved if where else removed)(self, *where, **how)
+
+    monkeypatch.setattr(Path, "replace", counted)
+    monkeypatch.setattr(Path, "unlink", counted)
+    with pytest.raises(OSError, match="No space left"):
+        write_files(tmp_path, CHANGED)
+    monkeypatch.undo()
+    check_folder(tmp_path)  # as the next run does
+    assert whole(tmp_path) == SITE

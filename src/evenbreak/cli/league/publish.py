@@ -19,6 +19,7 @@ from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.errors import DataError
 from evenbreak.questions.publish import Publish
+from evenbreak.words import FilePath
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
@@ -79,6 +80,13 @@ def command(asked: Publish) -> Answer:
     fixtures, warnings = _fixtures(asked.schedule, league)
     made = site_files(league, _tournaments(asked.tournaments, names), fixtures)
     earlier = _earlier(asked.out)
+    foreign = [name for name in made if name not in earlier and Path(asked.out, name).exists()]
+    if foreign:
+        asked.refuse(
+            "{file} was not made by an earlier run and would be replaced; name another folder with "
+            "{out}, or move it away",
+            file=FilePath(Path(asked.out, foreign[0])),
+        )
     write_folder(asked.out, {**made, **dict.fromkeys(earlier - {*made})})
     return _answer(asked, league, made, [*file.warnings, *file.ties, *warnings])
 
@@ -262,9 +270,10 @@ def _tournaments(folder: str | None, names: PublicNames) -> list[Tournament]:
 
 def _earlier(out: str) -> set[str]:
     """Return the files that an earlier run has made, and is known to have made, in a folder."""
-    from evenbreak.site.bundle import files_of
+    from evenbreak.site.bundle import MANIFEST, files_of
 
     try:
-        return files_of(Path(out, "data", "manifest.json").read_bytes())
+        manifest = Path(out, MANIFEST)
+        return {MANIFEST, *files_of(manifest.read_bytes())}
     except (OSError, ValueError):
         return set()
