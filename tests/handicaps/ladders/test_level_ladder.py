@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps import LevelLadder, LevelSteps, system_of
+from evenbreak.handicaps import (
+    LevelLadder,
+    LevelSteps,
+    MarkovSystem,
+    broken_laws,
+    level_chart,
+    system_of,
+)
+from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.charts.level_skills import level_skills
 from evenbreak.handicaps.systems.history import Entries, History, Matches
 from evenbreak.matches import race_win_probability
@@ -77,3 +85,28 @@ def test_matches_to_the_own_level():
 def test_opponents_need_a_weight_for_each_level():
     with pytest.raises(InputError, match="a weight for each of the levels 2, 3, 4, 5, 6, 7"):
         LevelLadder(system_of("level-steps"), 238.0, (1, 1))
+
+
+class Thirds(MarkovSystem):
+    name, in_words, chart = "thirds", "a third of a level for each match", level_chart("apa_8ball")
+    states = np.repeat(np.arange(2, 8), 3)
+
+    def initial(self, entries):
+        return np.where(np.isnan(entries.level), 3.0, entries.level)
+
+    def first_state(self, levels):
+        return (np.asarray(levels, dtype=int) - 2) * 3 + 1
+
+    def move(self, state, *, won):
+        return np.clip(np.asarray(state) + np.where(won, 1, -1), 0, 17)
+
+
+def test_a_system_of_ones_own_in_finitely_many_states_has_a_long_run():
+    assert broken_laws(Thirds()) == []
+    ladder = LevelLadder(Thirds(), float(SKILLS.points[2]), (0, 0, 1, 0, 0, 0))
+    up, down = ladder.wins[:-1], 1.0 - ladder.wins[1:]
+    law = np.cumprod(np.concatenate([[1.0], up / down]))  # births and deaths in balance
+    np.testing.assert_allclose(ladder.law, law / law.sum(), rtol=1e-9)
+    assert Thirds().on_chart(level_chart("apa_8ball")).name == "thirds"
+    with pytest.raises(InputError, match="thirds cannot be played by the chart npl_10"):
+        Thirds().on_chart(chart_of("npl_10"))

@@ -114,7 +114,10 @@ class System(ABC):
         InputError
             if its races come from no chart, or from one of another kind.
         """
-        if self.chart is None or not isinstance(chart, type(self.chart)):
+        if chart == self.chart and chart is not None:
+            return self
+        kind, own = type(self.chart), getattr(self, "__dataclass_fields__", {})
+        if self.chart is None or not isinstance(chart, kind) or "own_chart" not in own:
             raise InputError(
                 "the system {name} cannot be played by the chart {chart}; leave {chart_option} out",
                 name=self.name,
