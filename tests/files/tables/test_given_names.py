@@ -1,6 +1,7 @@
 """Names written as Lee, Ann."""
 
 from evenbreak.files.lists.roster import read_roster
+from evenbreak.files.lists.teams import read_squads
 from evenbreak.files.results.results_file import read_results
 from evenbreak.files.tables.given_names import given_name_first
 from rows import each_of
@@ -62,3 +63,29 @@ def test_a_full_name_next_to_a_given_name_stays(tmp_path):
     path = tmp_path / "p.csv"
     path.write_text("First name,Name,Rating\nAnn,Ann Lee,600\nBo,Bo Diaz,500\n")
     assert read_roster(path).roster.players == ("Ann Lee", "Bo Diaz")
+
+
+@each_of(
+    "text",
+    [
+        'Player,Rating,Games\nRacks,,\n"Lee, Ann",600,9\n"Ng, Cy",,\nCues,,\n"Diaz, Bo",500,7\n',
+        "Player,Rating,x\nTeam: Racks,,\nAnn Lee,600,\nCy Ng,,\nTeam: Cues,,\nBo Diaz,500,\n",
+    ],
+)
+def test_rows_that_name_the_team_of_the_players_below(tmp_path, text):
+    path = tmp_path / "p.csv"
+    path.write_text(text)
+    squads = read_squads(path)
+    assert {team: one.file.roster.players for team, one in squads.items()} == {
+        "Racks": ("Ann Lee", "Cy Ng"),
+        "Cues": ("Bo Diaz",),
+    }
+    file = read_roster(path)
+    assert file.roster.players == ("Ann Lee", "Cy Ng", "Bo Diaz")
+    assert any("'Racks', 'Cues'" in text for text in file.warnings)
+
+
+def test_a_new_player_without_a_rating_is_no_team(tmp_path):
+    path = tmp_path / "p.csv"
+    path.write_text("Player,Rating\nAnn,\nBo,500\nCy,\n")
+    assert len(read_roster(path).roster.players) == 3

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xlsxwriter
 
 from evenbreak.errors import DataError
 from evenbreak.files.lists import roster, season, teams
@@ -131,3 +132,20 @@ def test_several_missing_columns_are_one_problem(tmp_path):
     with pytest.raises(DataError) as caught:
         teams.read_team_results(path, teams.TeamNames([]))
     assert len(caught.value.problems) == 1
+
+
+def test_a_workbook_with_merged_cells_above_the_titles(tmp_path):
+    path = tmp_path / "season.xlsx"
+    with xlsxwriter.Workbook(path) as book:
+        sheet = book.add_worksheet("Ergebnisse")
+        sheet.merge_range("A1:E1", "Liga 2024/25")
+        sheet.merge_range("A2:A3", "Spieltag")
+        sheet.merge_range("B2:C2", "Heim")
+        sheet.merge_range("D2:E2", "Gast")
+        sheet.write_row("B3", ["Spieler", "Spiele", "Spieler", "Spiele"])
+        sheet.write_row("A4", [1, "Ann", 5, "Bo", 3])
+        sheet.write_row("A5", [1, "Cy", 2, "Di", 5])
+    file = read_results(path)
+    assert file.results.players == ("Ann", "Bo", "Cy", "Di")
+    assert file.results.score_a.tolist() == [5, 2]
+    assert file.lines.tolist() == [4, 5]

@@ -21,6 +21,7 @@ from evenbreak.files.results.proposals import TEAMS as TEAMS_CALLED
 from evenbreak.files.results.proposals import columns_hint
 from evenbreak.files.results.results_file import columns_of_file
 from evenbreak.files.results.statuses import played_matches
+from evenbreak.files.tables.header import missing_column
 from evenbreak.files.tables.names import Name, same_name
 from evenbreak.files.tables.problems import quoted, refusal, warning
 from evenbreak.files.tables.schema import Number, Schema, Text, Whole
@@ -43,7 +44,6 @@ TEAM = (
 SQUADS = TEAM | Schema(
     team=Name(
         about="the team of the player",
-        needed=True,
         write=say("the team of each player"),
     )
 )
@@ -193,6 +193,8 @@ def read_squads(path: str | Path) -> dict[str, TeamList]:
     {'Racks': ('Ann', 'Cy'), 'Cues': ('Bo',)}
     """
     table = SQUADS.only("team").of(SQUADS.text(path))
+    if "team" not in table:
+        table.problems.add(table.header, missing_column("team", SQUADS["team"].aliases))
     teams: dict[str, list[int]] = {}
     for line, name in zip(table.lines.tolist(), table["team"], strict=True):
         teams.setdefault(name, []).append(line)

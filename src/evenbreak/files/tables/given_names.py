@@ -6,14 +6,18 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from evenbreak.files.tables.problems import quoted, warning
+from evenbreak.files.tables.problems import quoted, quoted_list, warning
 from evenbreak.files.tables.table import Texts, TextTable
-from evenbreak.files.tables.titles import BYE, key_of
+from evenbreak.files.tables.titles import BYE, TEAM_WORDS, key_of
 from evenbreak.words import say_count
 
 _LAST_FIRST = re.compile(r"([^,\d]*[^\W\d_]),\s*([^\W\d_][^,\d]*)")
 _SUFFIX = {"jr", "sr", "ii", "iii", "iv"}
 _NEARLY_ALL = 0.9
+_TEAM_ROW = re.compile(
+    rf"(?:{', '.join(TEAM_WORDS.values()).replace(', ', '|')})\s*[:\-]\s*(.+)", re.IGNORECASE
+)
+"""A row such as Team: Racks."""
 
 
 def given_name_first(name: str) -> str:
@@ -78,3 +82,41 @@ def with_full_names(table: TextTable) -> TextTable:
     columns = {**table.columns, "player": Texts.of(names)}
     titles = {**table.titles, "player": table.titles[last]}
     return replace(table, columns=columns, found=table.found | {"player"}, titles=titles)
+
+
+def with_teams_of_titles(table: TextTable) -> TextTable:
+    """Return a list of players without the rows that only name the team of those below.
+
+    Such a row has a name and nothing else: that of a team, where it says so (Team: Racks), or
+    where nearly all players are written as Lee, Ann and it is not. The first row must be one.
+    """
+    others = [table.cells(name) for name in table.found - {"player"}]
+    if "player" not in table or "team" in table or not others or not len(table):
+        return table
+    names = table.cells("player")
+    alone = [not any(row) for row in zip(*others, strict=True)]
+    players = [name for name, is_alone in zip(names, alone, strict=True) if not is_alone]
+    by_comma = sum("," in name for name in players) >= _NEARLY_ALL * max(len(players), 1)
+    teams = []
+    for name, is_alone in zip(names, alone, strict=True):
+        stated = _TEAM_ROW.fullmatch(name) if is_alone else None
+        is_team = is_alone and (stated or (by_comma and "," not in name))
+        teams.append((stated[1] if stated else name) if is_team else "")
+    if not teams[0]:
+        return table
+    of_player = [teams[0]]
+    for team in teams[1:]:
+        of_player.append(team or of_player[-1])
+    columns, found = dict(table.columns), table.found
+    if "team" in columns:
+        columns["team"], found = Texts.of(of_player), found | {"team"}
+    text = say_count(
+        "{n} row names the team of the players below it: {teams}",
+        "{n:,} rows name the team of the players below them: {teams}",
+        sum(map(bool, teams)),
+        teams=quoted_list(list(dict.fromkeys(filter(None, teams)))),
+    )
+    warnings = (*table.warnings, warning(table.source, None, text))
+    titles = {**table.titles, "team": table.titles["player"]}
+    made = replace(table, columns=columns, found=found, warnings=warnings, titles=titles)
+    return made.without(table.lines[list(map(bool, teams))].tolist())

@@ -17,7 +17,11 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from evenbreak.files.tables.given_names import with_full_names, with_given_names_first
+from evenbreak.files.tables.given_names import (
+    with_full_names,
+    with_given_names_first,
+    with_teams_of_titles,
+)
 from evenbreak.files.tables.header import Header
 from evenbreak.files.tables.problems import quoted
 from evenbreak.files.tables.table import ENOUGH_ROWS, TextTable, Values, read_table
@@ -356,7 +360,7 @@ class Schema:
         needed, optional = (self._names(needed=needed) for needed in (True, False))
         table = read_table(path, needed, optional, self._instead(), rows=self.rows, **how)
         if "given_name" in self.columns:
-            table = with_full_names(table)
+            table = with_teams_of_titles(with_full_names(table))
         names = [name for name, column in self.columns.items() if column.given_first]
         return with_given_names_first(table, names)
 

@@ -57,7 +57,7 @@ _RACE: _Words = {
     "nl": "racelengte, afstand",
     "pl": "dystans, do wygranych",
 }
-_TEAM: _Words = {
+TEAM_WORDS: _Words = {
     "en": "team, club",
     "de": "Mannschaft, Team, Verein",
     "fr": "équipe, club",
@@ -78,7 +78,7 @@ SIDED: Mapping[str, _Words] = {
     "player": _PLAYER,
     "score": _GAMES,
     "race": _RACE,
-    "team": _TEAM,
+    "team": TEAM_WORDS,
     "level": _LEVEL,
 }
 """What a column of one side holds: `player` of player_a, `score` of score_a or home_score."""
@@ -154,7 +154,7 @@ WHOLE: Mapping[str, _Words] = {
         "es": "apellido, apellidos",
         "nl": "achternaam",
     },
-    "team": _TEAM,
+    "team": TEAM_WORDS,
     "rating": {
         "de": "Wertung, Wertungszahl, Elo, Rating, Punkte",
         "fr": "cote, Elo, points",
