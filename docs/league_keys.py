@@ -23,13 +23,13 @@ TABLE = re.compile(r"(<!-- keys: (\w+) -->\n)(?:.*?\n)??(<!-- end of keys -->)",
 
 
 def options_of_keys() -> dict[str, list[str]]:
-    """Return the options whose default each key is, in the order of the commands."""
-    options: defaultdict[str, dict[str, None]] = defaultdict(dict)
+    """Return the options and arguments whose default each key is."""
+    options: defaultdict[str, set[str]] = defaultdict(set)
     for question in commands_asking():
         for one in declared(question):
             for key in key_of(question, one.name).split(" or "):
-                options[key][spelled(question, one.name)] = None
-    return {key: list(names) for key, names in options.items()}
+                options[key].add(spelled(question, one.name))
+    return {key: sorted(names) for key, names in options.items()}
 
 
 def table_of(name: str) -> str:
