@@ -50,7 +50,7 @@ def accent(color: str) -> Accent:
         if it is not a color like #1b6e53.
 
     >>> accent("#1b6e53").light, accent("#ffee00").light, accent("#ffee00").changed
-    ('#1b6e53', '#7a7200', True)
+    ('#1b6e53', '#787000', True)
     """
     if not _COLOR.fullmatch(color.strip()):
         raise InputError("color is {value!r}; write one like #1b6e53", value=color)
