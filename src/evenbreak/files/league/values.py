@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, Named, Number, Text, Whole
-from evenbreak.league.tables.rules import SPLITS, TableRules
 from evenbreak.ratings.scale import scale_of
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.systems.system import System
+    from evenbreak.league.tables.rules import TableRules
 else:  # systems take a quarter of a second to load, which most questions do without
     System = Any
 
@@ -74,6 +74,8 @@ def points_in(text: str) -> TableRules:
     >>> points_in("3,1,0").win, points_in("1,0,0,1").a_set, points_in("apa_8ball").split
     (3.0, 1.0, 'apa_8ball')
     """
+    from evenbreak.league.tables.rules import SPLITS, TableRules
+
     word = text.strip().lower().replace(" ", "_").replace("-", "_")
     if word in SPLITS:
         return TableRules(split=word)
@@ -115,6 +117,8 @@ def names_in(text: str) -> tuple[str, ...]:
 
 def ties_in(text: str) -> tuple[str, ...]:
     """Return what separates those with equal points, from a list with commas."""
+    from evenbreak.league.tables.rules import TableRules
+
     return TableRules(ties=names_in(text)).ties
 
 
