@@ -32,6 +32,7 @@ FILES = {
     "drills.csv": "date,drill,score\n2026-01-01,L,4\n",
     "note.txt": "Bring chalk.\n",
     ".hidden.csv": RESULTS,
+    "tidy.csv": RESULTS,
 }
 TAKEN = {
     "autumn.csv": "results",
@@ -81,6 +82,7 @@ def test_a_league_of_skill_levels_gets_the_chart_and_the_rules_of_its_levels(fol
     new, league = written(folder)
     assert new.levels
     assert (league.chart, league.team.cap, league.team.at_most) == ("apa_8ball", 23, (2, 6))
+    assert league.standings.rules.split == "apa_8ball"
 
 
 @pytest.mark.parametrize(

@@ -25,6 +25,9 @@ ENDINGS = (".csv", ".tsv", ".txt", ".xlsx", ".ods", ".json")
 MOST_FILES = 200
 """A folder with more files is hardly that of a league."""
 
+OWN = ("tidy.csv",)
+"""What `evenbreak league tidy` writes: the results of the other files again."""
+
 RESULTS, ROSTER, CHART = "results", "roster", "chart"
 
 
@@ -71,7 +74,10 @@ def seen_files(folder: str | Path) -> list[SeenFile]:
     places = sorted(
         place
         for place in Path(folder).iterdir()
-        if place.suffix.lower() in ENDINGS and place.is_file() and place.name[0] != "."
+        if place.suffix.lower() in ENDINGS
+        and place.is_file()
+        and place.name not in OWN
+        and place.name[0] != "."
     )
     every = [_seen(place) for place in places[:MOST_FILES]]
     teams = frozenset[str]().union(*(one.teams for one in every))

@@ -18,6 +18,9 @@ from evenbreak.files.league.folder import CHART, RESULTS, ROSTER, SeenFile
 from evenbreak.files.league.league_file import SECTIONS, LeagueFile, Source
 from evenbreak.handicaps.charts.level_chart import level_chart
 
+USUAL_SYSTEMS = {"fargo": "fargo-like", "npl": "npl"}
+"""The system of a league whose ratings are on a scale."""
+
 EXAMPLES: Mapping[str, str] = {
     "name": '"Tuesday 8-Ball"',
     "discipline": '"8-ball"',
@@ -99,6 +102,8 @@ def proposed(seen: Sequence[SeenFile], name: str) -> NewLeague:
     has_ratings = bool(rosters) and not rosters[0].holds.levels
     if has_ratings and (scale := _scale(rosters[0])):
         values["scale"] = scale
+        if scale in USUAL_SYSTEMS:
+            values["system"] = USUAL_SYSTEMS[scale]
     if CHART in of_kind:
         values["chart"] = of_kind[CHART][0].name
     elif levels and (chart := _chart_of(levels)):
@@ -111,7 +116,7 @@ def proposed(seen: Sequence[SeenFile], name: str) -> NewLeague:
         values["race_to"] = "7"
     if values.get("chart") == "apa_8ball" and rosters and rosters[0].teams:
         values |= {"team.players": "5", "team.sets": "5", "team.cap": "23", "team.at_most": "2:6"}
-        values["team.count"] = "points"
+        values |= {"team.count": "points", "standings.points": "apa_8ball"}
     aliases = {
         name: meant for one in of_kind.get("aliases", []) for name, meant in one.holds.items()
     }
