@@ -307,11 +307,10 @@ def _may_be_scores(pair: _Pair, players: _Pair) -> bool:
     wins, losses = sum(m > n for m, n in rows), sum(m < n for m, n in rows)
     most, least = max(map(max, zip(*rows, strict=True))), min(map(max, zip(*rows, strict=True)))
     ties = len(rows) - wins - losses
-    one_sided = len(rows) >= _ENOUGH_ROWS and min(wins, losses) < 0.1 * len(rows)
+    unlike = min(wins, losses) < 0.1 * len(rows) or most > 1.5 * least
     return not (
         ties > _MANY_TIES * len(rows)
-        or one_sided
-        or most > 1.5 * least
+        or (unlike and len(rows) >= _ENOUGH_ROWS)
         or all(_is_of_player(c, p) for c, p in zip(pair, players, strict=True))
     )
 
