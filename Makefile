@@ -79,7 +79,7 @@ reports:          ## make again every committed output that a script makes
 	$(PYTHON) data/make_drill_log.py
 	$(PYTHON) data/make_demo_evening.py
 	$(PYTHON) data/make_practice.py
-	$(PYTHON) -m evenbreak report data/demo_league.csv --out reports/demo_league --page > demo_league.txt
+	$(PYTHON) -m evenbreak report data/demo_league.csv --out reports/demo_league --page --paper a4 > demo_league.txt
 	mv demo_league.txt reports/demo_league/sheet.txt
 	$(PYTHON) -m evenbreak reproduce --out reports
 	$(PYTHON) docs/images/make_images.py

@@ -137,18 +137,18 @@ def apart(found):
 
 
 @pytest.mark.slow_after(2)
-@pytest.mark.parametrize("count", [8, 16, 19])
-def test_usual_names_are_readable_on_the_paper_of_a_bar(count):
+@pytest.mark.parametrize(("count", "paper"), [(8, "a4"), (16, "letter"), (16, "a4"), (19, "a4")])
+def test_usual_names_are_readable_on_the_paper_of_a_bar(count, paper):
     players = [f"{FIRST[k % 6]} {LAST[(k // 6) % 5]}" for k in range(count)]
     panels = panels_of("double", list(dict.fromkeys(players)), 0)
-    for page in bracket_pages(panels, HEADING):
-        assert tuple(page.get_size_inches()) in SIZES[:2]
+    for page in bracket_pages(panels, HEADING, paper):
+        assert tuple(page.get_size_inches()) in SIZES[paper][:2]
         sizes = [text.get_size() for text, _ in extents(page) if text.get_text() in players]
         assert min(sizes, default=READABLE) >= READABLE
 
 
 def test_sizes_of_paper_grow():
-    assert all(a[0] < b[0] for a, b in pairwise(SIZES))
+    assert all(a[0] < b[0] for sizes in SIZES.values() for a, b in pairwise(sizes))
 
 
 def test_short_names_are_told_apart():

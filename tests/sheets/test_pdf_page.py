@@ -5,7 +5,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from evenbreak.sheets.pdf_page import Paper, drawable, pdf_bytes, shortened, width_of
+from evenbreak.answers.tournament.printed import Card
+from evenbreak.sheets.paper_pages import FirstMatch, draw_list_pdf, score_cards_pdf
+from evenbreak.sheets.pdf_page import (
+    PAPERS,
+    Paper,
+    drawable,
+    pdf_bytes,
+    shortened,
+    usual_paper,
+    width_of,
+)
 from rows import each_of
 from tiers import examples
 
@@ -77,3 +87,29 @@ def test_a_name_is_shortened_just_as_much_as_it_must_be(name, width):
     assert name.startswith(kept)
     assert not kept or width_of(short, 10) <= width
     assert width_of(f"{name[: len(kept) + 1]}…", 10) > width
+
+
+@each_of(
+    "place, paper",
+    [("en_US.UTF-8", "letter"), ("es_MX", "letter"), ("en_GB.UTF-8", "a4"), ("C", "a4"),
+     ("de_DE@euro", "a4"), ("English_United States.1252", "letter")],
+)  # fmt: skip
+def test_paper_is_what_is_usual_at_the_place(place, paper):
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ("LC_ALL", "LC_PAPER"):
+            patch.delenv(name, raising=False)
+        patch.setenv("LANG", place)
+        assert usual_paper() == paper
+        patch.setenv("LC_PAPER", "en_CA")
+        assert usual_paper() == "letter"
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_cards_and_lists_are_on_the_paper_asked_for(paper):
+    card = Card("W1.1", "winners' side", ("Ann", "Bo"), (7, 5), 3, ())
+    first = FirstMatch("Ann", 1, "W1.1", "Bo", None)
+    wide, high = (f"{72 * side:.2f}".rstrip("0").rstrip(".") for side in PAPERS[paper])
+    cards = score_cards_pdf([card], "Tuesday", paper=paper)
+    assert f"/MediaBox [ 0 0 {wide} {high} ]".encode() in cards
+    listed = draw_list_pdf([first], "Tuesday", paper=paper)
+    assert f"/MediaBox [ 0 0 {high} {wide} ]".encode() in listed

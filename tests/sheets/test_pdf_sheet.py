@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from evenbreak.answers.league.report import report_answer
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.ratings.results import Results
-from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH, width_of
+from evenbreak.sheets.pdf_page import MARGIN, PAPERS, width_of
 from evenbreak.sheets.pdf_sheet import (
     GAP,
     LARGEST,
@@ -25,11 +25,13 @@ from evenbreak.sheets.pdf_sheet import (
 from evenbreak.sheets.race_blocks import PlayerLine
 from leagues import league, sheet_of, two_groups
 
+WIDTH, _ = PAPERS["a4"]
 
-def pages_of(season, **how):
+
+def pages_of(season, *, paper="a4", **how):
     """Return the pages, and the sheet that they are made from."""
     sheet = sheet_of(season, prior_sd=1.0, **how)
-    return sheet_pages(sheet), sheet
+    return sheet_pages(sheet, paper), sheet
 
 
 def texts(page: Figure) -> list[str]:
@@ -65,7 +67,7 @@ def races_on(page: Figure) -> dict[tuple[str, str], str]:
 
 
 @pytest.mark.slow_after(2)
-@pytest.mark.parametrize("players", [2, 10, 25])
+@pytest.mark.parametrize("players", [2, 10, 25, 29])
 def test_every_race_stands_in_the_row_and_column_of_its_players(players):
     pages, sheet = pages_of(league(players))
     found: dict[tuple[str, str], str] = {}
@@ -179,11 +181,16 @@ UNUSUAL_NAMES = [
         (league(3), {"scale": 1e6}),
         (league(3), {"scale": 0.01}),
         (league(24), {"offered": OfferedRaces((3, 13)), "scale": "elo"}),
+        (league(25, "Maximiliane Vandersloot-Hale {}"), {}),
+        (league(28, "Maximiliane Vandersloot-Hale {}"), {"paper": "letter"}),
+        (league(10, UNUSUAL_NAMES[0]), {"paper": "letter"}),
     ],
 )
 def test_nothing_leaves_the_page_or_touches_the_lines_next_to_it(season, options):
     pages, _ = pages_of(season, **options)
     for page in pages:
+        wide, high = page.get_size_inches()
+        assert (wide, high) == PAPERS[options.get("paper", "a4")]
         page.set_dpi(300)
         renderer = FigureCanvasAgg(page).get_renderer()
         boxes = []
@@ -191,9 +198,9 @@ def test_nothing_leaves_the_page_or_touches_the_lines_next_to_it(season, options
             box = text.get_window_extent(renderer)
             left, right = box.x0 / 300, box.x1 / 300
             assert left >= MARGIN - 0.02, text.get_text()
-            assert right <= WIDTH - MARGIN + 0.2, text.get_text()
+            assert right <= wide - MARGIN + 0.2, text.get_text()
             assert box.y0 / 300 >= MARGIN - 0.1, text.get_text()
-            assert box.y1 / 300 <= HEIGHT - MARGIN + 0.15, text.get_text()
+            assert box.y1 / 300 <= high - MARGIN + 0.15, text.get_text()
             if not text.get_rotation() and text.get_text():
                 boxes.append((box.shrunk(0.98, 0.8), text.get_text()))
         boxes.sort(key=lambda box: box[0].y0)
@@ -202,6 +209,13 @@ def test_nothing_leaves_the_page_or_touches_the_lines_next_to_it(season, options
                 lambda box, top=one.y1: box[0].y0 < top, boxes[k + 1 :]
             ):
                 assert not one.overlaps(other), (first, second)
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_a_league_of_25_fits_a_page_as_one_of_24_does(paper):
+    for players in (24, 25, 28):
+        sheet = sheet_of(league(players, "Maximiliane Vandersloot-Hale {}"), prior_sd=1.0)
+        assert len(sheet_pages(sheet, paper)) == 1
 
 
 @pytest.mark.slow

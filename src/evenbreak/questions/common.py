@@ -10,7 +10,8 @@ from evenbreak.chains.ways import WAYS, Way
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import LONGEST, Choice, File, Flag, Named, Number, Text, TwoWhole, Whole
 from evenbreak.fields.question import Field, Question, Says
-from evenbreak.files.league.values import SCALE
+from evenbreak.files.league.values import PAPER, SCALE
+from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale
 from evenbreak.tournaments.evening.format import LONGEST_RACE
 
@@ -252,3 +253,22 @@ class Starters(Question):
             rare=True,
         ),
     ] = None
+
+
+def title_in(text: str) -> str:
+    """Return the title of a sheet, or refuse one that cannot be printed on a line."""
+    title: str = clean_name(text)
+    if title and not is_name(title):
+        raise InputError(
+            f"it has {len(title):,} letters, or some that cannot be printed; give a line"
+        )
+    return title
+
+
+Title: TypeAlias = Annotated[
+    str, Field(Named(title_in, "TEXT"), "A title for the sheet, such as the league's name.")
+]
+PaperName: TypeAlias = Annotated[
+    str | None,
+    Field(PAPER, "The paper of what is printed.", usual="letter where that is usual, else a4"),
+]

@@ -10,7 +10,7 @@ from typing import Annotated, Literal, TypeAlias
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import NUMBER, Choice, File, Flag, Named, Number, Text, Whole
 from evenbreak.fields.question import Field, Question, Says
-from evenbreak.questions.common import SCORE, ScaleOf, Seed
+from evenbreak.questions.common import SCORE, PaperName, ScaleOf, Seed, Title
 from evenbreak.tournaments.evening.format import (
     LONGEST_RACE,
     MOST_TABLES,
@@ -306,6 +306,9 @@ class TieBreak(TimedUnderWay):
     seed: Lots | None = None
 
 
+_TITLE = Says("A title, such as the name of the event.", usual="the name of its file")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Show(TimedUnderWay):
     """Show the bracket: each match with its players, its score and its table.
@@ -321,6 +324,8 @@ class Show(TimedUnderWay):
             ".png as a picture.",
         ),
     ] = None
+    title: Annotated[Title, _TITLE] = ""
+    paper: PaperName = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -363,8 +368,9 @@ class Print(UnderWay):
     """Write score cards, the bracket or the draw as a PDF to print.
 
     Cards are made for all matches whose players are known and that are not over: one each, with
-    boxes to tick, where winner and loser go next, and room to sign. The bracket is on A4 if it can
-    be read there, else on larger paper. The draw lists everybody by name, with their first match.
+    boxes to tick, where winner and loser go next, and room to sign. The bracket is on one sheet if
+    it can be read there, else on larger paper. The draw lists everybody by name, with their first
+    match.
     """
 
     examples = """\
@@ -382,6 +388,8 @@ class Print(UnderWay):
         str | None,
         Field(File("FILE.pdf"), "The file.", usual="cards.pdf, bracket.pdf or draw.pdf"),
     ] = None
+    title: Annotated[Title, _TITLE] = ""
+    paper: PaperName = None
 
     def check(self) -> None:
         """Refuse a match for what has all of them."""

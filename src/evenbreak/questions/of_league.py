@@ -74,6 +74,8 @@ OTHERWISE: Mapping[tuple[str, str], str] = {
     ("Season", "results"): "files.team_results",
     ("Season", "columns"): "",  # of the players' results
     ("Fixtures", "names"): "files.teams or files.roster",
+    ("Show", "title"): "",  # a tournament has its own name
+    ("Print", "title"): "",
     ("LeagueTable", "results"): "results or files.team_results",
 }
 """The fields of some questions that have another key, or none."""

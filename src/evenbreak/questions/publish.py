@@ -9,8 +9,15 @@ from evenbreak.fields.kinds import File, Named
 from evenbreak.fields.question import Field, Says
 from evenbreak.files.league import values
 from evenbreak.league.tables.rules import USUAL_RULES
-from evenbreak.questions.common import ChartName, EvenRace, Lengths, OutFolder, ScaleOf, folder
-from evenbreak.questions.ratings import title_in
+from evenbreak.questions.common import (
+    ChartName,
+    EvenRace,
+    Lengths,
+    OutFolder,
+    ScaleOf,
+    folder,
+    title_in,
+)
 from evenbreak.questions.results import ROSTER, Results
 from evenbreak.questions.tables import TablePoints, Ties
 

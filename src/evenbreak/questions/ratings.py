@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from evenbreak.errors import InputError
 from evenbreak.fields.kinds import File, Flag, Named, NumberOr, Text, Whole
 from evenbreak.fields.question import Field, Question, Says
-from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.questions.common import (
     NPL,
     ChartName,
@@ -18,9 +16,11 @@ from evenbreak.questions.common import (
     Lengths,
     OnScale,
     OutFolder,
+    PaperName,
     PlotFile,
     ScaleOf,
     Seed,
+    Title,
     refuse_workers,
 )
 from evenbreak.questions.results import ON_STDIN, RESULTS, ROSTER, ByChart, Day, Results
@@ -277,16 +277,6 @@ class Validate(Results, Assumed):
         refuse_workers(self)
 
 
-def title_in(text: str) -> str:
-    """Return the title of a sheet, or refuse one that cannot be printed on a line."""
-    title: str = clean_name(text)
-    if title and not is_name(title):
-        raise InputError(
-            f"it has {len(title):,} letters, or some that cannot be printed; give a line"
-        )
-    return title
-
-
 @dataclass(frozen=True, kw_only=True)
 class Report(Results, HowToRate, Lengths):
     """Make the fair-race sheet of a league from its results.
@@ -332,9 +322,8 @@ class Report(Results, HowToRate, Lengths):
             "rating that the file states for them is not used."
         ),
     ] = None
-    title: Annotated[
-        str, Field(Named(title_in, "TEXT"), "A title for the sheet, such as the league's name.")
-    ] = ""
+    title: Title = ""
+    paper: PaperName = None
     provisional: Annotated[int | None, PROVISIONAL] = None
     page: Annotated[
         bool,

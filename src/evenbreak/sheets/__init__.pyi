@@ -1,4 +1,5 @@
 from .pdf_page import pdf_bytes as pdf_bytes
+from .pdf_page import usual_paper as usual_paper
 from .pdf_sheet import sheet_pages as sheet_pages
 from .pdf_sheet import sheet_pdf as sheet_pdf
 from .sheet_page import round_html as round_html

@@ -9,13 +9,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak.answers.tournament.bracket_view import Box, Line, Panel, short_names
-from evenbreak.sheets.pdf_page import MARGIN, POINTS, Paper, fitted, pdf_bytes, width_of
+from evenbreak.sheets.pdf_page import MARGIN, PAPERS, POINTS, Paper, fitted, pdf_bytes, width_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SIZES = ((11.69, 8.27), (16.54, 11.69), (23.39, 16.54), (33.11, 23.39))
-"""A4, A3, A2 and A1, landscape, in inches."""
+SIZES = {
+    "a4": (PAPERS["a4"], (16.54, 11.69), (23.39, 16.54), (33.11, 23.39)),
+    "letter": (PAPERS["letter"], (17.0, 11.0), (22.0, 17.0), (34.0, 22.0)),
+}
+"""A4, A3, A2 and A1; letter, tabloid, ANSI C and D: landscape, in inches."""
 
 ROW, COLUMN = 0.6, 2.3
 """How high a match is, and how wide, in a picture and at the most on paper, in inches."""
@@ -45,11 +48,14 @@ class _Area(NamedTuple):
     short: Mapping[str, str]
 
 
-def bracket_pdf(panels: Sequence[Panel], heading: Sequence[str], title: str) -> bytes:
+def bracket_pdf(
+    panels: Sequence[Panel], heading: Sequence[str], title: str, *, paper: str = "a4"
+) -> bytes:
     """Return the bracket as a PDF: one page if it can be read there, else a page for each side.
 
-    The pages are A4 unless that is too small to read; then A3 and so on. A name for which there is
-    no room is written in its short form (see `short_names`), and smaller, but never cut.
+    The pages are A4 (or letter) unless that is too small to read; then A3 (tabloid) and so on. A
+    name for which there is no room is written in its short form (see `short_names`), and smaller,
+    but never cut.
 
     Parameters
     ----------
@@ -59,20 +65,24 @@ def bracket_pdf(panels: Sequence[Panel], heading: Sequence[str], title: str) -> 
         the lines above it.
     title
         of the document.
+    paper
+        'a4' or 'letter'.
     """
-    return pdf_bytes(bracket_pages(panels, heading), title)
+    return pdf_bytes(bracket_pages(panels, heading, paper), title)
 
 
-def bracket_pages(panels: Sequence[Panel], heading: Sequence[str]) -> list[Figure]:
+def bracket_pages(
+    panels: Sequence[Panel], heading: Sequence[str], paper: str = "a4"
+) -> list[Figure]:
     """Return the pages of `bracket_pdf`; no name on them is cut."""
     short = short_names(_players(panels))
     one_page, page_each = [list(panels)], [[panel] for panel in panels]
     tried = [
         (size, [(part, _area(part, size, short)) for part in parts])
-        for size in SIZES
+        for size in SIZES[paper]
         for parts in (one_page, page_each)
     ]
-    readable = (paper for paper in tried if all(_is_readable(*page) for page in paper[1]))
+    readable = (one for one in tried if all(_is_readable(*page) for page in one[1]))
     size, pages = next(readable, tried[-1])
     return [_page(part, heading, size, area) for part, area in pages]
 
@@ -113,7 +123,7 @@ def _is_readable(panels: Sequence[Panel], area: _Area) -> bool:
 def _page(
     panels: Sequence[Panel], heading: Sequence[str], size: tuple[float, float], area: _Area
 ) -> Figure:
-    page = Paper(*size)
+    page = Paper(size)
     width = size[0] - 2 * MARGIN
     for line, y, points in zip(heading, (0.2, 0.42), (15.0, 9.0), strict=False):
         bold = points > 9.0

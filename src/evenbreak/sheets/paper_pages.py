@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from evenbreak.answers.tournament.printed import Card
-from evenbreak.sheets.pdf_page import HEIGHT, MARGIN, WIDTH, Paper, fitted, pdf_bytes
+from evenbreak.sheets.pdf_page import MARGIN, PAPERS, Paper, fitted, pdf_bytes
 
 _SIZE, _ROW = 11.0, 0.27
 _TOP = MARGIN + 0.75
@@ -32,8 +32,10 @@ class FirstMatch(NamedTuple):
     table: int | None
 
 
-def draw_list_pdf(players: Sequence[FirstMatch], event: str, about: str = "") -> bytes:
-    """Return the draw as a PDF of A4 pages, upright, the players by name.
+def draw_list_pdf(
+    players: Sequence[FirstMatch], event: str, about: str = "", *, paper: str = "a4"
+) -> bytes:
+    """Return the draw as a PDF of upright pages, the players by name.
 
     Parameters
     ----------
@@ -43,16 +45,18 @@ def draw_list_pdf(players: Sequence[FirstMatch], event: str, about: str = "") ->
         the name of the tournament.
     about
         what is played.
+    paper
+        'a4' or 'letter'.
 
     >>> draw_list_pdf([FirstMatch("Ann", 1, "W1.1", "Bo", 3)], "Tuesday")[:5]
     b'%PDF-'
     """
     listed = sorted(players, key=lambda first_match: first_match.name.casefold())
-    wide, high = HEIGHT, WIDTH
+    wide, high = PAPERS[paper].upright
     most = int((high - MARGIN - _TOP) / _ROW)
     pages = []
     for start in range(0, max(1, len(listed)), most):
-        page = Paper(wide, high)
+        page = Paper((wide, high))
         title, size = fitted(f"The draw: {event}", 16, wide - 2 * MARGIN, bold=True)
         page.text(MARGIN, MARGIN + 0.2, title, size=size, bold=True)
         line, size = fitted(about, 10, wide - 2 * MARGIN)
@@ -82,8 +86,10 @@ MOST_BOXES = 15
 """Games in boxes to tick; a longer race gets a field for the score."""
 
 
-def score_cards_pdf(cards: Sequence[Card], event: str, *, per_page: int = 4) -> bytes:
-    """Return score cards as a PDF of A4 pages.
+def score_cards_pdf(
+    cards: Sequence[Card], event: str, *, per_page: int = 4, paper: str = "a4"
+) -> bytes:
+    """Return score cards as a PDF.
 
     Parameters
     ----------
@@ -93,19 +99,22 @@ def score_cards_pdf(cards: Sequence[Card], event: str, *, per_page: int = 4) -> 
         the name of the tournament, on each card.
     per_page
         1 or 4.
+    paper
+        'a4' or 'letter'.
 
     >>> card = Card("W1.1", "winners' side, round 1", ("Ann", "Bo"), (7, 5), 3, ())
     >>> score_cards_pdf([card], "Tuesday")[:5]
     b'%PDF-'
     """
     pages = []
+    room_wide, room_high = (side - 2 * MARGIN for side in PAPERS[paper])
     for start in range(0, len(cards), per_page):
-        page = Paper(WIDTH, HEIGHT)
+        page = Paper(PAPERS[paper])
         for k, card in enumerate(cards[start : start + per_page]):
             if per_page == 1:
-                _card(page, card, event, MARGIN, MARGIN, WIDTH - 2 * MARGIN, HEIGHT - 2 * MARGIN)
+                _card(page, card, event, MARGIN, MARGIN, room_wide, room_high)
                 continue
-            wide, high = (WIDTH - 2 * MARGIN - _GAP) / 2, (HEIGHT - 2 * MARGIN - _GAP) / 2
+            wide, high = (room_wide - _GAP) / 2, (room_high - _GAP) / 2
             left, top = MARGIN + (k % 2) * (wide + _GAP), MARGIN + (k // 2) * (high + _GAP)
             _card(page, card, event, left, top, wide, high)
         pages.append(page.figure)

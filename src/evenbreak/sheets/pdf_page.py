@@ -1,12 +1,14 @@
 """A page for text and lines, in inches from its top left corner; A4 landscape unless said."""
 
 import io
+import locale
+import os
 import unicodedata
 from bisect import bisect_right
 from collections.abc import Sequence
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib as mpl
 from matplotlib.backends.backend_pdf import PdfPages
@@ -16,8 +18,38 @@ from matplotlib.ft2font import FT2Font
 from matplotlib.patches import Rectangle
 from matplotlib.textpath import text_to_path
 
-WIDTH, HEIGHT = 11.69, 8.27
-"""A4, landscape."""
+
+class Size(NamedTuple):
+    """A sheet of paper, landscape, in inches."""
+
+    wide: float
+    high: float
+
+    @property
+    def upright(self) -> "Size":
+        """The same sheet, turned."""
+        return Size(self.high, self.wide)
+
+
+PAPERS = {"a4": Size(11.69, 8.27), "letter": Size(11.0, 8.5)}
+"""What people print on, by name."""
+
+_LETTER = frozenset(
+    ["US", "CA", "MX", "PH", "CL", "CO", "VE", "CR", "GT", "NI", "PA", "SV", "DO", "PR", "BO"]
+)
+"""Where that is letter (the Unicode CLDR has the list)."""
+
+_LETTER_BY_NAME = ("United States", "Canada", "Mexico", "Philippines", "Chile", "Colombia")
+"""The same as Windows calls them."""
+
+
+def usual_paper() -> str:
+    """Return the paper that is usual where this computer is, by its locale: 'letter' or 'a4'."""
+    named = (os.environ.get(name) for name in ("LC_ALL", "LC_PAPER", "LANG"))
+    place = next(filter(None, named), None) or locale.getlocale(locale.LC_CTYPE)[0] or ""
+    territory = place.partition(".")[0].partition("@")[0].partition("_")[2]
+    return "letter" if territory in _LETTER or territory.startswith(_LETTER_BY_NAME) else "a4"
+
 
 MARGIN = 0.5
 """What printers leave white, with room for a pin."""
@@ -43,7 +75,9 @@ class Paper:
     [11.69, 8.27]
     """
 
-    def __init__(self, width: float = WIDTH, height: float = HEIGHT) -> None:
+    def __init__(self, size: tuple[float, float] = PAPERS["a4"]) -> None:
+        width, height = size
+        self.wide, self.high = size
         self.figure: Figure = Figure(figsize=(width, height), facecolor="white")
         self._axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
         self._axes.set(xlim=(0.0, width), ylim=(height, 0.0))

@@ -23,11 +23,10 @@ from evenbreak.answers.league.report import (
 from evenbreak.answers.league.sheet import MOST_ON_SHEET, NO_RACE, Sheet, count_groups
 from evenbreak.plots.picture import our_look
 from evenbreak.sheets.pdf_page import (
-    HEIGHT,
     MARGIN,
+    PAPERS,
     POINTS,
     UNKNOWN,
-    WIDTH,
     Paper,
     drawable,
     fitted,
@@ -46,13 +45,13 @@ from evenbreak.sheets.race_blocks import (
     race_blocks,
 )
 
-MOST_ON_A_PAGE = 24
+MOST_ON_A_PAGE = 28
 LARGEST, SMALLEST = 11.0, 7.0
 """Sizes of letters, in points: more looks lost on the page, less cannot be read on a wall."""
 
 LONGEST_NAME, LONGEST_RATING = 1.75, 1.5
 WIDEST_CELL, HIGHEST_ROW = 0.6, 0.34
-WIDEST_BARS, NARROWEST_BARS = 3.2, 1.6
+WIDEST_BARS, NARROW_BARS, NARROWEST_BARS = 3.2, 1.6, 1.0
 GAP, CELL_EDGE = 0.12, 0.05
 HEADING, TICKS = 1.08, 0.45
 """Heights of what is above the slanted names and below the table."""
@@ -66,11 +65,12 @@ GROUP, NOTE = "group", 8.0
 class PageSizes:
     """Sizes that all pages share: inches, and points for letters.
 
-    `place`, `name`, `rating` and `group` are the widths of those columns, the last 0 if all
-    players are of one group; `cell` and `row` are the size of a race's cell; `top` is where the
-    table begins; `columns` is how many opponents a page has.
+    `wide` is the width of the page; `place`, `name`, `rating` and `group` are the widths of those
+    columns, the last 0 if all players are of one group; `cell` and `row` are the size of a race's
+    cell; `top` is where the table begins; `columns` is how many opponents a page has.
     """
 
+    wide: float
     columns: int
     place: float
     name: float
@@ -95,10 +95,12 @@ class PageSizes:
     def bars(self, across: int) -> tuple[float, float]:
         """Where the axis of the bars begins and ends."""
         start = self.right(across) + 3 * GAP + self.rating
-        return start, min(start + WIDEST_BARS, WIDTH - MARGIN - self.group)
+        return start, min(start + WIDEST_BARS, self.wide - MARGIN - self.group)
 
 
-def page_sizes(lines: Sequence[PlayerLine], races: Races, room: float) -> PageSizes:
+def page_sizes(
+    lines: Sequence[PlayerLine], races: Races, room: float, wide: float = PAPERS["a4"].wide
+) -> PageSizes:
     """Return how large all can be, so that names, table and ticks have the height `room`."""
     rows = len(parts_of(lines, MOST_ON_A_PAGE)[0])
     size = min(LARGEST, 0.64 * POINTS * (room - 1.2) / rows)
@@ -112,15 +114,22 @@ def page_sizes(lines: Sequence[PlayerLine], races: Races, room: float) -> PageSi
     grouped = any(line.group is not None for line in lines)
     group = GAP + max(width_of(GROUP, NOTE), widest(list(map(group_text, lines)), size))
     group = group if grouped else 0.0
-    fixed = 2 * MARGIN + place + name + rating + group + NARROWEST_BARS + 5 * GAP
+    fixed = 2 * MARGIN + place + name + rating + group + 5 * GAP
     letter = widest([NO_RACE, *set(races.values())], 1.0)
-    fitting = int((WIDTH - fixed) / (letter * SMALLEST + CELL_EDGE))
-    columns = len(parts_of(lines, min(MOST_ON_A_PAGE, fitting))[0])
-    cell = min(WIDEST_CELL, (WIDTH - fixed) / columns)
+    least = letter * SMALLEST + CELL_EDGE
+    all_of = len(lines)
+    # Bars are shortened only where that lets all races stand on one page.
+    bars = NARROW_BARS
+    if bars > wide - fixed - all_of * least >= NARROWEST_BARS:
+        bars = NARROWEST_BARS
+    across = wide - fixed - bars
+    columns = len(parts_of(lines, min(MOST_ON_A_PAGE, int(across / least)))[0])
+    cell = min(WIDEST_CELL, across / columns)
     slant_size = min(size, 0.6 * cell * POINTS)
     slanted = widest([slanted_name(line, slant_size) for line in lines], slant_size) + 0.15
     height = slanted * math.sin(math.radians(SLANT))
     return PageSizes(
+        wide=wide,
         columns=columns,
         place=place,
         name=name,
@@ -154,16 +163,15 @@ LEADING = 1.45
 """The height of a line of text, for each point of its size."""
 
 
-def sheet_pdf(sheet: Sheet) -> bytes:
+def sheet_pdf(sheet: Sheet, paper: str = "a4") -> bytes:
     """Return the sheet as a PDF document, the same bytes every time."""
+    title = sheet.title or f"Fair races from {file_name(sheet.file)}"
     with our_look():
-        return pdf_bytes(
-            sheet_pages(sheet), sheet.title or f"Fair races from {file_name(sheet.file)}"
-        )
+        return pdf_bytes(sheet_pages(sheet, paper), title)
 
 
-def sheet_pages(sheet: Sheet) -> list[Figure]:
-    """Return the sheet as pages of A4, to be printed.
+def sheet_pages(sheet: Sheet, paper: str = "a4") -> list[Figure]:
+    """Return the sheet as pages to be printed, on 'a4' or 'letter'.
 
     Each line is a player: the fairest race against each opponent, the rating, and a bar of
     two standard errors of it either way. A league too large for a page is cut into blocks,
@@ -184,11 +192,13 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
     lines = player_lines(
         shown.listed, sheet.ratings.scale, bars, grouped=grouped, places=sheet.places
     )
+    size = PAPERS[paper]
     notes = _broken(
-        [*_notes(sheet, shown), *_about_names(lines, len(sheet.rated)), version_and_source(sheet)]
+        size.wide,
+        [*_notes(sheet, shown), *_about_names(lines, len(sheet.rated)), version_and_source(sheet)],
     )
-    room = HEIGHT - 2 * MARGIN - HEADING - len(notes) * LEADING * NOTE / POINTS
-    sizes = page_sizes(lines, shown.races, room)
+    room = size.high - 2 * MARGIN - HEADING - len(notes) * LEADING * NOTE / POINTS
+    sizes = page_sizes(lines, shown.races, room, size.wide)
     blocks = [
         (down, block)
         for down in parts_of(lines, MOST_ON_A_PAGE)
@@ -196,24 +206,24 @@ def sheet_pages(sheet: Sheet) -> list[Figure]:
     ]
     pages = []
     for number, (down, block) in enumerate(blocks, 1):
-        page = Paper()
+        page = Paper(size)
         _heading(page, sheet, shown)
         bottom = _Table(page, sizes, down, block, bars.ticks()).draw()
         _lines(page, bottom + 0.42, notes)
         if len(blocks) > 1:
             text = f"page {number} of {len(blocks)}"
-            page.text(WIDTH - MARGIN, HEIGHT - MARGIN, text, size=NOTE, ha="right")
+            page.text(size.wide - MARGIN, size.high - MARGIN, text, size=NOTE, ha="right")
         pages.append(page.figure)
     return pages
 
 
 def _heading(page: Paper, sheet: Sheet, shown: Sheet) -> None:
-    title, size = fitted(sheet.title or "Fair races", 22, WIDTH - 2 * MARGIN, bold=True)
+    title, size = fitted(sheet.title or "Fair races", 22, page.wide - 2 * MARGIN, bold=True)
     page.text(MARGIN, MARGIN + 0.22, title, size=size, bold=True)
     source = heading(sheet)[-1] if sheet.title else source_and_dates(sheet)
     lines = [f"{source}. {played(sheet)}", sheet.offered.in_words]
     for k, line in enumerate(lines):
-        text = shortened(line, 10.0, WIDTH - 2 * MARGIN)
+        text = shortened(line, 10.0, page.wide - 2 * MARGIN)
         page.text(MARGIN, MARGIN + 0.5 + 0.2 * k, text, size=10.0)
     page.text(MARGIN, MARGIN + 0.93, how_to_read(shown.paired), size=LARGEST, bold=True)
 
@@ -235,9 +245,9 @@ def _about_names(lines: Sequence[PlayerLine], rated: int) -> Iterator[str]:
         )
 
 
-def _broken(notes: Sequence[str]) -> list[str]:
+def _broken(wide: float, notes: Sequence[str]) -> list[str]:
     """Return notes as lines, those that are wider than the page broken."""
-    letters = int((WIDTH - 2 * MARGIN) * POINTS / NOTE / 0.58)
+    letters = int((wide - 2 * MARGIN) * POINTS / NOTE / 0.58)
     return [part for note in notes for part in textwrap.wrap(note, letters)]
 
 

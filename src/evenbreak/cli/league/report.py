@@ -122,7 +122,7 @@ def _files(sheet: answers.Sheet, asked: Report) -> dict[str, bytes]:
         "ratings.csv": to_csv(sheet.rated, excel=asked.excel_csv),
         "matchups.csv": to_csv(sheet.paired, excel=asked.excel_csv),
         "summary.csv": to_csv(sheet.summary, excel=asked.excel_csv),
-        "sheet.pdf": sheets.sheet_pdf(sheet),
+        "sheet.pdf": sheets.sheet_pdf(sheet, asked.paper or sheets.usual_paper()),
     }
     if asked.page:
         written["sheet.html"] = sheets.sheet_html(sheet)

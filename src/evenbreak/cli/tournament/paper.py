@@ -37,7 +37,7 @@ def show(asked: Show) -> Answer:
             asked.refuse(
                 "{out} {name!r}; name a file that ends in {kinds}", name=out, kinds=", ".join(KINDS)
             )
-        write_file(out, _drawing(state, PurePath(asked.path).stem, kind))
+        write_file(out, _drawing(state, asked, kind))
     answer = answer_of(asked, state)
     if not state.drawn or chips:
         return answer
@@ -89,25 +89,27 @@ def print_paper(asked: Print) -> Answer:
     from evenbreak.answers.tournament.printed import printed_answer, score_cards
     from evenbreak.files.store.tournament import read_tournament
     from evenbreak.sheets.paper_pages import score_cards_pdf
+    from evenbreak.sheets.pdf_page import usual_paper
 
-    state, name = read_tournament(asked.path), PurePath(asked.path).stem
+    state = read_tournament(asked.path)
     if state.plan.form == "chips":
         refuse("a chip tournament has neither score cards nor a bracket to print")
     place = asked.out or f"{asked.what}.pdf"
     if PurePath(place).suffix.lower() != ".pdf":
         asked.refuse("{out} {name!r}; name a file that ends in .pdf", name=place)
     if asked.what == "draw":
-        write_file(place, _draw_list(state, name))
+        write_file(place, _draw_list(state, asked))
         return printed_answer(
             state, say("The list of the draw is in {file}.", file=FilePath(place))
         )
     if asked.what == "bracket":
-        write_file(place, _drawing(state, name, ".pdf"))
+        write_file(place, _drawing(state, asked, ".pdf"))
         return printed_answer(state, say("The bracket is in {file}.", file=FilePath(place)))
     cards = score_cards(state, asked.match)
     if not cards:
         refuse("no match is waiting to be played, so there is no card to print")
-    write_file(place, score_cards_pdf(cards, name, per_page=asked.per_page))
+    paper = asked.paper or usual_paper()
+    write_file(place, score_cards_pdf(cards, _title(asked), per_page=asked.per_page, paper=paper))
     written = say_count(
         "{n} score card is in {file}.",
         "{n} score cards are in {file}.",
@@ -117,30 +119,36 @@ def print_paper(asked: Print) -> Answer:
     return printed_answer(state, written)
 
 
-def _drawing(state: Evening, name: str, kind: str) -> bytes:
+def _title(asked: Show | Print) -> str:
+    return asked.title or PurePath(asked.path).stem
+
+
+def _drawing(state: Evening, asked: Show | Print, kind: str) -> bytes:
     """Return the bracket of a tournament, drawn as .svg, .png, .pdf or .html."""
     from evenbreak.answers.tournament.bracket_view import bracket_panels
     from evenbreak.answers.tournament.tournament import races_words
 
-    panels = bracket_panels(state)
+    panels, name = bracket_panels(state), _title(asked)
     heading = [name, f"{state.bracket.format}. {races_words(state.races)}"]
     if kind == ".html":
         from evenbreak.sheets.bracket_page import bracket_html
 
         return bracket_html(panels, heading)
     from evenbreak.sheets.bracket_drawing import bracket_figure, bracket_pdf
+    from evenbreak.sheets.pdf_page import usual_paper
 
     if kind == ".pdf":
-        return bracket_pdf(panels, heading, name)
+        return bracket_pdf(panels, heading, name, paper=asked.paper or usual_paper())
     from evenbreak.plots.picture import image_bytes
 
     return image_bytes(bracket_figure(panels, heading), "svg" if kind == ".svg" else "png")
 
 
-def _draw_list(state: Evening, name: str) -> bytes:
+def _draw_list(state: Evening, asked: Print) -> bytes:
     from evenbreak.answers.tournament.printed import first_matches
     from evenbreak.answers.tournament.tournament import races_words
     from evenbreak.sheets.paper_pages import FirstMatch, draw_list_pdf
+    from evenbreak.sheets.pdf_page import usual_paper
 
     players = []
     for one in first_matches(state):
@@ -148,4 +156,4 @@ def _draw_list(state: Evening, name: str) -> bytes:
         players.append(FirstMatch(one.name, one.seed, one.match or "", other, one.table))
     form = state.bracket.format
     about = f"{form[0].upper()}{form[1:]}. {races_words(state.races)}"
-    return draw_list_pdf(players, name, about)
+    return draw_list_pdf(players, _title(asked), about, paper=asked.paper or usual_paper())

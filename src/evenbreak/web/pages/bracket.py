@@ -36,18 +36,19 @@ async def bracket(request: Request) -> Response:
 async def bracket_on_paper(request: Request) -> Response:
     """Return the bracket as a PDF."""
     from evenbreak.sheets.bracket_drawing import bracket_pdf
+    from evenbreak.sheets.pdf_page import usual_paper
 
     state = await _drawn(request)
     name = site_of(request).path.stem
     heading = [name, races_words(state.races)]
-    return await _pdf(
-        request, "bracket.pdf", state, lambda: bracket_pdf(bracket_panels(state), heading, name)
-    )
+    make = partial(bracket_pdf, bracket_panels(state), heading, name, paper=usual_paper())
+    return await _pdf(request, "bracket.pdf", state, make)
 
 
 async def cards_on_paper(request: Request) -> Response:
     """Return the score cards as a PDF."""
     from evenbreak.sheets.paper_pages import score_cards_pdf
+    from evenbreak.sheets.pdf_page import usual_paper
 
     state = await _drawn(request)
     cards = score_cards(state, None)
@@ -55,7 +56,8 @@ async def cards_on_paper(request: Request) -> Response:
         raise RefusalError(
             "No match is left to play, so there is no score card to print.", status=404
         )
-    make = partial(score_cards_pdf, cards, site_of(request).path.stem, per_page=4)
+    name = site_of(request).path.stem
+    make = partial(score_cards_pdf, cards, name, per_page=4, paper=usual_paper())
     return await _pdf(request, "cards.pdf", state, make)
 
 

@@ -220,7 +220,7 @@ def _made(name: str) -> Callable[[Sheet], bytes]:
     makers: dict[str, Callable[[Sheet], bytes]] = {
         "ratings.csv": lambda sheet: frame_csv(sheet.rated),
         "matchups.csv": lambda sheet: frame_csv(sheet.paired),
-        "sheet.pdf": sheets.sheet_pdf,
+        "sheet.pdf": lambda sheet: sheets.sheet_pdf(sheet, sheets.usual_paper()),
         "sheet.html": sheets.sheet_html,
         "sheet.xlsx": lambda sheet: sheets.workbook_bytes(sheets.report_tables(sheet)),
     }
