@@ -323,7 +323,7 @@ class Report(Results, HowToRate, Lengths):
         ),
     ] = None
     title: Title = ""
-    paper: PaperName = None
+    paper: Annotated[PaperName, Says(rare=True)] = None
     provisional: Annotated[int | None, PROVISIONAL] = None
     page: Annotated[
         bool,

@@ -114,15 +114,14 @@ def page_sizes(
     grouped = any(line.group is not None for line in lines)
     group = GAP + max(width_of(GROUP, NOTE), widest(list(map(group_text, lines)), size))
     group = group if grouped else 0.0
-    fixed = 2 * MARGIN + place + name + rating + group + 5 * GAP
+    fixed = 2 * MARGIN + place + name + rating + group
     letter = widest([NO_RACE, *set(races.values())], 1.0)
     least = letter * SMALLEST + CELL_EDGE
-    all_of = len(lines)
     # Bars are shortened only where that lets all races stand on one page.
     bars = NARROW_BARS
-    if bars > wide - fixed - all_of * least >= NARROWEST_BARS:
+    if bars > wide - fixed - 5 * GAP - len(lines) * least >= NARROWEST_BARS:
         bars = NARROWEST_BARS
-    across = wide - fixed - bars
+    across = wide - (fixed + bars + 5 * GAP)
     columns = len(parts_of(lines, min(MOST_ON_A_PAGE, int(across / least)))[0])
     cell = min(WIDEST_CELL, across / columns)
     slant_size = min(size, 0.6 * cell * POINTS)
