@@ -272,3 +272,13 @@ PaperName: TypeAlias = Annotated[
     str | None,
     Field(PAPER, "The paper of what is printed.", usual="letter where that is usual, else a4"),
 ]
+
+
+@dataclass(frozen=True, kw_only=True)
+class OnPaper(Question):
+    """What is drawn of a tournament to be printed."""
+
+    title: Annotated[
+        Title, Says("A title, such as the name of the event.", usual="the name of its file")
+    ] = ""
+    paper: PaperName = None

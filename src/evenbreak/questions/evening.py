@@ -10,7 +10,7 @@ from typing import Annotated, Literal, TypeAlias
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import NUMBER, Choice, File, Flag, Named, Number, Text, Whole
 from evenbreak.fields.question import Field, Question, Says
-from evenbreak.questions.common import SCORE, PaperName, ScaleOf, Seed, Title
+from evenbreak.questions.common import SCORE, OnPaper, ScaleOf, Seed
 from evenbreak.tournaments.evening.format import (
     LONGEST_RACE,
     MOST_TABLES,
@@ -306,11 +306,8 @@ class TieBreak(TimedUnderWay):
     seed: Lots | None = None
 
 
-_TITLE = Says("A title, such as the name of the event.", usual="the name of its file")
-
-
 @dataclass(frozen=True, kw_only=True)
-class Show(TimedUnderWay):
+class Show(TimedUnderWay, OnPaper):
     """Show the bracket: each match with its players, its score and its table.
 
     Of a chip tournament it shows the tables, the line and everybody's chips.
@@ -324,8 +321,6 @@ class Show(TimedUnderWay):
             ".png as a picture.",
         ),
     ] = None
-    title: Annotated[Title, _TITLE] = ""
-    paper: PaperName = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -364,7 +359,7 @@ class Export(UnderWay):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Print(UnderWay):
+class Print(UnderWay, OnPaper):
     """Write score cards, the bracket or the draw as a PDF to print.
 
     Cards are made for all matches whose players are known and that are not over: one each, with
@@ -388,8 +383,6 @@ class Print(UnderWay):
         str | None,
         Field(File("FILE.pdf"), "The file.", usual="cards.pdf, bracket.pdf or draw.pdf"),
     ] = None
-    title: Annotated[Title, _TITLE] = ""
-    paper: PaperName = None
 
     def check(self) -> None:
         """Refuse a match for what has all of them."""
