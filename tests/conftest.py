@@ -5,6 +5,8 @@ import os
 import signal
 from collections import Counter
 from collections.abc import Generator
+from functools import cache
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
@@ -34,6 +36,18 @@ def pytest_collection() -> Generator[None, None, None]:
         gc.enable()
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave files unread that have no slow test, where only slow tests are run."""
+    only_slow = config.option.markexpr == "slow and not thorough"
+    tests = collection_path.name.startswith("test_") and collection_path.suffix == ".py"
+    return True if only_slow and tests and not _names_slow(collection_path) else None
+
+
+@cache
+def _names_slow(path: Path) -> bool:
+    return "slow" in path.read_text(encoding="utf-8")
+
+
 @pytest.hookimpl(tryfirst=True)  # before marks select
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark what follows from other marks, and what is drawn at random."""
@@ -50,3 +64,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             if rows[test] >= mark.args[0]:
                 item.add_marker("slow")
             rows[test] += 1
+        # Else nobody would run it: see above.
+        only_slow = item.get_closest_marker("slow") and not item.get_closest_marker("thorough")
+        assert not only_slow or _names_slow(item.path), item.nodeid
