@@ -15,6 +15,7 @@ from evenbreak.checks import column, names, one_of
 from evenbreak.errors import InputError
 from evenbreak.league.tables.ladder import Record, ladder, standings_of
 from evenbreak.league.tables.rules import POINTS, Outcomes, TableRules
+from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.results import Results
 
 BOTH, HOME, AWAY = "both", "home", "away"
@@ -81,6 +82,7 @@ def player_matches(results: Results) -> TableMatches:
     >>> player_matches(season).outcomes.winner.tolist()
     [2, 2]
     """
+    check_results(results)
     score = np.stack([results.score_a, results.score_b], axis=1)
     race = np.stack(results.races, axis=1)
     forfeit = results.given_away
@@ -135,6 +137,7 @@ def team_matches(
     >>> team_matches(season).outcomes.score, team_matches(season, count_games=True).outcomes.score
     (array([[1, 1]]), array([[7, 7]]))
     """
+    check_results(results)
     if results.team_a is None or results.team_b is None:
         raise InputError("{results} does not state teams; add the columns team_a and team_b")
     stated = (results.team_a != "") & (results.team_b != "")
