@@ -119,7 +119,8 @@ def _one_league(every: list[SeenFile]) -> list[SeenFile]:
 
 
 def _seen(path: Path) -> SeenFile:
-    for look in (_chart, _aliases, _results, _roster, _fixtures, _teams, _results_by_rows):
+    looks = (_chart, _aliases, _results, _roster, _results_by_rows, _fixtures, _teams, _perhaps)
+    for look in looks:
         try:
             if (seen := look(path)) is not None:
                 return seen
@@ -173,6 +174,24 @@ def _results(path: Path) -> SeenFile | None:
 
 def _results_by_rows(path: Path) -> SeenFile | None:
     """Return a file of results whose rows leave one reading of its titles."""
+    ways = _ways(path)
+    return _results_by(path, ways[0]) if len(ways) == 1 else None
+
+
+def _perhaps(path: Path) -> SeenFile | None:
+    """Return a file of results whose rows leave several."""
+    ways = _ways(path)
+    if not ways:
+        return None
+    about = say(
+        "perhaps results; `evenbreak rate {name}` shows in which {n} ways they can be read",
+        name=path.name,
+        n=len(ways),
+    )
+    return SeenFile(name=path.name, what="", about=about)
+
+
+def _ways(path: Path) -> list[Mapping[str, str]]:
     ways: list[Mapping[str, str]] = []
 
     def hint(*of_file: Any) -> str:
@@ -180,14 +199,7 @@ def _results_by_rows(path: Path) -> SeenFile | None:
         return ""
 
     RESULTS_FILE.text(path, hint=hint)
-    if len(ways) > 1:
-        about = say(
-            "perhaps results; `evenbreak rate {name}` shows in which {n} ways they can be read",
-            name=path.name,
-            n=len(ways),
-        )
-        return SeenFile(name=path.name, what="", about=about)
-    return _results_by(path, ways[0]) if ways else None
+    return ways
 
 
 def _results_by(path: Path, columns: Mapping[str, str]) -> SeenFile:

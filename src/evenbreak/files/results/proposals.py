@@ -13,7 +13,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
-from evenbreak.files.tables.titles import BYE, FORFEIT, key_of, marks
+from evenbreak.files.tables.sided_titles import order_of
+from evenbreak.files.tables.titles import BYE, FORFEIT, NOT_GAMES, key_of
 from evenbreak.matches.formats import BETWEEN
 from evenbreak.words import Parameter, joined, say
 
@@ -21,7 +22,6 @@ _SCORE = re.compile(rf"(\d{{1,2}})\s*{BETWEEN}\s*(\d{{1,2}})", re.ASCII)
 _CLOCK = re.compile(r"([01]?\d|2[0-3])[:.][0-5]\d", re.ASCII)
 _COUNT = re.compile(r"\d{1,2}", re.ASCII)
 _DATE = re.compile(r"\d{1,4}([-/.])\d{1,2}\1\d{1,4}( .*|T.*)?", re.ASCII)
-_PART = re.compile(r"[^\W\d_]+|\d+")
 
 _FEW = 0.02
 """The share of rows that may be unlike the others: empty, or a match that ended level."""
@@ -178,7 +178,7 @@ def _player_pairs(free: Sequence[_Column], known: Mapping[str, _Column]) -> list
 
 def _turns(pair: _Pair) -> list[_Pair]:
     """Return a pair with the first side first; both ways where the titles do not say which."""
-    order = _order(pair[0].title, pair[1].title)
+    order = order_of(pair[0].title, pair[1].title)
     return [pair, pair[::-1]] if not order else [pair if order > 0 else pair[::-1]]
 
 
@@ -228,10 +228,11 @@ def _score_readings(
             return
     one_cell = [column for column in free if _is_score_column(column, known, players)]
     counts = [column for column in free if column.all_are(_COUNT.fullmatch)]
+    counts = [column for column in counts if key_of(column.title) not in NOT_GAMES]
     if len(players[0].cells) >= _ENOUGH_ROWS:  # in fewer rows scores may rise by chance
         counts = [column for column in counts if not _is_running(column)]
     pairs = [*combinations(counts, 2)]
-    named = [pair for pair in pairs if _order(pair[0].title, pair[1].title)]
+    named = [pair for pair in pairs if order_of(pair[0].title, pair[1].title)]
     good = [pair for pair in named if _are_scores(pair, known, players)]
     if not good and len(counts) == 2 and not one_cell:
         good = [pair for pair in pairs if _are_scores(pair, known, players)]
@@ -253,13 +254,13 @@ def _score_readings(
 def _orders(pair: _Pair, known: Mapping[str, _Column], players: _Pair) -> list[_Pair]:
     """Return two columns of games in the players' order; both ways where nothing says which."""
     won = [_agreement(turn, known, players) for turn in (pair, pair[::-1])]
-    order = _order(pair[0].title, pair[1].title)
+    order = order_of(pair[0].title, pair[1].title)
     turned = pair if order >= 0 else pair[::-1]
     if max(won) > 0.9 and min(won) < 0.1:
         by_winner = pair if won[0] > won[1] else pair[::-1]
         return [by_winner] if not order or by_winner == turned else []
     # Players whose order is open come both ways already.
-    sided = not all(column.free for column in players) or _order(players[0].title, players[1].title)
+    sided = not all(column.free for column in players) or order_of(players[0].title, players[1].title)
     return [turned] if order or not sided else [pair, pair[::-1]]
 
 
@@ -277,7 +278,10 @@ def _are_scores(pair: _Pair, known: Mapping[str, _Column], players: _Pair) -> bo
     """Return whether two columns of numbers can be games won: by ties, races, winners, players."""
     a, b = (column.numbers() for column in pair)
     rows = [(m, n) for m, n in zip(a, b, strict=True) if m >= 0 and n >= 0]
-    if not rows or sum(m == n for m, n in rows) > max(1, _FEW * len(rows)) * (len(rows) > 3):
+    level = sum(m == n for m, n in rows)
+    by_race = {"level_a", "level_b"} <= known.keys() or {"race_a", "race_b"} <= known.keys()
+    few = _MANY_TIES if by_race else _FEW  # who needs fewer games wins at level scores
+    if not rows or level > max(1, few * len(rows)) * (len(rows) > 3):
         return False
     shared_out = len({m + n for m, n in rows}) == 1
     if len(rows) > 4 and shared_out and (len({*map(max, rows)}) > 1 or 0 in map(min, rows)):
@@ -356,39 +360,3 @@ def _agreement(pair: _Pair, known: Mapping[str, _Column], players: _Pair) -> flo
         if winner in (a, b) and min(m, n) >= 0:
             fits.append((winner == a) == (m > n))
     return sum(fits) / len(fits) if fits else 0.5
-
-
-def _order(one: str, other: str) -> int:
-    """Return 1 if two titles of a kind name the first side and the other, -1 the other way, else 0.
-
-    >>> _order("Tore H", "Tore G"), _order("Gastpunkte", "Heimpunkte"), _order("Spiel", "Punkte A")
-    (1, -1, 0)
-    """
-    parts = [*map(key_of, _PART.findall(one))], [*map(key_of, _PART.findall(other))]
-    if len(parts[0]) == len(parts[1]):
-        unlike = [(a, b) for a, b in zip(*parts, strict=True) if a != b]
-        if len(unlike) == 1:
-            return _side(*_ends(*unlike[0]))
-    left = [[part for part in own if part not in theirs] for own, theirs in (parts, parts[::-1])]
-    return _side(*map("".join, left)) if all(map(len, left)) else 0
-
-
-def _side(one: str, other: str) -> int:
-    return ((one, other) in marks()) - ((other, one) in marks())
-
-
-def _ends(one: str, other: str) -> tuple[str, str]:
-    """Return the parts of two words that differ, if what they share is one word before or after.
-
-    >>> _ends("heimpunkte", "gastpunkte"), _ends("heim", "gast")
-    (('heim', 'gast'), ('heim', 'gast'))
-    """
-    for first, second in sorted(marks(), key=lambda pair: -len(pair[0])):
-        for a, b in ((first, second), (second, first)):
-            if len(min(a, b, key=len)) < 3:
-                continue
-            if one.startswith(a) and other.startswith(b) and one[len(a) :] == other[len(b) :]:
-                return a, b
-            if one.endswith(a) and other.endswith(b) and one[: -len(a)] == other[: -len(b)]:
-                return a, b
-    return one, other

@@ -8,6 +8,7 @@ from itertools import zip_longest
 from typing import NamedTuple
 
 from evenbreak.files.tables.problems import Problems, quoted, quoted_list
+from evenbreak.files.tables.sided_titles import told_apart
 from evenbreak.files.tables.titles import key_of, keys_of
 from evenbreak.words import Parameter, Sentence, listed, say, say_count
 
@@ -119,10 +120,12 @@ class Header:
 
     def titles(self, rows: Sequence[Sequence[str]], fit: Fit) -> Sequence[str]:
         """Return the titles of the header that fits so."""
-        return rows[-fit.above] if fit.rows == 1 else _joined(*rows[-fit.above : fit.below])
+        if fit.rows == 1:
+            return told_apart(rows[-fit.above])
+        return _joined(*rows[-fit.above : fit.below])
 
     def _fit(self, titles: Sequence[str], above: int, rows: int = 1) -> Fit:
-        names = {name for name in self._named(titles) if name}
+        names = {name for name in self._named(told_apart(titles)) if name}
         complete = bool(names) and not self._missing(names)
         values = any(_NUMBER.fullmatch(title.strip()) for title in titles)
         many = 0 if values and not complete else len(names)

@@ -222,6 +222,18 @@ PLAYED: Mapping[str, str] = {
 """What a status is called of one that has."""
 
 
+OTHER_COUNTS: Mapping[str, str] = {
+    "en": "innings, total innings, defensive shots, defenses, defence, safeties, timeouts, fouls, "
+    "break and runs, breaks and runs, high run, points available, match, match number, table",
+    "de": "Aufnahmen, Sicherheiten, Höchstserie, Tisch, Begegnung",
+    "fr": "reprises, sécurités, meilleure série, table, rencontre",
+    "es": "entradas, defensas, serie mayor, mesa, encuentro",
+    "nl": "beurten, hoogste serie, tafel, wedstrijd",
+    "pl": "podejścia, odstawne, stół, mecz",
+}
+"""Numbers of a match that are never the games that somebody won."""
+
+
 def key_of(text: str) -> str:
     """Return what a title or a word is compared by: letters and digits, in one case.
 
@@ -247,6 +259,8 @@ def words_of(*declared: Mapping[str, str]) -> frozenset[str]:
 
 
 FORFEIT, BYE = words_of(FORFEITS), words_of(BYES)
+PLAYERS = words_of(_PLAYER)
+NOT_GAMES = words_of(OTHER_COUNTS)
 UNPLAYED, WAS_PLAYED = words_of(NOT_YET), words_of(PLAYED)
 
 
