@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, cast
 
 import click
+from click.core import ParameterSource
 
 from evenbreak import files, handicaps, league
 from evenbreak.answers.kit.answer import Answer
@@ -25,6 +26,7 @@ from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.questions.ladders import SandbagPay, SandbagWatch
 from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale
+from evenbreak.words import FilePath, Parameter, say
 
 if TYPE_CHECKING:
     from evenbreak.answers.sandbag.pay import PayQuestion
@@ -123,7 +125,7 @@ def _wide(system: handicaps.StepSystem, chart: handicaps.Chart) -> handicaps.Lad
 @command_of(SandbagWatch, "watch")
 def watch(asked: SandbagWatch) -> Answer:
     """Check results for sandbagging."""
-    from evenbreak.answers.league.rating_changes import nights_of_files
+    from evenbreak.answers.league.rating_changes import has_levels, nights_of_files
     from evenbreak.answers.sandbag.season import events_marked, events_to_try, with_even_races
     from evenbreak.answers.sandbag.watch import (
         day_sd_doubts,
@@ -132,6 +134,8 @@ def watch(asked: SandbagWatch) -> Answer:
         unrated_doubts,
     )
 
+    typed = click.get_current_context().get_parameter_source("roster")
+    of_league = typed is ParameterSource.DEFAULT
     first = files.read_roster(asked.roster)
     season = files.read_seasons([asked.results], **asked.reading)
     meant = level_system(asked.system, asked.chart) or asked.system or "npl"
@@ -156,7 +160,10 @@ def watch(asked: SandbagWatch) -> Answer:
         season, assumed = with_even_races(season)
         warnings += assumed
     marked = events_marked(season.results, asked.dumps_in) if asked.dumps_in else None
-    nights = nights_of_files(system, first, season, chart=races)
+    stated = has_levels(system, season.results)
+    if of_league and not stated:
+        warnings.append(say(_OF_TODAY, file=FilePath(first.source), roster=Parameter("roster")))
+    nights = nights_of_files(system, first, season, chart=races, stated=stated)
     watched = league.watch(
         nights,
         system,
@@ -183,13 +190,19 @@ def watch(asked: SandbagWatch) -> Answer:
     return sandbag_watch_answer(watched, season.results, season.source, warnings=warnings)
 
 
+_OF_TODAY = (
+    "the ratings of {file} are taken as those before the first match; if they are later ones, "
+    "evidence may be lost, so give the earlier list with {roster}"
+)
+
+
 def _reviewed(
     asked: SandbagWatch, system: handicaps.System, first: files.RosterFile
 ) -> tuple[handicaps.System, files.RosterFile]:
     """Return a system that looks at all results, and the list as it publishes it at the start."""
     from evenbreak.handicaps.systems.night_table import listed
 
-    if asked.scale is not None and "scale" in asked.given:
+    if asked.scale is not None and not asked.scale.same_points(SCALES["fargo"]):
         asked.refuse("{scale} is for systems that move points by match; leave it out")
     refuse_for_system(first, system)
     if asked.chart is not None and not isinstance(system, handicaps.MarkovSystem):

@@ -67,7 +67,6 @@ OTHERWISE: Mapping[tuple[str, str], str] = {
     ("Scores", "dates"): "",
     ("Rate", "system"): "",  # it asks for another way to rate
     ("Rate", "roster"): "",  # the ratings before the results, not today's
-    ("SandbagWatch", "roster"): "",
     ("Simulate", "schedule"): "",  # by weeks, not by dates
     ("Season", "race"): "",  # of sets, not of games
     ("Season", "sets"): "",

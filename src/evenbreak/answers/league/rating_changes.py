@@ -1,6 +1,7 @@
 """How a night changes a league's ratings by its own rule, and the list for next week."""
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
@@ -21,7 +22,7 @@ from evenbreak.files.tables.problems import Problems, quoted
 from evenbreak.files.tables.similar_names import similar_names
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.by_match import StepSystem
-from evenbreak.handicaps.systems.night_table import SeasonSoFar, listed, published
+from evenbreak.handicaps.systems.night_table import SeasonSoFar, levels_alone, listed, published
 from evenbreak.handicaps.systems.rating_changes import (
     MatchChange,
     RatingChanges,
@@ -273,15 +274,19 @@ def _night_warnings(
             continue
         winner, loser = match.winner, match.loser
         yield (
-            f"{tonight.source}:{tonight.lines[match.row]}: {quoted(players[winner])} - "
-            f"{quoted(players[loser])} played a race {match.race[0]}:{match.race[1]}, but the "
+            f"{_place(tonight, match.row)}: {quoted(players[winner])} - {quoted(players[loser])} played a race {match.race[0]}:{match.race[1]}, but the "
             f"chart {chart.name} has {match.by_chart[0]}:{match.by_chart[1]} for "
             f"{match.ratings[0]:g} and {match.ratings[1]:g}"
         )
 
 
 def nights_of_files(
-    system: System, first: RosterFile, season: ResultsFile, *, chart: Races | None = None
+    system: System,
+    first: RosterFile,
+    season: ResultsFile,
+    *,
+    chart: Races | None = None,
+    stated: bool = False,
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
 
@@ -295,6 +300,8 @@ def nights_of_files(
         the results.
     chart
         which sets the races where the results state none.
+    stated
+        whether players have the levels that the results state, in place of the system's.
 
     Raises
     ------
@@ -308,8 +315,12 @@ def nights_of_files(
     def of_night(list_: Roster, rows: NDArray[np.int64]) -> RatingChanges:
         # The season goes on without a night that has problems, so that all are listed at once.
         kept = rows
+        if stated:
+            list_ = _with_levels(list_, season.results.select(rows))
         while True:
-            night = replace(season, results=season.results.select(kept), lines=season.lines[kept])
+            night = replace(
+                season, results=season.results.select(kept), lines=_some(season.lines, kept)
+            )
             try:
                 return rating_changes_of_files(
                     system, replace(first, roster=list_), night, chart=chart, so_far=so_far
@@ -322,6 +333,42 @@ def nights_of_files(
     if problems:
         raise DataError(_once(problems))
     return nights
+
+
+def _line(file: ResultsFile, row: int) -> int | None:
+    """Return the line of a match; None where several files were read, of which it is in one."""
+    return int(file.lines[row]) if len(file.lines) else None
+
+
+def _place(file: ResultsFile, row: int) -> str:
+    line = _line(file, row)
+    return file.source if line is None else f"{file.source}:{line}"
+
+
+def _some(lines: NDArray[np.int64], rows: NDArray[np.int64]) -> NDArray[np.int64]:
+    return lines[rows] if len(lines) else lines
+
+
+def has_levels(system: System, results: Results) -> bool:
+    """Return whether results state the levels that a system publishes, in every match."""
+    return system.publishes == "levels" and all(
+        texts is not None and all(_NUMBER.fullmatch(text) for text in texts)
+        for texts in (results.level_a, results.level_b)
+    )
+
+
+_NUMBER = re.compile(r"\d{1,3}(\.\d+)?", re.ASCII)
+
+
+def _with_levels(list_: Roster, night: Results) -> Roster:
+    """Return a list with the levels that a night's results state."""
+    level, place = list_.level.copy(), {name: at for at, name in enumerate(list_.players)}
+    for players, texts in ((night.player_a, night.level_a), (night.player_b, night.level_b)):
+        for player, text in zip(players.tolist(), () if texts is None else texts, strict=True):
+            if (at := place.get(night.players[player])) is not None:
+                level[at] = float(text)
+    rating = level if levels_alone(list_) else list_.rating
+    return replace(list_, level=level, rating=rating)
 
 
 def rating_changes_of_season(
@@ -415,7 +462,7 @@ def rating_changes_of_files(
         side = {"player_a": results.player_a, "player_b": results.player_b}.get(problem.column)
         if side is not None:
             message += _suggestion(alike.get(results.players[side[problem.row]], ()))
-        problems.add(int(tonight.lines[problem.row]), message)
+        problems.add(_line(tonight, problem.row), message)
     problems.raise_any()
     return apply_results(system, last.roster, results, chart=chart, so_far=so_far)
 

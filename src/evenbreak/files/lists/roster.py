@@ -57,6 +57,14 @@ ROSTER = Schema(
         write=say("points such as 85"),
         empty=say("for a new player"),
     ),
+    effective_rating=Number(
+        "",
+        "of a list saved from FargoRate: the rating of those whose `rating` is 0, since it rests "
+        "on fewer than 200 games; they are provisional",
+        least=0,
+        most=LARGEST,
+        write=say("points such as 520"),
+    ),
     level=Number(
         "skill level, sl",
         "the skill level, which a chart by skill level reads and a cap counts. Without ratings, "
@@ -332,6 +340,12 @@ def roster_of(table: TextTable, *, rated: bool = True) -> RosterFile:
     if rated and own not in table:
         table.problems.add(None, missing_column("rating", [*ROSTER["rating"].aliases, "level"]))
     rating, quasi = table[own], table["quasi_error"]
+    provisional = table["provisional"] if "provisional" in table.found else None
+    if own == "rating" and "effective_rating" in table:
+        only_effective = ~(rating > 0) & (table["effective_rating"] > 0)
+        rating = np.where(only_effective, table["effective_rating"], rating)
+        rating = np.where(rating > 0, rating, np.nan)  # 0 stands for none there
+        provisional = only_effective if provisional is None else provisional | only_effective
     error = np.where(np.isnan(quasi), table["standard_error"], quasi)
     # A rating can rest on matches of which only the winner is known.
     races = np.maximum(table["races_won"], 0) + np.maximum(table["races_lost"], 0)
@@ -339,7 +353,7 @@ def roster_of(table: TextTable, *, rated: bool = True) -> RosterFile:
     ratings = table.read[own]
     if own in table:
         table.note(
-            ~ratings.stated & ratings.good & (games > 0),
+            np.isnan(rating) & ratings.good & (games > 0),
             "{column} is empty after {games} games; fill it in, or write 0 games",
             column=own,
             games=games,
@@ -353,7 +367,7 @@ def roster_of(table: TextTable, *, rated: bool = True) -> RosterFile:
         games,
         component=table["component"],
         matches=table["matches"],
-        provisional=table["provisional"] if "provisional" in table.found else None,
+        provisional=provisional,
         level=table["level"],
     )
     similar = similar_name_warnings(
@@ -390,9 +404,12 @@ def _refuse_twice(table: TextTable, names: list[str]) -> None:
 def _scale(table: TextTable) -> Scale | None:
     """Return the scale of all ratings, noting one that is unlike the first.
 
-    Where the file has no scale, the title of the ratings may name it: "Fargo rating".
+    Where the file has no scale, the title of the ratings may name it ("Fargo rating"), or other
+    columns that FargoRate's lists alone have.
     """
     named = next((name for name in SCALES if name in _title(table)), None)
+    if "effective_rating" in table or _title(table, "games") == "robustness":
+        named = named or "fargo"
     scales = table["scale"]
     rows = np.flatnonzero(scales != None)  # noqa: E711 (element by element)
     if not len(rows):
@@ -436,6 +453,6 @@ def _form(table: TextTable) -> float:
     return first
 
 
-def _title(table: TextTable) -> str:
-    """Return the title of the ratings in lower case; '' where there are none."""
-    return table.titles.get("rating", "").casefold()
+def _title(table: TextTable, column: str = "rating") -> str:
+    """Return the title of a column in lower case; '' where there is none."""
+    return table.titles.get(column, "").casefold()

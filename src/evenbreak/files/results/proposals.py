@@ -260,7 +260,9 @@ def _orders(pair: _Pair, known: Mapping[str, _Column], players: _Pair) -> list[_
         by_winner = pair if won[0] > won[1] else pair[::-1]
         return [by_winner] if not order or by_winner == turned else []
     # Players whose order is open come both ways already.
-    sided = not all(column.free for column in players) or order_of(players[0].title, players[1].title)
+    sided = not all(column.free for column in players) or order_of(
+        players[0].title, players[1].title
+    )
     return [turned] if order or not sided else [pair, pair[::-1]]
 
 

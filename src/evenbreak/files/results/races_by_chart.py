@@ -99,7 +99,7 @@ def races_by_chart(
             int(unknown.sum()),
             chart=of_league.name,
         )
-        told.append(warning(source, lines[unknown.argmax()], text))
+        told.append(warning(source, lines[unknown.argmax()] if len(lines) else None, text))
     if (unfit := unset & known & ~ends).any():
         row = int(unfit.argmax())
         text = say_count(
@@ -113,5 +113,5 @@ def races_by_chart(
             n=int(n[row]),
             more=int(unfit.sum()) - 1,
         )
-        told.append(warning(source, lines[row], text))
+        told.append(warning(source, lines[row] if len(lines) else None, text))
     return replace(results, race_a=race_a, race_b=race_b), told
