@@ -274,7 +274,8 @@ def _night_warnings(
             continue
         winner, loser = match.winner, match.loser
         yield (
-            f"{_place(tonight, match.row)}: {quoted(players[winner])} - {quoted(players[loser])} played a race {match.race[0]}:{match.race[1]}, but the "
+            f"{_place(tonight, match.row)}: {quoted(players[winner])} - "
+            f"{quoted(players[loser])} played a race {match.race[0]}:{match.race[1]}, but the "
             f"chart {chart.name} has {match.by_chart[0]}:{match.by_chart[1]} for "
             f"{match.ratings[0]:g} and {match.ratings[1]:g}"
         )

@@ -63,7 +63,7 @@ ROSTER = Schema(
         "on fewer than 200 games; they are provisional",
         least=0,
         most=LARGEST,
-        write=say("points such as 520"),
+        write=say("points such as 85"),
     ),
     level=Number(
         "skill level, sl",

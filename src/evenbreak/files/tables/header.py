@@ -110,7 +110,12 @@ class Header:
                 if (fit := self._fit(_joined(*rows[above : above + 2]), -above, 2)).complete
             ]
         if complete:  # a table below another one is not what is read
-            return next((fit for fit in complete if fit.known > 1), complete[0])
+            best = next((fit for fit in complete if fit.known > 1), complete[0])
+            if best.above and told_apart(rows[-best.above]) != [*rows[-best.above]]:
+                upper = -best.above - 1  # which may say whose the repeated titles are
+                both = self._fit(_joined(*rows[upper : upper + 2]), -upper, 2)
+                return both if both.complete and both.known >= best.known else best
+            return best
         nothing = Fit(complete=False, known=0, titles=0, above=0)
         best = max(fits, key=lambda fit: (fit.known, fit.above), default=nothing)
         if best.known > 1:

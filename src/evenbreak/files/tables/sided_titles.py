@@ -19,7 +19,7 @@ _REPEATED = re.compile(r"(.+?)[._]1")
 def order_of(one: str, other: str) -> int:
     """Return 1 if two titles of a kind name the first side and the other, -1 the other way, else 0.
 
-    >>> order_of("Tore H", "Tore G"), order_of("Gastpunkte", "Heimpunkte"), order_of("A", "Punkte B")
+    >>> order_of("Tore H", "Tore G"), order_of("Gastpunkte", "Heimpunkte"), order_of("A", "S B")
     (1, -1, 0)
     """
     return _side(*_unlike(one, other))
