@@ -78,21 +78,25 @@ def _of_levels(asked: LadderErrors, system: handicaps.MarkovSystem) -> Answer:
     import numpy as np
 
     from evenbreak.answers.ladder.levels import level_ladder_answer
+    from evenbreak.answers.league.by_level import by_level, with_level
+    from evenbreak.answers.league.roster_matchups import check_roster
+    from evenbreak.handicaps.systems.history import Entries
+    from evenbreak.ratings.scale import SCALES
 
     for name in asked.given:
         if name not in ("system", "chart", "league", "equal_skill"):
             asked.refuse("{" + name + "} is for ratings in points; leave it out with skill levels")
     weights, warnings = None, []
     if asked.league is not None:
-        file = files.read_roster(asked.league)
-        warnings = list(file.warnings)
-        levels = file.roster.level[~np.isnan(file.roster.level)]
         chart: Any = system.chart
-        places = chart.places(levels, "the level")
-        if not len(levels):
-            raise DataError([f"{file.source}: no player has a skill level; add a column level"])
+        file, _ = by_level(files.read_roster(asked.league), chart)
+        levels = file.roster.level
+        all_known = with_level(file, float(chart.levels[0])).roster  # who has none does not count
+        check_roster(file, all_known, chart, SCALES["fargo"])
+        warnings = list(file.warnings)
+        places = chart.places(levels[~np.isnan(levels)])
         weights = np.bincount(places, minlength=len(chart.levels)).tolist()
-    newcomer = int(getattr(system, "newcomer", 3))
+    newcomer = int(system.initial(Entries.of(level=[np.nan]))[0])
     return level_ladder_answer(system, weights, newcomer, warnings)
 
 

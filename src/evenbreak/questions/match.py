@@ -178,7 +178,9 @@ class Players(Question):
         for word in self.ratings:
             if self.from_file is not None or NUMBER.fullmatch(word):
                 continue
-            wanted = "give two numbers, such as 612 521, or say with {from_file} where it stands"
+            wanted = (
+                "give two numbers, such as 612 521, or name the list that it is on with {from_file}"
+            )
             values: dict[str, Any] = {}
             with suppress(InputError):
                 match = match_format(word)

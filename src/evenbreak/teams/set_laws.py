@@ -21,6 +21,7 @@ from evenbreak.matches.endings import race_endings
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.teams.pairs import Pairs, SetRace, by_points, of_picks, pairs_of
+from evenbreak.words import Parameter
 
 POINTS_OF_A_RACK = 10
 """The points of a rack by a chart of points such as that of APA 9-ball."""
@@ -372,6 +373,8 @@ def _check_count(count: Count, race: SetRace) -> None:
     one_of(count, "count", ("sets", "games"))
     if count == "games" and isinstance(race, PointsChart):
         raise InputError(
-            "by the chart {chart} players make points, not games; count sets or points",
+            "by the chart {chart} players make points, not games; use {count} sets or {count} "
+            "points",
             chart=race.name,
+            count=Parameter("count"),
         )

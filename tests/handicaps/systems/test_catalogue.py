@@ -18,6 +18,8 @@ from rows import each_of
         ("ELO", "elo 16"),
         ("elo-32", "elo 32"),
         ("fixed 13", "fixed 13"),
+        ("level-steps 2", "level-steps 2"),
+        ("level_steps-1", "level-steps 1"),
     ],
 )
 def test_a_name_is_a_word_and_numbers(written, name):
@@ -43,6 +45,9 @@ def test_a_system_is_its_own_name():
         ("step ²", "write it as step"),
         ("elo 0", "system is 'elo 0': k is 0"),
         ("fixed 8", "system is 'fixed 8': games is 8"),
+        ("level-review lowest=-3", "lowest is -3"),
+        ("fargo-like starter=nan", "starter is nan"),
+        ("napa-like newcomer=inf", "newcomer is inf"),
     ],
 )
 def test_what_names_no_system_is_told_with_what_does(written, message):

@@ -40,7 +40,7 @@ def level_ladder_answer(
     >>> from evenbreak.handicaps import system_of
     >>> answer = level_ladder_answer(system_of("level-steps"), None, 3)
     >>> print(answer.sentences[0])
-    In the long run players are at the level that they are as strong as 64% of the time, and one \
+    In the long run players are at the level that fits their strength 64% of the time, and one \
 level off 34% of the time.
     """
     chart: Any = system.chart
@@ -97,7 +97,7 @@ def _in_words(rows: Sequence[tuple[float, ...]], share: Sequence[float]) -> Iter
         for k in (2, 3)
     )
     yield (
-        f"In the long run players are at the level that they are as strong as {percent(right)} of "
+        f"In the long run players are at the level that fits their strength {percent(right)} of "
         f"the time, and one level off {percent(near)} of the time."
     )
     worst = max(rows, key=lambda row: abs(row[5] - 0.5))

@@ -73,7 +73,7 @@ def dumping_answer(
     )
     how = (
         f"Played in {leagues:,} leagues for each number of matches dumped, all with the same "
-        "draws; 'give or take' is a standard deviation of the mean."
+        "random numbers; 'give or take' is one standard error."
         if leagues
         else "Exact: nothing is simulated."
     )
@@ -88,7 +88,11 @@ def dumping_answer(
         [
             first,
             f"After {count_of(lower.dumped, 'match', 'matches')} lost on purpose the {kind} is "
-            f"{abs(lower.published):.3g} lower than an honest player's.",
+            + (
+                f"{-lower.published:.3g} lower than an honest player's."
+                if lower.published < 0.0
+                else "no lower than an honest player's."
+            ),
             Table("", columns, cells),
             how,
         ],

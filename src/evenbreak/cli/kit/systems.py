@@ -99,14 +99,24 @@ def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
             refuse(f"{file.source} states no skill level, which {whose} moves; add a column level")
         return
     if file.scale is None:
-        refuse_levels(file, f"{whose} needs ratings in points; give a list of those")
+        refuse_levels(
+            file,
+            f"{whose} needs ratings in points; use a system of levels, such as "
+            "--system level-steps",
+        )
     if system.scale is not None:
         refuse_other_scale(
             file, system.scale, whose, "give another --system, or state the scale in a column scale"
         )
 
 
-def refuse_levels(file: files.RosterFile | files.SeasonPlayers, remedy: str) -> None:
+SAY_LEVELS = (
+    "use a chart by skill level, such as --chart apa_8ball, or say with --scale how many levels "
+    "double the odds"
+)
+
+
+def refuse_levels(file: files.RosterFile | files.SeasonPlayers, remedy: str = SAY_LEVELS) -> None:
     """Refuse a list of skill levels where ratings in points are needed."""
     if file.levels:
         refuse(

@@ -149,11 +149,7 @@ def _scale_of_list(
         return stated
     if file.scale is not None:
         return file.scale
-    refuse_levels(
-        file,
-        "add a chart by skill level, such as --chart apa_8ball, or say with --scale how many "
-        "levels double the odds",
-    )
+    refuse_levels(file)
     made_for = _scale_of_chart(of_league)
     if of_league is None or made_for is None:
         return file.scale_by(None, SAY_WHICH)

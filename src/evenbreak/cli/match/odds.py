@@ -273,9 +273,7 @@ def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
             file, scale, "--scale", "leave --scale out, or correct the file", stated=True
         )
     elif file.scale is None:
-        refuse_levels(
-            file, "give --chart apa_8ball or such, or say with --scale how many double the odds"
-        )
+        refuse_levels(file)
     points = file.scale_by(scale, SAY_WHICH)
     roster = file.roster.with_starters(points.centre, points.points_per_doubling, points)
     places = find_players(roster, names, said="--from", where=file.source)

@@ -356,7 +356,7 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
                 each.file, stated, "--scale", "leave --scale out, or correct the file", stated=True
             )
         else:
-            refuse_levels(each.file, "say with --scale how many levels double the odds")
+            refuse_levels(each.file)
     scales = [each.file.scale for each in lists if each.file.scale is not None]
     if any(not scales[0].same_points(other) for other in scales[1:]):
         sources = " and ".join(dict.fromkeys(each.file.source for each in lists))

@@ -15,7 +15,7 @@ from evenbreak.handicaps.systems.elo import elo_system
 from evenbreak.handicaps.systems.fargo_like import FargoLike
 from evenbreak.handicaps.systems.fixed import fixed_length_system
 from evenbreak.handicaps.systems.level_review import LevelReview, apa_like, tap_like
-from evenbreak.handicaps.systems.level_steps import LevelSteps
+from evenbreak.handicaps.systems.level_steps import level_steps
 from evenbreak.handicaps.systems.margin import margin_system
 from evenbreak.handicaps.systems.napa_like import NapaLike
 from evenbreak.handicaps.systems.none import NoHandicap
@@ -59,7 +59,7 @@ FAMILIES: Mapping[str, _Family] = MappingProxyType(
         "level-review": _Family("level-review", LevelReview, (0, 0)),
         "apa-like": _Family("apa-like", apa_like, (0, 0)),
         "tap-like": _Family("tap-like", tap_like, (0, 0)),
-        "level-steps": _Family("level-steps [STEPS]", LevelSteps, (0, 1)),
+        "level-steps": _Family("level-steps [STEPS]", level_steps, (0, 1)),
         "averages": _Family("averages", Averages, (0, 0)),
         "win-percent": _Family("win-percent", WinPercent, (0, 0)),
         "napa-like": _Family("napa-like", NapaLike, (0, 0)),
@@ -107,7 +107,7 @@ def system_of(name: Any) -> System:
     if word is None:
         return _added(name, written)
     family = FAMILIES[word]
-    rest = re.split(r"\s+|-", written[len(word) :])[1:]
+    rest = re.split(r"\s+|(?<![=e])-", written[len(word) :])[1:]
     options = dict(part.split("=", 1) for part in rest if "=" in part)
     numbers = [part for part in rest if "=" not in part]
     fewest, most = family.numbers
@@ -130,8 +130,8 @@ _BY_LENGTH = sorted(FAMILIES, key=len, reverse=True)
 
 
 def _spelled(word: str) -> re.Pattern[str]:
-    """Return how a name may be written: with blanks or hyphens between its words."""
-    return re.compile(word.replace("-", r"[\s-]") + r"(?![^\s-])")
+    """Return how a name may be written: with blanks, hyphens or underscores in it."""
+    return re.compile(word.replace("-", r"[\s_-]") + r"(?![^\s-])")
 
 
 def _with_options(system: System, options: Mapping[str, str], name: str) -> System:

@@ -109,6 +109,7 @@ class FargoLike(System):
         number(self.pseudo_games, "pseudo_games", above=0.0, high=1e6)
         whole(self.established, "established", at_least=0)
         whole(self.past, "past", at_least=0)
+        number(self.starter, "starter", low=-1e4, high=1e4)
         if self.games is not None:
             _of_games(self.games)
 

@@ -211,14 +211,20 @@ class History:
 
     @property
     def matches_before(self) -> Ints:
-        """How many matches each had played before the last night; a million if not stated."""
+        """How many matches each had played before the last night.
+
+        Where the list does not state them: a million, or none for a player whom it states nothing
+        about.
+        """
+        unknown = np.isnan(self.entries.rating) & np.isnan(self.entries.level)
+        usual = column_of(np.where(unknown, 0, ESTABLISHED), self.initial.shape)
         stated = column_of(self.entries.matches, self.initial.shape)
         tonight = np.zeros(self.initial.size)
         for who in (self.tonight.a, self.tonight.b):
             place = positions(who, self.initial.shape)[self.tonight.played]
             tonight += np.bincount(place, minlength=tonight.size)
         so_far = self.counts("matches", lambda _: 1) - tonight.reshape(self.initial.shape)
-        return np.where(stated < 0, ESTABLISHED, stated) + so_far.astype(np.int64)
+        return np.where(stated < 0, usual, stated) + so_far.astype(np.int64)
 
     def one(self, replica: int) -> History:
         """Return the history of one replica: arrays without an axis for replicas."""

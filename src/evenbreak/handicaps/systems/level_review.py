@@ -107,6 +107,9 @@ class LevelReview(System):
         number(self.result, "result", low=0.0, high=1.0)
         number(self.hysteresis, "hysteresis", low=0.0, high=0.5)
         whole(self.most_change, "most_change", at_least=1)
+        whole(self.newcomer, "newcomer", at_least=0)
+        if self.lowest is not None:
+            whole(self.lowest, "lowest", at_least=0)
         one_of(self.score, "score", ("games", "innings"))
 
     @property

@@ -56,6 +56,7 @@ class LevelSteps(MarkovSystem):
     def __post_init__(self) -> None:
         whole(self.steps, "steps", at_least=1, at_most=100)
         whole(self.entry, "entry", at_least=1, at_most=self.steps)
+        whole(self.newcomer, "newcomer", at_least=0)
 
     @property
     def in_words(self) -> str:  # type: ignore[override]
@@ -91,3 +92,12 @@ class LevelSteps(MarkovSystem):
         """Return the stated levels, and the newcomers' for the others."""
         stated = np.where(np.isnan(entries.level), self.newcomer, entries.level)
         return nearest_level(self.chart, stated)
+
+
+def level_steps(steps: int = 10) -> LevelSteps:
+    """Return levels of so many steps; who is promoted enters at the third, or the last of fewer.
+
+    >>> level_steps(2).entry
+    2
+    """
+    return LevelSteps(steps, min(3, whole(steps, "steps", at_least=1)))

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.arrays import Floats, Ints
-from evenbreak.checks import number
+from evenbreak.checks import number, whole
 from evenbreak.handicaps.systems.history import Entries, History, positions
 from evenbreak.handicaps.systems.system import System
 from evenbreak.matches.win import race_win_probability
@@ -76,6 +76,8 @@ class NapaLike(System):
     def __post_init__(self) -> None:
         number(self.k, "k", low=0.0, high=100.0)
         number(self.provisional, "provisional", low=0.0, high=10.0)
+        whole(self.matches, "matches", at_least=0)
+        number(self.newcomer, "newcomer", low=0.0, high=1e4)
 
     def initial(self, entries: Entries) -> Floats:
         """Return the stated ratings; a level becomes ten times the level and 10 more."""

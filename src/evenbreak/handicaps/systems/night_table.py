@@ -18,7 +18,7 @@ from evenbreak.handicaps.systems.by_match import StepSystem
 from evenbreak.handicaps.systems.history import Entries, History, Matches, joined
 from evenbreak.handicaps.systems.system import System, checked_races, checked_ratings, updated
 from evenbreak.ratings.results import Results, who_won
-from evenbreak.ratings.roster import Roster
+from evenbreak.ratings.roster import NOT_STATED, Roster
 
 
 class NightTable(NamedTuple):
@@ -132,13 +132,18 @@ class SeasonSoFar:
         a, b = night.a[rows], night.b[rows]
         race_a: Any = results.race_a
         race_b: Any = results.race_b
+        score_a, score_b = results.score_a, results.score_b
+        if results.unscored is not None:  # the winner is known, and stands for the score
+            winner = np.where(results.unscored, night.winner, 0)
+            score_a = np.where(winner == 1, np.maximum(race_a, 1), score_a)
+            score_b = np.where(winner == 2, np.maximum(race_b, 1), score_b)
         self.nights.append(
             Matches.of_night(
                 len(self.nights) + 1,
                 a,
                 b,
-                results.score_a[rows],
-                results.score_b[rows],
+                score_a[rows],
+                score_b[rows],
                 race_a[rows],
                 race_b[rows],
                 self.ratings[a],
@@ -168,9 +173,17 @@ class SeasonSoFar:
 
 
 def listed(system: System, roster: Roster) -> Roster:
-    """Return a list as a system publishes it before the first night, with newcomers' numbers."""
+    """Return a list as a system publishes it before the first night, with newcomers' numbers.
+
+    A player without a number on the list has played no match, unless the list states some.
+    """
     if isinstance(system, StepSystem):
         return roster
+    new = np.isnan(published(system, roster))
+    games, matches = (
+        np.where(new & (played == NOT_STATED), 0, played)
+        for played in (roster.games, roster.matches)
+    )
     numbers = checked_ratings(system, system.initial(_entries(roster)), (len(roster),), "initial")
     levels = system.publishes == "levels"
     rating = numbers if not levels or levels_alone(roster) else roster.rating
@@ -178,9 +191,9 @@ def listed(system: System, roster: Roster) -> Roster:
         roster.players,
         rating,
         roster.standard_error,
-        roster.games,
+        games,
         component=roster.component,
-        matches=roster.matches,
+        matches=matches,
         provisional=roster.provisional,
         level=numbers if levels else roster.level,
     )
