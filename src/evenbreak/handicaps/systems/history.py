@@ -224,7 +224,8 @@ class History:
             place = positions(who, self.initial.shape)[self.tonight.played]
             tonight += np.bincount(place, minlength=tonight.size)
         so_far = self.counts("matches", lambda _: 1) - tonight.reshape(self.initial.shape)
-        return np.where(stated < 0, usual, stated) + so_far.astype(np.int64)
+        before: Ints = np.where(stated < 0, usual, stated) + so_far.astype(np.int64)
+        return before
 
     def one(self, replica: int) -> History:
         """Return the history of one replica: arrays without an axis for replicas."""
