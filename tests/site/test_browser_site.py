@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from datetime import date
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +15,11 @@ from evenbreak.files.store.folder import write_files
 from evenbreak.handicaps import chart
 from evenbreak.handicaps.charts.level_chart import level_chart, points_chart
 from evenbreak.handicaps.charts.level_skills import level_skills
+from evenbreak.league.tables.fixtures import Fixture
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import SCALES
 from evenbreak.site.names import PublicNames
-from evenbreak.site.pages import Fixture, site_files
+from evenbreak.site.pages import site_files
 from evenbreak.site.races import LeagueRaces
 from evenbreak.site.tournaments import tournament_of
 from published_leagues import published
@@ -92,7 +94,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     league = published(by_player={"Bo Diaz": "initials"})
     tournament = tournament_of("fall-open", night(8, "double", 99), league.names)
     assert tournament is not None
-    fixtures = [Fixture("2025-09-23", "Corner, table 2", "Ann Lee", "José Álvarez")]
+    fixtures = [Fixture(1, "Ann Lee", "José Álvarez", date(2025, 9, 23), "Corner", 2)]
     write_files(folder, site_files(league, [tournament], fixtures))
     return folder
 

@@ -6,6 +6,7 @@ import io
 import json
 import posixpath
 import re
+from datetime import date
 from html import unescape
 from html.parser import HTMLParser
 
@@ -17,11 +18,12 @@ from evenbreak.answers.league.sheet import matchups_frame
 from evenbreak.answers.league.why import matches_behind
 from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps import chart
+from evenbreak.league.tables.fixtures import Fixture
 from evenbreak.league.tables.table import league_table, player_matches
 from evenbreak.ratings import Results, fit
 from evenbreak.ratings.usual import rated_alike
 from evenbreak.site.league import WEEK
-from evenbreak.site.pages import MOST_BYTES, Fixture, site_files
+from evenbreak.site.pages import MOST_BYTES, site_files
 from evenbreak.site.tournaments import tournament_of
 from leagues import HOSTILE
 from published_leagues import PLAYERS, published, season
@@ -36,7 +38,7 @@ def league():
 @pytest.fixture(scope="module")
 def files(league):
     return site_files(
-        league, fixtures=[Fixture("2025-09-23", "Corner, table 2", "Ann Lee", "Bo Diaz")]
+        league, fixtures=[Fixture(1, "Ann Lee", "Bo Diaz", date(2025, 9, 23), "Corner", 2)]
     )
 
 
@@ -71,7 +73,9 @@ def test_nothing_is_fetched_from_elsewhere(files) -> None:
 def test_the_same_league_gives_the_same_bytes(files) -> None:
     again = published(season())
     assert (
-        site_files(again, fixtures=[Fixture("2025-09-23", "Corner, table 2", "Ann Lee", "Bo Diaz")])
+        site_files(
+            again, fixtures=[Fixture(1, "Ann Lee", "Bo Diaz", date(2025, 9, 23), "Corner", 2)]
+        )
         == files
     )
 
@@ -166,7 +170,7 @@ def test_provisional_players_are_last_and_have_no_place() -> None:
     league = published(
         first.joined(late) if first.players == late.players else _joined(first, late)
     )
-    assert [(one.place, one.player) for one in league.rated][-1] == ("", "Late Comer")
+    assert [(one.place, one.player) for one in league.rated][-1] == (None, "Late Comer")
     assert b"Provisional" in site_files(league)["ratings.html"]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated
 
 from evenbreak.fields.kinds import File, Named
 from evenbreak.fields.question import Field, Says
@@ -19,7 +19,7 @@ from evenbreak.questions.common import (
     title_in,
 )
 from evenbreak.questions.results import ROSTER, Results
-from evenbreak.questions.tables import TablePoints, Ties
+from evenbreak.questions.tables import TablePoints, TeamScore, TeamsFile, Ties
 
 _LOOK = "The look"
 
@@ -67,7 +67,7 @@ class Publish(Results, Lengths):
         Field(
             File("FIXTURES.csv"),
             "Who plays whom, as `evenbreak league fixtures` writes it; the site has the matches "
-            "after the last result.",
+            "that are still to be played.",
         ),
     ] = None
     tournaments: Annotated[
@@ -78,13 +78,15 @@ class Publish(Results, Lengths):
             "that are over are shown with their brackets.",
         ),
     ] = None
+    teams: TeamsFile = None
+    count: TeamScore = "sets"
     table_points: TablePoints = USUAL_RULES
     ties: Ties = USUAL_RULES.ties
     title: Annotated[str, Field(Named(title_in, "TEXT"), "The league's name.", section=_LOOK)] = (
         "League"
     )
     naming: Annotated[
-        Literal["full", "initials", "hidden"],
+        values.Shown,
         Field(values.NAMES, "How players are named.", option="names", section=_LOOK),
     ] = "full"
     color: Annotated[

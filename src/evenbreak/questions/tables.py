@@ -8,9 +8,9 @@ from datetime import time as daytime
 from typing import Annotated, Literal, TypeAlias
 
 from evenbreak.errors import InputError
-from evenbreak.fields.kinds import Choice, File, Flag, Named, Text, Whole
+from evenbreak.fields.kinds import Choice, File, Named, Text, Whole
 from evenbreak.fields.question import Field, Says
-from evenbreak.files.league.values import TABLE_POINTS, TIES
+from evenbreak.files.league.values import COUNT, TABLE_POINTS, TIES
 from evenbreak.league.tables.fixtures import MOST_MEETINGS
 from evenbreak.league.tables.rules import USUAL_RULES, TableRules
 from evenbreak.questions.results import Day, Reading, Results
@@ -104,6 +104,23 @@ Ties: TypeAlias = Annotated[
     ),
 ]
 
+TeamScore: TypeAlias = Annotated[
+    str,
+    Field(
+        COUNT,
+        "A team's score: the sets its players won, or all their games. Match points come from "
+        "{table_points}.",
+    ),
+]
+TeamsFile: TypeAlias = Annotated[
+    str | None,
+    Field(
+        File("TEAMS.csv"),
+        "All teams or players, with points they have besides.",
+        more="The columns are `team` (or `name`) and, for deductions, bonuses and byes, `points`.",
+    ),
+]
+
 
 @dataclass(frozen=True, kw_only=True)
 class LeagueTable(Results):
@@ -138,19 +155,8 @@ class LeagueTable(Results):
             "Count matches at home, away, or both; the first named is at home.",
         ),
     ] = "both"
-    count_games: Annotated[
-        bool,
-        Field(Flag(), "A team's score is the games its players won.", usual="the sets they won"),
-    ] = False
-    teams: Annotated[
-        str | None,
-        Field(
-            File("TEAMS.csv"),
-            "All teams or players, with points they have besides.",
-            more="The columns are `team` (or `name`) and, for deductions, bonuses and byes, "
-            "`points`.",
-        ),
-    ] = None
+    count: TeamScore = "sets"
+    teams: TeamsFile = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -30,7 +30,7 @@ from evenbreak.questions.common import (
     Sure,
 )
 from evenbreak.questions.results import Columns
-from evenbreak.questions.tables import TablePoints, Ties
+from evenbreak.questions.tables import TablePoints, TeamsFile, Ties
 from evenbreak.teams.set_laws import COUNTS
 from evenbreak.tournaments.evening.format import Discipline, Tables
 from evenbreak.words import say
@@ -414,20 +414,9 @@ class Season(Question):
         int | None, Field(_SETS, "A match goes to the first to win N sets.", rare=True)
     ] = None
     columns: Columns = ()
-    teams: Annotated[
-        str | None,
-        Field(
-            File("TEAMS.csv"),
-            "All teams, with points they have besides.",
-            section=_TABLE,
-            more="The columns are `team` and, for deductions and bonuses, `points`.",
-        ),
-    ] = None
+    teams: Annotated[TeamsFile, Says(section=_TABLE)] = None
     table_points: Annotated[TablePoints, Says(section=_TABLE)] = USUAL_RULES
-    ties: Annotated[
-        Ties,
-        Says(section=_TABLE),
-    ] = USUAL_RULES.ties
+    ties: Annotated[Ties, Says(section=_TABLE)] = USUAL_RULES.ties
     sure: Annotated[
         Sure,
         Says("Take the strengths as right, instead of averaging over them.", section=_WORK),

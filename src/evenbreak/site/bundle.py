@@ -55,7 +55,9 @@ def bundle(league: PublishedLeague, pages: Iterable[str]) -> dict[str, bytes]:
     return {**written, MANIFEST: text.encode()}
 
 
-_OURS = re.compile(r"(?:players/)?[a-z0-9-]+\.html|logo\.(?:png|jpg|webp)|[a-z]+\.csv", re.ASCII)
+_OURS = re.compile(
+    r"(?:players/)?[a-z0-9-]+\.html|logo\.(?:png|jpg|webp)|data/[a-z]+\.csv", re.ASCII
+)
 
 
 def files_of(manifest: bytes) -> set[str]:
@@ -70,10 +72,11 @@ def files_of(manifest: bytes) -> set[str]:
     ['data/races.csv', 'index.html']
     """
     read = json.loads(manifest)
-    if not isinstance(read, dict):
-        raise ValueError("the manifest is no table")
-    pages = [one for one in read.get("pages", ()) if isinstance(one, str) and _OURS.fullmatch(one)]
-    return {*pages, *(f"data/{one}" for one in read.get("files", ()) if _OURS.fullmatch(one))}
+    parts = [read.get("pages"), read.get("files")] if isinstance(read, dict) else []
+    if list(map(type, parts)) != [list, dict]:
+        raise ValueError("this is not the manifest of a site")
+    names = [*parts[0], *(f"data/{one}" for one in parts[1])]
+    return {one for one in names if isinstance(one, str) and _OURS.fullmatch(one)}
 
 
 def _standings(table: LeagueTable) -> pd.DataFrame:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
@@ -15,7 +15,13 @@ from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.answers.league.sheet import places_in_list
 from evenbreak.answers.league.why import OneMore, Standing, one_more_match
 from evenbreak.league.tables.rules import TableRules
-from evenbreak.league.tables.table import LeagueTable, league_table, player_matches, team_matches
+from evenbreak.league.tables.table import (
+    LeagueTable,
+    TableMatches,
+    league_table,
+    player_matches,
+    team_matches,
+)
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.results import Results, who_won
@@ -48,9 +54,9 @@ class Played(NamedTuple):
 
 
 class Rated(NamedTuple):
-    """A player's line in the list of ratings; `place` is '' of a provisional one."""
+    """A player's line in the list of ratings; `place` is None of a provisional one."""
 
-    place: str
+    place: int | None
     player: str
     rating: float
     error: float
@@ -74,8 +80,9 @@ class PublishedLeague:
         what the players are called, and how that was chosen.
     accent, logo
         the color, and the name and the content of the logo, if there is one.
-    rules
-        those of the standings.
+    rules, head_start, count_games
+        those of the standings, the points that sides have besides their matches, and whether a
+        team's score is the games of its players.
     """
 
     title: str
@@ -86,6 +93,8 @@ class PublishedLeague:
     accent: Accent
     logo: tuple[str, bytes] | None = None
     rules: TableRules = field(default_factory=TableRules)
+    head_start: Mapping[str, float] = field(default_factory=dict)
+    count_games: bool = False
 
     @cached_property
     def pages(self) -> dict[str, str]:
@@ -110,28 +119,10 @@ class PublishedLeague:
         days = np.unique(dates[self.results.counted])
         return list(days[~np.isnat(days)])
 
-    @property
-    def teams(self) -> set[str]:
-        """The teams that the results name."""
-        columns = (self.results.team_a, self.results.team_b)
-        return {str(name) for column in columns if column is not None for name in column} - {""}
-
     @cached_property
     def rated(self) -> list[Rated]:
         """The list of ratings, provisional ones last."""
-        ratings, order = self.ratings, self.ratings.strongest_first()
-        places = places_in_list(ratings.provisional[order])
-        return [
-            Rated(
-                "" if place.startswith("P") else place,
-                ratings.players[k],
-                float(ratings.rating[k]),
-                float(ratings.standard_error[k]),
-                int(ratings.games[k] + ratings.races_won[k] + ratings.races_lost[k]),
-                bool(ratings.provisional[k]),
-            )
-            for place, k in zip(places, order, strict=True)
-        ]
+        return list(_rated(self.ratings))
 
     @cached_property
     def winner(self) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
@@ -240,7 +231,7 @@ class PublishedLeague:
     @cached_property
     def standings(self) -> LeagueTable:
         """The standings of the players."""
-        return league_table(player_matches(self.results), self.rules)
+        return self._table(player_matches(self.results))
 
     @cached_property
     def team_standings(self) -> LeagueTable | None:
@@ -248,47 +239,52 @@ class PublishedLeague:
         teams = self.results.team_a
         if teams is None or not (teams != "").any():
             return None
-        return league_table(team_matches(self.results, rules=self.rules), self.rules)
+        counted = team_matches(self.results, count_games=self.count_games, rules=self.rules)
+        return self._table(counted)
+
+    def _table(self, matches: TableMatches) -> LeagueTable:
+        start = [self.head_start.get(name, 0.0) for name in matches.names]
+        return league_table(matches, self.rules, head_start=start)
 
     @cached_property
     def changes(self) -> pd.DataFrame:
         """How ratings and places have changed since a week before the last match."""
-        before = self.week_before
-        frame: list[dict[str, object]] = []
-        earlier = {} if before is None else _places(before)
-        played = dict.fromkeys(self.results.players, 0)
-        if self.days:
-            since = self.days[-1] - WEEK
-            for row in self.rows:
-                if self.results.date is not None and self.results.date[row] > since:
-                    for seat in (self.results.player_a[row], self.results.player_b[row]):
-                        played[self.results.players[int(seat)]] += 1
-        for one in self.rated:
-            was = earlier.get(one.player)
-            frame.append(
-                {
-                    "player": one.player,
-                    "rating_before": None if was is None else was[1],
-                    "rating": one.rating,
-                    "change": None if was is None else one.rating - was[1],
-                    "place_before": None if was is None else was[0],
-                    "place": int(one.place) if one.place else None,
-                    "matches_since": played[one.player],
-                }
-            )
-        made = pd.DataFrame(frame)
-        whole = dict.fromkeys(("place_before", "place"), "Int64")
-        return made.astype(whole) if len(made) else made
-
-
-def _places(ratings: Ratings) -> Mapping[str, tuple[int | None, float]]:
-    """Return the place and the rating of everybody who has played; None: provisional."""
-    order: Sequence[int] = [k for k in ratings.strongest_first() if not ratings.idle[k]]
-    places: Iterator[str] = iter(places_in_list(ratings.provisional[order]))
-    return {
-        ratings.players[k]: (
-            None if place.startswith("P") else int(place),
-            float(ratings.rating[k]),
+        before, results = self.week_before, self.results
+        earlier = {} if before is None else {one.player: one for one in _rated(before)}
+        played = np.zeros(len(results.players), dtype=int)
+        if results.date is not None and self.days:
+            rows = results.counted & (results.date > self.days[-1] - WEEK)
+            np.add.at(played, np.concatenate([results.player_a[rows], results.player_b[rows]]), 1)
+        since = dict(zip(results.players, played.tolist(), strict=True))
+        columns = ("player", "rating_before", "rating", "change", "place_before", "place")
+        made = pd.DataFrame(
+            [
+                (
+                    one.player,
+                    was and was.rating,
+                    one.rating,
+                    was and one.rating - was.rating,
+                    was and was.place,
+                    one.place,
+                    since[one.player],
+                )
+                for one in self.rated
+                for was in [earlier.get(one.player)]
+            ],
+            columns=[*columns, "matches_since"],
         )
-        for k, place in zip(order, places, strict=True)
-    }
+        return made.astype(dict.fromkeys(("place_before", "place"), "Int64"))
+
+
+def _rated(ratings: Ratings) -> Iterator[Rated]:
+    """Yield the players of a list of ratings who have played, provisional ones last."""
+    order = [k for k in ratings.strongest_first() if not ratings.idle[k]]
+    for place, k in zip(places_in_list(ratings.provisional[order]), order, strict=True):
+        yield Rated(
+            None if place.startswith("P") else int(place),
+            ratings.players[k],
+            float(ratings.rating[k]),
+            float(ratings.standard_error[k]),
+            int(ratings.games[k] + ratings.races_won[k] + ratings.races_lost[k]),
+            bool(ratings.provisional[k]),
+        )

@@ -11,20 +11,14 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
 
 import numpy as np
 
 from evenbreak.errors import DataError
+from evenbreak.files.league.values import NAMES, Shown
 from evenbreak.files.tables.names import KnownNames, clean_name, same_name
 from evenbreak.files.tables.problems import quoted
 from evenbreak.ratings.results import Results
-
-Shown = Literal["full", "initials", "hidden"]
-"""How a player is named."""
-
-STRICTEST: tuple[Shown, ...] = get_args(Shown)
-"""From the most to the least that is shown."""
 
 _LONGEST = 48  # letters of a file's name
 _RESERVED = {"con", "prn", "aux", "nul", *(f"{d}{n}" for d in ("com", "lpt") for n in range(10))}
@@ -108,7 +102,7 @@ class PublicNames:
         taken = {name.casefold() for name, way in ways.items() if way == "full"}
         for number, (name, way) in enumerate(ways.items(), 1):
             names[name] = name if way == "full" else _unlike(_short(name, way, number), taken)
-        strictest = max((usual, *chosen.values()), key=STRICTEST.index)
+        strictest = max((usual, *chosen.values()), key=[*NAMES.of].index)
         return cls(names, ways, means, strictest)
 
     def __getitem__(self, name: str) -> str:

@@ -10,7 +10,7 @@ import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from evenbreak.answers.kit.scales import like_scale_words
 from evenbreak.answers.league.rate import unlinked_words
 from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.answers.league.standings import rules_words
+from evenbreak.league.tables.fixtures import Fixture
 from evenbreak.league.tables.table import LeagueTable
 from evenbreak.sheets.bracket_page import drawn_panel
 from evenbreak.sheets.html_page import environment, own_file, policy
@@ -46,15 +47,6 @@ _TABLES = {
     "changes.csv": "What has changed in a week",
     "manifest.json": "What is in these files, with a checksum of each",
 }
-
-
-class Fixture(NamedTuple):
-    """A match that is to be played: its day ('' where not known), where, and between whom."""
-
-    day: str
-    where: str
-    a: str
-    b: str
 
 
 def site_files(
@@ -91,6 +83,7 @@ class _Pages:
     ) -> None:
         self.league, self.played, self.fixtures = league, tournaments, fixtures
         days = league.days
+        self.last = str(days[-1]) if days else ""
         self.year = len(days) > 1 and bool((days[-1] - days[0]).astype(int) > 300)
         self.tabs = [
             ("index.html", "Standings"),
@@ -163,7 +156,8 @@ class _Pages:
             games = f"{table.scored[k]}-{table.conceded[k]}"
             rows.append((table.place[k], name, figures, games, f"{table.points[k]:g}", form))
         counted = ["Won", *(["Drawn"] if drawn else []), "Lost"]
-        return {"who": who, "counted": counted, "rows": rows, "players": players}
+        games = "Games" if players or self.league.count_games else "Sets"
+        return {"who": who, "counted": counted, "rows": rows, "players": players, "games": games}
 
     def _last_night(self) -> dict[str, Any] | None:
         league, results = self.league, self.league.results
@@ -224,19 +218,22 @@ class _Pages:
 
     def _tonight(self) -> dict[str, Any] | None:
         """Return the races of the next night, where its players are known."""
-        days = sorted({one.day for one in self.fixtures if one.day})
-        rows = [self._to_play(one) for one in self.fixtures if days and one.day == days[0]]
+        days = sorted(
+            {str(one.date) for one in self.fixtures if one.date and str(one.date) > self.last}
+        )
+        rows = [self._to_play(one) for one in self.fixtures if days and str(one.date) == days[0]]
         if not any(row["race"] for row in rows):
             return None
         title = f"Races on {short_day(days[0], year=True)}"
         return {"title": title, "rows": rows, "placed": any(row["where"] for row in rows)}
 
     def _to_play(self, one: Fixture) -> dict[str, str]:
-        race = self.league.races.by_pair.get((one.a, one.b))
+        race = self.league.races.by_pair.get((one.home, one.away))
+        table = f"table {one.table}" if one.table else ""
         return {
-            "where": one.where,
-            "a": one.a,
-            "b": one.b,
+            "where": ", ".join(filter(None, [one.venue, table])),
+            "a": one.home,
+            "b": one.away,
             "race": f"{race[0]}-{race[1]}" if race else "",
             "chance": _percent(race[2]) if race else "",
         }
@@ -245,10 +242,11 @@ class _Pages:
         """Return the page of fixtures, night by night."""
         days: dict[str, list[dict[str, str]]] = {}
         for one in self.fixtures:
-            days.setdefault(one.day, []).append(self._to_play(one))
+            days.setdefault(str(one.date or ""), []).append(self._to_play(one))
         nights = [
             {
-                "title": short_day(day, year=True) or "No date yet",
+                "title": (short_day(day, year=True) or "No date yet")
+                + ", postponed" * ("" < day <= self.last),
                 "rows": rows,
                 "placed": any(row["where"] for row in rows),
                 "raced": any(row["race"] for row in rows),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pandas as pd
@@ -95,6 +96,33 @@ def test_a_player_who_wants_to_be_hidden_loses_the_page(run, folder: Path) -> No
     site = content_of(folder / "site")
     assert not any(b"Ann Lee" in content or "ann-lee" in name for name, content in site.items())
     assert site["mine.html"] == b"kept"
+
+
+def test_the_standings_have_the_deductions_of_the_leagues_table(run, folder: Path) -> None:
+    text = (folder / "league.toml").read_text()
+    (folder / "league.toml").write_text(text.replace("[files]", '[files]\nteams = "teams.csv"'))
+    (folder / "teams.csv").write_text("name,points\nAnn  LEE,-90\n")
+    assert run("publish").exit_code == 0
+    last = (folder / "site/data/standings.csv").read_text().splitlines()[-1].split(",")
+    rows = json.loads(run("league", "table", "--json").stdout)["table"]
+    assert (last[1], float(last[-1])) == ("Ann Lee", rows[-1]["points"])
+
+
+def test_a_match_that_was_not_played_on_its_day_is_postponed(run, folder: Path) -> None:
+    with (folder / "fixtures.csv").open("a") as more:
+        more.write("Bo Diaz,Newcomer,2025-09-09,4\nAnn Lee,Bo Diaz,2025-09-09,5\n")
+    run("publish")
+    page = (folder / "site/fixtures.html").read_text()
+    assert "Sep 9, 2025, postponed" in page
+    assert "table 4" in page
+    assert "table 5" not in page
+
+
+@pytest.mark.parametrize("manifest", ["[]", '{"pages": null, "files": [3]}', '{"pages": 4}'])
+def test_a_manifest_of_another_kind_is_no_reason_to_replace(run, folder: Path, manifest) -> None:
+    (folder / "site/data").mkdir(parents=True)
+    (folder / "site/data/manifest.json").write_text(manifest)
+    assert "was not made by an earlier run" in " ".join(run("publish").stderr.split())
 
 
 def test_a_page_of_somebody_elses_is_not_replaced(run, folder: Path) -> None:

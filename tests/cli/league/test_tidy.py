@@ -77,3 +77,17 @@ def test_what_is_written_is_read_as_the_same_results(tmp_path):
     assert results_frame(again).equals(results_frame(results))
     for name in ("score_a", "race_b", "winner", "racks", "forfeit", "unscored", "break_format"):
         assert getattr(again, name).tolist() == getattr(results, name)[order].tolist(), name
+
+
+def test_nothing_is_written_over_the_files_that_the_league_names(office, run):
+    before = (office / "a.csv").read_bytes()
+    done = run("league", "tidy", "--out", "a.csv")
+    assert done.exit_code == 2
+    assert "would be overwritten" in done.stderr
+    assert (office / "a.csv").read_bytes() == before
+
+
+def test_a_leagues_file_of_another_name_is_the_one_that_is_read(office, run):
+    (office / "spring.toml").write_text('[[results]]\nfile = "b.csv"\n')
+    done = json.loads(run("league", "tidy", "--league", "spring.toml", "--json").stdout)
+    assert [one["file"] for one in done["sources"]] == ["b.csv"]

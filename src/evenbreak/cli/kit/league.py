@@ -68,16 +68,17 @@ def league_in(ctx: click.Context) -> LeagueFile | None:
     return league
 
 
-def league_of_command() -> LeagueFile:
-    """Return the league of a command that needs one, or refuse to run without it."""
-    league = league_in(click.get_current_context())
+def files_read(ctx: click.Context) -> tuple[str, ...]:
+    """Return the file of the league from which a command has taken something, and those it names.
+
+    Nothing is written over them: they are what a person has typed.
+    """
+    league: LeagueFile | None = ctx.meta.get(_READ)
     if league is None:
-        raise click.UsageError(
-            "this folder has no league.toml; write one with `evenbreak league init`, or name the "
-            f"league's folder with {LEAGUE}",
-            ctx=click.get_current_context(),
-        )
-    return league
+        return ()
+    named = [vars(league.files).values(), [one.file for one in league.results]]
+    named.append([league.chart, league.publish.logo])
+    return str(league.path), *(league.place(one) for part in named for one in part if one)
 
 
 def defaults(question: type, typed: Mapping[str, Any], ctx: click.Context) -> dict[str, Any]:

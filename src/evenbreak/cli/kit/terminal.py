@@ -66,10 +66,13 @@ _MOST_NAMED = 12
 
 
 def _named_by(place: Path) -> Iterator[str]:
-    """Yield the arguments and options of the command that name this file, if it exists."""
+    """Yield the files that the command has been given, or its league names, which are this one."""
+    from evenbreak.cli.kit.league import files_read
+
     if not place.exists():
         return
-    for value in click.get_current_context().params.values():
+    ctx = click.get_current_context()
+    for value in (*ctx.params.values(), files_read(ctx)):
         for given in value if isinstance(value, tuple) else (value,):
             if isinstance(given, str) and Path(given).is_file() and place.samefile(given):
                 yield given

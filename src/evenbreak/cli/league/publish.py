@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,13 +23,13 @@ from evenbreak.words import FilePath
 
 if TYPE_CHECKING:
     from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+    from evenbreak.league.tables.fixtures import Fixture
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.results import Results
     from evenbreak.ratings.roster import Roster
     from evenbreak.ratings.scale import Scale
     from evenbreak.site.league import PublishedLeague
     from evenbreak.site.names import PublicNames
-    from evenbreak.site.pages import Fixture
     from evenbreak.site.races import LeagueRaces
     from evenbreak.site.tournaments import Tournament
 
@@ -59,6 +59,12 @@ def command(asked: Publish) -> Answer:
         where=f"{of_file.path}: [publish.players]" if of_file else "",
     )
     results = names.results(file.results)
+    side = _sides(results, names)
+    head_start: dict[str, float] = {}
+    extra: Sequence[str] = ()
+    if asked.teams is not None:
+        besides, points, extra = files.read_teams(asked.teams)
+        head_start = dict(zip(map(side, besides.names), points.tolist(), strict=True))
     chart: Any = None if asked.chart is None else find_chart_file(asked.chart).chart
     scale = _scale(asked, chart, listed)
     say(f"Rating {len(results.players):,} players")
@@ -75,9 +81,11 @@ def command(asked: Publish) -> Answer:
         accent(asked.color or USUAL),
         logo=_logo(asked.logo),
         rules=replace(asked.table_points, ties=asked.ties),
+        head_start=head_start,
+        count_games=asked.count == "games",
     )
     say("Writing the pages")
-    fixtures, warnings = _fixtures(asked.schedule, league)
+    fixtures, warnings = _fixtures(asked.schedule, league, side)
     made = site_files(league, _tournaments(asked.tournaments, names), fixtures)
     earlier = _earlier(asked.out)
     foreign = [name for name in made if name not in earlier and Path(asked.out, name).exists()]
@@ -88,7 +96,7 @@ def command(asked: Publish) -> Answer:
             file=FilePath(Path(asked.out, foreign[0])),
         )
     write_folder(asked.out, {**made, **dict.fromkeys(earlier - {*made})})
-    return _answer(asked, league, made, [*file.warnings, *file.ties, *warnings])
+    return _answer(asked, league, made, [*file.warnings, *file.ties, *extra, *warnings])
 
 
 def _read(asked: Publish) -> files.ResultsFile:
@@ -220,30 +228,39 @@ def _last_levels(results: Results, chart: LevelChart | PointsChart) -> Roster:
     return Roster([results.players[k] for k in known], levels[known])
 
 
-def _fixtures(path: str | None, league: PublishedLeague) -> tuple[list[Fixture], Sequence[str]]:
-    """Return the fixtures after the last result under public names, and what to check in the file.
+def _sides(results: Results, names: PublicNames) -> Callable[[str], str]:
+    """Return what tells the public name of a player or a team.
 
     Who is no team of the results is taken for a player, so that no name slips through.
     """
-    from evenbreak.files.lists.fixtures import read_fixture_list
     from evenbreak.files.tables.names import same_name
-    from evenbreak.site.pages import Fixture
+
+    columns = [column for column in (results.team_a, results.team_b) if column is not None]
+    teams = {same_name(str(name)): str(name) for column in columns for name in column if name}
+    return lambda name: teams.get(same_name(name)) or names[name]
+
+
+def _fixtures(
+    path: str | None, league: PublishedLeague, side: Callable[[str], str]
+) -> tuple[list[Fixture], Sequence[str]]:
+    """Return the fixtures to be played under public names, and what to check in the file.
+
+    What is due after the last result is to be played, whoever has met before; of the others, what
+    the results do not have is postponed. Where they have none at all, such as of matches of teams
+    that are known by their players, those up to the last result are taken for played.
+    """
+    from evenbreak.files.lists.fixtures import read_fixture_list, without_played
 
     if path is None:
         return [], []
     every, warnings = read_fixture_list(path)
-    teams = {same_name(str(name)) for name in league.teams}
+    every = [replace(one, home=side(one.home), away=side(one.away)) for one in every]
     last = league.days[-1].astype(object) if league.days else None
-    found = []
-    for one in every:
-        if last is None or one.date is None or one.date > last:
-            where = ", ".join(filter(None, [one.venue, f"table {one.table}" if one.table else ""]))
-            sides = [
-                name if same_name(name) in teams else league.names[name]
-                for name in (one.home, one.away)
-            ]
-            found.append(Fixture("" if one.date is None else str(one.date), where, *sides))
-    return found, warnings
+    due = [one for one in every if last is None or one.date is None or one.date <= last]
+    left, _, _ = without_played(due, league.results)
+    if len(left) == len(due):
+        left = [one for one in left if last is None or one.date is None]
+    return [*left, *(one for one in every if one not in due)], warnings
 
 
 def _logo(path: str | None) -> tuple[str, bytes] | None:

@@ -13,9 +13,10 @@ from evenbreak.answers.kit.wording import count_of
 from evenbreak.arrays import Floats
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.terminal import write_file
+from evenbreak.files.lists.fixtures import without_played
 from evenbreak.files.results.races_by_chart import races_by_chart
 from evenbreak.files.tables.names import same_name
-from evenbreak.league.tables.fixtures import Fixture, left_of, nights
+from evenbreak.league.tables.fixtures import Fixture, nights
 from evenbreak.league.tables.fixtures import fixtures as round_robin_fixtures
 from evenbreak.questions.tables import Fixtures, LeagueTable
 
@@ -55,7 +56,7 @@ def table(asked: LeagueTable) -> Answer:
         found,
         earlier=earlier,
         who="team" if of_teams else "player",
-        score="sets" if of_teams and not asked.count_games else "games",
+        score="sets" if of_teams and asked.count != "games" else "games",
         about=", ".join(about),
         warnings=warnings,
     )
@@ -68,7 +69,7 @@ def _matches(
     teams = results.team_a, results.team_b
     named = all(one is not None and (one != "").any() for one in teams)
     if named and asked.of != "players":
-        return league.team_matches(results, count_games=asked.count_games, rules=rules), True
+        return league.team_matches(results, count_games=asked.count == "games", rules=rules), True
     of_teams = asked.of == "teams" or (asked.of is None and asked.teams is not None)
     return league.player_matches(results), of_teams
 
@@ -181,24 +182,12 @@ def _read(asked: Fixtures) -> tuple[list[Fixture], str, list[str]]:
 def _without_played(asked: Fixtures, listed: list[Fixture]) -> tuple[list[Fixture], int, list[str]]:
     """Return the fixtures that results leave, how many were played, and warnings."""
     file = files.read_seasons(asked.left, **asked.reading, unplayed=True)
-    names = {same_name(name) for one in listed for name in (one.home, one.away)}
-    place = {name: k for k, name in enumerate(sorted(names))}
-    results = file.results
-    teams = results.team_a is not None and not names & {same_name(one) for one in results.players}
-    matches = league.team_matches(results) if teams else league.player_matches(results)
-    unknown = {name for name in matches.names if same_name(name) not in place}
-    pairs = [
-        (place[same_name(matches.names[a])], place[same_name(matches.names[b])])
-        for a, b in matches.pairs.tolist()
-        if not {matches.names[a], matches.names[b]} & unknown
-    ]
-    kept = left_of([(place[same_name(x.home)], place[same_name(x.away)]) for x in listed], pairs)
+    kept, unknown, extra = without_played(listed, file.results)
     warnings = [*file.warnings]
-    done = len(listed) - len(kept)
-    if extra := len(matches) - done:
+    if extra:
         many = count_of(extra, "match is", "matches are")
         warnings.append(f"{many} played that the fixtures do not have: {_first(unknown)}")
-    return [listed[k] for k in kept], done, warnings
+    return kept, len(listed) - len(kept), warnings
 
 
 def _first(unknown: set[str]) -> str:

@@ -134,13 +134,14 @@ class LeagueFile:
 
     Attributes
     ----------
-    folder
-        the league's folder, in which its files are.
+    folder, file
+        the league's folder, in which its files are, and the name of this one.
     aliases
         from a name as it may be written to the name that is meant.
     """
 
     folder: Path
+    file: str = LEAGUE_TOML
     name: Annotated[str | None, Field(values.LINE, "The name of the league.")] = None
     discipline: Annotated[str | None, Field(Choice(DISCIPLINES), "The game.")] = None
     scale: Annotated[
@@ -190,7 +191,7 @@ class LeagueFile:
     @property
     def path(self) -> Path:
         """The file itself."""
-        return self.folder / LEAGUE_TOML
+        return self.folder / self.file
 
     def place(self, name: str) -> str:
         """Return the path of one of its files, as a command takes it."""
@@ -260,7 +261,7 @@ def league_of(content: bytes, path: Path, *, quickly: bool = False) -> LeagueFil
         )
     problems.raise_any()
     reader = _Reader(path.parent, problems, lines_of(text), quickly)
-    league: LeagueFile = reader.section(LeagueFile, table, (), folder=path.parent)
+    league: LeagueFile = reader.section(LeagueFile, table, (), folder=path.parent, file=path.name)
     problems.raise_any()
     return league
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from datetime import date, time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, Named, Number, Text, Whole
@@ -177,7 +177,10 @@ def _color(text: str) -> str:
 
 COLOR = Named(_color, "COLOR")
 PAPER = Choice(("letter", "a4"))
-NAMES = Choice(("full", "initials", "hidden"))
+Shown = Literal["full", "initials", "hidden"]
+"""How a site names a player, from the most to the least that is shown."""
+
+NAMES = Choice(get_args(Shown))
 MONEY = Number(0.0, 1e6, "; give an amount of money, such as 10")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +14,9 @@ from evenbreak.files.tables.dates import Day
 from evenbreak.files.tables.names import same_name
 from evenbreak.files.tables.problems import quoted
 from evenbreak.files.tables.schema import Schema, Text, Whole
-from evenbreak.league.tables.fixtures import Fixture
+from evenbreak.league.tables.fixtures import Fixture, left_of
+from evenbreak.league.tables.table import player_matches, team_matches
+from evenbreak.ratings.results import Results
 
 SIDES = TEAM.but(player={"instead": ("team",)}, team={"also": "team name"}) | Schema(
     venue=Text("home venue, location, place", "where the team is at home"),
@@ -143,3 +146,28 @@ def read_fixture_list(path: str | Path) -> tuple[list[Fixture], tuple[str, ...]]
         [max(turn, 1) for turn in table["turn"].tolist()],
     )
     return [Fixture(*row) for row in zip(*columns, strict=True)], table.warnings
+
+
+def without_played(
+    listed: Sequence[Fixture], results: Results
+) -> tuple[list[Fixture], set[str], int]:
+    """Return the fixtures that results leave to be played.
+
+    Also the names in the results that no fixture has, and how many matches were played besides.
+    The matches are those of teams, unless the fixtures name players.
+
+    >>> season = Results.from_names(["Ann"], ["Bo"], [5], [3])
+    >>> without_played([Fixture(1, "Bo", "Ann"), Fixture(2, "Ann", "Cy")], season)[0][0].away
+    'Cy'
+    """
+    keys = [(same_name(one.home), same_name(one.away)) for one in listed]
+    known = {name for key in keys for name in key}
+    teams = results.team_a is not None and (results.team_a != "").any()
+    teams = teams and not known & set(map(same_name, results.players))
+    matches = team_matches(results) if teams else player_matches(results)
+    place = {name: k for k, name in enumerate(sorted(known))}
+    at = [place.get(same_name(name), -1) for name in matches.names]
+    pairs = [(at[a], at[b]) for a, b in matches.pairs.tolist() if min(at[a], at[b]) >= 0]
+    kept = left_of([(place[a], place[b]) for a, b in keys], pairs)
+    unknown = {name for name, k in zip(matches.names, at, strict=True) if k < 0}
+    return [listed[k] for k in kept], unknown, len(matches) - len(listed) + len(kept)
