@@ -71,12 +71,11 @@ def files_of(manifest: bytes) -> set[str]:
     >>> sorted(files_of(b'{"files": {"races.csv": {}}, "pages": ["index.html", "../x.html"]}'))
     ['data/races.csv', 'index.html']
     """
-    read = json.loads(manifest)
-    parts = [read.get("pages"), read.get("files")] if isinstance(read, dict) else []
-    if list(map(type, parts)) != [list, dict]:
-        raise ValueError("this is not the manifest of a site")
-    names = [*parts[0], *(f"data/{one}" for one in parts[1])]
-    return {one for one in names if isinstance(one, str) and _OURS.fullmatch(one)}
+    match json.loads(manifest):
+        case {"pages": list(pages), "files": dict(tables)}:
+            names = [*pages, *(f"data/{one}" for one in tables)]
+            return {one for one in names if isinstance(one, str) and _OURS.fullmatch(one)}
+    raise ValueError("this is not the manifest of a site")
 
 
 def _standings(table: LeagueTable) -> pd.DataFrame:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from evenbreak.cli.kit.said import said
-from evenbreak.cli.kit.terminal import say
+from evenbreak.cli.kit.terminal import FILES_OF_LEAGUE, say
 from evenbreak.files.league import LEAGUE_TOML, find_league
 from evenbreak.questions import of_league
 from evenbreak.words import FilePath
@@ -52,7 +52,7 @@ def point_at(ctx: click.Context, folder: str) -> LeagueFile:
             param_hint=LEAGUE,
         )
     league: LeagueFile = read_league(place, quickly=True)
-    ctx.meta[_READ] = league
+    _keep(ctx, league)
     return league
 
 
@@ -63,22 +63,17 @@ def league_in(ctx: click.Context) -> LeagueFile | None:
         if (path := find_league()) is not None:
             from evenbreak.files.league.league_file import read_league
 
-            ctx.meta[_READ] = read_league(path, quickly=True)
+            _keep(ctx, read_league(path, quickly=True))
     league: LeagueFile | None = ctx.meta[_READ]
     return league
 
 
-def files_read(ctx: click.Context) -> tuple[str, ...]:
-    """Return the file of the league from which a command has taken something, and those it names.
-
-    Nothing is written over them: they are what a person has typed.
-    """
-    league: LeagueFile | None = ctx.meta.get(_READ)
-    if league is None:
-        return ()
+def _keep(ctx: click.Context, league: LeagueFile) -> None:
+    """Keep a league as that of the command; nothing is written over its files."""
     named = [vars(league.files).values(), [one.file for one in league.results]]
     named.append([league.chart, league.publish.logo])
-    return str(league.path), *(league.place(one) for part in named for one in part if one)
+    files = [league.place(one) for part in named for one in part if one]
+    ctx.meta.update({_READ: league, FILES_OF_LEAGUE: (str(league.path), *files)})
 
 
 def defaults(question: type, typed: Mapping[str, Any], ctx: click.Context) -> dict[str, Any]:

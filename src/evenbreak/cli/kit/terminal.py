@@ -64,15 +64,16 @@ def write_folder(out: str, files: Mapping[str, bytes | None]) -> None:
 
 _MOST_NAMED = 12
 
+FILES_OF_LEAGUE = "evenbreak files of league"
+"""Where a command's context has the files of the league from which it takes defaults."""
+
 
 def _named_by(place: Path) -> Iterator[str]:
     """Yield the files that the command has been given, or its league names, which are this one."""
-    from evenbreak.cli.kit.league import files_read
-
     if not place.exists():
         return
     ctx = click.get_current_context()
-    for value in (*ctx.params.values(), files_read(ctx)):
+    for value in (*ctx.params.values(), ctx.meta.get(FILES_OF_LEAGUE, ())):
         for given in value if isinstance(value, tuple) else (value,):
             if isinstance(given, str) and Path(given).is_file() and place.samefile(given):
                 yield given

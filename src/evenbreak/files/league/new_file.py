@@ -171,7 +171,7 @@ def league_toml(league: NewLeague) -> str:
     """Return the text of a new file: what is known, and the other keys as comments.
 
     >>> text = league_toml(NewLeague(values={"name": "Tuesday", "team.cap": "23"}))
-    >>> [line for line in text.splitlines() if "cap" in line or line.startswith("name")]
+    >>> [line for line in text.splitlines() if line.startswith(("cap", "name"))]
     ['name = "Tuesday"', 'cap = 23']
     """
     parts = [HEAD, *_keys(LeagueFile, "", league.values)]
