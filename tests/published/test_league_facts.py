@@ -7,7 +7,6 @@ from evenbreak.handicaps import (
     Averages,
     NapaLike,
     apa_like,
-    games_of_18,
     pasco_race,
     system_of,
     tap_like,
@@ -69,11 +68,6 @@ def test_pasco_s_chart():
         for difference in (first, last):
             m, n = pasco_race(difference)
             assert (m, n) == (games, 26 - games)
-
-
-def test_the_chart_of_the_three_player_league():
-    expected = {8: 14, -6: 7, 3: 11, -1: 9, -3: 8, 0: 10, 12: 16, -12: 4}
-    assert {h: games_of_18(h)[0] for h in expected} == expected
 
 
 @pytest.mark.parametrize(

@@ -71,7 +71,6 @@ from .ladders.unfairness import better_off as better_off
 from .ladders.unfairness import unfairness as unfairness
 from .systems.averages import Averages as Averages
 from .systems.averages import WinPercent as WinPercent
-from .systems.averages import games_of_18 as games_of_18
 from .systems.averages import pasco_race as pasco_race
 from .systems.by_match import PlayedMatch as PlayedMatch
 from .systems.by_match import StepSystem as StepSystem

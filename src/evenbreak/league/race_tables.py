@@ -10,6 +10,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.special import gammaln, xlog1py, xlogy
 
 from evenbreak.arrays import Floats, Ints
+from evenbreak.errors import InputError
 
 STEPS = 128
 """Steps of the grid of gaps a doubling: a chance of a game is off by .0007 at most."""
@@ -19,7 +20,7 @@ WIDEST = 6
 
 _GAPS = np.arange(-WIDEST * STEPS, WIDEST * STEPS + 1) / STEPS
 _MOST = 128
-"""No race is longer."""
+"""Every race is to fewer games."""
 
 
 class RaceTables:
@@ -48,6 +49,12 @@ class RaceTables:
 
     def places(self, m: Ints, n: Ints, gap: Floats) -> Ints:
         """Return where races m:n between players this far apart are in the tables."""
+        if max(m.max(initial=0), n.max(initial=0)) >= _MOST:
+            raise InputError(
+                "a race is to {games} games; a league plays races to {most} at most",
+                games=max(m.max(), n.max()),
+                most=_MOST - 1,
+            )
         code = m * _MOST + n
         number = self.number.take(code)
         if (number < 0).any():

@@ -14,13 +14,13 @@ from typing import Any
 
 import numpy as np
 
-from evenbreak.arrays import Bools, Floats, Ints
+from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import seed_of, whole
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.ladders.level_ladder import Dumping
 from evenbreak.handicaps.systems.history import Entries, History, Matches
 from evenbreak.handicaps.systems.system import System, checked_races, updated
-from evenbreak.matches.win import race_win_probability
+from evenbreak.league.race_tables import RaceTables
 from evenbreak.stats.summary import Distribution
 
 PLAYERS = 8
@@ -105,7 +105,7 @@ def errors_played(
 
     >>> from evenbreak.handicaps import system_of
     >>> round(errors_played(system_of("npl")).sd / 100 * 30, 1)  # a ladder has 4.6 in the long run
-    4.1
+    4.2
     """
     _, numbers = _play(system, 0, nights, replicas, seed_of(seed))
     strengths = system.strength(np.array(numbers))
@@ -142,18 +142,17 @@ def _play(
     chances, numbers = np.empty((nights, replicas)), []
     parts: list[list[Any]] = [[] for _ in range(11)]
     kept: dict[str, Any] = {}
+    tables = RaceTables(0.0)
     for night in range(1, nights + 1):
         a, b = _pairs(night)
         of_a, of_b = ratings[a], ratings[b]
         race_a, race_b = checked_races(system, of_a, of_b)
-        chances[night - 1] = race_win_probability(0.5, race_a[0], race_b[0])
+        places = tables.places(race_a, race_b, np.zeros(race_a.shape))
+        chances[night - 1] = tables.chances[places[0]]
         numbers.append(ratings[0])
-        longest = int((race_a + race_b).max()) - 1
-        drawn = rng.integers(0, 2, (len(a), replicas, _room(longest)), dtype=np.int8)
-        won = drawn[..., :longest].astype(bool)
+        score_a, score_b = tables.scores(places, race_a, race_b, rng.random(race_a.shape))
         if night <= dumped:
-            won[0] = False
-        score_a, score_b = _scores(won, race_a, race_b)
+            score_a[0], score_b[0] = 0, race_b[0]
         innings = np.rint(_INNINGS * (score_a + score_b)).astype(np.int64)
         shape = score_a.shape
         columns = (
@@ -169,24 +168,8 @@ def _play(
     return chances, numbers
 
 
-def _room(longest: int) -> int:
-    """Return for how many games to draw: a round number, so that leagues share their draws."""
-    return -(-longest // 64) * 64
-
-
 def _pairs(night: int) -> tuple[Ints, Ints]:
     """Return who meets: everyone another one each night, the first player always first."""
     others = 1 + (np.arange(PLAYERS - 1) + night) % (PLAYERS - 1)
     half = PLAYERS // 2
     return np.array([0, *others[1:half]]), np.array([others[0], *others[half:][::-1]])
-
-
-def _scores(won: Bools, race_a: Ints, race_b: Ints) -> tuple[Ints, Ints]:
-    """Return the score at which each race ends, from the winners of its games."""
-    of_a = np.cumsum(won, axis=2, dtype=np.int64)
-    of_b = np.arange(1, won.shape[2] + 1) - of_a
-    over = (of_a >= race_a[..., None]) | (of_b >= race_b[..., None])
-    last = over.argmax(axis=2)[..., None]
-    score_a = np.take_along_axis(of_a, last, axis=2)[..., 0]
-    score_b = np.take_along_axis(of_b, last, axis=2)[..., 0]
-    return score_a, score_b

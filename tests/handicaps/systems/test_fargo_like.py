@@ -10,9 +10,9 @@ from scipy.special import log_expit
 from evenbreak.errors import InputError
 from evenbreak.handicaps import FargoLike, broken_laws, system_of
 from evenbreak.handicaps.systems import fargo_like
-from evenbreak.handicaps.systems.fargo_like import performance
 from evenbreak.handicaps.systems.history import Entries, History, Matches
 from evenbreak.handicaps.systems.laws import entries_for, played_nights
+from evenbreak.ratings.scale import SCALES
 
 UNIT = 100.0 / np.log(2.0)
 
@@ -116,7 +116,9 @@ def test_large_leagues_are_solved_as_small_ones_are(monkeypatch):
 def test_a_performance_is_the_rating_at_which_a_score_is_expected():
     """The published table of ten games against 550."""
     shown = [233, 350, 428, 492, 550, 608, 672, 750, 867]
-    assert [round(performance(won, 10, 550.0)) for won in range(1, 10)] == shown
+    assert [
+        round(550.0 + float(SCALES["fargo"].difference(won / 10))) for won in range(1, 10)
+    ] == shown
 
 
 def test_races_are_of_the_chart_or_the_most_even_of_a_length():

@@ -103,7 +103,7 @@ class Averages(System):
         An average without games beside it stands for 50; a newcomer has none.
         """
         points = history.counts("points", lambda m: WIN * m.score_a + self.balls * m.score_b)
-        games = history.counts("games", _games)
+        games = history.counts("games", Matches.games_played)
         before = _games_behind(history, WIN)
         played = games + before
         total = points + before * history.initial
@@ -152,7 +152,7 @@ class WinPercent(System):
     def update(self, history: History) -> Floats:
         """Return the percentage of the last games; of a match that is half in, half its games."""
         won = history.last(self.window, "won", lambda m: m.score_a)
-        played = history.last(self.window, "games", _games)
+        played = history.last(self.window, "games", Matches.games_played)
         played, won = np.nan_to_num(played), np.nan_to_num(won)
         left = np.maximum(self.window - (np.cumsum(played, axis=0) - played), 0.0)
         counted = np.minimum(played, left)
@@ -178,10 +178,6 @@ def _games_behind(history: History, highest: float) -> Floats:
     return np.where((rating >= 0.0) & (rating <= highest), stated, 0).astype(float)
 
 
-def _games(matches: Matches) -> Any:
-    return matches.score_a + matches.score_b
-
-
 def pasco_race(difference: Any) -> tuple[Ints, Ints]:
     """Return the games to win out of 25, by the difference of two teams' sums of percentages.
 
@@ -192,18 +188,3 @@ def pasco_race(difference: Any) -> tuple[Ints, Ints]:
     more = np.searchsorted([15, 41, 67, 93, 119, 145], points, side="right")
     ahead = np.asarray(difference) >= 0
     return np.where(ahead, 13 + more, 13 - more), np.where(ahead, 13 - more, 13 + more)
-
-
-def games_of_18(handicap: Any) -> tuple[int, int | None]:
-    """Return the games to win, and to tie, of a 3-player team with a handicap from -12 to 12.
-
-    Raises
-    ------
-    InputError
-        if the handicap is beyond the chart.
-
-    >>> [games_of_18(h) for h in (8, 3, -1, -3, -6)]
-    [(14, 13), (11, None), (9, None), (8, None), (7, 6)]
-    """
-    h = whole(handicap, "handicap", at_least=-12, at_most=12)
-    return (10 + (h - 1) // 2, None) if h % 2 else (10 + h // 2, 9 + h // 2)

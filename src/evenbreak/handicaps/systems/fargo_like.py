@@ -126,7 +126,7 @@ class FargoLike(System):
 
     def robustness(self, history: History) -> Floats:
         """Return the games behind each rating, those before the first night included."""
-        return self._behind(history) + history.counts("games", _games)
+        return self._behind(history) + history.counts("games", Matches.games_played)
 
     def _behind(self, history: History) -> Floats:
         """Return the games that the ratings of the list rest on."""
@@ -186,10 +186,6 @@ class FargoLike(System):
 
 
 _of_games = lru_cache(maxsize=8)(partial(fixed_length_chart, scale=_SCALE))
-
-
-def _games(matches: Matches) -> Any:
-    return matches.score_a + matches.score_b
 
 
 def _joined(
@@ -315,12 +311,3 @@ def _alone(games: _Games, fit: Floats, start: Floats, counted: Floats, few: Any)
         if np.abs(step).max() < _ENOUGH:
             return at
     raise AccuracyError("the ratings did not settle in {steps} steps of the fit", steps=_STEPS)
-
-
-def performance(won: int, played: int, opponent: float) -> float:
-    """Return the rating at which a score against opponents of one rating is the expected one.
-
-    >>> [round(performance(won, 10, 550.0)) for won in (1, 3, 5, 8)]
-    [233, 428, 550, 750]
-    """
-    return opponent + float(_SCALE.difference(won / played))

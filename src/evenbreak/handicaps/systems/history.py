@@ -83,8 +83,8 @@ class Matches:
     All but `night` have the shape (matches, replicas), or (matches,) for one league.
 
     >>> night = Matches.of_night(1, [0], [1], [5], [3], [5], [4], [620.0], [560.0])
-    >>> night.won_a, night.in_innings
-    (array([ True]), False)
+    >>> night.won_a, night.games_played()
+    (array([ True]), array([8]))
     """
 
     night: Ints
@@ -128,10 +128,9 @@ class Matches:
         by_race = (self.score_a >= self.race_a) & (self.score_b < self.race_b)
         return np.where(known, by_race, self.score_a > self.score_b) & self.played
 
-    @property
-    def in_innings(self) -> bool:
-        """Whether innings were counted."""
-        return self.innings_a is not None
+    def games_played(self) -> Ints:
+        """Return how many games each match lasted."""
+        return np.asarray(self.score_a + self.score_b)
 
     def nights(self) -> Iterator[Matches]:
         """Yield the matches of each night that has any, in order."""
