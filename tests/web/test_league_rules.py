@@ -58,9 +58,9 @@ def test_a_tournament_begins_with_the_rules_of_the_league(begun, races, shown):
 
 
 def test_a_team_night_begins_with_the_rules_of_the_league(begun):
-    fields = begun('chart = "apa_8ball"', "/team/new")
+    fields = begun('chart = "apa_9ball"', "/team/new")
     wanted = {
-        "races": "apa_8ball",
+        "races": "apa_9ball",
         "sets": "5",
         "cap": "23",
         "at_most": "2:6",

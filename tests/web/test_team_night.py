@@ -220,20 +220,6 @@ def test_a_night_by_skill_level_alone(
         assert "Vic has no skill level" in shown.words
 
 
-def test_the_form_of_a_new_night_begins_with_what_the_league_file_says(tmp_path: Path) -> None:
-    rules = ["[team]", "sets = 5", "cap = 23", 'at_most = "2:6"', 'count = "points"']
-    text = "\n".join(['name = "Tuesday"', 'discipline = "9-ball"', 'chart = "apa_9ball"', *rules])
-    (tmp_path / "league.toml").write_text(f'{text}\norder = "ABBA"\n')
-    with running(tmp_path / "tonight.db") as site:
-        shown = Phone(site, director=True).open("/team/new").text
-        for name, value in {"sets": 5, "cap": 23, "at_most": "2:6", "pattern": "ABBA"}.items():
-            assert f'name="{name}" value="{value}"' in shown
-        for word in ("apa_9ball", "points", "9-ball"):
-            assert f'value="{word}" selected' in shown
-        (tmp_path / "league.toml").write_text("nothing = 1\n")
-        assert "nothing" in Phone(site, director=True).open("/team/new").words
-
-
 PAGES = ("/team", "/screen", "/", "/desk", "/team/history", "/team/new")
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from itertools import chain
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,8 +15,6 @@ from evenbreak.answers.league.prior import starters_words
 from evenbreak.answers.team.strengths import lists_by_level
 from evenbreak.errors import DataError
 from evenbreak.fields.question import declaration
-from evenbreak.files.league import find_league
-from evenbreak.files.league.league_file import read_league
 from evenbreak.files.league.values import MOST_SETS
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import TeamList, form_of_lists, read_team
@@ -30,7 +27,6 @@ from evenbreak.handicaps.charts.level_chart import (
     points_chart,
 )
 from evenbreak.handicaps.charts.level_skills import FARGO
-from evenbreak.questions.of_league import key_of, text_of
 from evenbreak.questions.teams import ORDERS, Lineup, OnTables, usual_sets
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of, unstated_scale
@@ -61,30 +57,6 @@ EVERY_CHART = {**CHARTS, **LEVEL_CHARTS, **POINTS_CHARTS}
 
 TIMES = fields_named(OnTables, "discipline", "tables")
 """What it asks to say when the night ends."""
-
-
-def usual_in(folder: Path) -> dict[str, str]:
-    """Return what the form holds at first: what the league's file in a folder says.
-
-    How many tables a match has is not in it, nor is a chart in a file of its own on the page.
-
-    Raises
-    ------
-    DataError
-        if that file cannot be read.
-    """
-    place = find_league(folder)
-    if place is None:
-        return {}
-    league = read_league(place, quickly=True)
-    keys = {one.name: key_of(Lineup, one.name) for one in (*FIELDS, *TIMES[:1])}
-    asked = {name: text_of(league, key) for name, key in keys.items() if key}
-    found = {name: text for name, text in asked.items() if text is not None}
-    if found.get("order", "") not in ("", *ORDERS):
-        found["pattern"] = found.pop("order")
-    if league.chart in EVERY_CHART:
-        found["races"] = str(league.chart)
-    return found
 
 
 def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:

@@ -25,7 +25,7 @@ from evenbreak.answers.team.night import (
     night_words,
     waiting_words,
 )
-from evenbreak.errors import DataError, EvenbreakError
+from evenbreak.errors import EvenbreakError
 from evenbreak.files.store.team_night import add_team_events
 from evenbreak.questions.teams import ORDERS, Lineup, OnTables
 from evenbreak.ratings.scale import NAMES
@@ -51,7 +51,7 @@ from evenbreak.web.sessions import (
     wrong_pin,
 )
 from evenbreak.web.site import Site
-from evenbreak.web.team_form import EVERY_CHART, FIELDS, TIMES, plan_of, usual_in
+from evenbreak.web.team_form import EVERY_CHART, FIELDS, TIMES, plan_of
 from evenbreak.web.team_night import TeamNow, night_on
 from evenbreak.web.team_view import captain_values, plain_options, set_views
 from evenbreak.words import Sentence, say
@@ -138,13 +138,7 @@ async def history(request: Request) -> Response:
 async def ask(request: Request) -> Response:
     """Show the form that begins a team night."""
     check_director(request)
-    site, why = site_of(request), ""
-    entered: dict[str, str] = {}
-    try:
-        entered = await asyncio.to_thread(usual_in, site.path.parent)
-    except DataError as error:
-        why = "\n".join(error.problems)
-    return page(request, "team_new.html", entered=entered, why=why, **await _choices(site))
+    return page(request, "team_new.html", entered={}, why="", **await _choices(site_of(request)))
 
 
 async def _choices(site: Site) -> dict[str, Any]:
