@@ -152,6 +152,34 @@ def test_a_difference_is_far_surer_than_the_two_values() -> None:
     assert found.change_error[1] < 0.5 * np.hypot(*found.error)
 
 
+@pytest.mark.parametrize("name", ["npl", "margin", "elo"])
+def test_points_that_are_kept_are_those_of_the_rule(name: str) -> None:
+    """The table of points changes nothing: one league at a time, too small for it, does as well."""
+    world = world_of(SKILL * 2, newcomers=0.3, weeks=6)
+
+    class Alone(InTurn):
+        def __init__(self) -> None:
+            self.npl = system_of(name)
+            self.scale, self.asks = self.npl.scale, self.npl.asks
+
+    contest = play_systems(world, [Alone(), system_of(name)], replicas=10, seed=1)
+    assert (contest.weeks[0] == contest.weeks[1]).all()
+
+
+def test_a_coin_flip_has_more_even_matches_but_no_more_right_races() -> None:
+    world = world_of([80] * 6, skill=SKILL)
+    systems = [system_of(name) for name in ("none 5", "none 1", "none 15", "npl")]
+    contest = play_systems(world, systems, replicas=100, seed=1)
+    even, right, wins = (
+        estimate(contest, MEASURES[name], world)
+        for name in ("p_even", "p_right", "p_doubling_wins")
+    )
+    assert even.value[1] > even.value[0] >= even.value[2]
+    assert right.value[0] == right.value[1] == right.value[2] < right.value[3]
+    exact = [float(race_win_probability(2 / 3, n, n)) for n in (5, 1, 15)]
+    assert wins.value[:3] == pytest.approx(exact, abs=1e-4)
+
+
 # By hand: the same league in plain Python, a rack at a time.
 
 
@@ -249,10 +277,12 @@ def test_an_independent_simulation_finds_the_same_within_its_errors() -> None:
 @pytest.mark.thorough
 def test_intervals_of_90_per_cent_hold_in_200_runs() -> None:
     """The truth is a run of 40,000 seasons; 200 runs of 200 seasons each."""
-    world = world_of(SKILL, skill=[105, 99, 84, 78, 60, 47], weeks=16, sandbaggers=0.1)
-    systems = [system_of("npl"), system_of("step 2")]
+    skill = [105, 99, 84, 78, 60, 47, 85, 80, 75, 70]
+    world = world_of([80] * 10, skill=skill, weeks=16, sandbaggers=0.1, newcomers=0.3)
+    systems = [system_of("step 5"), system_of("step 3")]
     play = partial(play_systems, world, systems)
-    names = ["p_even", "p_better_wins", "rating_error", "sandbagging_pays", "mean_games"]
+    names = ["p_even", "p_better_wins", "rating_error", "sandbagging_pays", "mean_games",
+             "p_right", "p_doubling_wins", "nights_until_right"]  # fmt: skip
     long = play(replicas=40_000, seed=0)
     truth = {name: estimate(long, MEASURES[name], world, cycle=2) for name in names}
     inside = dict.fromkeys(names, 0)

@@ -22,7 +22,7 @@ from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.charts.level_skills import level_skills
 from evenbreak.handicaps.systems.history import Entries, History, Matches
 from evenbreak.handicaps.systems.system import System, checked_races, checked_ratings, updated
-from evenbreak.league.race_tables import RaceTables
+from evenbreak.league.race_tables import RaceTables, known_tables
 from evenbreak.league.world import Night, Play, World
 from evenbreak.ratings.scale import SCALES
 from evenbreak.workers import in_order
@@ -123,8 +123,9 @@ class Contest:
     replicas
         in each group, shape (groups,).
     matches
-        shape (systems, groups, 5): matches, those that are even, the chances of the better players,
-        games, and half the matches with one skill on both sides (there is no better player).
+        shape (systems, groups, 7): matches, those that are even, the chances of the better players,
+        games, the matches with one skill on both sides (there is no better player), those whose
+        race is right, and the chances of players a doubling better than their race expects.
     nights
         shape (systems, groups, 3): nights, the games of the player (or team) with the most games
         on each, and numbers published anew with a change.
@@ -192,12 +193,13 @@ class _Side:
         m, n = checked_races(self.system, *rated)
         true = self.play.skill.take(at_a) - self.play.skill.take(at_b)
         place = tables.places(m, n, true)
-        chance = tables.chances.take(place)
+        chance, race = tables.chances.take(place), tables.numbers(place)
         gap = night.skill.take(at_a) - night.skill.take(at_b)
         place = tables.places(m, n, gap)
         score_a, score_b = tables.scores(place, m, n, night.luck[: len(a)])
         won = score_a == m
-        sums.count_matches(at_a, at_b, played, chance, true, score_a + score_b)
+        each = (score_a + score_b, tables.right(race, true), tables.worth.take(race))
+        sums.count_matches(at_a, at_b, played, chance, true, each)
         both = [at[played] for at in (at_a, at_b)]
         self._count_wins(night, both, won[played])
         values = {"a": np.where(played, a, -1), "b": np.where(played, b, -1)}
@@ -315,7 +317,7 @@ class _Sums:
         ranks = strength.argsort(axis=0).argsort(axis=0)
         self.title_key = groups * self.parts + ranks * self.parts // len(strength)
         nights = world.nights + 1
-        self.matches, self.nights = np.zeros((many, 5)), np.zeros((many, 3))
+        self.matches, self.nights = np.zeros((many, 7)), np.zeros((many, 3))
         self.deciles, self.titles = np.zeros((many, parts, 3)), np.zeros((many, self.parts))
         self.weeks, self.newcomers = np.zeros((many, nights, 6)), np.zeros((many, nights, 4))
         self.dumped, self.players = np.zeros((many, 2, 2)), np.zeros((many, players, 2))
@@ -326,13 +328,14 @@ class _Sums:
         return np.asarray(np.add.reduceat(values, self.starts, axis=-1), dtype=float)
 
     def count_matches(
-        self, at_a: Ints, at_b: Ints, played: Bools, chance: Floats, true: Floats, games: Ints
+        self, at_a: Ints, at_b: Ints, played: Bools, chance: Floats, true: Floats, each: Any
     ) -> None:
-        """Count the matches of a night, how even they are, and their games."""
+        """Count the matches of a night, how even they are, their games, and how right races are."""
         even = played & (np.maximum(chance, 1.0 - chance) <= EVEN)
         better = np.where(true > 0, chance, 1.0 - chance)
         better = np.where(true == 0, 0.5, better)
-        values = (played, even, better * played, games * played, played & (true == 0))
+        games, *of_races = (value * played for value in each)
+        values = (played, even, better * played, games, played & (true == 0), *of_races)
         for k, value in enumerate(values):
             self.matches[:, k] += self.by_group(value.sum(axis=0, dtype=float))
         shape = self.deciles.shape[:2]
@@ -374,10 +377,14 @@ class _Sums:
             of_teams = np.zeros((side.world.sides, shape[1]))
             np.add.at(of_teams, team, each)
             each = of_teams
-        changed = (side.ratings != side.before).sum(axis=0)
+        # Ratings are printed in whole points.
+        shown = [np.rint(x) if side.system.scale else x for x in (side.before, side.ratings)]
+        holder = side.world.holders(night.night)
+        there = holder[holder >= 0]
+        changed = (shown[0][there] != shown[1][there]).sum(axis=0)
         for k, value in enumerate((np.ones(shape[1]), each.max(axis=0), changed)):
             self.nights[:, k] += self.by_group(value.astype(float))
-        self._count_errors(side, night.night, side.world.holders(night.night))
+        self._count_errors(side, night.night, holder)
 
     def _count_errors(self, side: _Side, night: int, holder: Ints) -> None:
         rows = holder[holder >= 0]
@@ -481,7 +488,7 @@ def _played(work: _Work, chunk: tuple[int, int]) -> Contest:
     groups = np.repeat(np.arange(last - first), sizes)
     seed = np.random.SeedSequence(work.seed, spawn_key=(first,))
     play = Play(work.world, len(groups), seed)
-    tables = RaceTables(float(np.sqrt(np.mean(play.form**2))))
+    tables = known_tables(float(np.sqrt(np.mean(play.form**2))))
     sides = [_Side(system, play, _Sums(play, groups), work.captains) for system in work.systems]
     for side in sides:
         side.sums.count_start(side)

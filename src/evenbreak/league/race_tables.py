@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -9,8 +10,14 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.special import gammaln, xlog1py, xlogy
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.errors import InputError
+
+CLOSE = 0.25
+"""A race is right if it makes up for the difference of skills to within so many doublings.
+
+The chance in a race to 5 is 60% then; but how right a race is does not depend on its length.
+"""
 
 STEPS = 128
 """Steps of the grid of gaps a doubling: a chance of a game is off by .0007 at most."""
@@ -44,6 +51,8 @@ class RaceTables:
         self.form = form
         self.number = np.full(_MOST * _MOST, -1, dtype=np.int64)
         self.chances: Floats = np.zeros(0)
+        self.fair: Floats = np.zeros(0)
+        self.worth: Floats = np.zeros(0)
         self.reached = np.zeros((0, 32), dtype=np.float32)
         self.races: list[tuple[int, int]] = []
 
@@ -66,6 +75,18 @@ class RaceTables:
         at = np.clip(np.rint(gap * STEPS), -WIDEST * STEPS, WIDEST * STEPS).astype(np.int64)
         place: Ints = number * len(_GAPS) + at + WIDEST * STEPS
         return place
+
+    def numbers(self, place: Ints) -> Ints:
+        """Return which race each place belongs to: where it is in `fair` and `worth`.
+
+        `fair` is the gap of skills at which a race is even, in doublings; `worth` the chance of
+        winning it for a player who is a doubling better than that.
+        """
+        return np.asarray(place // len(_GAPS))
+
+    def right(self, number: Ints, gap: Floats) -> Bools:
+        """Return which races make up for the gaps of skills that they are played at."""
+        return np.asarray(np.abs(gap - self.fair.take(number)) <= CLOSE + 1e-9)
 
     def scores(
         self, place: Ints, m: Ints, n: Ints, luck: NDArray[np.floating[Any]]
@@ -94,16 +115,26 @@ class RaceTables:
             more = width - self.reached.shape[1]
             self.reached = np.pad(self.reached, ((0, 0), (0, more)), constant_values=2.0)
         chances, reached = [self.chances], [self.reached]
+        fair, worth = self.fair.tolist(), self.worth.tolist()
         for m, n in self.races[done:]:
             law = score_law(m, n, 1.0 / (1.0 + 2.0**-_GAPS))
             wins = law[:, :n].sum(axis=1)
             if self.form:
                 wins = gaussian_filter1d(wins, np.sqrt(2.0) * self.form * STEPS, mode="nearest")
             chances.append(wins)
+            fair.append(np.interp(0.5, wins, _GAPS))
+            worth.append(np.interp(fair[-1] + 1.0, _GAPS, wins))
             table = np.full((len(_GAPS), width), 2.0, dtype=np.float32)
             table[:, : m + n - 1] = np.cumsum(law, axis=1)[:, :-1]
             reached.append(table)
         self.chances, self.reached = np.concatenate(chances), np.concatenate(reached)
+        self.fair, self.worth = np.array(fair), np.array(worth)
+
+
+@lru_cache(maxsize=1)
+def known_tables(form: float) -> RaceTables:
+    """Return the tables for a form, with the races that were asked for before."""
+    return RaceTables(form)
 
 
 def score_law(m: int, n: int, p: Floats) -> Floats:

@@ -68,6 +68,13 @@ def test_the_first_line_says_which_is_fairer_by_how_much_and_what_it_costs(simul
     assert "a player's number changes" in text.partition("What it costs: ")[2]
 
 
+@pytest.mark.parametrize("systems", ["none, none 1", "none 1, none"])
+def test_shorter_races_are_not_fairer_the_other_way_round_either(simulated, systems):
+    text = " ".join(simulated(RATED, "--compare", systems, "--text").stdout.split())
+    assert re.search(r"none 1 makes [\d.]+ more matches in 100 even than none", text)
+    assert "it is not fairer: luck decides more of its matches." in text
+
+
 def test_a_difference_within_its_error_is_none(simulated):
     words = ("--compare", "npl, step 1", "--newcomers", "0", "--text")
     assert "No difference in fairness was shown" in simulated(RATED, *words).stdout

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -16,9 +16,11 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, frame_table
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.wording import count_of
+from evenbreak.arrays import Bools, Ints
 from evenbreak.handicaps.systems.system import System
 from evenbreak.league.contest import EVEN, Contest, Doublings
 from evenbreak.league.judged import MEASURES, PARTS, RIGHT, Estimate, estimate
+from evenbreak.league.race_tables import CLOSE
 from evenbreak.league.world import World
 from evenbreak.words import Sentence, joined, listed, say
 
@@ -62,10 +64,26 @@ class Comparison:
         """What the systems are called."""
         return [system.name for system in self.systems]
 
-    @property
+    @cached_property
+    def signs(self) -> tuple[Ints, Bools]:
+        """Whether others have clearly more (1) or fewer (-1) even matches; whether by luck alone.
+
+        The best of several others is looked at, so each has to be clear by a stricter interval.
+        """
+        strict = 1.0 - (1.0 - CONFIDENCE) / max(len(self.systems) - 1, 1)
+        even, right, worth = (
+            self.estimate(MEASURES[name], strict).clear[1:].astype(int)
+            for name in ("p_even", "p_right", "p_doubling_wins")
+        )
+        return even, (even != 0) & (right * even <= 0) & (worth == -even)
+
+    @cached_property
     def best(self) -> int:
-        """The system with the most even matches, apart from the first."""
-        return 1 + int(np.argmax(self.measures["p_even"].value[1:]))
+        """The system with the most even matches, apart from the first: the fairer ones, if any."""
+        even, by_luck = self.signs
+        share = self.measures["p_even"].value[1:]
+        fairer = (even > 0) & ~by_luck
+        return 1 + int(np.argmax(np.where(fairer, share, -1.0) if fairer.any() else share))
 
 
 def comparison_answer(
@@ -127,7 +145,10 @@ def comparison_answer(
             _READ,
             *assumed,
         ],
-        details=[*_tables(comparison, _DETAILS), _READ_DETAILS],
+        details=[
+            *(table for shown in _DETAILS for table in _tables(comparison, shown)),
+            _READ_DETAILS,
+        ],
         warnings=warnings,
         data=data,
         csv=frame_table("measures", frame),
@@ -135,8 +156,9 @@ def comparison_answer(
 
 
 _FAIRER = say(
-    "A system is fairer if it makes more matches even. A match is even if neither player's chance "
-    "of winning it is above {even:.0%}, given how good the two really are.",
+    "A system is fairer if it makes more matches even, and not just because luck decides them. "
+    "A match is even if neither player's chance of winning it is above {even:.0%}, given how good "
+    "the two really are.",
     even=EVEN,
 )
 
@@ -153,21 +175,23 @@ _READ = say(
 
 
 _READ_DETAILS = say(
-    "'Titles, weakest': those of the weakest fifth. 'Better wins': the mean chance of the better "
-    "player. 'Games of the last': the games of the player (or team) with the most games on a "
-    "night. 'Changes a season': how often a player's number changes. 'Drift': by how much all "
-    "numbers rise against the skills, in doublings."
+    "'Right races': those that make up for the difference of skills to within {close:g} doublings, "
+    "however long they are. 'Doubling wins': the chance of a player who is a doubling better than "
+    "their race expects; a coin flip has 50%. 'Better wins': the mean chance of the better "
+    "player. 'Titles, weakest': those of the weakest fifth. 'Games of the last': the games of the "
+    "player (or team) with the most games on a night. 'Changes a season': how often a player's "
+    "number changes. 'Drift': by how much all numbers rise against the skills, in doublings.",
+    close=CLOSE,
 )
 
 
 def _verdict(comparison: Comparison) -> Iterator[Sentence]:
     """Yield which system is fairer, by how much, and what it costs."""
     names, best = comparison.names, comparison.best
-    even = comparison.measures["p_even"]
-    # The best of several others is looked at: it has to be clear by a stricter interval.
-    others = len(names) - 1
-    strict = comparison.estimate(MEASURES["p_even"], 1.0 - (1.0 - CONFIDENCE) / others)
-    change, half = even.change[best], even.quantile * even.change_error[best]
+    even, right = comparison.measures["p_even"], comparison.measures["p_right"]
+    more_even, by_luck = comparison.signs
+    change, half = even.change[best], even.change_margin[best]
+    sign = int(more_even[best - 1])
     values = {
         "best": names[best],
         "own": names[0],
@@ -179,15 +203,32 @@ def _verdict(comparison: Comparison) -> Iterator[Sentence]:
     }
     if math.isnan(half):
         yield say("One season cannot show which is fairer; simulate more.")
-    elif strict.clear[best] > 0:
+    elif by_luck[best - 1]:
+        one, other = (best, 0) if sign > 0 else (0, best)
+        worth = comparison.measures["p_doubling_wins"].value
+        yield say(
+            "{one} makes {more:.1f} more matches in 100 even than {other} ({low:.1f} to "
+            "{high:.1f}), but it is not fairer: luck decides more of its matches. Its races are "
+            "right no more often ({right:.1%} in place of {of_other:.1%}), and a player a doubling "
+            "better than expected wins {worth:.1%} of them, in place of {worth_of_other:.1%}.",
+            one=names[one],
+            other=names[other],
+            right=float(right.value[one]),
+            of_other=float(right.value[other]),
+            worth=float(worth[one]),
+            worth_of_other=float(worth[other]),
+            **{name: values[name] for name in ("more", "low", "high")},
+        )
+        yield _costs(comparison, best)
+    elif sign > 0:
         yield say(
             "{best} is fairer than {own}: {more:.1f} more matches in 100 are even ({low:.1f} to "
             "{high:.1f}), {share:.1%} in place of {of_own:.1%}.",
             **values,
         )
         yield _costs(comparison, best)
-    elif (strict.clear[1:] < 0).all():
-        if others == 1:
+    elif sign < 0:
+        if len(names) == 2 or (more_even >= 0).any() or by_luck.any():
             yield say(
                 "{own} is fairer than {best}: {more:.1f} more matches in 100 are even ({low:.1f} "
                 "to {high:.1f}), {of_own:.1%} in place of {share:.1%}.",
@@ -293,73 +334,71 @@ def _gains(comparison: Comparison, other: int) -> Sentence:
     return say("With {name}, {changes}.", name=name, changes=listed(changes))
 
 
-Show = Callable[[float], str]
+class _Shown(NamedTuple):
+    """How a measure is shown."""
+
+    places: int
+    percent: bool = False
+
+    def text(self, value: float) -> str | None:
+        """Return a value in words; None where there is none."""
+        if math.isnan(value):
+            return None
+        return f"{value:.{self.places}{'%' if self.percent else 'f'}}"
+
+    def difference(self, of: Estimate, place: int) -> str | None:
+        """Return a system's difference from the first with half of its interval."""
+        change, half = (
+            float(x[place]) * (100.0 if self.percent else 1.0)
+            for x in (of.change, of.change_margin)
+        )
+        if math.isnan(change) or math.isnan(half):
+            return None
+        places = self.places
+        while half > 0.0 and places < 4 and not round(half, places):
+            places += 1
+        return f"{change:+.{places}f}\N{PLUS-MINUS SIGN}{half:.{places}f}"
 
 
-def _percent(value: float) -> str:
-    return f"{100.0 * value:.1f}%"
+_SHARE = _Shown(1, percent=True)
 
-
-def _decimals(places: int) -> Show:
-    return lambda value: f"{value:.{places}f}"
-
-
-_SHOWN: Mapping[str, Show] = {
-    "p_even": _percent,
-    "rating_error": _decimals(2),
-    "nights_until_right": _decimals(1),
-    "sandbagging_pays": _percent,
-    "mean_games": _decimals(2),
-    "titles_strongest": _decimals(2),
+_SHOWN: Mapping[str, _Shown] = {
+    "p_even": _SHARE,
+    "rating_error": _Shown(2),
+    "nights_until_right": _Shown(1),
+    "sandbagging_pays": _SHARE,
+    "mean_games": _Shown(2),
+    "titles_strongest": _Shown(2),
 }
 """The measures in the order of the table, and how each is shown."""
 
-_DETAILS: Mapping[str, Show] = {
-    "titles_weakest": _decimals(2),
-    "p_better_wins": _percent,
-    "games_a_night": _decimals(1),
-    "changes_a_season": _decimals(1),
-    "drift": _decimals(3),
-}
-"""The measures of a further table, for those who ask for details."""
+_DETAILS: Sequence[Mapping[str, _Shown]] = (
+    {"p_right": _SHARE, "p_doubling_wins": _SHARE, "p_better_wins": _SHARE,
+     "titles_weakest": _Shown(2)},
+    {"games_a_night": _Shown(1), "changes_a_season": _Shown(1), "drift": _Shown(3)},
+)  # fmt: skip
+"""The measures of further tables, for those who ask for details."""
 
 
-def _tables(comparison: Comparison, shown: Mapping[str, Show]) -> Iterator[Table]:
+def _tables(comparison: Comparison, shown: Mapping[str, _Shown]) -> Iterator[Table]:
     """Yield a table with the systems in rows, and one of their differences from the first."""
     measures, names = comparison.measures, comparison.names
     columns = columns_of("system_compared " + " ".join(f"compared_{key}" for key in shown))
     rows: list[tuple[Any, ...]] = [
-        (name, *(_value(float(measures[key].value[place]), show) for key, show in shown.items()))
+        (name, *(how.text(float(measures[key].value[place])) for key, how in shown.items()))
         for place, name in enumerate(names)
     ]
     if len(names) == 1:
-        margins = (_value(float(measures[key].margin[0]), show) for key, show in shown.items())
+        margins = (how.text(float(measures[key].margin[0])) for key, how in shown.items())
         rows.append(("\N{PLUS-MINUS SIGN}", *margins))
     yield Table("", columns, rows)
     if len(names) > 1:
-        yield Table(
-            "",
-            columns,
-            [
-                (name, *(_difference(measures[key], place, shown[key]) for key in shown))
-                for place, name in enumerate(names[1:], 1)
-            ],
-            say("Difference from {own}, with a 90% interval:", own=names[0]),
-        )
-
-
-def _value(value: float, show: Show) -> str | None:
-    return None if math.isnan(value) else show(value)
-
-
-def _difference(of: Estimate, place: int, show: Show) -> str | None:
-    change, half = float(of.change[place]), float(of.change_margin[place])
-    if math.isnan(change) or math.isnan(half):
-        return None
-    sign, bare = ("+" if change >= 0.0 else ""), [show(x).removesuffix("%") for x in (change, half)]
-    if half > 0.0 and not float(bare[1]):
-        bare = [f"{change:.2g}", f"{half:.1g}"]
-    return f"{sign}{bare[0]}\N{PLUS-MINUS SIGN}{bare[1]}"
+        changes = [
+            (name, *(how.difference(measures[key], place) for key, how in shown.items()))
+            for place, name in enumerate(names[1:], 1)
+        ]
+        said = say("Difference from {own}, with a 90% interval:", own=names[0])
+        yield Table("", columns, changes, said)
 
 
 # The tables.
@@ -400,17 +439,7 @@ def deciles_frame(comparison: Comparison) -> pd.DataFrame:
         mean chance to win one; titles, as a multiple of an equal share; each with its standard
         error. In a league of teams titles are by the strength of the team.
     """
-    estimates = {name: comparison.estimate(PARTS[name]) for name in ("p_even", "p_win", "titles")}
-    rows = []
-    for place, name in enumerate(comparison.names):
-        for part in range(estimates["p_even"].value.shape[1]):
-            row: dict[str, Any] = {"system": name, "part": part + 1}
-            for key, of in estimates.items():
-                there = part < of.value.shape[1]
-                row[key] = float(of.value[place, part]) if there else None
-                row[f"{key}_se"] = float(of.error[place, part]) if there else None
-            rows.append(row)
-    return pd.DataFrame(rows)
+    return _parts_frame(comparison, ("p_even", "p_win", "titles"), "part", 1)
 
 
 def nights_frame(comparison: Comparison) -> pd.DataFrame:
@@ -423,15 +452,22 @@ def nights_frame(comparison: Comparison) -> pd.DataFrame:
         the cycle of nights that ends with this one; newcomer_error, the same of newcomers this
         many nights after they came; each with its standard error.
     """
-    estimates = {name: comparison.estimate(PARTS[name]) for name in ("error", "newcomer_error")}
+    return _parts_frame(comparison, ("error", "newcomer_error"), "night", 0)
+
+
+def _parts_frame(
+    comparison: Comparison, measures: Sequence[str], part: str, first: int
+) -> pd.DataFrame:
+    """Return measures of parts: a row for each system and part, numbered from `first`."""
+    estimates = {name: comparison.estimate(PARTS[name]) for name in measures}
     rows = []
-    for place, name in enumerate(comparison.names):
-        for night in range(estimates["error"].value.shape[1]):
-            row: dict[str, Any] = {"system": name, "night": night}
+    for place, system in enumerate(comparison.names):
+        for k in range(estimates[measures[0]].value.shape[1]):
+            row: dict[str, Any] = {"system": system, part: k + first}
             for key, of in estimates.items():
-                there = night < of.value.shape[1]
-                row[key] = float(of.value[place, night]) if there else None
-                row[f"{key}_se"] = float(of.error[place, night]) if there else None
+                there = k < of.value.shape[1]
+                row[key] = float(of.value[place, k]) if there else None
+                row[f"{key}_se"] = float(of.error[place, k]) if there else None
             rows.append(row)
     return pd.DataFrame(rows)
 

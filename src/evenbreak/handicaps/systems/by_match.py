@@ -6,7 +6,7 @@ such a rule does to a rating is a Markov chain, which `Ladder` follows.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, MutableMapping, Sequence
 from dataclasses import dataclass, field
 from math import gcd
 from numbers import Integral
@@ -127,7 +127,7 @@ class StepSystem(System):
         A newcomer's moves go by the matches played before each, in the order of the night.
         """
         night = history.tonight
-        up_a, up_b = self._points(night)
+        up_a, up_b = self._points(night, history.kept)
         ratings = np.array(history.ratings, dtype=float)
         if not self.newcomer_steps:
             for who, points in ((night.a, up_a), (night.b, up_b)):
@@ -145,6 +145,11 @@ class StepSystem(System):
         steps = [factor for matches, factor in self.newcomer_steps for _ in range(matches)]
         factors = np.array([*steps, 1])
         flat, played = ratings.reshape(-1), history.matches_before.reshape(-1)
+        places = [positions(who, ratings.shape)[night.played] for who in (night.a, night.b)]
+        if np.bincount(np.concatenate(places)).max(initial=0) <= 1:  # a match a player
+            for place, up in zip(places, points, strict=True):
+                flat[place] += up[night.played] * factors[np.minimum(played[place], last)]
+            return flat.reshape(ratings.shape)
         for row in range(len(night)):
             there = np.atleast_1d(night.played[row])
             for who, up in ((night.a, points[0]), (night.b, points[1])):
@@ -155,9 +160,9 @@ class StepSystem(System):
                 played[place] += 1
         return flat.reshape(ratings.shape)
 
-    def _points(self, night: Matches) -> tuple[Ints, Ints]:
+    def _points(self, night: Matches, kept: MutableMapping[str, Any]) -> tuple[Ints, Ints]:
         """Return the whole points of player a and of player b in each match; established ones."""
-        won, shape = night.won_a, night.a.shape
+        won = night.won_a
         columns = {
             "games": (night.score_a, night.score_b),
             "race": (night.race_a, night.race_b),
@@ -166,18 +171,14 @@ class StepSystem(System):
         for name in self.asks:
             a, b = columns[name]
             keys += [np.where(won, a, b), np.where(won, b, a)]
-        table = np.stack([np.broadcast_to(key, shape).ravel() for key in keys], axis=1)
-        if not table.size:
-            return np.zeros(shape, dtype=np.int64), np.zeros(shape, dtype=np.int64)
-        # Matches of one kind are moved alike: each kind is asked about once.
-        _, first, kind = np.unique(_packed(table), return_index=True, return_inverse=True)
-        points = np.array([self._points_of(table[place]) for place in first.tolist()])
-        moved = points[kind.reshape(shape)]
-        winner, loser = moved[..., 0], moved[..., 1]
+        if not won.size:
+            return np.zeros(won.shape, dtype=np.int64), np.zeros(won.shape, dtype=np.int64)
+        known = kept.setdefault("points", _KnownPoints(self._points_of))
+        winner, loser = known(keys)
         return np.where(won, winner, loser), np.where(won, loser, winner)
 
-    def _points_of(self, kind: Any) -> tuple[int, int]:
-        apart, *values = kind.tolist()
+    def _points_of(self, kind: Sequence[float]) -> tuple[int, int]:
+        apart, *values = kind
         stated = {
             name: (int(values[2 * k]), int(values[2 * k + 1])) for k, name in enumerate(self.asks)
         }
@@ -244,10 +245,59 @@ def points_of(value: Any, name: str, *, at_least: int = 1) -> int:
     return whole(value, name, at_least=at_least, at_most=_MOST_POINTS)
 
 
-def _packed(table: Any) -> Any:
-    """Return one number for each different row: sorting these is far faster than sorting rows."""
-    packed = np.zeros(len(table), dtype=np.int64)
-    for column in table.T:
-        values, place = np.unique(column, return_inverse=True)
-        packed = packed * len(values) + place.reshape(-1)
-    return packed
+_ROOM = 256
+"""A table has room for so many kinds of matches for each match of a night, at most."""
+
+_UNKNOWN = np.iinfo(np.int32).min
+
+
+class _KnownPoints:
+    """The points of each kind of match, in a table: a rule is asked about each kind once."""
+
+    def __init__(self, ask: Callable[[Sequence[float]], tuple[int, int]]) -> None:
+        self.ask = ask
+        self.low: Any = None
+        self.size: Any = None
+        self.points = np.zeros((2, 0), dtype=np.int32)
+
+    def __call__(self, keys: Sequence[Any]) -> tuple[Ints, Ints]:
+        """Return the points of winners and losers, from the columns that make a kind."""
+        columns = [np.asarray(key).astype(np.int64) for key in keys]
+        if (columns[0] != keys[0]).any():  # ratings between whole points
+            rows = np.stack([np.ravel(key) for key in keys], axis=1)
+            kinds, kind = np.unique(rows, axis=0, return_inverse=True)
+            points = self._asked(kinds)[:, kind.reshape(np.shape(keys[0]))]
+            return points[0], points[1]
+        low, high = (np.array([end(column) for column in columns]) for end in (np.min, np.max))
+        if self.low is None or (low < self.low).any() or (high >= self.low + self.size).any():
+            self._widen(low, high)
+        code = columns[0] - self.low[0]
+        for column, least, size in zip(columns[1:], self.low[1:], self.size[1:], strict=True):
+            code = code * size + (column - least)
+        if self.size.prod() > _ROOM * code.size:
+            kinds, kind = np.unique(code, return_inverse=True)
+            points = self._asked(self._kinds(kinds))[:, kind.reshape(code.shape)]
+            return points[0], points[1]
+        if not self.points.size:
+            self.points = np.full((2, self.size.prod()), _UNKNOWN, dtype=np.int32)
+        winner = self.points[0].take(code)
+        lacks = winner == _UNKNOWN
+        if lacks.any():
+            new = np.unique(code[lacks])
+            self.points[:, new] = self._asked(self._kinds(new))
+            winner = self.points[0].take(code)
+        return winner, self.points[1].take(code)
+
+    def _kinds(self, codes: Ints) -> Ints:
+        return np.asarray(np.stack(np.unravel_index(codes, self.size), axis=1) + self.low)
+
+    def _asked(self, kinds: Any) -> Ints:
+        return np.array([self.ask(kind) for kind in kinds.tolist()]).T
+
+    def _widen(self, low: Ints, high: Ints) -> None:
+        """Make room for more kinds, with some to spare; what is known is asked about again."""
+        if self.low is not None:
+            low, high = np.minimum(low, self.low), np.maximum(high, self.low + self.size - 1)
+        spare = (high - low) // 4 + 1
+        self.low, self.size = low - spare, high - low + 1 + 2 * spare
+        self.points = self.points[:, :0]
