@@ -6,10 +6,10 @@ luminances L, the larger one above. Text needs 4.5.
 
 from __future__ import annotations
 
-import re
 from typing import NamedTuple
 
 from evenbreak.errors import InputError
+from evenbreak.files.league.values import COLOR
 
 CONTRAST = 4.5
 """The contrast that text needs."""
@@ -20,7 +20,6 @@ LIGHT, DARK = ("#ffffff", "#f1f3f5"), ("#12161b", "#090c10", "#1a2027")
 MOST_LOGO_BYTES = 200_000
 """The largest logo; a phone loads it with the first page."""
 
-_COLOR = re.compile(r"#(?:[0-9a-f]{3}){1,2}", re.ASCII | re.IGNORECASE)
 _LOGOS = {
     b"\x89PNG\r\n\x1a\n": "png",
     b"\xff\xd8\xff": "jpg",
@@ -52,10 +51,7 @@ def accent(color: str) -> Accent:
     >>> accent("#1b6e53").light, accent("#ffee00").light, accent("#ffee00").changed
     ('#1b6e53', '#787000', True)
     """
-    if not _COLOR.fullmatch(color.strip()):
-        raise InputError("color is {value!r}; write one like #1b6e53", value=color)
-    digits = color.strip().lstrip("#").lower()
-    asked = "#" + (digits if len(digits) == 6 else "".join(2 * one for one in digits))
+    asked = COLOR.read(color)
     light, dark = _toward(asked, "#000000", LIGHT), _toward(asked, "#ffffff", DARK)
     return Accent(light, dark, _on(light), _on(dark), light != asked)
 

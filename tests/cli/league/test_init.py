@@ -57,7 +57,7 @@ def test_what_cannot_be_is_refused_and_nothing_is_written(run, folder):
 def test_on_a_terminal_it_asks_and_asks_again(folder, monkeypatch):
     from click.testing import CliRunner
 
-    monkeypatch.setattr(init, "_on_terminal", lambda: True)
+    monkeypatch.setattr(init, "can_ask", lambda: True)
     answers = ["Thursday", "10 ball", "10-ball", "fargo", "9", "none", "4", ""]
     result = CliRunner().invoke(program, ["league", "init"], input="\n".join(answers))
     assert result.exit_code == 0

@@ -84,3 +84,10 @@ def test_what_cannot_be_is_refused(words, message, run):
     result = run("league", "table", *words)
     assert result.exit_code == 2
     assert message in result.stderr
+
+
+def test_a_file_without_a_row_is_refused(run, tmp_path):
+    (tmp_path / "r.csv").write_text("player_a,player_b,score_a,score_b\n")
+    done = run("league", "table", str(tmp_path / "r.csv"))
+    assert done.exit_code == 3
+    assert "has no matches below its header" in done.stderr

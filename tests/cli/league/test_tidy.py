@@ -45,14 +45,14 @@ def test_the_same_list_is_written_from_the_leagues_file_and_from_files_that_are_
 
 
 def test_on_a_terminal_it_asks_and_prints_the_lines_that_answer(office, run, monkeypatch):
-    monkeypatch.setattr(tidy_module, "_can_ask", lambda: True)
+    monkeypatch.setattr(tidy_module, "can_ask", lambda: True)
     asked = json.loads(run("league", "tidy", "--json", stdin="y\nn\n").stdout)
     lines = [one["line"] for one in asked["answers"]]
     assert len(lines) == 2
     assert lines[0] == r'"\"Big Al\" Peterson" = "Big Al Peterson"'
     assert len(read_results(office / "tidy.csv").results.players) == 5
     (office / "league.toml").write_text("\n".join([TOML, "[aliases]", *lines]), encoding="utf-8")
-    monkeypatch.setattr(tidy_module, "_can_ask", lambda: False)
+    monkeypatch.setattr(tidy_module, "can_ask", lambda: False)
     before = (office / "tidy.csv").read_bytes()
     again = json.loads(run("league", "tidy", "--json").stdout)
     assert not again.get("name_doubts")

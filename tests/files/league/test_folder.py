@@ -132,6 +132,13 @@ def test_results_of_home_and_away_alone_are_those_of_a_team_season_too(tmp_path)
     assert [one.file for one in league.results] == ["nights.csv"]
 
 
+def test_results_of_players_with_their_teams_are_not_those_of_a_team_season(tmp_path):
+    head, *rows = RESULTS.splitlines()
+    text = "\n".join([f"{head},team_a,team_b", *(f"{row},Aces,Bolts" for row in rows)])
+    (tmp_path / "nights.csv").write_text(text)
+    assert "files.team_results" not in proposed(seen_files(tmp_path), "Club").values
+
+
 def test_an_empty_folder_proposes_a_league_too(tmp_path):
     _, league = written(tmp_path)
     assert (league.name, league.race_to, league.results) == ("Tuesday", 7, ())

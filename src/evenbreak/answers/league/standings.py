@@ -178,15 +178,11 @@ def rules_words(
     if rules.shutout:
         text += f", {rules.shutout:g} for a win to nil"
     named = {
-        DIFFERENCE: f"{unit}s won less lost",
-        SCORED: f"{unit}s won",
-        WINS: "matches won",
+        **_DECIDED,
         HEAD_TO_HEAD: "the matches among those level",
         WIN_SHARE: "the share of matches won",
-        FORFEITS: "fewer forfeits",
-        POINTS: "points",
     }
-    ties = [named[tie] for tie in rules.ties]
+    ties = [named[tie].format(score=f"{unit}s") for tie in rules.ties]
     first = "ranked by" if POINTS in rules.ties else level
     return f"{text}; {first}: {', '.join([*ties, last])}"
 

@@ -25,6 +25,11 @@ def to_terminal() -> bool:
     return sys.stdout is not None and sys.stdout.isatty()
 
 
+def can_ask() -> bool:
+    """Return whether somebody is there to answer a question."""
+    return all(one is not None and one.isatty() for one in (sys.stdin, sys.stderr))
+
+
 def write(text: str) -> None:
     """Write text to stdout; letters that the terminal cannot show become question marks."""
     raise_if_interrupted()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +12,7 @@ import click
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.said import said
-from evenbreak.cli.kit.terminal import say
+from evenbreak.cli.kit.terminal import can_ask, say
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Kind, Text
 from evenbreak.fields.question import declaration
@@ -41,7 +40,7 @@ def command(asked: LeagueInit) -> Answer:
     if not folder.is_dir():
         asked.refuse("there is no folder {folder}; make it, or name another", folder=asked.folder)
     check_folder(folder)
-    asks = not asked.yes and _on_terminal()
+    asks = not asked.yes and can_ask()
     _keep_old(asked, asks)
     seen = seen_files(folder)
     if asks:
@@ -54,10 +53,6 @@ def command(asked: LeagueInit) -> Answer:
     return league_answer(
         str(path), list(_taken(seen, league)), list(_commands(asked.folder, league))
     )
-
-
-def _on_terminal() -> bool:
-    return all(one is not None and one.isatty() for one in (sys.stdin, sys.stderr))
 
 
 def _name_of(folder: Path) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +12,7 @@ from evenbreak import files
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.progress import erase
-from evenbreak.cli.kit.terminal import write_file
+from evenbreak.cli.kit.terminal import can_ask, write_file
 from evenbreak.files.league import is_league
 from evenbreak.files.league.league_file import LeagueFile, Source, read_league
 from evenbreak.files.league.sources import LeagueResults, NameDoubt, league_results
@@ -32,7 +31,7 @@ def tidy(asked: LeagueTidy) -> Answer:
     how = {name: reading[name] for name in ("columns", "dates")}
     found = league_results(league, **how)
     answers: dict[str, str] = {}
-    if _can_ask() and found.name_doubts:
+    if can_ask() and found.name_doubts:
         answers = dict(_answered(found))
         found = league_results(replace(league, aliases={**league.aliases, **answers}), **how)
     write_file(asked.out, files.to_csv(results_frame(found.results)))
@@ -44,10 +43,6 @@ def _league(asked: LeagueTidy) -> LeagueFile:
     if len(asked.results) == 1 and is_league(asked.results[0]):
         return read_league(asked.results[0])
     return LeagueFile(folder=Path(), results=tuple(Source(file=one) for one in asked.results))
-
-
-def _can_ask() -> bool:
-    return all(one is not None and one.isatty() for one in (sys.stdin, sys.stderr))
 
 
 def _answered(found: LeagueResults) -> Iterator[tuple[str, str]]:

@@ -168,8 +168,9 @@ def _results(path: Path) -> SeenFile | None:
     table = _table(RESULTS_FILE, path, exported=export_of)
     if table is None:
         return None
-    sides = _table(TEAM_RESULTS, path) is not None
-    return replace(_results_by(path, {}), sides=sides)
+    of_sides = _table(TEAM_RESULTS, path)
+    one_way = of_sides is not None and not len(of_sides.problems)
+    return replace(_results_by(path, {}), sides=one_way)
 
 
 def _results_by_rows(path: Path) -> SeenFile | None:

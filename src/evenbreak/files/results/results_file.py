@@ -216,10 +216,11 @@ _OF_RESULT = ("score_a", "score_b", "winner", "racks", "forfeit")
 
 def _without_unplayed(table: TextTable) -> TextTable:
     """Return the table without the rows that state no result."""
-    stated = np.zeros(len(table), dtype=bool)
-    for name in _OF_RESULT:
-        stated |= [text.casefold() not in _NO_RESULT for text in table.cells(name)]
-    return table.without(table.lines[~stated].tolist())
+    rows = zip(*(table.cells(name) for name in _OF_RESULT), strict=True)
+    states = (any(text.casefold() not in _NO_RESULT for text in row) for row in rows)
+    return table.without(
+        [k for k, one in zip(table.lines.tolist(), states, strict=True) if not one]
+    )
 
 
 def columns_of_file(columns: Mapping[str, str], path: str | Path) -> dict[str, str]:
