@@ -192,6 +192,24 @@ picture.legend(fontsize=9)
             draws="draw_gaps",
         ),
         Shown(
+            "compared/even_by_decile.svg",
+            "Handicap systems side by side: even matches",
+            "For whom each system makes matches even, from the weakest tenth to the strongest.",
+            "how-to/compare-handicap-systems.md",
+            "simulate data/demo_league_roster.csv --compare npl --compare 'step 2' --replicas 100 "
+            "--jobs 1 --out compared",
+            draws="draw_even",
+        ),
+        Shown(
+            "compared/errors_by_night.svg",
+            "Handicap systems side by side: ratings",
+            "How far off each system's ratings are, night by night.",
+            "how-to/compare-handicap-systems.md",
+            "simulate data/demo_league_roster.csv --compare npl --compare 'step 2' --replicas 100 "
+            "--jobs 1 --out compared",
+            draws="draw_errors_compared",
+        ),
+        Shown(
             "season/standings.svg",
             "A season: the table",
             "How many matches each player wins: the mean, and 8 seasons in 10.",

@@ -91,6 +91,7 @@ LINES: dict[tuple[str, str], list[str]] = {
         "rate results.csv --roster plain.csv --system elo",
         "rate results.csv --roster plain.csv --system fixed",
     ],
+    ("publish", "--roster"): ["publish results.csv --roster plain.csv --out site"],
     ("rate", "--anchor"): [
         "rate results.csv --anchor 512",
         "rate results.csv --anchor 'Ann Lee=656'",

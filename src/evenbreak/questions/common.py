@@ -11,7 +11,6 @@ from evenbreak.errors import InputError
 from evenbreak.fields.kinds import LONGEST, Choice, File, Flag, Named, Number, Text, TwoWhole, Whole
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.files.league.values import PAPER, SCALE
-from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale
 from evenbreak.tournaments.evening.format import LONGEST_RACE
 
@@ -74,9 +73,8 @@ LevelResults: TypeAlias = Annotated[
     str | None,
     Field(
         File("RESULTS.csv"),
-        "With a chart by skill level: the league's own results, which show how strong its levels "
-        "are.",
-        usual="what was measured in other leagues, else what the chart assumes",
+        "With a chart by skill level: the league's own results, to show how strong its levels are.",
+        usual="other leagues' results, else the chart",
         more="See [what a level is worth](../../explanation/charts.md#skill-levels).",
     ),
 ]
@@ -257,6 +255,9 @@ class Starters(Question):
 
 def title_in(text: str) -> str:
     """Return the title of a sheet, or refuse one that cannot be printed on a line."""
+    # Numpy is not loaded before a title is given.
+    from evenbreak.files.tables.names import clean_name, is_name
+
     title: str = clean_name(text)
     if title and not is_name(title):
         raise InputError(

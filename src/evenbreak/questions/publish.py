@@ -21,6 +21,7 @@ from evenbreak.questions.common import (
 from evenbreak.questions.results import ROSTER, Results
 from evenbreak.questions.tables import TablePoints, TeamScore, TeamsFile, Ties
 
+_TABLE = "The table"
 _LOOK = "The look"
 
 
@@ -38,7 +39,6 @@ class Publish(Results, Lengths):
     examples = """\
   evenbreak publish
   evenbreak publish season.csv --title "Tuesday league"
-  evenbreak publish season.csv --scale fargo --race-to 9 --out public
   evenbreak publish season.csv --names initials --color "#1b6e53" --logo logo.png
   evenbreak publish season.csv --chart apa_8ball --tournaments nights
 """
@@ -78,10 +78,10 @@ class Publish(Results, Lengths):
             "that are over are shown with their brackets.",
         ),
     ] = None
-    teams: TeamsFile = None
-    count: TeamScore = "sets"
-    table_points: TablePoints = USUAL_RULES
-    ties: Ties = USUAL_RULES.ties
+    teams: Annotated[TeamsFile, Says(section=_TABLE)] = None
+    count: Annotated[TeamScore, Says(section=_TABLE)] = "sets"
+    table_points: Annotated[TablePoints, Says(section=_TABLE)] = USUAL_RULES
+    ties: Annotated[Ties, Says(section=_TABLE)] = USUAL_RULES.ties
     title: Annotated[str, Field(Named(title_in, "TEXT"), "The league's name.", section=_LOOK)] = (
         "League"
     )

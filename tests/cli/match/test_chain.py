@@ -164,7 +164,7 @@ def test_cp1252_is_read_with_a_warning(run):
         (b"", ["stdin: is empty"]),
         (b"\x00\x01", ["stdin:1: holds a NUL"]),
         (HEADER, ["stdin: has no arcs"]),
-        ("a,b\n1,2\n", ["'source'", "'target'", "'probability'"]),
+        ("a,b\n1,2\n", ["'source', 'target' and 'probability'"]),
         (HEADER + "S,W,x\n", ["stdin:2: probability 'x' is not a number"]),
         (HEADER + "S,W,nan\n", ["stdin:2: probability 'nan' is not a number"]),
         (

@@ -28,7 +28,6 @@ PRACTICE = registry(
     number("sd_level", "standard deviation", 3, "sd"),
     number("mean_so_far", "average level so far", 2),
     number("mean_in_long_run", "average level in the long run", 2, "mean"),
-    text("shot", "shot"),
     number("made", "made"),
     number("tried", "tried"),
     number("chance_shot", "chance", chance, "chance"),
