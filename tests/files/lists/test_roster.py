@@ -237,3 +237,14 @@ def test_a_fargo_search_gives_the_effective_rating_of_those_without_another(read
     np.testing.assert_array_equal(roster.provisional, [False, True, True, False])
     np.testing.assert_array_equal(roster.games, [1173, 170, 12, 0])
     assert file.scale.name == "fargo"
+
+
+def test_a_name_in_two_columns_may_have_one_title_above_both(read):
+    """Where the upper row would do alone, or its titles are no part of the column's name."""
+    file = read(
+        "Fall,,,,\nTeam,Player,,Skill,Matches\n,Last name,First name,Level,Played\n"
+        "Racks,Lee,Ann,5,12\nRacks,Fox,Bo,,0\n"
+    )
+    assert file.roster.players == ("Ann Lee", "Bo Fox")
+    np.testing.assert_array_equal(file.roster.level, [5, np.nan])
+    np.testing.assert_array_equal(file.roster.matches, [12, 0])

@@ -107,15 +107,16 @@ class Header:
             complete = [
                 fit
                 for above in range(min(len(rows) - 1, MOST_ABOVE))
-                if (fit := self._fit(_joined(*rows[above : above + 2]), -above, 2)).complete
+                if (fit := self._fit_of_two(rows, above)).complete
             ]
         if complete:  # a table below another one is not what is read
             best = next((fit for fit in complete if fit.known > 1), complete[0])
             if best.above and told_apart(rows[-best.above]) != [*rows[-best.above]]:
                 upper = -best.above - 1  # which may say whose the repeated titles are
-                both = self._fit(_joined(*rows[upper : upper + 2]), -upper, 2)
+                both = self._fit_of_two(rows, upper)
                 return both if both.complete and both.known >= best.known else best
-            return best
+            both = self._fit_of_two(rows, -best.above)  # Player may stand above First and Last name
+            return both if both.complete and both.known > best.known else best
         nothing = Fit(complete=False, known=0, titles=0, above=0)
         best = max(fits, key=lambda fit: (fit.known, fit.above), default=nothing)
         if best.known > 1:
@@ -127,7 +128,27 @@ class Header:
         """Return the titles of the header that fits so."""
         if fit.rows == 1:
             return told_apart(rows[-fit.above])
-        return _joined(*rows[-fit.above : fit.below])
+        return self._of_two(*rows[-fit.above : fit.below])
+
+    def _fit_of_two(self, rows: Sequence[Sequence[str]], above: int) -> Fit:
+        if len(rows) < above + 2:
+            return Fit(complete=False, known=0, titles=0, above=-above)
+        return self._fit(self._of_two(*rows[above : above + 2]), -above, 2)
+
+    def _of_two(self, upper: Sequence[str], lower: Sequence[str]) -> list[str]:
+        """Return the titles of a header of two rows: of a title that is not known, the lower part.
+
+        That part has to be known, and to stand once: Player above Last name is the Last name.
+        """
+        titles = _joined(upper, lower)
+        lower = [*lower, *[""] * (len(titles) - len(lower))]
+        names, alone = self._named(titles), self._named(lower)
+        return [
+            below.strip()
+            if own and not name and own not in names and alone.count(own) == 1
+            else title
+            for title, below, name, own in zip(titles, lower, names, alone, strict=True)
+        ]
 
     def _fit(self, titles: Sequence[str], above: int, rows: int = 1) -> Fit:
         names = {name for name in self._named(told_apart(titles)) if name}
