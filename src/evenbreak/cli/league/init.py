@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -145,12 +146,37 @@ def _taken(seen: Sequence[SeenFile], league: NewLeague) -> Iterator[tuple[str, s
 
 def _commands(folder: str, league: NewLeague) -> Iterator[tuple[str, str]]:
     """Yield what can be run now, each with what it is for."""
-    where = "" if folder == "." else f" --league {folder}"
-    if "files.roster" in league.values:
+    where = "" if folder == "." else f" --league {shlex.quote(folder)}"
+    roster = "files.roster" in league.values
+    if roster:
         yield "tonight's races", f"evenbreak matchups{where}"
+    if len(league.teams) > 1:
+        ours, theirs = map(_quoted, league.teams[:2])
+        yield "a line-up", f"evenbreak lineup {ours} {theirs}{where}"
     if league.sources:
         yield "the table", f"evenbreak league table{where}"
         if not league.levels:
             yield "ratings", f"evenbreak rate{where}"
-    elif "files.roster" not in league.values:
+        yield "a website", f"evenbreak publish{where}"
+        yield "are the handicaps fair?", f"evenbreak validate{where}"
+    elif "files.team_results" in league.values:
+        yield "the table", f"evenbreak league table{where}"
+    if roster:
+        if league.sources:
+            yield "is anyone sandbagging?", f"evenbreak sandbag watch{where}"
+        systems = _alternatives(league)
+        yield "would another system be fairer?", f'evenbreak simulate --compare "{systems}"{where}'
+    elif not league.sources:
         yield "the odds of a match", f"evenbreak odds 612 521{where}"
+
+
+def _quoted(text: str) -> str:
+    """Return a name as it is typed in a command, in double quotes where any shell takes them."""
+    return shlex.quote(text) if set(text) & set('"$`\\!') else f'"{text}"'
+
+
+def _alternatives(league: NewLeague) -> str:
+    """Return the league's own system, and two that it could have in its place."""
+    own = league.values.get("system", "npl")
+    others = ["fargo-like", "none"] if league.levels else ["fargo-like", "npl", "none"]
+    return ", ".join([own, *(one for one in others if one != own)][:3])

@@ -60,6 +60,8 @@ class SeenFile:
     """Whether results are titled as those of home and away."""
     teams: frozenset[str] = frozenset()
     """The teams that it names, likewise."""
+    squads: tuple[str, ...] = ()
+    """The teams of a roster, as it writes them."""
     holds: Any = None
 
 
@@ -230,9 +232,15 @@ def _roster(path: Path) -> SeenFile | None:
     file = read_roster(path)
     names = frozenset(map(same_name, file.roster.players))
     about = say("{n:,} players", n=len(names))
-    teams = frozenset(map(same_name, filter(None, table.cells("team"))))
+    squads = tuple({same_name(team): team for team in table.cells("team") if team}.values())
     return SeenFile(
-        name=path.name, what=ROSTER, about=about, players=names, teams=teams, holds=file
+        name=path.name,
+        what=ROSTER,
+        about=about,
+        players=names,
+        teams=frozenset(map(same_name, squads)),
+        squads=squads,
+        holds=file,
     )
 
 

@@ -72,12 +72,15 @@ class NewLeague:
         which names mean which players.
     levels
         whether the players have skill levels and no ratings.
+    teams
+        the teams of the roster.
     """
 
     values: Mapping[str, str]
     sources: Sequence[tuple[str, Mapping[str, str]]] = ()
     aliases: Mapping[str, str] = field(default_factory=dict)
     levels: bool = False
+    teams: Sequence[str] = ()
 
 
 def proposed(seen: Sequence[SeenFile], name: str) -> NewLeague:
@@ -125,6 +128,7 @@ def proposed(seen: Sequence[SeenFile], name: str) -> NewLeague:
         sources=[(one.name, one.columns) for one in results],
         aliases=aliases,
         levels=bool(levels) and not has_ratings,
+        teams=rosters[0].squads if rosters else (),
     )
 
 
