@@ -230,9 +230,10 @@ def test_skill_levels_are_known_by_their_title(tmp_path, title):
 def test_a_fargo_search_gives_the_effective_rating_of_those_without_another(read):
     file = read(
         "readableId,firstName,lastName,rating,effectiveRating,robustness,provisionalRating\n"
-        "1,Ann,Lee,523,523,1173,\n2,Bo,Fox,0,487,170,487\n3,Cy,Ash,,455,12,455\n4,Di,Orr,0,0,0,\n"
+        "1,Di,Diaz,523,523,1173,\n2,Bo,Fox,0,487,170,487\n3,Cy,Ash,,455,12,455\n4,Di,Orr,0,0,0,\n"
     )
     roster = file.roster
+    assert roster.players[0] == "Di Diaz"
     np.testing.assert_array_equal(roster.rating, [523, 487, 455, np.nan])
     np.testing.assert_array_equal(roster.provisional, [False, True, True, False])
     np.testing.assert_array_equal(roster.games, [1173, 170, 12, 0])

@@ -60,6 +60,20 @@ def tidy_answer(found: LeagueResults, *, answers: Mapping[str, str] | None = Non
         if changes[kind]
     ]
     parts: list[Part] = [said + (f" Left out: {listed(left)}." if left else "")]
+    forfeits = found.results.given_away
+    if many := int(forfeits.sum()):
+        unknown = (
+            many
+            if found.results.winner is None
+            else int((found.results.winner[forfeits] == 0).sum())
+        )
+        text = f"{count_of(many, 'forfeit')} among them, which count in no rating"
+        if unknown:
+            text += (
+                f". The winner of {count_of(unknown, 'forfeit')} is not stated, which the table "
+                "leaves out; add a column winner to the file"
+            )
+        parts.append(text + ".")
     if changes["doubt"]:
         parts.append(
             f"{count_of(changes['doubt'], 'match', 'matches')} may be in two files, with another "

@@ -16,6 +16,7 @@ from evenbreak.cli.kit.terminal import can_ask, write_file
 from evenbreak.files.league import is_league
 from evenbreak.files.league.league_file import LeagueFile, Source, read_league
 from evenbreak.files.league.sources import LeagueResults, NameDoubt, league_results
+from evenbreak.questions.of_league import text_of
 from evenbreak.questions.tidy import LeagueTidy
 
 
@@ -29,6 +30,7 @@ def tidy(asked: LeagueTidy) -> Answer:
     if asked.aliases is not None and not is_league(asked.aliases):
         league = replace(league, aliases=files.read_aliases(asked.aliases).means)
     how = {name: reading[name] for name in ("columns", "dates")}
+    how["chart"] = text_of(league, "chart")  # which says who won by the levels of a score sheet
     found = league_results(league, **how)
     answers: dict[str, str] = {}
     if can_ask() and found.name_doubts:

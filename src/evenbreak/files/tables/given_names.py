@@ -76,12 +76,18 @@ def with_full_names(table: TextTable) -> TextTable:
     if "given_name" not in table or not last:
         return table
     names = [
-        rest if key_of(rest).startswith(key_of(given)) else f"{given} {rest}".strip()
+        rest if _begins_with(rest, given) else f"{given} {rest}".strip()
         for given, rest in zip(table.cells("given_name"), table.cells(last), strict=True)
     ]
     columns = {**table.columns, "player": Texts.of(names)}
     titles = {**table.titles, "player": table.titles[last]}
     return replace(table, columns=columns, found=table.found | {"player"}, titles=titles)
+
+
+def _begins_with(rest: str, given: str) -> bool:
+    """Return whether a name has the given name in it: Ann Lee has Ann, and Diaz has no Di."""
+    words, first = ([key_of(word) for word in text.split()] for text in (rest, given))
+    return words[: len(first)] == first and len(words) > len(first)
 
 
 def with_teams_of_titles(table: TextTable) -> TextTable:
