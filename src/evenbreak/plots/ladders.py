@@ -252,7 +252,7 @@ def _free_offsets(
         places.sort(key=lambda place: (abs(place[1]) + 0.6 * abs(place[0]), -place[1]))
         covered = [
             sum(_overlap((x + dx, y + dy, width, height), box) for box in taken)
-            + _outside(x + dx, width, wide)
+            + 10.0 * max(0.0, width / 2.0 - x - dx, x + dx + width / 2.0 - wide)
             for dx, dy in places
         ]
         best = places[covered.index(min(covered))]
@@ -270,10 +270,6 @@ def _overlap(box: _Box, placed: _Box) -> float:
     across = (box[2] + placed[2]) / 2.0 - abs(box[0] - placed[0])
     along = (box[3] + placed[3]) / 2.0 - abs(box[1] - placed[1])
     return max(0.0, across) * max(0.0, along)
-
-
-def _outside(x: float, width: float, wide: float) -> float:
-    return 10.0 * max(0.0, width / 2.0 - x, x + width / 2.0 - wide)
 
 
 def _places(points: Sequence[SystemPoint]) -> tuple[list[float], list[float]]:

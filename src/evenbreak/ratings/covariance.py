@@ -309,7 +309,7 @@ class Curvature:
         unit: Any = self._pattern.matrix(off, np.ones(self.size))
         if len(self._levels):
             of_levels = 1.0 / np.sqrt(np.diagonal(self._levels))
-            unit = _bordered(
+            unit = with_levels(
                 unit,
                 self._across * scale[:, None] * of_levels,
                 self._levels * of_levels[:, None] * of_levels,
@@ -318,15 +318,15 @@ class Curvature:
         return scale * solve_unit(unit, (scale * right)[:, None], accuracy)[:, 0]
 
 
-def _bordered(matrix: sparse.csr_array, across: Floats, levels: Floats) -> LinearOperator:
-    """Return a sparse matrix with some dense rows and columns more."""
+def with_levels(matrix: sparse.csr_array, across: Floats, levels: Floats) -> LinearOperator:
+    """Return a sparse matrix with some dense rows and columns more, as what it does to columns."""
     size = len(across)
 
     def times(v: Floats) -> Floats:
         skill, level = v[:size], v[size:]
         return np.concatenate([matrix @ skill + across @ level, across.T @ skill + levels @ level])
 
-    return LinearOperator((size + len(levels),) * 2, times, matmat=times, dtype=np.float64)
+    return LinearOperator((size + len(levels),) * 2, times, matmat=times, dtype=matrix.dtype)
 
 
 def sums_by_player(

@@ -138,19 +138,15 @@ def game_tables() -> Tables:
     """Return the tables of all games, and the limit of each game by its own."""
     limits = {f"game_{name}": limit_rows(road) for name, road in roads().items()}
     return {
-        "game_graphs": graph_rows(),
+        "game_graphs": [_graph_row(name, road) for name, road in roads().items()],
         "game_eigenvalues": eigenvalue_rows(),
         "game_answers": answer_rows(),
         **limits,
     }
 
 
-def graph_rows() -> Rows:
-    """Return a row for each game: its states, arcs, classes, period and gap."""
-    return [_graph_row(name, road) for name, road in roads().items()]
-
-
 def _graph_row(name: str, road: Road) -> dict[str, Any]:
+    """Return the row of a game: its states, arcs, classes, period and gap."""
     structure, pairs = road.chain.structure, road.spectrum
     assert pairs is not None  # noqa: S101  each of these games has eigenvectors
     complete = len(pairs.values) == len(road.chain)

@@ -194,9 +194,8 @@ def shot_heading(found: Shot, units: Units, pocket: Pocket | None) -> str:
     length = units.length
     if pocket is None:
         apart = math.dist(found.approach.slide.position, found.object_position)
-        where = (
-            f"{cut_words(_unsigned_degrees(found.cut))}; {length.typed(apart)} between the centres"
-        )
+        cut = cut_words(round(math.degrees(found.cut), 9))  # as it was typed
+        where = f"{cut}; {length.typed(apart)} between the centres"
     else:
         places = (found.approach.slide.position, found.object_position)
         cue, standing = (f"({x / length.size:g}, {y / length.size:g})" for x, y in places)
@@ -292,8 +291,3 @@ def _aim_in_words(aimed: AimedShot, pocket: Pocket, units: Units) -> list[str]:
         return [*sentences, f"{aim}: throw brings the ball back."]
     miss = length.text(abs(aimed.miss), 2)
     return [*sentences, f"{aim}; without that, throw takes the ball {miss} off line."]
-
-
-def _unsigned_degrees(angle: float) -> float:
-    """Return an angle in degrees as it was typed."""
-    return round(math.degrees(angle), 9)

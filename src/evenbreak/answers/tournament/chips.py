@@ -115,6 +115,23 @@ def entered_words(state: Evening, name: str) -> Sentence:
     )
 
 
+def title_odds_of(night: Outlook) -> list[tuple[str, float, float]]:
+    """Return each player's chance of the title, and the same if the ratings are right."""
+    averaged, sure = night.odds.title.tolist(), night.as_if_sure.title.tolist()
+    return list(zip(night.state.order, averaged, sure, strict=True))
+
+
+def odds_data(night: Outlook) -> dict[str, Any]:
+    """Return what JSON holds of the odds, and of the matches that are set aside."""
+    names = ("name", "p_title", "p_title_if_sure")
+    return {
+        "odds": [dict(zip(names, row, strict=True)) for row in title_odds_of(night)],
+        "odds_exact": night.odds.exact,
+        "ratings_averaged": night.odds is not night.as_if_sure,
+        "set_aside": [as_dict(one.result) for one in night.state.aside],
+    }
+
+
 def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answer:
     """Return the state of a chip tournament: tables, line, chips, the odds, when it ends.
 
@@ -142,7 +159,6 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
     """
     state = night.state
     playing = len(state.chip_night.order) > 1
-    odds = night.odds
     words = list(said)
     parts: list[Part] = []
     luck: list[Part] = []
@@ -159,13 +175,7 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
             say("{player} wins the tournament.", player=name) for name in state.chip_night.order
         ]
     table = _players(night, playing=playing)
-    pairs = zip(state.order, odds.title.tolist(), night.as_if_sure.title.tolist(), strict=True)
-    data = {
-        "odds": [{"name": n, "p_title": p, "p_title_if_sure": sure} for n, p, sure in pairs],
-        "odds_exact": odds.exact,
-        "ratings_averaged": odds is not night.as_if_sure,
-        "set_aside": [as_dict(one.result) for one in state.aside],
-    }
+    data = odds_data(night)
     warnings = [
         say(
             "{result}, but after the correction one of them had no chips left by then; the rack is "

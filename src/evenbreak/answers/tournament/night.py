@@ -12,7 +12,12 @@ from evenbreak.answers.kit.columns import column_of, columns_of
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import decimals, percent
 from evenbreak.answers.tournament.bracket_view import group_words
-from evenbreak.answers.tournament.chips import chip_heading, chip_night_answer
+from evenbreak.answers.tournament.chips import (
+    chip_heading,
+    chip_night_answer,
+    odds_data,
+    title_odds_of,
+)
 from evenbreak.answers.tournament.odds import points_off
 from evenbreak.answers.tournament.prizes import Stake, stakes
 from evenbreak.answers.tournament.time import (
@@ -28,7 +33,7 @@ from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.clock.finish import Call
 from evenbreak.tournaments.evening.chip_night import chips_of
-from evenbreak.tournaments.evening.events import Result, as_dict, score_words
+from evenbreak.tournaments.evening.events import Result, score_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw, stage_to_draw
 from evenbreak.tournaments.evening.moves import free_tables
@@ -142,15 +147,7 @@ def night_answer(
         if decides and state.standing.to_play and not decided:
             parts.append(_UNDECIDED)
     luck = [finish_luck(night.as_things_are.finishes)] if under_way else []
-    data: dict[str, Any] = {
-        "odds": [
-            {"name": name, "p_title": p, "p_title_if_sure": sure}
-            for name, p, sure in _title_odds(night)
-        ],
-        "odds_exact": odds.exact,
-        "ratings_averaged": odds is not night.as_if_sure,
-        "set_aside": [as_dict(one.result) for one in state.aside],
-    }
+    data = odds_data(night)
     if under_way and not any(isinstance(part, Table) and part.name == "next" for part in parts):
         data["next"] = []  # nothing can be played before a draw or a tie-break
     warnings = [_aside_words(state, one.result) for one in state.aside]
@@ -210,13 +207,8 @@ def _draw_words(state: Evening) -> str:
     return say("The losers' qualifiers can be drawn now: {draw}", draw=draw)
 
 
-def _title_odds(night: Outlook) -> list[tuple[str, float, float]]:
-    averaged, sure = night.odds.title.tolist(), night.as_if_sure.title.tolist()
-    return list(zip(night.state.order, averaged, sure, strict=True))
-
-
 def _title_table(night: Outlook) -> Table:
-    rows = sorted((row for row in _title_odds(night) if row[1] > 0.0), key=lambda row: -row[1])
+    rows = sorted((row for row in title_odds_of(night) if row[1] > 0.0), key=lambda row: -row[1])
     columns = columns_of("name p_title")
     sure = column_of("p_title_if_sure")
     shown = [*columns, sure] if night.odds is not night.as_if_sure else columns

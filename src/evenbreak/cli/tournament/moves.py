@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,7 @@ from evenbreak.cli.tournament.evening import add, answer_of, moment
 from evenbreak.questions import evening as questions
 
 if TYPE_CHECKING:
-    from evenbreak.tournaments.evening.events import Called, CalledBack, Late, Ranked
+    from evenbreak.tournaments.evening.events import Called, CalledBack, Late, Ranked, Result
     from evenbreak.tournaments.evening.fold import Evening
 
 
@@ -72,10 +72,16 @@ def call(asked: questions.Call) -> Answer:
 @command_of(questions.EnterResult, "result")
 def result(asked: questions.EnterResult) -> Answer:
     """Enter the result of a match."""
-    from evenbreak.answers.tournament.moves import happened
     from evenbreak.tournaments.evening import moves
 
-    before, state = add(asked, lambda state: [moves.result(state, asked.match, asked.score)])
+    return _played(asked, lambda state: moves.result(state, asked.match, asked.score))
+
+
+def _played(asked: questions.TimedUnderWay, decide: Callable[[Evening], Result]) -> Answer:
+    """Enter a result, and say what follows from it."""
+    from evenbreak.answers.tournament.moves import happened
+
+    before, state = add(asked, lambda state: [decide(state)])
     return answer_of(asked, state, happened(before, state, state.events[-1]))
 
 
@@ -93,11 +99,9 @@ def score(asked: questions.EnterScore) -> Answer:
 @command_of(questions.Correct, "correct")
 def correct(asked: questions.Correct) -> Answer:
     """Correct the result of a match."""
-    from evenbreak.answers.tournament.moves import happened
     from evenbreak.tournaments.evening import moves
 
-    before, state = add(asked, lambda state: [moves.correct(state, asked.match, asked.score)])
-    return answer_of(asked, state, happened(before, state, state.events[-1]))
+    return _played(asked, lambda state: moves.correct(state, asked.match, asked.score))
 
 
 @command_of(questions.Stand, "stand")
@@ -197,14 +201,12 @@ def drop(asked: questions.Drop) -> Answer:
 @command_of(questions.Forfeit, "forfeit")
 def forfeit(asked: questions.Forfeit) -> Answer:
     """Let a player forfeit a match."""
-    from evenbreak.answers.tournament.moves import happened
     from evenbreak.tournaments.evening import moves
 
-    before, state = add(
+    return _played(
         asked,
-        lambda state: [moves.forfeit(state, moves.known_player(state, asked.player), asked.match)],
+        lambda state: moves.forfeit(state, moves.known_player(state, asked.player), asked.match),
     )
-    return answer_of(asked, state, happened(before, state, state.events[-1]))
 
 
 @command_of(questions.TieBreak, "tiebreak")

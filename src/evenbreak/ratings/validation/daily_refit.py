@@ -14,12 +14,13 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, cg
+from scipy.sparse.linalg import cg
 from scipy.special import expit
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings.beginning import MovingMeans, PriorMeans
 from evenbreak.ratings.conjugate_gradients import AT_ONCE, energies
+from evenbreak.ratings.covariance import with_levels
 from evenbreak.ratings.posterior import damped, find_zero, step_accuracy, tolerance
 
 GRADIENT = 1e-6
@@ -218,7 +219,7 @@ class _Hessian:
         if not len(self._levels):
             return between
         of_level = self._scale[len(self._of_player) :]
-        return _with_levels(
+        return with_levels(
             between,
             (self._across * self._of_player[:, None] * of_level).astype(kind),
             (self._levels * of_level[:, None] * of_level).astype(kind),
@@ -247,20 +248,3 @@ class _Hessian:
         residual[a, which] += self._scale[a].astype(np.float32)
         residual[b, which] -= self._scale[b].astype(np.float32)
         return energies(matrix, residual, VARIANCE_ACCURACY)
-
-
-def _with_levels(between: Any, across: Any, levels: Any) -> Any:
-    """Return a matrix between players, bordered by their levels, as what it does to columns."""
-    players = between.shape[0]
-    many = players + len(levels)
-
-    def image(columns: Any) -> Any:
-        of_player, of_level = columns[:players], columns[players:]
-        return np.concatenate(
-            [
-                between @ of_player + across @ of_level,
-                across.T @ of_player + levels @ of_level,
-            ]
-        )
-
-    return LinearOperator((many, many), matvec=image, matmat=image, dtype=between.dtype)

@@ -57,8 +57,8 @@ def _stroke_energy(i: Inputs) -> Any:
     return stroke_energy(stick, i["M_s"], i["M_f"])
 
 
-def _best_stick(i: Inputs) -> float:
-    return float(best_stick_ratio(i["M_f"] / i["M_b"]))
+def _best_stick(i: Inputs) -> Any:
+    return best_stick_ratio(i["M_f"] / i["M_b"])
 
 
 def _spin(i: Inputs) -> tuple[float, float]:
@@ -97,14 +97,6 @@ def _contact_slopes(i: Inputs) -> float:
 def _line_end(i: Inputs) -> float:
     late = effective_contact(ContactPoint(i["y/R"], i["z/R"]), 1.0, 1e3, Cloth())
     return float(late.z) - 1.0
-
-
-def _energy_factor(i: Inputs) -> float:
-    return float(kinetic_energy(Ball(), 1.0, spin_of_offset(i["b/R"])).total) / Ball().mass
-
-
-def _speed_lost(i: Inputs) -> float:
-    return 1.0 - float(roll_speed(1.0, spin_of_offset(i["b/R"])))
 
 
 ANSWERS: Answers = {
@@ -153,10 +145,14 @@ ANSWERS: Answers = {
     ("P3.9", "spread of z/y of the effective contact points"): _contact_slopes,
     ("P3.9", "b_z/R where their line ends"): _line_end,
     ("P3.10", "V_b/V_0"): lambda i: ball_speed_ratio(i["b/R"], i["M_b"] / i["M_s"]),
-    ("P3.10", "T_b/(M_b V_b^2)"): _energy_factor,
+    ("P3.10", "T_b/(M_b V_b^2)"): lambda i: (
+        kinetic_energy(Ball(), 1.0, spin_of_offset(i["b/R"])).total / Ball().mass
+    ),
     ("P3.11", "(b/R)_opt, exact"): lambda i: best_lag_offset(1.0 / i["M_s/M_b"]),
     ("P3.11", "(b/R)_opt"): lambda i: best_lag_offset(1.0 / i["M_s/M_b"]),
     ("P3.11", "V_NR/V_0"): lambda i: roll_speed_ratio(i["b/R"], i["M_b/M_s"]),
-    ("P3.11", "share of the speed lost to sliding"): _speed_lost,
+    ("P3.11", "share of the speed lost to sliding"): lambda i: (
+        1.0 - roll_speed(1.0, spin_of_offset(i["b/R"]))
+    ),
 }
 """How each quantity of these problems is computed."""

@@ -163,10 +163,6 @@ def _object_spin(i: Inputs, axis: int) -> float:
     return float(_along_centres(hit, hit.object_spin)[axis])
 
 
-def _spin_reaction(i: Inputs) -> float:
-    return -0.8 * Ball().radius * _object_spin(i, 2)
-
-
 def _gained(i: Inputs, *, jump: bool) -> Any:
     orbit, spin, flight = _momenta(i)
     return orbit + spin + (flight if jump else 0.0)
@@ -221,10 +217,6 @@ def _largest(unit: float = 1.0) -> float:
     return float(deflection(largest_deflection_cut())) / unit
 
 
-def _searched_largest() -> float:
-    return float(brentq(deflection_slope, 0.1, 1.0, xtol=1e-15))
-
-
 def _half(topspin: float, unit: float = 1.0) -> float:
     return float(split_roll_cut(topspin)) / unit
 
@@ -236,10 +228,6 @@ def _tangent(cut: float, topspin: float) -> float:
 def _share_after() -> float:
     shares = energy_after_hit(split_cut(_NATURAL), _NATURAL)
     return float(shares.object_ball / (shares.object_ball + shares.cue_ball))
-
-
-def _total_energy() -> float:
-    return float(kinetic_energy(Ball(), 1.0, 1.0).total) / Ball().mass
 
 
 def _common_splits() -> list[float]:
@@ -352,7 +340,9 @@ ANSWERS: Answers = {
         collide(i["alpha"], i["Jy"], gearing_side(i["alpha"])).departure / DEGREE
     ),
     ("P4.12", "L_b of the orbit over M R V_0"): lambda i: _momenta(i)[0][2],
-    ("P4.12", "L_b = -2 I omega_bz over M R V_0"): _spin_reaction,
+    ("P4.12", "L_b = -2 I omega_bz over M R V_0"): lambda i: (
+        -0.8 * Ball().radius * _object_spin(i, 2)
+    ),
     ("P4.12", "L_y - L_0y without the jump over M R V_0"): lambda i: _gained(i, jump=False)[1],
     ("P4.12", "L_x and L_z gained over M R V_0"): lambda i: np.max(
         np.abs(_gained(i, jump=True)[[0, 2]])
@@ -372,7 +362,9 @@ ANSWERS: Answers = {
     ("P4.13", "tan(theta)"): lambda i: math.tan(_theta(i)),
     ("P4.14", "tan(alpha + theta)"): lambda i: _tangent(i["alpha"], _NATURAL),
     ("P4.15", "dtheta/dalpha"): lambda i: deflection_slope(i["alpha"]),
-    ("P4.15", "alpha_max, by search, rad"): lambda _: _searched_largest(),
+    ("P4.15", "alpha_max, by search, rad"): lambda _: brentq(
+        deflection_slope, 0.1, 1.0, xtol=1e-15
+    ),
     ("P4.15", "alpha_max, rad"): lambda _: largest_deflection_cut(),
     ("P4.15", "pi/alpha_max"): lambda _: math.pi / largest_deflection_cut(),
     ("P4.15", "alpha_max, deg"): lambda _: largest_deflection_cut() / DEGREE,
@@ -383,7 +375,7 @@ ANSWERS: Answers = {
     ("P4.17", "theta, deg"): lambda i: _theta(i) / DEGREE,
     ("P4.17", "theta_max - theta, deg"): lambda i: (_largest() - _theta(i)) / DEGREE,
     ("P4.18", "theta/alpha for small alpha"): _small_slope,
-    ("P4.19", "T/(M V_0^2)"): lambda _: _total_energy(),
+    ("P4.19", "T/(M V_0^2)"): lambda _: kinetic_energy(Ball(), 1.0, 1.0).total / Ball().mass,
     ("P4.19", "alpha_half, rad"): lambda _: _half(_NATURAL),
     ("P4.19", "pi/alpha_half"): lambda _: math.pi / _half(_NATURAL),
     ("P4.19", "alpha_half, deg"): lambda _: _half(_NATURAL, DEGREE),

@@ -19,7 +19,6 @@ from evenbreak.physics import (
     Energy,
     PoolTable,
     Slide,
-    SpinStop,
     density_range,
     drag_distance,
     floats_in,
@@ -188,12 +187,12 @@ def _moon_time(i: Inputs, shape: str) -> float:
     return float(rolling_time(way, friction, shape=SHAPES[shape], gravity=MOON_GRAVITY))
 
 
-def _spin_stop(i: Inputs) -> SpinStop:
-    return spin_stop(i["Rw_0"], Cloth(mu_slide=i["mu_s"], mu_roll=i["mu_eff"]))
-
-
 def _of_stop(name: str, unit: float) -> Callable[[Inputs], Any]:
-    return lambda i: getattr(_spin_stop(i), name) / unit
+    def answer(i: Inputs) -> Any:
+        stop = spin_stop(i["Rw_0"], Cloth(mu_slide=i["mu_s"], mu_roll=i["mu_eff"]))
+        return getattr(stop, name) / unit
+
+    return answer
 
 
 ANSWERS: Answers = {

@@ -6,7 +6,7 @@ The one-ball game, who breaks next and what that is worth, drills, leads, and ra
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 
 from evenbreak.chains import Chain, chain_of, long_run_reward, propagate, spectrum, stochastic_limit
 from evenbreak.games import BREAK_FORMATS, Ahead, Drill, OneBall, Rack, Series
@@ -44,14 +44,6 @@ def _win(inputs: Inputs, look_ahead: str) -> float:
 @cache
 def _chain() -> Chain:
     return chain_of(OneBall(_P1, _P2))
-
-
-def _p5_20() -> Iterator[Row]:
-    yield from _surface("P5.20", "infinite")
-
-
-def _p5_21() -> Iterator[Row]:
-    yield from _surface("P5.21", "two shots")
 
 
 def _surface(problem: str, look_ahead: str) -> Iterator[Row]:
@@ -248,8 +240,8 @@ ANSWERS: Answers = {
 """How each quantity of these problems is computed."""
 
 DERIVED: Derived = {
-    "P5.20": _p5_20,
-    "P5.21": _p5_21,
+    "P5.20": partial(_surface, "P5.20", "infinite"),
+    "P5.21": partial(_surface, "P5.21", "two shots"),
     "P5.22": _p5_22,
     "P5.23": _p5_23,
     "P5.24": _p5_24,

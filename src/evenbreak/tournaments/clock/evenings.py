@@ -19,7 +19,7 @@ from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.brackets.standing import NOBODY, Standing
-from evenbreak.tournaments.odds.chances import Chances
+from evenbreak.tournaments.odds.chances import Chances, with_nobody
 from evenbreak.tournaments.odds.play import play_out, stratified_uniforms
 from evenbreak.tournaments.odds.races import PairOdds
 
@@ -113,7 +113,7 @@ def play_evenings(
             )
     rng = np.random.default_rng(seed)
     evening = lognormal(ndtri(stratified_uniforms(rng, runs)), pace.evening_sd)
-    chances = Chances({m.name: _padded(laws[m.name].win) for m in remaining.matches})
+    chances = Chances({m.name: with_nobody(laws[m.name].win) for m in remaining.matches})
     under_way = {}
     for match in playing:
         under_way[match.match] = _under_way(now, laws, pace, evening, match, clock, rng)
@@ -141,14 +141,6 @@ def play_evenings(
         noise = lognormal(ndtri(match_luck), pace.match_sd)
         minutes[:, k] = evening * noise * pace.mean_minutes(games)
     return Evenings(names, needed, minutes, between, first, second, first_won)
-
-
-def _padded(win: Floats) -> Floats:
-    count = len(win)
-    padded = np.ones((count + 1, count + 1))
-    padded[:count, :count] = win
-    padded[count, :count] = 0.0
-    return padded
 
 
 def _decided(now: Standing, runs: int) -> dict[str, Bools]:

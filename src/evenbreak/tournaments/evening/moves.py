@@ -142,12 +142,7 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
             "a rack has no score; to enter its winner: {enter}",
             enter=Command("tournament result", match),
         )
-    name = known_match(state, match)
-    if (before := state.counted.get(name)) is not None:
-        raise InputError(
-            "{match} already has a result: {result}", match=name, result=score_words(before)
-        )
-    _refuse_waiting(state, name)
+    name = _undecided(state, match)
     pair = state.pair(name)
     needs = state.needed(name, pair)
     if score[0] >= needs[0] or score[1] >= needs[1]:
@@ -179,23 +174,9 @@ def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
                 matches=", ".join(ready),
             )
         match = ready[0]
-    name = known_match(state, match)
-    if name in state.counted:
-        raise InputError(
-            "{match} already has a result: {result}",
-            match=name,
-            result=score_words(state.counted[name]),
-        )
-    _refuse_waiting(state, name)
+    name = _undecided(state, match)
     pair = state.pair(name)
-    if loser not in pair:
-        raise InputError(
-            "{player} is not in {match}: it is {a} against {b}",
-            player=loser,
-            match=name,
-            a=pair[0],
-            b=pair[1],
-        )
+    _refuse_stranger(loser, name, pair)
     return Result(name, pair, (0, 0), pair[loser == pair[0]], forfeit=True)
 
 
@@ -241,14 +222,7 @@ def late(state: Evening, entrant: Entrant) -> Late:
 
 def call(state: Evening, match: str, table: int | None) -> Called:
     """Call a match to a table, or move it to another; None: the first that is free."""
-    name = known_match(state, match)
-    if name in state.counted:
-        raise InputError(
-            "{match} already has a result: {result}",
-            match=name,
-            result=score_words(state.counted[name]),
-        )
-    _refuse_waiting(state, name)
+    name = _undecided(state, match)
     on = state.on_tables.get(name)
     if on is not None and table in (None, on.call.table):
         raise InputError("{match} is already on table {table}", match=name, table=on.call.table)
@@ -434,15 +408,25 @@ def _games(
             "{score!r} is not a score; write the games of each player, such as 7:5", score=score
         )
     winner = known_player(state, score)
-    if winner not in pair:
-        raise InputError(
-            "{player} is not in {match}: it is {a} against {b}",
-            player=winner,
-            match=name,
-            a=pair[0],
-            b=pair[1],
-        )
+    _refuse_stranger(winner, name, pair)
     return (1, 0) if winner == pair[0] else (0, 1)
+
+
+def _refuse_stranger(player: str, match: str, pair: tuple[str, str]) -> None:
+    if player not in pair:
+        names = {"player": player, "match": match, "a": pair[0], "b": pair[1]}
+        raise InputError("{player} is not in {match}: it is {a} against {b}", **names)
+
+
+def _undecided(state: Evening, match: str) -> str:
+    """Return the name of a match that can be played now, or refuse it."""
+    name = known_match(state, match)
+    if (before := state.counted.get(name)) is not None:
+        raise InputError(
+            "{match} already has a result: {result}", match=name, result=score_words(before)
+        )
+    _refuse_waiting(state, name)
+    return name
 
 
 def _refuse_waiting(state: Evening, name: str) -> None:

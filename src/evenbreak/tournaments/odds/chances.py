@@ -100,7 +100,7 @@ def chances_of(
         given = _given(win, match.name)
         if id(given) not in known:
             keep.append(given)
-            known[id(given)] = _with_nobody(_table(given, bracket))
+            known[id(given)] = with_nobody(_table(given, bracket))
         tables[match.name] = known[id(given)]
     _walk_over(bracket, tables, walkovers)
     for name, chance in (live or {}).items():
@@ -156,7 +156,8 @@ def _table(given: Any, bracket: Bracket) -> Floats:
     return table
 
 
-def _with_nobody(table: Floats) -> Floats:
+def with_nobody(table: Floats) -> Floats:
+    """Return chances with a row and a column for nobody, whom everybody beats."""
     count = len(table)
     padded = np.ones((count + 1, count + 1, *table.shape[2:]))
     padded[:count, :count] = table

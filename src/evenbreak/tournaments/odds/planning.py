@@ -89,14 +89,12 @@ def exact_plan(
     question = bracket, assumed, most_states
     if question not in _KEPT:
         _KEPT[question] = _built(bracket, assumed, most_states)
-        while len(_KEPT) > 1 and (len(_KEPT) > 64 or _kept_numbers() > _MOST_KEPT):
+        while len(_KEPT) > 1 and (
+            len(_KEPT) > 64 or sum(plan.numbers for plan in _KEPT.values() if plan) > _MOST_KEPT
+        ):
             _KEPT.popitem(last=False)
     _KEPT.move_to_end(question)
     return _KEPT[question]
-
-
-def _kept_numbers() -> int:
-    return sum(plan.numbers for plan in _KEPT.values() if plan)
 
 
 def _built(
@@ -355,13 +353,8 @@ class _Search:
         self.rank = {name: k for k, name in enumerate(self.items)}
         self.home: dict[Source, _Part] = {}
         self.nobody = 1 << len(bracket.players)
-        self.outlets: dict[str, list[Source]] = {name: [] for name in self.items}
-        self.feeds: dict[Source, str] = {}
-        for match in bracket.matches:
-            for slot in match.slots:
-                if isinstance(slot, Source):
-                    self.outlets[slot.match].append(slot)
-                    self.feeds[slot] = match.name
+        self.outlets = bracket.outlets
+        self.feeds = {slot: match.name for match in bracket.matches for slot in match.slots}
         self.heap: list[tuple[float, int, str, int]] = []
         self.version = dict.fromkeys(self.items, 0)
         self.done: list[str] = []
@@ -422,13 +415,13 @@ class _Search:
             if isinstance(taken, Source):
                 del slots[taken]
         both = can_sit[0] | can_sit[1]
-        for outlet in self.outlets[item.name]:
+        for outlet in self.outlets.get(item.name, []):
             slots[outlet] = both if outlet.via is None else can_sit[outlet.via - 1] | self.nobody
         return _Cost(parts, joined, _Part(min(2.0 * joined, _ways(list(slots.values()))), slots))
 
     def _group_cost(self, group: Group) -> _Cost:
         members = sum(1 << player for player in group.members)
-        slots = dict.fromkeys(self.outlets[group.name], members)
+        slots = dict.fromkeys(self.outlets.get(group.name, []), members)
         return _Cost([], 1.0, _Part(_ways(list(slots.values())), slots))
 
 

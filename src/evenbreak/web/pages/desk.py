@@ -241,24 +241,18 @@ async def result(request: Request) -> Response:
 
 async def forfeit(request: Request) -> Response:
     """Let a player forfeit the match that they can play."""
-    form = await _form(request)
-    player = form.text("player")
-
-    def decide(state: Evening) -> list[What]:
-        return [moves.forfeit(state, player)]
-
-    return await _enter(request, form, decide, forfeited, always=True)
+    return await _leave(request, moves.forfeit)
 
 
 async def drop(request: Request) -> Response:
     """Let a player go home."""
+    return await _leave(request, moves.drop)
+
+
+async def _leave(request: Request, move: Callable[[Evening, str], What]) -> Response:
     form = await _form(request)
     player = form.text("player")
-
-    def decide(state: Evening) -> list[What]:
-        return [moves.drop(state, player)]
-
-    return await _enter(request, form, decide, forfeited, always=True)
+    return await _enter(request, form, lambda state: [move(state, player)], forfeited, always=True)
 
 
 async def entrant(request: Request) -> Response:

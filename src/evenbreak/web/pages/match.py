@@ -159,13 +159,9 @@ async def tap(request: Request) -> Response:
     form = await form_of(request)
     site, to = site_of(request), f"/m/{request.path_params['token']}"
     _count_tap(request, name)
-    if name not in state.standing.to_play:
-        raise RefusalError("{match} is not being played now.", status=409, match=name)
-    pair, needs = state.pair(name), state.needed(name, state.pair(name))
-    if (form.text("player_a"), form.text("player_b")) != pair:
-        raise RefusalError(
-            "Other players are in {match} now. Open the page again.", status=409, match=name
-        )
+    pair = form.text("player_a"), form.text("player_b")
+    _check_pair(state, name, pair)
+    needs = state.needed(name, pair)
     score = form.whole("a", 0, needs[0]), form.whole("b", 0, needs[1])
     seen = form.text("seen")
 
@@ -201,12 +197,7 @@ def _check_tap(request: Request, now: Evening, name: str, pair: tuple[str, str],
 
     It is asked while nobody else can enter anything.
     """
-    if name not in now.standing.to_play:
-        raise RefusalError("{match} is not being played now.", status=409, match=name)
-    if now.pair(name) != pair:
-        raise RefusalError(
-            "Other players are in {match} now. Open the page again.", status=409, match=name
-        )
+    _check_pair(now, name, pair)
     if not _may_score(request, _sides(request, name, pair)):
         raise RefusalError(
             "Both players of {match} keep the score on their own phones.", status=403, match=name
@@ -217,6 +208,16 @@ def _check_tap(request: Request, now: Evening, name: str, pair: tuple[str, str],
             status=409,
             match=name,
             score=there,
+        )
+
+
+def _check_pair(state: Evening, name: str, pair: tuple[str, str]) -> None:
+    """Refuse a form of a match that is over, or that others play now."""
+    if name not in state.standing.to_play:
+        raise RefusalError("{match} is not being played now.", status=409, match=name)
+    if state.pair(name) != pair:
+        raise RefusalError(
+            "Other players are in {match} now. Open the page again.", status=409, match=name
         )
 
 
