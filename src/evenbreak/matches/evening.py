@@ -170,8 +170,7 @@ def _chances(length: LengthLike, name: str) -> Floats:
     if not (probability >= 0).all() or abs(probability.sum() - 1.0) > 1e-6:
         raise InputError("{name} has chances that do not sum to 1; give probabilities", name=name)
     counted = np.bincount(games, probability)
-    chances: Floats = counted / counted.sum()
-    return chances
+    return np.asarray(counted / counted.sum())
 
 
 def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int) -> Ints:

@@ -80,8 +80,7 @@ def roll_velocity(velocity: Any, rim_velocity: Any) -> Floats:
     """
     moving, forward = _vectors(velocity, "velocity", 2), _forward(rim_velocity, "rim_velocity")
     together(**{"velocity[..., 0]": moving[..., 0], "rim_velocity[..., 0]": forward[..., 0]})
-    rolling: Floats = (5.0 * moving + 2.0 * forward) / 7.0
-    return rolling
+    return np.asarray((5.0 * moving + 2.0 * forward) / 7.0)
 
 
 def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
@@ -249,8 +248,7 @@ class Slide:
         slid = self.velocity * sliding - 0.5 * pull * _direction(self.slip) * sliding**2
         start = self.roll_velocity
         rolled = start * rolling - 0.5 * resistance * _direction(start) * rolling**2
-        where: Floats = self.position + slid + rolled
-        return where
+        return np.asarray(self.position + slid + rolled)
 
     def velocity_at(self, time: Any) -> Floats:
         """Return the velocity at a time, in m/s; shape (..., 2)."""

@@ -214,8 +214,7 @@ def _by_cavities(league: _Levelled) -> Floats | None:
     squares = pull.multiply(pull) - 2.0 * (sparse.diags_array(r) @ pull @ sparse.diags_array(r))
 
     def squared(v: Floats) -> Floats:
-        product: Floats = squares @ v + rr * (rr @ v) - rr * rr * v
-        return product
+        return np.asarray(squares @ v + rr * (rr @ v) - rr * rr * v)
 
     total = float(squared(np.ones(size)).max())
     if 2.0 * total**1.5 > _WELL_MIXED:  # whatever ρ is: ρ² is at least that

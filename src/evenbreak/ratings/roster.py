@@ -38,8 +38,7 @@ def error_of_games(games: ArrayLike, scale: Scale | str | float, most: float) ->
     array([100. , 100. ,  83.3,  20.4])
     """
     played = np.maximum(np.asarray(games, dtype=float), 1.0)
-    errors: Floats = np.minimum(most, 2.0 * scale_of(scale).points_per_log_odds / np.sqrt(played))
-    return errors
+    return np.asarray(np.minimum(most, 2.0 * scale_of(scale).points_per_log_odds / np.sqrt(played)))
 
 
 NOT_STATED = -1

@@ -144,5 +144,4 @@ def _mean_over_pairings(night: TeamNight, ours: list[Counts], theirs: list[Count
                         chances[:, :, own + d, None] * part
                     )
     (final,) = after.values()
-    found: Floats = final @ night.payoff(np.arange(-sets * reach, sets * reach + 1))
-    return found
+    return np.asarray(final @ night.payoff(np.arange(-sets * reach, sets * reach + 1)))

@@ -111,13 +111,12 @@ def table_by_column(
     values: Mapping[Any, Iterable[Any]],
     *,
     order: Iterable[int] | None = None,
-    title: str = "",
 ) -> Table:
     """Return a table whose values are known column by column.
 
     Parameters
     ----------
-    name, title
+    name
         as for `Table`.
     values
         those of each column, which is given by its key if it needs no fields.
@@ -130,7 +129,7 @@ def table_by_column(
     columns = [column_of(key) if isinstance(key, str) else key for key in values]
     plain = [part.tolist() if hasattr(part, "tolist") else part for part in values.values()]
     rows = list(zip(*plain, strict=True))
-    return Table(name, columns, rows if order is None else [rows[k] for k in order], title)
+    return Table(name, columns, rows if order is None else [rows[k] for k in order])
 
 
 def frame_table(name: str, frame: pd.DataFrame) -> Table:
@@ -140,13 +139,13 @@ def frame_table(name: str, frame: pd.DataFrame) -> Table:
     return Table(name, in_files(frame.columns), rows_of(frame))
 
 
-def quantity_of(key: str, value: Any, /, note: str = "", **fields: Any) -> Quantity:
-    """Return a quantity: a value, what is said behind it, and the rest as for `column_of`.
+def quantity_of(key: str, value: Any, /, **fields: Any) -> Quantity:
+    """Return a quantity: a value, and the rest as for `column_of`.
 
     >>> quantity_of("p_win_a", 0.5, a="Ann").words
     'Ann wins the match'
     """
-    return Quantity(column_of(key, **fields), value, note)
+    return Quantity(column_of(key, **fields), value)
 
 
 def quantities_of(
@@ -154,7 +153,6 @@ def quantities_of(
     /,
     *,
     notes: Mapping[str, str] = NOTHING,
-    show: Mapping[str, Show] = NOTHING,
     **fields: Any,
 ) -> list[Quantity]:
     """Return values by their keys as quantities.
@@ -165,13 +163,11 @@ def quantities_of(
         as for `column_of`; None where there is no value.
     notes
         what is said behind some, such as an interval, by key.
-    show
-        as for `columns_of`.
 
     >>> [one.name for one in quantities_of({"mean": 4.5, "-sd": 1.5})]
     ['mean', 'sd']
     """
     return [
-        Quantity(column_of(key, show=show.get(key), **fields), value, notes.get(key, ""))
+        Quantity(column_of(key, **fields), value, notes.get(key, ""))
         for key, value in values.items()
     ]

@@ -139,8 +139,7 @@ def _lengths(state: TeamEvening, line: SetLine) -> Floats:
     """Return P(a set takes k games), averaged over who may play it."""
     lengths = state.meeting.lengths[line.number - 1]
     mine, others = (_picks(state, line, team) for team in (0, 1))
-    chance: Floats = lengths[np.ix_(mine, others)].mean(axis=(0, 1))
-    return chance
+    return np.asarray(lengths[np.ix_(mine, others)].mean(axis=(0, 1)))
 
 
 def _picks(state: TeamEvening, line: SetLine, team: int) -> list[int]:
@@ -164,8 +163,7 @@ def _minutes_of(
     luck = stratified_uniforms(rng, len(evening))
     games = np.searchsorted(np.cumsum(lengths)[:-1], luck, side="right")
     noise = lognormal(ndtri(stratified_uniforms(rng, len(evening))), pace.match_sd)
-    drawn: Floats = evening * noise * usual[games]
-    return drawn
+    return np.asarray(evening * noise * usual[games])
 
 
 def _waiting(state: TeamEvening, left: list[SetLine]) -> Waiting:

@@ -43,8 +43,7 @@ class ChipFairness:
     @property
     def edge(self) -> Floats:
         """How many times an equal share each player's title odds are, less 1: 0 is fair."""
-        edge: Floats = len(self.chips) * self.odds.title - 1.0
-        return edge
+        return np.asarray(len(self.chips) * self.odds.title - 1.0)
 
     @property
     def edge_error(self) -> Floats:

@@ -265,8 +265,7 @@ def rack_chances(
     """
     rated = column(ratings, "ratings", np.size(ratings), "players")
     gap = rated[:, None] - rated + number(break_advantage, "break_advantage")
-    table: Floats = scale_of(scale).win_probability(gap)
-    return table
+    return np.asarray(scale_of(scale).win_probability(gap))
 
 
 def checked_racks(racks: ArrayLike, players: int) -> Floats:

@@ -256,10 +256,9 @@ class _Room:
 
     def ends(self, planned: Schedule) -> Floats:
         """Return when each evening ends."""
-        end: Floats = np.where(self.evenings.needed, planned.end, self.now).max(
-            axis=1, initial=self.now
+        return np.asarray(
+            np.where(self.evenings.needed, planned.end, self.now).max(axis=1, initial=self.now)
         )
-        return end
 
 
 def finish(

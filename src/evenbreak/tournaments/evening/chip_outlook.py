@@ -28,8 +28,7 @@ def drawn_racks(state: Evening, skills: Floats, covariance: Floats) -> Floats:
     """Return P(i beats j in a rack) by many draws of the players' skills, the third axis."""
     count = int(np.clip(_CELLS / len(skills) ** 2, _FEWEST, _MOST))
     drawn = drawn_ratings(skills, covariance, count // 2, np.random.default_rng(0)).T
-    racks: Floats = state.scale.win_probability(drawn[:, None] - drawn)
-    return racks
+    return np.asarray(state.scale.win_probability(drawn[:, None] - drawn))
 
 
 def chip_odds(state: Evening, win: Floats) -> PlaceOdds:
@@ -114,5 +113,4 @@ def chip_minutes(
     rack = pace.mean_minutes(1) + (0.0 if turnover is None else turnover.mean)
     luck = lengths + pace.match_sd * np.sqrt(lengths) * rng.standard_normal(len(lengths))
     evening = lognormal(rng.standard_normal(len(lengths)), pace.evening_sd)
-    minutes: Floats = rack * np.maximum(luck, 0.0) * evening
-    return minutes
+    return np.asarray(rack * np.maximum(luck, 0.0) * evening)

@@ -135,8 +135,7 @@ def _expected(
     meetings = meetings_so_far(now) | group_meetings(plan.bracket, chances)
     meetings |= plan_meetings(plan, through)
     law = place_odds(now.bracket, meetings, {**settled_ranks(now), **through.ranks})
-    expected: Floats = law @ value
-    return expected
+    return np.asarray(law @ value)
 
 
 def _lever(

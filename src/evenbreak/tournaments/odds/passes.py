@@ -113,8 +113,7 @@ def _beaten(branch: Apart, loser: Floats, win: Floats) -> Floats:
 
     win[i, j] is the chance that the winner is i of his slot's players, if the other is j.
     """
-    beaten: Floats = branch.kept @ (win[:, branch.loser] * loser).T
-    return beaten
+    return np.asarray(branch.kept @ (win[:, branch.loser] * loser).T)
 
 
 def joined(parts: list[Floats]) -> Floats:
@@ -156,8 +155,7 @@ def gathered(step: MatchStep, side: int, mass: Floats) -> Floats:
     moved = mass if branch.rows is None else mass[branch.rows]
     if mass.ndim == 1 and len(mass) < _FEW:
         return np.bincount(branch.to, moved, step.size).astype(float, copy=False)
-    arrived: Floats = step.scatter[side] @ moved
-    return arrived
+    return np.asarray(step.scatter[side] @ moved)
 
 
 def pairs(step: MatchStep, mass: Floats) -> Floats:
@@ -166,8 +164,7 @@ def pairs(step: MatchStep, mass: Floats) -> Floats:
         return mass
     if mass.ndim == 1 and len(mass) < _FEW:
         return np.bincount(step.pair, mass, len(step.first)).astype(float, copy=False)
-    met: Floats = step.meeting @ mass
-    return met
+    return np.asarray(step.meeting @ mass)
 
 
 def group_odds(step: GroupStep, chances: Chances) -> tuple[Floats, Floats]:
@@ -194,8 +191,7 @@ def summed(index: Index | Players, mass: Floats, size: int) -> Floats:
     """Return the sums of the values with the same index."""
     if mass.ndim == 1:
         return np.bincount(index, mass, size).astype(float, copy=False)
-    sums: Floats = adding_up(index.astype(np.int32), size) @ mass
-    return sums
+    return np.asarray(adding_up(index.astype(np.int32), size) @ mass)
 
 
 # The backward pass: the expected reward from each state on, from the last match to the first.
@@ -356,5 +352,4 @@ def _by_pair(step: MatchStep, mass: Floats, value: Floats) -> Floats:
     weighted = mass[:, None] * value
     if step.meeting is None:
         return weighted
-    summed: Floats = step.meeting @ weighted
-    return summed
+    return np.asarray(step.meeting @ weighted)

@@ -126,8 +126,7 @@ def _sent_on(
 
 def stratified_uniforms(rng: np.random.Generator, runs: int) -> Floats:
     """Return pseudo-random numbers from 0 to 1, one in each of `runs` equal parts, shuffled."""
-    luck: Floats = (rng.permutation(runs) + rng.random(runs)) / runs
-    return luck
+    return np.asarray((rng.permutation(runs) + rng.random(runs)) / runs)
 
 
 class _Groups:

@@ -61,8 +61,7 @@ class PairOdds:
     def mean_games(self) -> Floats:
         """The mean number of games of i against j."""
         both = self.ends + self.ends.transpose(1, 0, 2)
-        mean: Floats = both @ np.arange(both.shape[2])
-        return mean
+        return np.asarray(both @ np.arange(both.shape[2]))
 
 
 @dataclass(frozen=True)

@@ -36,8 +36,7 @@ from evenbreak.tournaments.odds.rematches import (
 _STATES_PER_SAMPLE = 1e5
 """The largest estimate of joint states for the later rounds of one sample."""
 
-BATCHES = 40
-"""The number of batches of samples."""
+_BATCHES = 40  # of samples
 
 _CELLS = 200_000
 """The largest number of states times samples that are processed at once."""
@@ -71,12 +70,7 @@ class _Batch:
 
 
 def sampled_odds(
-    now: Standing,
-    chances: Chances,
-    samples: int,
-    rng: np.random.Generator,
-    *,
-    batches: int = BATCHES,
+    now: Standing, chances: Chances, samples: int, rng: np.random.Generator
 ) -> SampledOdds:
     """Return the odds of the matches still to be played.
 
@@ -90,15 +84,13 @@ def sampled_odds(
         the number of samples, at least.
     rng
         the random numbers.
-    batches
-        the number of batches, 2 or more.
     """
     bracket = now.remaining
     sampler = _Sampler(now, bracket, chances, cut_before(bracket, _STATES_PER_SAMPLE))
     controls = controls_of(now, bracket, sampler.cut.early, chances)
-    size = max(2, -(-samples // batches))
+    size = max(2, -(-samples // _BATCHES))
     counts: dict[str, Floats] = {}
-    for _ in range(batches):
+    for _ in range(_BATCHES):
         played = play_out(bracket, chances, rng, size, only=sampler.cut.early)
         batch = sampler.batch(played, size)
         controls.add(played, batch.places)
@@ -106,8 +98,8 @@ def sampled_odds(
             counts[name] = counts.get(name, 0.0) + count
     mean, error = controls.estimate()
     shape = len(bracket.players), len(sampler.column)
-    meetings = sampler.meetings(counts, size * batches)
-    return SampledOdds(mean.reshape(shape), error.reshape(shape), meetings, size * batches)
+    meetings = sampler.meetings(counts, size * _BATCHES)
+    return SampledOdds(mean.reshape(shape), error.reshape(shape), meetings, size * _BATCHES)
 
 
 def places_of_samples(
@@ -403,8 +395,7 @@ def _settled(whole: Bracket, start: Bracket, law: Floats) -> NDArray[np.bool_]:
         if match.name not in inside
     }
     early = np.array([place not in late for place in whole.places])
-    settled: NDArray[np.bool_] = early & (law > 0.0) & (law < 1.0)
-    return settled
+    return np.asarray(early & (law > 0.0) & (law < 1.0))
 
 
 def _leading_out(bracket: Bracket, start: Bracket) -> list[Source]:

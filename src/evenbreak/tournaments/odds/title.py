@@ -30,7 +30,7 @@ from evenbreak.tournaments.odds.rematches import (
     plan_meetings,
     settled_ranks,
 )
-from evenbreak.tournaments.odds.sampled import BATCHES, sampled_odds
+from evenbreak.tournaments.odds.sampled import sampled_odds
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -247,7 +247,6 @@ def odds_now(
     most_states: float = MOST_STATES,
     samples: int = SAMPLES,
     rng: np.random.Generator | None = None,
-    batches: int = BATCHES,
 ) -> TitleOdds:
     """Return the chance of each place for each player, from the present state on.
 
@@ -259,13 +258,11 @@ def odds_now(
         the chances of the matches still to be played.
     most_states, samples, rng
         as in `title_odds`.
-    batches
-        the number of batches of samples.
     """
     remaining = now.remaining
     plan = exact_plan(remaining, tuple(now.assumed.items()), most_states)
     if plan is None:
-        return _sampled(now, chances, samples, rng or np.random.default_rng(0), batches)
+        return _sampled(now, chances, samples, rng or np.random.default_rng(0))
     through = forward_pass(plan, chances, keep=bool(now.assumed))
     if now.assumed:
         through = conditional(plan, chances, through)
@@ -277,16 +274,14 @@ def odds_now(
     )
 
 
-def _sampled(
-    now: Standing, chances: Chances, samples: int, rng: np.random.Generator, batches: int
-) -> TitleOdds:
+def _sampled(now: Standing, chances: Chances, samples: int, rng: np.random.Generator) -> TitleOdds:
     if now.assumed:
         raise InputError(
             "results has {assumed!r}, whose players are not known yet; the odds of this "
             "bracket are sampled, so give only results of matches that can be played",
             assumed=next(iter(now.assumed)),
         )
-    found = sampled_odds(now, chances, samples, rng, batches=batches)
+    found = sampled_odds(now, chances, samples, rng)
     meetings: dict[str, Meeting] = meetings_so_far(now)
     certain = place_odds(now.bracket, meetings, settled_ranks(now))
     meetings |= found.meetings
