@@ -16,17 +16,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from evenbreak.arrays import Bools, Floats
 from evenbreak.chains.arcs import reachable, sums
-from evenbreak.chains.chain import check_chain, labels
+from evenbreak.chains.chain import Chain, check_chain, labels
 from evenbreak.chains.elimination import decimal_masses
 from evenbreak.chains.exact import exact_absorption
 from evenbreak.chains.factorisation import Factorisation
 
 if TYPE_CHECKING:
     import pandas as pd
-
-    from evenbreak.arrays import Bools, Floats
-    from evenbreak.chains.chain import Chain
 
 
 def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> pd.Series[Any]:

@@ -19,15 +19,14 @@ stationary distributions of nearly completely decomposable Markov chains"; Horto
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.linalg import splu
 
-if TYPE_CHECKING:
-    from evenbreak.arrays import Floats
-    from evenbreak.chains.arcs import Places
+from evenbreak.arrays import Floats
+from evenbreak.chains.arcs import Places
 
 _FEW = 400
 """So few groups are solved for directly."""

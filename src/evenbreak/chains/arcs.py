@@ -9,18 +9,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csc_array, csgraph, csr_array
 
 from evenbreak.arrays import Bools, Floats, array_values
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Places: TypeAlias = NDArray[np.integer[Any]]
-    """Positions of states, or numbers of classes."""
+Places: TypeAlias = NDArray[np.integer[Any]]
+"""Positions of states, or numbers of classes."""
 
 _FEW_TERMS = 4
 """So few values are added up one after the other."""

@@ -36,19 +36,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array, csgraph
 
 from evenbreak.arrays import Floats, array_values
-from evenbreak.chains.arcs import put_back
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.chains.arcs import Places
-
+from evenbreak.chains.arcs import Places, put_back
 
 _BLOCK = 32
 # 32 factors above 2^-30 stay above 2^-960, and so do 900 significands.
@@ -282,13 +277,7 @@ def shares(value: Floats, exponent: Places, split: int) -> tuple[float, float]:
     return left / (left + right), right / (left + right)
 
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.arrays import Floats
-    from evenbreak.chains.arcs import Places
-
-    Wide = NDArray[np.longdouble]
+Wide = NDArray[np.longdouble]
 
 
 class _Round(NamedTuple):

@@ -22,25 +22,20 @@ References: Varga 1962, Matrix Iterative Analysis, and Neumaier 1999 for bounds 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from itertools import count
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs
 from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import LinearOperator, bicgstab, splu
 
+from evenbreak.arrays import Floats
 from evenbreak.chains.aggregation import Aggregation
-from evenbreak.chains.arcs import reachable
+from evenbreak.chains.arcs import Places, reachable
 from evenbreak.chains.double_double import ROUND, Balance, Pair, Rows, two_sum
 from evenbreak.errors import AccuracyError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from evenbreak.arrays import Floats
-    from evenbreak.chains.arcs import Places
 
 GUARANTEED = 1e-14
 """Answers whose entries may be off by more than this, relatively, are not returned."""

@@ -13,10 +13,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import DTypeLike, NDArray
 from scipy.sparse import csc_array
 
 from evenbreak.arrays import Floats, Ints, own_arrays
-from evenbreak.chains.arcs import Arcs, arcs_of
+from evenbreak.chains.arcs import Arcs, Places, arcs_of
 from evenbreak.chains.birth_death import BirthDeath, birth_death_of, line_of
 from evenbreak.chains.matrices import adding_up, csc_of
 from evenbreak.chains.structure import Structure, structure_of
@@ -30,9 +31,6 @@ if TYPE_CHECKING:
 
     import networkx as nx
     import pandas as pd
-    from numpy.typing import DTypeLike, NDArray
-
-    from evenbreak.chains.arcs import Places
 
 
 _MOST_BYTES = 2e9

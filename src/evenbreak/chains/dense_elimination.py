@@ -19,13 +19,12 @@ References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993; Alfa, Xue and Ye
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg.blas import ddot, dgemm, dtrsm, dtrsv
 
-if TYPE_CHECKING:
-    from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats
 
 MOST_ENTRIES = 40_000_000
 """Of an array or of factors: those of some 6,000 states with arcs to all others."""

@@ -20,22 +20,16 @@ multifrontal method for sparse matrix solution".
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Iterator
 from itertools import accumulate, pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.sparse import csc_array, csgraph, eye_array
 
-from evenbreak.chains.arcs import put_back
-from evenbreak.chains.dense_elimination import less, solved, split
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from evenbreak.arrays import Floats
-    from evenbreak.chains.arcs import Places
-    from evenbreak.chains.dense_elimination import Factors
-
+from evenbreak.arrays import Floats
+from evenbreak.chains.arcs import Places, put_back
+from evenbreak.chains.dense_elimination import Factors, less, solved, split
 
 _LEAF = 96
 """So few states are not cut again."""

@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from evenbreak.arrays import Floats
+
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-    from evenbreak.arrays import Floats
     from evenbreak.chains.arcs import Places
 
 ROUND = 2.0**-53

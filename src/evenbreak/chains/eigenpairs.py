@@ -35,20 +35,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import scipy.sparse
 import scipy.sparse.linalg
+from numpy.typing import NDArray
 from scipy.linalg.lapack import dgeev, dgeev_lwork
 from scipy.sparse import csc_array, diags_array
 
-from evenbreak.chains.arcs import reachable, sums
+from evenbreak.arrays import Bools, Floats
+from evenbreak.chains.arcs import Places, reachable, sums
 from evenbreak.chains.certified import CertifiedSolve, spread
 from evenbreak.chains.dissection import dissect, neighbours
 from evenbreak.chains.powers import evened
 from evenbreak.errors import AccuracyError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.arrays import Bools, Floats
-    from evenbreak.chains.arcs import Places
     from evenbreak.chains.chain import Chain
 
 

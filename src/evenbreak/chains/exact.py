@@ -31,17 +31,15 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from evenbreak.arrays import Bools, Ints
 from evenbreak.chains.arcs import reachable
-from evenbreak.chains.elimination import eliminated, limit_in, masses_in, rows_of
+from evenbreak.chains.elimination import Elimination, Rows, eliminated, limit_in, masses_in, rows_of
 from evenbreak.errors import AccuracyError, ChainError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.arrays import Bools, Ints
     from evenbreak.chains.chain import Chain
-    from evenbreak.chains.elimination import Elimination, Rows
 
 
 _FILL = 8

@@ -16,26 +16,21 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from itertools import chain as chained
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-from scipy.sparse import csc_array
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csc_array, sparray, spmatrix
 
+from evenbreak.arrays import Floats, Ints
 from evenbreak.chains.chain import Chain, check_present
-from evenbreak.chains.matrices import is_matrix, read_matrix
+from evenbreak.chains.matrices import Rows, is_matrix, read_matrix
 from evenbreak.errors import ChainError
 from evenbreak.game import ArcArrays, Game, arcs_of
 
 if TYPE_CHECKING:
-    from typing import TypeAlias
-
     import networkx as nx
     import pandas as pd
-    from numpy.typing import ArrayLike, NDArray
-    from scipy.sparse import sparray, spmatrix
-
-    from evenbreak.arrays import Floats, Ints
-    from evenbreak.chains.matrices import Rows
 
     Source: TypeAlias = (
         Game

@@ -39,28 +39,24 @@ memory least:
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property, partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import spsolve_triangular
 
-from evenbreak.chains.arcs import arcs_of, put_back, sums
+from evenbreak.arrays import Bools, Floats
+from evenbreak.chains.arcs import Arcs, Places, arcs_of, put_back, sums
 from evenbreak.chains.birth_death import LineElimination, line_order
 from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
 from evenbreak.chains.dense_elimination import MOST_ENTRIES, is_dense
-from evenbreak.chains.dissection import FrontElimination, bandwidth, dissect, neighbours
+from evenbreak.chains.dissection import Front, FrontElimination, bandwidth, dissect, neighbours
 from evenbreak.chains.elimination import DecimalElimination
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.errors import AccuracyError
-
-if TYPE_CHECKING:
-    from evenbreak.arrays import Bools, Floats
-    from evenbreak.chains.arcs import Arcs, Places
-    from evenbreak.chains.dissection import Front
-
 
 SMALL = 64
 _FEW, _MUCH_WORK = 500, 1e10
@@ -270,13 +266,7 @@ def _runs(offsets: Places) -> list[Places]:
     return [offsets[a : b + 1] for a, b in pairwise(marks)]
 
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from evenbreak.arrays import Floats
-    from evenbreak.chains.arcs import Places
-
-    Triples = tuple[Places, Places, Floats]
+Triples = tuple[Places, Places, Floats]
 
 _ENTRIES = 2_000_000
 _FEW_TERMS = 256

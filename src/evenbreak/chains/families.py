@@ -19,12 +19,13 @@ import math
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.sparse import csc_array
 
-from evenbreak.arrays import own_arrays
+from evenbreak.arrays import Floats, Ints, Places, own_arrays
 from evenbreak.chains.arcs import arcs_of
 from evenbreak.chains.explore import chain_of
 from evenbreak.chains.family_elimination import family_limits
@@ -35,11 +36,6 @@ from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.checks import probability, together
 from evenbreak.errors import ChainError, InputError
 from evenbreak.game import Game, moves_of
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from evenbreak.arrays import Floats, Ints, Places
 
 _BATCH = 8192
 """Members at a time: an array of them fits into the cache."""

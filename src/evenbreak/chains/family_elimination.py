@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from evenbreak.arrays import Bools
 from evenbreak.chains.dense_elimination import is_dense
 from evenbreak.chains.elimination import Rows, eliminated, limit_in
 from evenbreak.chains.factorisation import eliminate_together
 from evenbreak.chains.family_numbers import Disagreement, Numbers
 
 if TYPE_CHECKING:
-    from evenbreak.arrays import Bools
     from evenbreak.chains.structure import Structure
 
 _DENSE_FROM = 8

@@ -16,16 +16,13 @@ from __future__ import annotations
 import operator
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
+from evenbreak.arrays import Bools, Floats
 from evenbreak.checks import ManyAsOne
-
-if TYPE_CHECKING:
-    from evenbreak.arrays import Bools, Floats
-
 
 _LEAST, _MOST = np.minimum.reduce, np.maximum.reduce
 _EXTREMES: dict[Any, Any] = {

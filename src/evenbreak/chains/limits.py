@@ -28,12 +28,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import DTypeLike
 from scipy.sparse import csc_array
 
 from evenbreak.arrays import Floats, own_arrays
 from evenbreak.chains.absorption import closed_classes_reached, ends_of, masses_of
-from evenbreak.chains.arcs import summed
-from evenbreak.chains.chain import check_chain, labels
+from evenbreak.chains.arcs import Places, summed
+from evenbreak.chains.chain import Chain, check_chain, labels
 from evenbreak.chains.exact import exact_limit
 from evenbreak.chains.explore import chain_of
 from evenbreak.chains.stationary import laws_of, stationary_laws
@@ -45,10 +46,6 @@ from evenbreak.game import Game, graph_of
 if TYPE_CHECKING:
     import networkx as nx
     import pandas as pd
-    from numpy.typing import DTypeLike
-
-    from evenbreak.chains.arcs import Places
-    from evenbreak.chains.chain import Chain
 
 _ERROR_BY_EIGENVECTORS = 1e-12
 

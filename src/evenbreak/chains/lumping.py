@@ -15,20 +15,15 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, csr_array
 
-from evenbreak.chains.arcs import summed
+from evenbreak.chains.arcs import Places, summed
 from evenbreak.chains.chain import Chain, by_label, check_chain, check_present
 from evenbreak.chains.exact import exact_chance
 from evenbreak.errors import ChainError
-
-if TYPE_CHECKING:
-    from scipy.sparse import csr_array
-
-    from evenbreak.chains.arcs import Places
 
 Labels: TypeAlias = Callable[[Any], Hashable] | Mapping[Any, Hashable]
 """The label of each state: a function of the state, or a mapping or Series from the states."""

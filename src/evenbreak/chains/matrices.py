@@ -7,8 +7,9 @@ So the reading must be given, unless one alone makes sense or the matrix is symm
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Sequence
 from numbers import Real
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from scipy.sparse import csc_array, issparse
@@ -16,9 +17,6 @@ from scipy.sparse import csc_array, issparse
 from evenbreak.chains.arcs import sums
 from evenbreak.checks import one_of
 from evenbreak.errors import ChainError
-
-if TYPE_CHECKING:
-    from collections.abc import Hashable, Sequence
 
 SUM_TOLERANCE = 1e-9
 """The arcs of a state may miss a sum of 1 by no more than this."""

@@ -15,15 +15,18 @@ Reference: Levin, Peres and Wilmer, Markov Chains and Mixing Times, chapters 4 a
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import eigvalsh_tridiagonal
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import ArpackNoConvergence, eigs
 
+from evenbreak.arrays import Bools, Floats
 from evenbreak.chains.birth_death import line_of
-from evenbreak.chains.chain import check_chain
+from evenbreak.chains.chain import Chain, check_chain
 from evenbreak.chains.eigenpairs import DENSE, EPS
 from evenbreak.chains.limits import limit_matrix
 from evenbreak.chains.powers import evened
@@ -37,14 +40,6 @@ _LEAST = 1e-290
 """States with less of the law than this are scaled alike."""
 _BASIS = 60
 """ARPACK iterates with at least so many vectors: with its 20 it may not converge."""
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import NDArray
-
-    from evenbreak.arrays import Bools, Floats
-    from evenbreak.chains.chain import Chain
 
 
 def spectral_gap(chain: Chain) -> float:

@@ -21,24 +21,20 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from evenbreak.arrays import Bools, Floats, own_arrays
-from evenbreak.chains.arcs import reachable, sums
-from evenbreak.chains.chain import check_chain
+from evenbreak.chains.arcs import Places, reachable, sums
+from evenbreak.chains.chain import Chain, check_chain
 from evenbreak.chains.exact import exact_passage
 from evenbreak.chains.explore import chain_from_arrays
 from evenbreak.chains.powers import evened
 from evenbreak.chains.transient import TransientPart
 from evenbreak.checks import number_probability, one_of, whole
 from evenbreak.errors import AccuracyError, ChainError
-
-if TYPE_CHECKING:
-    from evenbreak.chains.arcs import Places
-    from evenbreak.chains.chain import Chain
 
 TIE = 1e-12
 """A cumulative probability this close below q counts as q: sums of floats miss ties."""

@@ -6,19 +6,16 @@ of subtraction. Squaring, cubic in the number of states, pays only for very many
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array
 
+from evenbreak.arrays import Floats
 from evenbreak.chains.arcs import sums
-from evenbreak.chains.chain import check_chain
+from evenbreak.chains.chain import Chain, check_chain
 from evenbreak.checks import whole
 from evenbreak.errors import InputError
-
-if TYPE_CHECKING:
-    from evenbreak.arrays import Floats
-    from evenbreak.chains.chain import Chain
 
 MOST_APPLIED = 4_000_000_000
 """More steps than this are refused: rounding errors of 2^-52 would add up to 1e-6."""

@@ -14,19 +14,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from evenbreak.chains.chain import by_label, check_chain
+from evenbreak.arrays import Floats
+from evenbreak.chains.chain import Chain, by_label, check_chain
 from evenbreak.chains.limits import stochastic_limit
 from evenbreak.errors import ChainError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.arrays import Floats
-    from evenbreak.chains.chain import Chain
 
 
 def long_run_reward(

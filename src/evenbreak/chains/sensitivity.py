@@ -20,21 +20,18 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array
 
 from evenbreak.arrays import Floats, array_values
 from evenbreak.chains.arcs import sums
-from evenbreak.chains.chain import check_chain
+from evenbreak.chains.chain import Chain, check_chain
 from evenbreak.chains.limits import stochastic_limit
 from evenbreak.chains.stationary import stationary_laws
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
-
-if TYPE_CHECKING:
-    from evenbreak.chains.chain import Chain
 
 
 @array_values

@@ -41,16 +41,18 @@ divide and conquer (through scipy).
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import scipy.linalg
 import scipy.sparse.linalg
+from numpy.typing import NDArray
 from scipy.sparse import csc_array, csgraph, diags_array
 
 from evenbreak.arrays import Floats, array_values
+from evenbreak.chains.arcs import Places
 from evenbreak.chains.birth_death import line_order
-from evenbreak.chains.chain import check_chain
+from evenbreak.chains.chain import Chain, check_chain
 from evenbreak.chains.double_double import two_product, two_sum
 from evenbreak.chains.eigenpairs import (
     DENSE,
@@ -66,13 +68,6 @@ from evenbreak.chains.eigenpairs import (
 from evenbreak.chains.mixing import mixing_time, spectral_gap
 from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, ChainError, InputError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from evenbreak.chains.arcs import Places
-    from evenbreak.chains.chain import Chain
-
 
 MOST_ENTRIES = 20_000_000
 """More entries of vectors than this (k times n) are refused: they would fill the memory."""

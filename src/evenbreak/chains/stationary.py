@@ -52,10 +52,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg.blas import dasum, dtrsv
 
-from evenbreak.chains.arcs import put_back, sums, tree_from
+from evenbreak.arrays import Bools, Floats
+from evenbreak.chains.arcs import Arcs, Places, put_back, sums, tree_from
 from evenbreak.chains.birth_death import birth_death_law, line_of
 from evenbreak.chains.certified import spread
-from evenbreak.chains.chain import check_chain, labels
+from evenbreak.chains.chain import Chain, check_chain, labels
 from evenbreak.chains.dense_elimination import MOST_ENTRIES, factored, is_dense, less, solved
 from evenbreak.chains.elimination import decimal_law
 from evenbreak.chains.factorisation import SMALL
@@ -64,10 +65,6 @@ from evenbreak.errors import ChainError
 
 if TYPE_CHECKING:
     import pandas as pd
-
-    from evenbreak.arrays import Bools, Floats
-    from evenbreak.chains.arcs import Arcs, Places
-    from evenbreak.chains.chain import Chain
 
 
 _LARGE = 500

@@ -18,16 +18,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csgraph, csr_array
 
 from evenbreak.arrays import Bools, array_values
-from evenbreak.chains.arcs import tree_from
-
-if TYPE_CHECKING:
-    from evenbreak.chains.arcs import Arcs, Places
+from evenbreak.chains.arcs import Arcs, Places, tree_from
 
 
 @array_values

@@ -17,18 +17,14 @@ matrix (I - T)^-1; Alfa, Xue and Ye 2002 for its accuracy, entry by entry.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evenbreak.chains.arcs import reachable
+from evenbreak.arrays import Bools, Floats
+from evenbreak.chains.arcs import Arcs, Places, reachable
 from evenbreak.chains.elimination import MOST_ARCS, DecimalElimination, PlainElimination
 from evenbreak.chains.factorisation import Factorisation
 from evenbreak.errors import AccuracyError
-
-if TYPE_CHECKING:
-    from evenbreak.arrays import Bools, Floats
-    from evenbreak.chains.arcs import Arcs, Places
 
 _FEW_STATES, _FEW_ARCS = 100, 300
 

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from evenbreak.answers.kit.parts import Quantities
+from evenbreak.answers.kit.parts import Content, Quantities, Show, Table
 from evenbreak.files.csv_writer import csv_lines
-
-if TYPE_CHECKING:
-    from evenbreak.answers.kit.parts import Content, Show, Table
 
 
 def to_csv(answer: Content) -> Iterator[str]:

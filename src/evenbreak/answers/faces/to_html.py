@@ -5,14 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from html import escape
-from typing import TYPE_CHECKING
 
-from evenbreak.answers.kit.parts import Column, Quantities, Table
+from evenbreak.answers.kit.parts import Column, Content, Part, Quantities, Table
 from evenbreak.answers.kit.remarks import Remark, Remarks
 from evenbreak.files.tables.problems import printable
-
-if TYPE_CHECKING:
-    from evenbreak.answers.kit.parts import Content, Part
 
 _OTHERS = re.compile("[^\N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}]+")
 """All but the spaces that some languages have within numbers."""

@@ -7,12 +7,9 @@ from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from datetime import date
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from evenbreak.answers.kit.parts import Quantities, Table
-
-if TYPE_CHECKING:
-    from evenbreak.answers.kit.parts import Content, Part
+from evenbreak.answers.kit.parts import Content, Part, Quantities, Table
 
 
 def as_dict(answer: Content) -> dict[str, Any]:

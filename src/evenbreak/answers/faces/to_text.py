@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
-from evenbreak.answers.kit.parts import Quantities, Table
+from evenbreak.answers.kit.parts import Content, Part, Quantities, Table
 from evenbreak.files.tables.problems import printable
-
-if TYPE_CHECKING:
-    from evenbreak.answers.kit.parts import Content, Part
 
 WIDTH = 80
 NARROWEST, LONGEST_NAME = 20, 30

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.physics import (
     ContactPoint,
@@ -35,7 +36,6 @@ from evenbreak.source_text.physics.section_3_plots import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
 
 HALF_BALL = math.pi / 6.0

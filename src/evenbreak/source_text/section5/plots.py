@@ -7,6 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evenbreak.chains import limits_over
 from evenbreak.games import BREAK_FORMATS, Ahead, Drill, Rack
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     import networkx as nx
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
 
 _P = np.linspace(0.0, 1.0, 201)
