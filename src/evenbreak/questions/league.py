@@ -53,7 +53,7 @@ def _spelled(systems: tuple[System, ...]) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Matchups(Lengths, Starters, Pace):
-    """Find the race for each pair of players tonight, and how often each player wins it.
+    """Find the race for each pair of players tonight, and how often each wins it.
 
     ROSTER.csv has a row for each player, with the columns player and rating and, if you have them,
     standard_error and games; - reads standard input. {chart} looks the races up, {games} or

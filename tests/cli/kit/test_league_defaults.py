@@ -104,7 +104,6 @@ WORDS = {
     "chips odds": ["entrants.csv", "--chips", "hoboken"],
     "chips audit": ["hoboken"],
     "chips design": ["entrants.csv"],
-    "sandbag watch": ["--roster", "start.csv"],
     "tournament new": ["entrants.csv"],
     "tournament print": ["cards"],
     "tournament odds": ["entrants.csv"],

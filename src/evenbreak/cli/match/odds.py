@@ -245,22 +245,28 @@ def _listed(
 ) -> tuple[RosterFile, tuple[str, str], list[int]]:
     """Return a list with levels, and the names and the places of two players on it."""
     from evenbreak.answers.league.by_level import by_level
-    from evenbreak.answers.league.sheet import find_players
     from evenbreak.files.lists.roster import read_roster
 
     file, _ = by_level(read_roster(path), chart, asked.results)
+    places = _places(asked, file)
+    a, b = (file.roster.players[place] for place in places)
+    return file, (a, b), places
+
+
+def _places(asked: Players, file: RosterFile) -> list[int]:
+    """Return the places of the two players on a list."""
+    from evenbreak.answers.league.sheet import find_players
+
     places = find_players(file.roster, asked.ratings, said="--from", where=file.source)
     if len(places) < 2:
         refuse(f"{asked.ratings[0]!r} and {asked.ratings[1]!r} are one player; name two")
-    a, b = (file.roster.players[place] for place in places)
-    return file, (a, b), places
+    return places
 
 
 def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
     """Return two players of a list, with its ratings, scale, errors and form of the day."""
     from evenbreak.answers.league.prior import games_words
     from evenbreak.answers.league.roster_matchups import cannot_be_compared
-    from evenbreak.answers.league.sheet import find_players
     from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
     from evenbreak.cli.kit.terminal import say
     from evenbreak.files.lists.roster import read_roster
@@ -276,9 +282,7 @@ def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
         refuse_levels(file)
     points = file.scale_by(scale, SAY_WHICH)
     roster = file.roster.with_starters(points.centre, points.points_per_doubling, points)
-    places = find_players(roster, names, said="--from", where=file.source)
-    if len(places) < 2:
-        refuse(f"{names[0]!r} and {names[1]!r} are one player; name two")
+    places = _places(asked, file)
     for place in places:
         if math.isnan(file.roster.rating[place]):
             refuse(f"{roster.players[place]!r} has no rating in {file.source}; give two ratings")
