@@ -7,8 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
-import numpy as np
-
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, File, Flag, Named, Text
 from evenbreak.fields.question import Field, Question, Says
@@ -134,6 +132,8 @@ class Reading(Question):
         In 9/3/2024 `dates` says which is the month. The day may lie up to a year ahead, for a
         tournament to come; a later one was mistyped.
         """
+        import numpy as np
+
         text: str | None = getattr(self, name)
         if text is None:
             return None

@@ -12,12 +12,12 @@ from evenbreak import files, handicaps
 from evenbreak.answers.kit.scales import chart_doubts
 from evenbreak.cli.kit.said import refuse
 from evenbreak.fields.question import Question
-from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.words import Parameter
 
 if TYPE_CHECKING:
     from evenbreak.matches.pace import Pace
+    from evenbreak.ratings.roster import Roster
 
 
 def on_scale(system: handicaps.StepSystem, scale: Scale | None) -> handicaps.StepSystem:
