@@ -229,7 +229,7 @@ class _Pages:
 
     def _to_play(self, one: Fixture) -> dict[str, str]:
         race = self.league.races.by_pair.get((one.home, one.away))
-        table = f"table {one.table}" if one.table else ""
+        table = f"table\N{NO-BREAK SPACE}{one.table}" if one.table else ""
         return {
             "where": ", ".join(filter(None, [one.venue, table])),
             "a": one.home,

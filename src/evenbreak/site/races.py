@@ -59,7 +59,9 @@ class LeagueRaces:
     def in_words(self) -> str:
         """How a race is found, in a sentence."""
         if isinstance(self.rule, OfferedRaces):
-            return self.rule.in_words
+            if (needs := self.rule.race_to) is None:
+                return self.rule.in_words
+            return f"Every pair gets the fairest race in which the stronger player goes to {needs}."
         if isinstance(self.rule, Chart) and len(self.rule.rows) == 1:
             return f"Every race is to {self.rule.rows[0].stronger_needs} for both players."
         if isinstance(self.rule, PointsChart):

@@ -114,8 +114,8 @@ def test_a_match_that_was_not_played_on_its_day_is_postponed(run, folder: Path) 
     run("publish")
     page = (folder / "site/fixtures.html").read_text()
     assert "Sep 9, 2025, postponed" in page
-    assert "table 4" in page
-    assert "table 5" not in page
+    assert "table\N{NO-BREAK SPACE}4" in page
+    assert "table\N{NO-BREAK SPACE}5" not in page
 
 
 @pytest.mark.parametrize("manifest", ["[]", '{"pages": null, "files": [3]}', '{"pages": 4}'])
