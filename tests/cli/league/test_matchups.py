@@ -205,6 +205,21 @@ def test_what_is_no_list_of_levels_is_refused(run, roster, text, more, words):
     assert words in result.stderr
 
 
+@pytest.mark.parametrize("chart", ["apa_9ball", "npl_10"])
+def test_whoever_is_away_tonight_holds_up_nobody(run, roster, tmp_path, chart):
+    pairs = tmp_path / "pairs.csv"
+    column, error = ("rating", "1e6") if chart == "npl_10" else ("level", "")
+    cy = f"Cy,1,{error}" if error else "Cy,,"
+    away = roster(f"player,{column},standard_error\nAnn,7,1\nBo,4,1\n{cy}\n")
+    pairs.write_text("player_a,player_b\nAnn,Bo\n")
+    words = ("matchups", away, "--chart", chart, "--pairs", str(pairs))
+    assert [(row["player_a"], row["player_b"]) for row in answer(run, *words[1:])["pairs"]] == [
+        ("Ann", "Bo")
+    ]
+    pairs.write_text("player_a,player_b\nAnn,Cy\n")
+    assert "roster.csv:4:" in run(*words).stderr
+
+
 def test_own_results_are_for_levels(run, roster):
     for words in (("--race-to", "5"), ("--chart", "npl_10")):
         result = run("matchups", roster(LEVELS), *words, "--results", "season.csv")

@@ -118,8 +118,12 @@ def pairs_of(roster: Roster, order: ArrayLike) -> Ints:
     return places[rows[np.lexsort((rows[:, 1], rows[:, 0]))]]
 
 
-def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> None:
+def check_roster(
+    file: RosterFile, roster: Roster, chart: Any, scale: Scale, playing: ArrayLike | None = None
+) -> None:
     """Refuse ratings that are not levels of the chart, and standard errors that are too large.
+
+    `playing` are the places of those who play, any number of times; None: everybody.
 
     Raises
     ------
@@ -127,10 +131,13 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
         with one line for each such player.
     """
     most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
+    plays = np.full(len(roster), playing is None)
+    if playing is not None:
+        plays[np.asarray(playing, dtype=np.int64).ravel()] = True
     problems = Problems(file.source)
     problems.add_rows(
         file.lines,
-        np.flatnonzero(roster.standard_error > most),
+        np.flatnonzero(plays & (roster.standard_error > most)),
         lambda place: say(
             "{column} {error:g} says nothing about a player; write {most:g} points at most, or "
             "check {scale}",
@@ -144,7 +151,7 @@ def check_roster(file: RosterFile, roster: Roster, chart: Any, scale: Scale) -> 
         levels = ", ".join(map(str, chart.levels))
         problems.add_rows(
             file.lines,
-            np.flatnonzero(~np.isin(roster.level, chart.levels)),
+            np.flatnonzero(plays & ~np.isin(roster.level, chart.levels)),
             lambda place: say(
                 "{player} has {level}; the levels of the chart {chart} are {levels}",
                 player=quoted(roster.players[place]),

@@ -50,7 +50,7 @@ def command(asked: Matchups, face: str, page_file: str | None) -> Answer:
         return _by_points(asked, file, of_league, face, warnings)
     file, players, points, levels, doubts = _rated(asked, file, of_league)
     warnings += doubts
-    meet, more = _pairs(asked, file.source, players, face)
+    meet, more = _pairs(asked, file, players, face, of_league, points)
     is_offered = asked.games is not None or asked.race_to is not None
     tonight = answers.Round(
         file=file,
@@ -80,8 +80,6 @@ def _rated(
     asked: Matchups, file: files.RosterFile, of_league: AnyChart | None
 ) -> tuple[files.RosterFile, ratings.Roster, Scale, handicaps.LevelSkills | None, list[str]]:
     """Return the list, its players with strengths, their scale, what levels are worth, doubts."""
-    from evenbreak.answers.league.roster_matchups import check_roster
-
     levels = None
     if isinstance(of_league, handicaps.LevelChart):
         file, levels = by_level(file, of_league, asked.results)
@@ -90,14 +88,12 @@ def _rated(
             raise InputError(SCALE_OF_LEVELS)
         file = with_level(file, asked.starter)
         players = replace(file.roster, rating=levels.strength(file.roster.level))
-        check_roster(file, players, of_league, FARGO)
         return file, players, FARGO, levels, []
     points = _scale_of_list(file, asked.scale, of_league)
     players = file.roster
     if isinstance(of_league, handicaps.LevelChart):
         players = rated_by_level(players, of_league, points)
     players = with_starters(players, points, asked.starter, asked.starter_sd)
-    check_roster(file, players, of_league, points)
     doubts = []
     if asked.scale is None and file.scale is not None:
         doubts += _other_chart(file.scale, of_league)
@@ -118,7 +114,6 @@ def _by_points(
 ) -> Answer:
     """Return the points of each pair by a chart of points."""
     from evenbreak.answers.league.points_matchups import points_matchups_answer
-    from evenbreak.answers.league.roster_matchups import check_roster
 
     if asked.games is not None or asked.race_to is not None:
         refuse(f"{chart.name} is a chart of points, and no race in games goes with it")
@@ -126,8 +121,7 @@ def _by_points(
     file = with_level(file, asked.starter)
     level = file.roster.level
     players = ratings.Roster(file.roster.players, level, level=level)
-    check_roster(file, players, chart, FARGO)
-    pairs, more = _pairs(asked, file.source, players, face)
+    pairs, more = _pairs(asked, file, players, face, chart, FARGO)
     return points_matchups_answer(file, pairs, chart, warnings=[*warnings, *more])
 
 
@@ -176,20 +170,30 @@ def _other_chart(stated: Scale, chart: AnyChart | None) -> list[str]:
 
 
 def _pairs(
-    asked: Matchups, source: str, roster: ratings.Roster, face: str
+    asked: Matchups,
+    roster_file: files.RosterFile,
+    roster: ratings.Roster,
+    face: str,
+    chart: AnyChart | handicaps.PointsChart | None,
+    scale: Scale,
 ) -> tuple[NDArray[Any], tuple[str, ...]]:
-    """Return who meets whom, and the warnings of the list; refuse too many."""
-    from evenbreak.answers.league.roster_matchups import all_pairs
+    """Return who meets whom, and the warnings of the list; refuse too many.
+
+    What the list says of those who do not play may be unfit: a player away may lack a level.
+    """
+    from evenbreak.answers.league.roster_matchups import all_pairs, check_roster
     from evenbreak.files.lists.season import read_pairs
 
     if asked.pairs is not None:
         file = read_pairs(asked.pairs, roster)
         listed = len(file.pairs)
+        check_roster(roster_file, roster, chart, scale, playing=file.pairs)
         _refuse_too_many(f"{asked.pairs} has {listed:,} pairs", listed, asked.tables, face)
         return file.pairs, file.warnings
+    check_roster(roster_file, roster, chart, scale)
     many = len(roster) * (len(roster) - 1) // 2
     if not many:
-        refuse(f"{source} has one player; a match takes two")
+        refuse(f"{roster_file.source} has one player; a match takes two")
     _refuse_too_many(f"{len(roster):,} players make {many:,} pairs", many, asked.tables, face)
     return all_pairs(roster), ()
 
