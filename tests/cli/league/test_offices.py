@@ -136,6 +136,33 @@ def test_an_apa_office_gets_table_races_line_up_and_verdicts(apa, rows, text, tm
     assert all(name in compared for name in ("level-review", "fargo-like", "none"))
 
 
+@pytest.mark.usefixtures("apa")
+def test_a_sheet_typed_from_paper_gives_the_same_table(run, rows, tmp_path, monkeypatch):
+    wanted = rows("league", "table")
+    lines = ["Date,Match,Team,Player,SL,GTW,Innings,Defensive Shots,Wins"]
+    for row in csv.reader(Path("scores fall.csv").read_text().splitlines()[1:]):
+        races = apa_race(int(row[4]), int(row[8]))
+        for k, race in ((2, races[0]), (6, races[1])):
+            number = row[:2] if k == 2 else ["", ""]  # written once, above both
+            cells = [
+                *number,
+                row[k],
+                f'"{row[k + 1]}"',
+                row[k + 2],
+                str(race),
+                *row[10:],
+                row[k + 3],
+            ]
+            lines.append(",".join(cells))
+    place = tmp_path / "paper"
+    place.mkdir()
+    (place / "sheets.csv").write_text("\n".join(lines))
+    (place / "roster.csv").write_text(Path("roster.csv").read_text())
+    monkeypatch.chdir(place)
+    assert run("league", "init", "--yes").exit_code == 0
+    assert rows("league", "table") == wanted
+
+
 def _listed(name, listed):
     return next(one for one in listed if turned(one) == name)
 

@@ -159,6 +159,8 @@ def _commands(folder: str, league: NewLeague) -> Iterator[tuple[str, str]]:
             yield "ratings", f"evenbreak rate{where}"
         yield "a website", f"evenbreak publish{where}"
         yield "are the handicaps fair?", f"evenbreak validate{where}"
+        if "chart" in league.values:
+            yield "is the chart fair?", f"evenbreak chart audit{where}"
     elif "files.team_results" in league.values:
         yield "the table", f"evenbreak league table{where}"
     if roster:

@@ -13,6 +13,7 @@ from typing import Any
 
 from evenbreak.errors import DataError
 from evenbreak.files.foreign import brackets_manager, challonge, cuescore
+from evenbreak.files.foreign.paper import paper_sheet
 from evenbreak.files.foreign.saved import (
     MISSHAPEN,
     TITLES,
@@ -107,7 +108,7 @@ def export_of(content: bytes, source: str) -> Export | None:
     """
     json_data = _json_in(content, source)
     if json_data is None:
-        return None
+        return paper_sheet(content, source)
     if not any(program.is_one(json_data[0]) for program in _PROGRAMS):
         rows = _records(json_data[0])
         if rows:

@@ -201,7 +201,7 @@ def _ways(path: Path) -> list[Mapping[str, str]]:
         ways.extend(readings_of(*of_file))
         return ""
 
-    RESULTS_FILE.text(path, hint=hint)
+    RESULTS_FILE.text(path, hint=hint, exported=export_of)
     return ways
 
 
