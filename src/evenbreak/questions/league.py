@@ -265,6 +265,15 @@ class Simulate(BySystem):
             more="Much slower: some tenths of a second a season.",
         ),
     ] = False
+    discipline: Annotated[
+        Discipline | None,
+        Says("Give lengths in minutes too, at the usual pace of this game.", section=_LEAGUE),
+    ] = None
+    minutes_per_game: Annotated[
+        float | None,
+        MINUTES,
+        Says("Give lengths in minutes too, at this pace on average.", section=_LEAGUE),
+    ] = None
     rack_by_rack: Annotated[
         bool,
         Field(

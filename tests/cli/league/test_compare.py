@@ -75,6 +75,15 @@ def test_shorter_races_are_not_fairer_the_other_way_round_either(simulated, syst
     assert "it is not fairer: luck decides more of its matches." in text
 
 
+def test_a_pace_gives_the_minutes_of_a_match(simulated, found):
+    words = ("--compare", "npl, none", "--minutes-per-game", "6")
+    told = " ".join(simulated(RATED, *words, "--text").stdout.split())
+    minutes = [6.0 * row["value"] for row in found(RATED, *words)["measures"]
+               if row["measure"] == "mean_games"]  # fmt: skip
+    shown = "a match takes {:.0f} minutes with npl and {:.0f} minutes with none"
+    assert shown.format(*minutes) in told
+
+
 def test_a_difference_within_its_error_is_none(simulated):
     words = ("--compare", "npl, step 1", "--newcomers", "0", "--text")
     assert "No difference in fairness was shown" in simulated(RATED, *words).stdout

@@ -22,6 +22,7 @@ from evenbreak.league.contest import EVEN, Contest, Doublings
 from evenbreak.league.judged import MEASURES, PARTS, RIGHT, Estimate, estimate
 from evenbreak.league.race_tables import CLOSE
 from evenbreak.league.world import World
+from evenbreak.matches.pace import Pace, pace_of
 from evenbreak.words import Sentence, joined, listed, say
 
 CONFIDENCE = 0.9
@@ -91,6 +92,7 @@ def comparison_answer(
     settings: Mapping[str, Any],
     *,
     assumed: Sequence[str] = (),
+    pace: Pace | str | None = None,
     warnings: Sequence[str] = (),
 ) -> Answer:
     """Return systems side by side; in files, a row for each system and measure.
@@ -103,6 +105,8 @@ def comparison_answer(
         what a reader must know besides, such as the seed and the name of the roster's file.
     assumed
         what is assumed of the players, in sentences.
+    pace
+        how fast games are, or their discipline; None: lengths are in games alone.
     warnings
         what may be wrong with what was given.
     """
@@ -141,6 +145,7 @@ def comparison_answer(
             joined(_verdict(comparison) if several else _alone(comparison), " "),
             _FAIRER,
             *_tables(comparison, _SHOWN),
+            *([] if pace is None else [_minutes(comparison, pace)]),
             *([_SAME] if several else []),
             _READ,
             *assumed,
@@ -183,6 +188,15 @@ _READ_DETAILS = say(
     "number changes. 'Drift': by how much all numbers rise against the skills, in doublings.",
     close=CLOSE,
 )
+
+
+def _minutes(comparison: Comparison, pace: Pace | str) -> Sentence:
+    at = pace_of(pace) if isinstance(pace, str) else pace
+    means = at.mean_minutes(comparison.measures["mean_games"].value)
+    each = [say("{minutes:.0f} minutes with {name}", minutes=float(mean), name=name)
+            for name, mean in zip(comparison.names, means, strict=True)]  # fmt: skip
+    return say("At {game:.2g} minutes a game and {more:.2g} more a match, a match takes {each}.",
+               game=at.per_game, more=at.overhead, each=listed(each))  # fmt: skip
 
 
 def _verdict(comparison: Comparison) -> Iterator[Sentence]:
@@ -242,16 +256,14 @@ def _verdict(comparison: Comparison) -> Iterator[Sentence]:
             )
         yield _gains(comparison, best)
     else:
-        signed_low = 100.0 * (change - half)
-        signed_high = 100.0 * (change + half)
         yield say(
             "No difference in fairness was shown: {best} makes {change:+.1f} matches in 100 even "
             "against {own} ({low:+.1f} to {high:+.1f}).",
             best=names[best],
             own=names[0],
             change=100.0 * change,
-            low=signed_low,
-            high=signed_high,
+            low=100.0 * (change - half),
+            high=100.0 * (change + half),
         )
         yield _costs(comparison, best)
 

@@ -12,6 +12,7 @@ from evenbreak import files, handicaps, league, plots
 from evenbreak.cli.kit.cluster import cluster_at
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.said import refuse
+from evenbreak.cli.kit.systems import stated_pace
 from evenbreak.cli.kit.terminal import write_folder
 from evenbreak.files.csv_writer import to_csv
 from evenbreak.handicaps.systems.level_review import nearest_level
@@ -31,7 +32,8 @@ def by_any_system(asked: Simulate, file: files.SeasonPlayers) -> bool:
     Singles under a system of steps have a faster one, which follows each player too.
     """
     steps = isinstance(asked.system or _usual(asked, file), handicaps.StepSystem)
-    more = any(name in asked.given for name in ("compare", "seasons", "newcomers", "sandbaggers"))
+    here = ("compare", "seasons", "newcomers", "sandbaggers", "discipline", "minutes_per_game")
+    more = any(name in asked.given for name in here)
     return more or not steps or file.levels or file.teams is not None
 
 
@@ -75,6 +77,7 @@ def compared(asked: Simulate, file: files.SeasonPlayers) -> Answer:
         comparison,
         {"roster_file": PurePath(file.source).name, "seed": asked.seed, "day_sd": asked.day_sd},
         assumed=assumed,
+        pace=stated_pace(asked.discipline, asked.minutes_per_game),
         warnings=[*file.warnings, *warnings],
     )
     if asked.out is not None:
