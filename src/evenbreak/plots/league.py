@@ -166,8 +166,6 @@ def draw_even(deciles: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
         ax=ax,
     )
     _lines(axes, deciles, "part", "p_even")
-    axes.locator_params(axis="x", integer=True)
-    axes.set_ylim(bottom=0.0)
     legend_below(axes, ax)
     return axes
 
@@ -190,8 +188,6 @@ def draw_errors_compared(nights: pd.DataFrame, *, ax: Axes | None = None) -> Axe
         ax=ax,
     )
     _lines(axes, nights, "night", "error", markers=False)
-    axes.locator_params(axis="x", integer=True)
-    axes.set_ylim(bottom=0.0)
     axes.set_xlim(left=0.0)
     legend_below(axes, ax)
     return axes
@@ -208,6 +204,8 @@ def _lines(axes: Axes, frame: pd.DataFrame, x: str, y: str, *, markers: bool = T
                           label=str(name))  # fmt: skip
         else:
             axes.plot(*values, **line, label=str(name))
+    axes.locator_params(axis="x", integer=True)
+    axes.set_ylim(bottom=0.0)
 
 
 MOST_NAMED = 6

@@ -10,7 +10,7 @@ from evenbreak.fields.question import Field, Question, declared
 from evenbreak.questions.common import ChartOfRaces, EvenRace, HandicappedRace
 from evenbreak.tournaments.evening.fold import ELIMINATIONS
 from evenbreak.tournaments.evening.format import Format
-from evenbreak.tournaments.evening.plan import FORMATS, usual_seeding
+from evenbreak.tournaments.evening.plan import FORMATS
 from evenbreak.words import Parameter, say
 
 _RACES = ("race", "race_to", "chart", "losers_race", "final_race")
@@ -142,7 +142,7 @@ class TournamentPlan(Format, Question):
     @property
     def seeded(self) -> str:
         """How the seeds are ordered."""
-        return self.seeding or usual_seeding(self.form)
+        return self.seeding or ("blind" if self.form == "chips" else "listed")
 
     @property
     def of_format(self) -> dict[str, Any]:

@@ -60,12 +60,13 @@ class Standing:
     @cached_property
     def remaining(self) -> Bracket:
         """The undecided matches, with the players who are known already in their slots."""
+        groups = tuple(group for group in self.bracket.groups if not self._settled(group))
+        still = {name for group in groups for name in group.matches}
         matches = tuple(
             self._seated(match)
             for match in self.bracket.matches
-            if match.name not in self.winners or self._open_group(match.name)
+            if match.name not in self.winners or match.name in still
         )
-        groups = tuple(group for group in self.bracket.groups if not self._settled(group))
         runners_up = self.bracket.runners_up
         if runners_up is not None:
             runners_up = replace(runners_up, settled=tuple(self.runners_up))
@@ -87,11 +88,6 @@ class Standing:
 
     def _settled(self, group: Group) -> bool:
         return Source(group.name, 1) in self.sent
-
-    def _open_group(self, name: str) -> bool:
-        return any(
-            name in group.matches and not self._settled(group) for group in self.bracket.groups
-        )
 
 
 def standing(bracket: Bracket, results: Results | None = None) -> Standing:

@@ -62,15 +62,6 @@ Drawn = Mapping[str, tuple[str | None, ...]]
 """What has been drawn, by stage: the players of a round in pairs, or where qualifiers come from."""
 
 
-def usual_seeding(form: str) -> str:
-    """Return how the seeds of a format are ordered if nothing else is asked for.
-
-    >>> usual_seeding("double"), usual_seeding("chips")
-    ('listed', 'blind')
-    """
-    return "blind" if form == "chips" else "listed"
-
-
 def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
     """Begin an evening, if what is planned can be played by those who have entered.
 
