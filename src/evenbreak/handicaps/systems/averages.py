@@ -127,14 +127,18 @@ class WinPercent(System):
     name: str = "win-percent"
 
     asks = ("games",)
-    in_words = (
-        "the percentage of the last 50 games won; races by a chart of 25 games for the sums of "
-        "five players, read for two players as if both teams were five of them"
-    )
 
     def __post_init__(self) -> None:
         whole(self.window, "window", at_least=1, at_most=1000)
         whole(self.players, "players", at_least=1, at_most=100)
+
+    @property
+    def in_words(self) -> str:  # type: ignore[override]
+        """The rule in words."""
+        return (
+            f"the percentage of the last {self.window} games won; races by a chart of 25 games for "
+            f"teams, at {self.players} times the difference of two players"
+        )
 
     def strength(self, numbers: Any) -> Floats:
         """Return the strengths by the share of games won."""

@@ -99,10 +99,6 @@ class FargoLike(System):
 
     scale = _SCALE
     asks = ("games",)
-    in_words = (
-        "all games of all players refitted every night, with a half-life of three years; under "
-        "200 games a starter rating counts for the games that lack"
-    )
 
     def __post_init__(self) -> None:
         number(self.half_life, "half_life", above=0.0, high=1e6)
@@ -112,6 +108,15 @@ class FargoLike(System):
         number(self.starter, "starter", low=-1e4, high=1e4)
         if self.games is not None:
             _of_games(self.games)
+
+    @property
+    def in_words(self) -> str:  # type: ignore[override]
+        """The rule in words."""
+        years = "a year" if self.half_life == 1.0 else f"{self.half_life:g} years"
+        return (
+            f"all games of all players refitted every night, with a half-life of {years}; under "
+            f"{self.established} games a starter rating counts for the games still missing"
+        )
 
     @property
     def chart(self) -> Chart:
