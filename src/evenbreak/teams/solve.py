@@ -209,7 +209,7 @@ def refuse_large(night: TeamNight) -> None:
     if steps_of(night) > MOST_STEPS:
         raise InputError(
             "squads of {ours} and {theirs} players allow too many line-ups of {sets} sets; "
-            "leave out those who won't play tonight",
+            "leave out those who won't play tonight, or play fewer sets",
             ours=len(night.ours.names),
             theirs=len(night.theirs.names),
             sets=night.sets,

@@ -31,7 +31,10 @@ def paper_sheet(content: bytes, source: str) -> Export | None:
     text = text_of(content, source)
     lines = text.read().splitlines()
     separator = max(",;\t", key=lines[0].count)
-    titles, *rows = csv.reader(lines, delimiter=separator)
+    try:
+        titles, *rows = csv.reader(lines, delimiter=separator)
+    except csv.Error:  # for the reader of all tables to say
+        return None
     keys = [*map(key_of, titles)]
     number = next((k for k, key in enumerate(keys) if key in _MATCH), None)
     if number is None or sum(key in PLAYERS for key in keys) != 1 or len({*keys}) < len(keys):
