@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from datetime import date
+from itertools import product
 from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
 
 from evenbreak import answers, files, handicaps, matches, ratings, sheets
 from evenbreak.answers.kit.answer import Answer
@@ -11,11 +16,14 @@ from evenbreak.answers.kit.scales import league_doubts, starter_doubts
 from evenbreak.answers.league.by_level import SCALE_OF_LEVELS, by_level, rated_by_level, with_level
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.faces import without_folders
+from evenbreak.cli.kit.league import league_in
 from evenbreak.cli.kit.said import SAY_WHICH, refuse
 from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale, stated_pace, with_starters
-from evenbreak.cli.kit.terminal import write_file
-from evenbreak.errors import InputError
+from evenbreak.cli.kit.terminal import say, write_file
+from evenbreak.errors import DataError, InputError
 from evenbreak.files.lists.roster import refuse_to_read
+from evenbreak.files.lists.teams import read_squads
+from evenbreak.files.tables.names import same_name
 from evenbreak.handicaps.charts.level_skills import FARGO
 from evenbreak.questions.league import Matchups
 from evenbreak.ratings.scale import SCALES, Scale
@@ -191,11 +199,58 @@ def _pairs(
         _refuse_too_many(f"{asked.pairs} has {listed:,} pairs", listed, asked.tables, face)
         return file.pairs, file.warnings
     check_roster(roster_file, roster, chart, scale)
+    if (tonight := _next_night(asked, roster)) is not None:
+        return tonight
     many = len(roster) * (len(roster) - 1) // 2
     if not many:
         refuse(f"{roster_file.source} has one player; a match takes two")
     _refuse_too_many(f"{len(roster):,} players make {many:,} pairs", many, asked.tables, face)
     return all_pairs(roster), ()
+
+
+def _next_night(
+    asked: Matchups, roster: ratings.Roster
+) -> tuple[NDArray[Any], tuple[str, ...]] | None:
+    """Return who can meet on the next day of a league's fixtures; None where it has none."""
+    league = league_in(click.get_current_context())
+    if league is None or asked.players_file is not None or None in (
+        league.files.fixtures,
+        league.files.roster,
+    ):  # fmt: skip
+        return None
+    if asked.roster != league.place(league.files.roster or ""):
+        return None
+    last = np.datetime64(date.today())
+    if league.results:
+        days = files.read_seasons([str(league.path)]).results.date
+        if days is None or np.isnat(days).all():
+            return None
+        last = days[~np.isnat(days)].max()
+    listed, _ = files.read_fixture_list(league.place(league.files.fixtures or ""))
+    after = [one for one in listed if one.date is not None and np.datetime64(one.date) > last]
+    if not after:
+        return None
+    day = min(one.date for one in after if one.date is not None)
+    place = {same_name(name): k for k, name in enumerate(roster.players)}
+    sides = {name: [k] for name, k in place.items()}
+    try:
+        squads = read_squads(asked.roster)
+    except DataError:  # a league of single players
+        squads = {}
+    for team, members in squads.items():
+        names = map(same_name, members.file.roster.players)
+        sides[same_name(team)] = [place[name] for name in names if name in place]
+    meet = [one for one in after if one.date == day]
+    pairs = [
+        pair
+        for one in meet
+        for pair in product(*(sides.get(same_name(name), ()) for name in (one.home, one.away)))
+    ]
+    if not pairs:
+        return None
+    teams = ", ".join(f"{one.home} v {one.away}" for one in meet)
+    say(f"Those who may meet on {day}: {teams}. For others, list them with --players-file.")
+    return np.array(pairs), ()
 
 
 def _refuse_too_many(pairs: str, many: int, tables: int | None, face: str) -> None:
