@@ -1,4 +1,4 @@
-"""Each kind reads a text, or says how to write it."""
+"""Each kind reads a text, or says how to write it; a schema says the same."""
 
 import pytest
 
@@ -60,3 +60,9 @@ def test_what_is_wrong_is_refused_with_the_remedy(kind: Kind, text: str, wanted:
 def test_a_value_is_written_as_it_is_typed(kind: Kind, value: object, typed: str) -> None:
     assert kind.words(value) == typed
     assert kind.read(typed) == value
+
+
+def test_a_schema_has_the_limits() -> None:
+    assert Whole(1, 9).schema() == {"type": "integer", "minimum": 1, "maximum": 9}
+    assert PAIR.schema()["items"]["maximum"] == 1000
+    assert Choice(("a", "b")).schema()["enum"] == ["a", "b"]

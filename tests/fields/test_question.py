@@ -1,4 +1,4 @@
-"""What is read off a question: its fields, checks and refusals."""
+"""What is read off a question: its fields, checks, schema and refusals."""
 
 from dataclasses import dataclass
 from typing import Annotated, TypeAlias
@@ -13,6 +13,7 @@ from evenbreak.fields.question import (
     Says,
     declaration,
     declared,
+    schema_of,
 )
 
 Length: TypeAlias = Annotated[int, Field(Whole(1, 9), "How long.")]
@@ -59,3 +60,15 @@ def test_every_check_is_made_and_parameters_are_named() -> None:
 
 def test_what_is_given_differs_from_its_default() -> None:
     assert Walk(steps=2, left=True, back=None).given == {"left": True, "steps": 2}
+
+
+def test_the_schema_has_kinds_limits_and_what_must_be_given() -> None:
+    schema = schema_of(Walk)
+    assert schema["required"] == ["steps"]
+    assert schema["properties"]["left"]["description"] == "The left side, without right."
+    assert schema["properties"]["steps"] == {
+        "type": "integer",
+        "minimum": 1,
+        "maximum": 9,
+        "description": "How long.",
+    }

@@ -13,7 +13,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.checks import made
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.fields.kinds import Whole
-from evenbreak.fields.question import Field, declared
+from evenbreak.fields.question import Field, declared, schema_of
 from evenbreak.questions.tournament import NewTournament
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.format import Format
@@ -71,6 +71,8 @@ def test_it_is_a_field_of_the_form() -> None:
     assert asked.timeouts == 4
 
 
-def test_the_plan_has_it() -> None:
+def test_the_schema_and_the_plan_have_it() -> None:
+    schema = schema_of(Asked)["properties"]["timeouts"]
+    assert (schema["maximum"], schema["default"]) == (5, 1)
     plan = replace(made(Planned, {"form": "double", "race": 5}), timeouts=2)
     assert json.loads(json.dumps(plan.__dict__, default=str))["timeouts"] == 2

@@ -1,7 +1,7 @@
 """The kinds of values that a field can have: numbers, pairs such as 7:5, choices, files.
 
-A kind reads a text, or refuses it and says how to write it. The terminal and the page read by the
-same kinds, so they have the same limits.
+A kind reads a text, or refuses it and says how to write it; it also says what a JSON schema has
+for it. The terminal and the page read by the same kinds, so they have the same limits.
 """
 
 from __future__ import annotations
@@ -45,6 +45,10 @@ class Kind:
         """The limits in words, such as '1 to 100', or ''."""
         return ""
 
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": "string"}
+
 
 @dataclass(frozen=True)
 class Text(Kind):
@@ -70,6 +74,10 @@ class Flag(Kind):
         """Return yes, unless a text is empty or says no."""
         return text.strip().lower() not in ("", "0", "no", "off", "false")
 
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": "boolean"}
+
 
 @dataclass(frozen=True)
 class Whole(Kind):
@@ -90,6 +98,10 @@ class Whole(Kind):
     def limits(self) -> str:
         """The limits in words; one that hardly limits is left out."""
         return f"{self.low:,} to {self.high:,}" if self.high < 10**9 else ""
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": "integer", "minimum": self.low, "maximum": self.high}
 
 
 @dataclass(frozen=True)
@@ -133,6 +145,10 @@ class Number(Kind):
         is_plain = (self.low, self.high) == (0.0, 1.0) or abs(self.high) >= 1e5
         return "" if is_plain else f"{self.low:g} to {self.high:g}"
 
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": "number", "minimum": self.low, "maximum": self.high}
+
 
 @dataclass(frozen=True)
 class NumberOr(Kind):
@@ -154,6 +170,10 @@ class NumberOr(Kind):
         if text.strip().lower() == self.word:
             return self.word
         return Number(self.low, self.high, f"; give {self.wanted}, or {self.word}").read(text)
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"anyOf": [Number(self.low, self.high).schema(), {"const": self.word}]}
 
 
 @dataclass(frozen=True)
@@ -198,6 +218,11 @@ class TwoWhole(Kind):
         m, n = value
         return f"{m}..{n}" if self.rising else f"{m}:{n}"
 
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        limits = {"type": "integer", "minimum": self.low, "maximum": self.high}
+        return {"type": "array", "items": limits, "minItems": 2, "maxItems": 2}
+
 
 @dataclass(frozen=True)
 class Choice(Kind):
@@ -219,6 +244,10 @@ class Choice(Kind):
         if isinstance(self.of, Mapping):
             return next((word for word, meaning in self.of.items() if meaning == value), str(value))
         return str(value)
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": "string", "enum": list(self.of)}
 
 
 @dataclass(frozen=True)

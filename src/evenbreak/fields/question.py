@@ -151,6 +151,17 @@ class Declared:
             return self.field.usual
         return "" if isinstance(self.kind, Flag) else self.kind.words(self.default)
 
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of it."""
+        one: dict[str, Any] = self.kind.schema()
+        if self.field.words > 1:
+            one = {"type": "array", "items": one}
+        said = {"type": "array", "items": one} if self.field.many else dict(one)
+        said["description"] = str(worded(self.field.help))
+        if self.usual and not self.field.usual:
+            said["default"] = self.usual if said.get("type") == "string" else self.default
+        return said
+
 
 class AskedError(InputError):
     """What is asked contradicts itself, or lacks something."""
@@ -243,3 +254,15 @@ def field_in(hint: Any) -> Field | None:
                 result = replace(result, **one.changes)
         return result
     return next(filter(None, map(field_in, get_args(hint))), None)
+
+
+def schema_of(question: type) -> dict[str, Any]:
+    """Return the JSON schema of a question."""
+    every = declared(question)
+    return {
+        "title": question.__name__,
+        "type": "object",
+        "properties": {one.name: one.schema() for one in every},
+        "required": [one.name for one in every if one.required],
+        "additionalProperties": False,
+    }
