@@ -218,6 +218,9 @@ def test_a_night_by_skill_level_alone(
         lists["players_b"] = "player,level\nUli,6\nVic,\nWim,4"
         shown = Phone(site, director=True).send("/team/new", **fields(**lists, races=chart))
         assert "Vic has no skill level" in shown.words
+        lists["players_b"] = by_level(CUES)
+        shown = Phone(site, director=True).send("/team/new", **fields(**lists, races=chart))
+        assert told["sentences"][-1] in shown.words  # what the chances rest on
 
 
 PAGES = ("/team", "/screen", "/", "/desk", "/team/history", "/team/new")

@@ -12,7 +12,7 @@ import numpy as np
 from evenbreak.answers.kit.scales import league_doubts
 from evenbreak.answers.kit.wording import some_of
 from evenbreak.answers.league.prior import starters_words
-from evenbreak.answers.team.strengths import lists_by_level
+from evenbreak.answers.team.strengths import level_words, lists_by_level
 from evenbreak.errors import DataError
 from evenbreak.fields.question import declaration
 from evenbreak.files.league.values import MOST_SETS
@@ -45,7 +45,7 @@ from evenbreak.web.forms import (
 )
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
-from evenbreak.words import say
+from evenbreak.words import Sentence, say
 
 FIELDS = fields_named(
     Lineup, "sets", "order", "count", "doubles", "cap", "at_most", "times", "sure"
@@ -77,7 +77,7 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
             raise RefusalError("Enter at least one player.")
         lists.append(_read(content, name))
     races = form.one_of("races", (*RACES, *EVERY_CHART))
-    lists, by_level = _by_level(races, lists)
+    lists, by_level, rests_on = _by_level(races, lists)
     if by_level:
         scale = FARGO
     else:
@@ -117,13 +117,13 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
         warnings += filter(None, [starters_words(one.file.roster, filled)])
     rated = np.concatenate([one.file.roster.rating for one in lists])
     doubts = [] if by_level else league_doubts(scale, rated, say("is it the right scale?"))
-    return plan, [*dict.fromkeys(warnings), *doubts]
+    return plan, [*dict.fromkeys(warnings), *doubts, *filter(None, [rests_on])]
 
 
-def _by_level(races: str, lists: list[TeamList]) -> tuple[list[TeamList], bool]:
-    """Return the lists with the levels that a chart reads, and whether chances come from those."""
+def _by_level(races: str, lists: list[TeamList]) -> tuple[list[TeamList], bool, Sentence | None]:
+    """Return the lists with a chart's levels, whether chances come from those, and from what."""
     if races not in LEVEL_CHARTS and races not in POINTS_CHARTS:
-        return lists, False
+        return lists, False, None
     chart = level_chart(races) if races in LEVEL_CHARTS else points_chart(races)
     files, levels = lists_by_level([one.file for one in lists], chart)
     for file in files:
@@ -134,7 +134,8 @@ def _by_level(races: str, lists: list[TeamList]) -> tuple[list[TeamList], bool]:
                 name=file.roster.players[int(without.argmax())],
             )
     found = [TeamList(file, file.roster.level) for file in files]
-    return found, levels is not None or races in POINTS_CHARTS
+    by_level = levels is not None or races in POINTS_CHARTS
+    return found, by_level, level_words(chart, levels)
 
 
 def _read(content: bytes, name: str) -> TeamList:
