@@ -167,3 +167,11 @@ def test_a_level_that_the_chart_does_not_have_is_named(run, lists, tmp_path):
     wrong = written(tmp_path / "wrong.csv", [("Ann", 7), ("Bo", 9), ("Cleo", 4)])
     result = run("lineup", wrong, lists[1], "--chart", "apa_8ball")
     assert "Bo' has skill level 9; the levels of apa_8ball are 2, 3" in result.stderr
+
+
+def test_the_level_of_a_newcomer_counts_under_a_cap_too(ask, run, lists, tmp_path):
+    rules = ("--chart", "apa_8ball", "--cap", "13", "--sets", "3")
+    new = written(tmp_path / "new.csv", {**OURS, "Dan": "", "Eve": ""}.items())
+    told = ask("lineup", new, lists[1], *rules, "--starter", "4")
+    assert told["options"] == ask("lineup", *lists, *rules)["options"]
+    assert "get one with --starter" in run("lineup", new, lists[1], *rules).stderr

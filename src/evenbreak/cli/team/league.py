@@ -19,7 +19,7 @@ from evenbreak.files.lists.teams import form_of_lists
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.handicaps.charts.level_skills import FARGO
 from evenbreak.questions.results import in_one
-from evenbreak.questions.teams import Capped, Caps, Lineup, OfTeams, Round, Season
+from evenbreak.questions.teams import Caps, Lineup, OfTeams, Round, Season
 from evenbreak.ratings.scale import Scale, unstated_scale
 from evenbreak.words import Parameter
 
@@ -98,8 +98,7 @@ def caps(asked: Caps) -> Answer:
     for team, one in lists.items():
         warnings += filter(None, [starters_words(one.file.roster, rosters[team])])
     for team, one in lists.items():
-        refuse_without_level(asked, one)
-        limits = teams.caps_of(one.weights.tolist(), asked.cap, asked.at_most)
+        limits = teams.caps_of(weights_of(asked, one), asked.cap, asked.at_most)
         squads[team] = teams.Squad(rosters[team].players, limits)
     sets = asked.sets or min(5, *(len(one) for one in rosters.values()))
     rules = LeagueRules(
@@ -382,8 +381,17 @@ def race_of(asked: OfTeams) -> Any:
     return handicaps.Fairest(asked.race_to) if asked.race_to is not None else asked.race
 
 
-def refuse_without_level(asked: Capped, team: TeamList) -> None:
-    """Refuse caps where a player has nothing to count."""
-    capped = asked.cap is not None or asked.at_most is not None
-    if capped and (name := team.without_weight):
-        refuse(f"{team.file.source} has no level for {name!r}; the caps need one for everybody")
+def weights_of(asked: Lineup | Caps, team: TeamList) -> list[float]:
+    """Return what caps count of each player, of a new one the starter; refuse who has nothing."""
+    import numpy as np
+
+    weights = team.weights
+    if team.file.levels and asked.starter is not None:
+        weights = np.where(np.isnan(weights), asked.starter, weights)
+    if (asked.cap is not None or asked.at_most is not None) and np.isnan(weights).any():
+        new = " (new players can get one with --starter)" if team.file.levels else ""
+        name = team.without_weight
+        refuse(
+            f"{team.file.source} has no level for {name!r}; the caps need one for everybody{new}"
+        )
+    return [float(weight) for weight in weights]

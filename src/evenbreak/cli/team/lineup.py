@@ -6,7 +6,7 @@ from evenbreak import teams
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import chart_doubts
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.team.league import race_of, refuse_without_level, two_teams
+from evenbreak.cli.team.league import race_of, two_teams, weights_of
 from evenbreak.files.lists.teams import form_of_lists
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.questions.teams import InPlay, Lineup, usual_sets
@@ -29,13 +29,12 @@ def command(asked: Lineup) -> Answer:
     race = race_of(asked)
     lists, found = two_teams(asked, race)
     warnings = found.warnings
-    for each in lists:
-        refuse_without_level(asked, each)
+    weights = [weights_of(asked, each) for each in lists]
     fewest = min(len(each) for each in found.rosters)
     meeting = meeting_by(
         asked,
         (found.rosters[0], found.rosters[1]),
-        [each.weights.tolist() for each in lists],
+        weights,
         race=race,
         scale=found.scale,
         sets=asked.sets or usual_sets(fewest * asked.times, asked.cap),
