@@ -162,7 +162,7 @@ def test_newcomers_of_strong_events_are_found_to_be_stronger():
     assert np.corrcoef(expected, skill[new & ~ratings.idle])[0, 1] > 0.4
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 @pytest.mark.parametrize(("apart", "used"), [(1.0, True), (0.0, False)])
 def test_the_search_finds_fields_that_differ_and_no_others(apart, used):
     results = small_city(9, apart)

@@ -158,7 +158,7 @@ def test_the_real_part_of_stated_races_is_covered(truth):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("drift", [0.0, 0.06])
+@pytest.mark.parametrize("drift", [pytest.param(0.0, marks=pytest.mark.thorough), 0.06])
 @pytest.mark.parametrize("truth", [1.0, 3.0])
 def test_who_gives_games_is_said_to_win_what_they_win(truth, drift):
     won, said, of = np.array([givers(seed, truth, drift=drift) for seed in range(2)]).T

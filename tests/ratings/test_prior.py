@@ -120,7 +120,7 @@ def test_forfeits_need_no_day():
     assert best_prior(results).predicted == 12
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 @pytest.mark.skipif(not SEASON.exists(), reason="the season's results are not beside this checkout")
 def test_a_real_season():
     choice = best_prior(read_results(SEASON).results)

@@ -20,7 +20,7 @@ class Reproduced(NamedTuple):
 
 @pytest.fixture(scope="session")
 def reports(request: pytest.FixtureRequest) -> Mapping[str, bytes]:
-    """The committed files of the source text, which slow tests hold to those that are made anew."""
+    """The committed files of the source text, held by the check of drift to those made anew."""
     place = ROOT / "reports"
     if not (place / "index.md").exists():  # in a copy of the program without them
         made: Reproduced = request.getfixturevalue("reproduced")

@@ -13,20 +13,19 @@ REPORTS = ROOT / "reports"
 
 
 @pytest.fixture(scope="module")
-def files(reproduced):
-    return reproduced.files
+def files(reports):
+    return reports
 
 
-@pytest.mark.slow
 def test_everything_is_written(files):
     tables = {f"{name}.csv" for name in {**section_5_tables(), **physics_tables(), **game_tables()}}
     pictures = {f"{name}.{kind}" for name in figures() for kind in ("png", "svg")}
-    assert set(files) == {"index.md", "physics.md", "graph_to_limit.md"} | tables | pictures
+    assert {"index.md", "physics.md", "graph_to_limit.md"} | tables | pictures <= set(files)
     assert all(files.values())
 
 
 @pytest.mark.slow
-def test_another_process_writes_the_same_bytes(files):
+def test_this_process_writes_the_same_bytes(files):
     tables = {**section_5_tables(), **physics_tables(), **game_tables()}
     assert [name for name in tables if csv_bytes(tables[name]) != files[f"{name}.csv"]] == []
     for name in ("figure_1_1", "figure_4_8", "figure_5_2", "figure_5_11"):
@@ -35,7 +34,12 @@ def test_another_process_writes_the_same_bytes(files):
             assert image_bytes(figure, kind) == files[f"{name}.{kind}"]
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
+def test_another_country_writes_the_same_bytes(files, reproduced):
+    assert reproduced.files == {name: files[name] for name in reproduced.files}
+
+
+@pytest.mark.thorough
 def test_it_says_what_it_does(reproduced):
     assert str(len(figures())) in reproduced.said[1]
 

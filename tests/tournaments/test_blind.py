@@ -68,7 +68,7 @@ def test_the_same_seed_the_same_draws_and_more_of_them_are_closer() -> None:
     assert (np.abs(few.title - many.title) < 5 * few.error[:, 0]).all()
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 def test_a_bracket_too_large_to_be_exact() -> None:
     bracket, win = double_elimination(32), by_seed(32)
     odds = blind_draw_odds(bracket, win, samples=60)

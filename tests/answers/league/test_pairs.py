@@ -62,9 +62,12 @@ SNOOKER = SHARED / "data" / "snooker_2016_17_results.csv"
         DATA / "demo_league.csv",
         pytest.param(
             SNOOKER,
-            marks=pytest.mark.skipif(
-                not SNOOKER.exists(), reason=f"{SNOOKER.name} is not on this computer"
-            ),
+            marks=[
+                pytest.mark.thorough,
+                pytest.mark.skipif(
+                    not SNOOKER.exists(), reason=f"{SNOOKER.name} is not on this computer"
+                ),
+            ],
         ),
     ],
     ids=["demo", "snooker"],

@@ -424,7 +424,7 @@ def test_names_that_look_like_formulas_are_written_safely(run, tmp_path):
     assert [row["player"] for row in rows(tmp_path, "ratings.csv")] == ["'=HYPERLINK(1)", "'@Bo"]
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 @pytest.mark.skipif(not SEASON.exists(), reason="the real season lies beside a checkout only")
 def test_the_real_season(run, tmp_path):
     result = run("report", str(SEASON), "--out", str(tmp_path), "--scale", "fargo", "--top", "8")
