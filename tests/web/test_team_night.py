@@ -14,8 +14,11 @@ import pytest
 from click.testing import CliRunner
 
 from evenbreak.cli.program import program
+from evenbreak.files.league.league_file import read_league
 from evenbreak.files.store.team_night import read_team_events
 from evenbreak.files.store.tournament import new_tournament, read_tournament
+from evenbreak.handicaps.charts.level_chart import level_chart
+from evenbreak.teams.evening.events import LevelsTonight, meeting_of
 from evenbreak.teams.evening.fold import TeamEvening, team_evening
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
@@ -221,6 +224,41 @@ def test_a_night_by_skill_level_alone(
         lists["players_b"] = by_level(CUES)
         shown = Phone(site, director=True).send("/team/new", **fields(**lists, races=chart))
         assert told["sentences"][-1] in shown.words  # what the chances rest on
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("own", [False, True])
+def test_a_night_by_levels_goes_by_the_leagues_own_results(tmp_path: Path, own: bool) -> None:
+    """The page says what `lineup` says, also after a restart on other results."""
+    rows = ["player_a,player_b,score_a,score_b,level_a,level_b"]  # every 5 beats every 4 easily
+    rows += [f"P{k % 9},Q{k % 7},5,{k % 2},5,4" for k in range(120 if own else 20)]
+    (tmp_path / "results.csv").write_text("\n".join(rows))
+    rules = 'name = "Ours"\nchart = "apa_8ball"\n[[results]]\nfile = "results.csv"\n'
+    (tmp_path / "league.toml").write_text(rules)
+    places = []
+    for name, team in (("ours", RACKS), ("theirs", CUES)):
+        places.append(str(tmp_path / f"{name}.csv"))
+        Path(places[-1]).write_text(by_level(team))
+    asked = ["lineup", *places, "--league", str(tmp_path), "--json"]
+    told = json.loads(CliRunner().invoke(program, asked).stdout)
+    assert ("your own results" in told["sentences"][-1]) is own
+    path = tmp_path / "tonight.db"
+    lists = {"players_a": by_level(RACKS), "players_b": by_level(CUES), "scale": ""}
+    with running(path) as site:
+        site.rules = read_league(tmp_path)
+        shown = Phone(site, director=True).send("/team/new", **fields(**lists, races="apa_8ball"))
+        assert told["sentences"][-1] in shown.words  # what the chances rest on
+    (tmp_path / "results.csv").unlink()
+    meeting_of.cache_clear()
+    with running(path) as site:
+        state = team_evening(read_team_events(path))
+        assert state is not None
+        captain = Phone(site)
+        captain.send("/team/pin", pin=site.captain_pin(state.began, 0))
+        assert offered(captain.open("/team")) == asked_for(told)
+    levels = state.plan.levels
+    assert levels is not None
+    assert levels == LevelsTonight.of(levels.skills(level_chart("apa_8ball")))
 
 
 PAGES = ("/team", "/screen", "/", "/desk", "/team/history", "/team/new")

@@ -15,6 +15,7 @@ from evenbreak.answers.league.prior import starters_words
 from evenbreak.answers.team.strengths import level_words, lists_by_level
 from evenbreak.errors import DataError
 from evenbreak.fields.question import declaration
+from evenbreak.files.league.league_file import LeagueFile
 from evenbreak.files.league.values import MOST_SETS
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import TeamList, form_of_lists, read_team
@@ -26,11 +27,12 @@ from evenbreak.handicaps.charts.level_chart import (
     level_chart,
     points_chart,
 )
-from evenbreak.handicaps.charts.level_skills import FARGO
+from evenbreak.handicaps.charts.level_skills import FARGO, LevelSkills
+from evenbreak.questions.of_league import key_of, text_of
 from evenbreak.questions.teams import ORDERS, Lineup, OnTables, usual_sets
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of, unstated_scale
-from evenbreak.teams.evening.events import NightPlan, TeamSheet
+from evenbreak.teams.evening.events import LevelsTonight, NightPlan, TeamSheet
 from evenbreak.web.forms import (
     CHOOSE_IT,
     FAIR,
@@ -59,10 +61,13 @@ TIMES = fields_named(OnTables, "discipline", "tables")
 """What it asks to say when the night ends."""
 
 
-def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
+def plan_of(
+    form: Form, league: League, rules: LeagueFile | None = None
+) -> tuple[NightPlan, list[str]]:
     """Return the plan that a form asks for, and what its lists make doubtful.
 
-    Players without a rating have that of the league, if it knows them.
+    Players without a rating have that of the league, if it knows them. What skill levels are worth
+    is seen in the results that the league's file names, as `evenbreak lineup` does.
     """
     names = [clean_name(form.text(f"team_{side}", longest=60)) for side in "ab"]
     if not all(names):
@@ -77,31 +82,33 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
             raise RefusalError("Enter at least one player.")
         lists.append(_read(content, name))
     races = form.one_of("races", (*RACES, *EVERY_CHART))
-    lists, by_level, rests_on = _by_level(races, lists)
+    results = text_of(rules, key_of(Lineup, "results")) if rules else None
+    lists, by_level, levels, rests_on = _by_level(races, lists, results)
     if by_level:
         scale = FARGO
     else:
         scale = _scale(form, lists, league)
         lists = [_with_league(one, scale, league) for one in lists]
-    rules = {one.name: value_of(one, form) for one in FIELDS if one.name != "order"}
-    sheets = [_sheet(name, one, scale, rules) for name, one in zip(names, lists, strict=True)]
-    fewest = min(len(sheet.players) for sheet in sheets) * rules["times"]
+    asked = {one.name: value_of(one, form) for one in FIELDS if one.name != "order"}
+    sheets = [_sheet(name, one, scale, asked) for name, one in zip(names, lists, strict=True)]
+    fewest = min(len(sheet.players) for sheet in sheets) * asked["times"]
     race: Any = declaration(Lineup, "race").kind
     plan = NightPlan(
         (sheets[0], sheets[1]),
-        rules["sets"] or usual_sets(fewest, rules["cap"]),
+        asked["sets"] or usual_sets(fewest, asked["cap"]),
         race=0 if races in EVERY_CHART else form.whole("race", race.low, race.high),
         handicapped=races == FAIR,
         chart=races if races in EVERY_CHART else "",
         order=form.text("pattern", longest=MOST_SETS) or form.one_of("order", tuple(ORDERS)),
-        count=rules["count"],
-        doubles=rules["doubles"],
-        cap=rules["cap"],
-        at_most=rules["at_most"],
-        times=rules["times"],
+        count=asked["count"],
+        doubles=asked["doubles"],
+        cap=asked["cap"],
+        at_most=asked["at_most"],
+        times=asked["times"],
         scale=scale.text,
         match_form=form_of_lists(one.file.form for one in lists),
         by_level=by_level,
+        levels=None if levels is None else LevelsTonight.of(levels),
         **{one.name: value_of(one, form) for one in TIMES},
     )
     warnings = [
@@ -120,12 +127,14 @@ def plan_of(form: Form, league: League) -> tuple[NightPlan, list[str]]:
     return plan, [*dict.fromkeys(warnings), *doubts, *filter(None, [rests_on])]
 
 
-def _by_level(races: str, lists: list[TeamList]) -> tuple[list[TeamList], bool, Sentence | None]:
-    """Return the lists with a chart's levels, whether chances come from those, and from what."""
+def _by_level(
+    races: str, lists: list[TeamList], results: str | None
+) -> tuple[list[TeamList], bool, LevelSkills | None, Sentence | None]:
+    """Return the lists with a chart's levels, whether and how chances come from those, and why."""
     if races not in LEVEL_CHARTS and races not in POINTS_CHARTS:
-        return lists, False, None
+        return lists, False, None, None
     chart = level_chart(races) if races in LEVEL_CHARTS else points_chart(races)
-    files, levels = lists_by_level([one.file for one in lists], chart)
+    files, levels = lists_by_level([one.file for one in lists], chart, results)
     for file in files:
         without = np.isnan(file.roster.level)
         if without.any():
@@ -135,7 +144,7 @@ def _by_level(races: str, lists: list[TeamList]) -> tuple[list[TeamList], bool, 
             )
     found = [TeamList(file, file.roster.level) for file in files]
     by_level = levels is not None or races in POINTS_CHARTS
-    return found, by_level, level_words(chart, levels)
+    return found, by_level, levels, level_words(chart, levels)
 
 
 def _read(content: bytes, name: str) -> TeamList:
@@ -186,15 +195,15 @@ def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
     return scale_in(form) or unstated_scale(ratings, players, CHOOSE_IT)
 
 
-def _sheet(name: str, read: TeamList, scale: Scale, rules: Mapping[str, Any]) -> TeamSheet:
+def _sheet(name: str, read: TeamList, scale: Scale, asked: Mapping[str, Any]) -> TeamSheet:
     """Return a team; new players get the rating in the middle, and are very uncertain."""
-    if read.without_weight and (rules["cap"] or rules["at_most"]):
+    if read.without_weight and (asked["cap"] or asked["at_most"]):
         raise RefusalError(
             "{name} has no skill level, and a cap needs one for every player.",
             name=read.without_weight,
         )
     roster = read.file.roster.with_starters(scale.centre, scale.points_per_doubling, scale)
-    errors = np.zeros(len(roster)) if rules["sure"] else np.nan_to_num(roster.standard_error)
+    errors = np.zeros(len(roster)) if asked["sure"] else np.nan_to_num(roster.standard_error)
     weights = np.nan_to_num(read.weights)
     return TeamSheet(
         name,

@@ -133,3 +133,13 @@ def test_help_all_explains_every_option(name: str) -> None:
     text = CliRunner().invoke(program, [*name.split(), "--help-all"]).stdout
     for one in declared(ASKED[name].question):
         assert one.field.argument or one.option in text
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_an_option_that_takes_one_value_is_refused_twice(name: str) -> None:
+    command = ASKED[name]
+    for param in command.params:
+        if isinstance(param, click.Option) and not (param.is_flag or param.multiple):
+            words = [param.opts[-1], *["1"] * param.nargs] * 2
+            with pytest.raises(click.UsageError, match="is given twice; give it once: --"):
+                command.make_context(name, words)

@@ -1,24 +1,31 @@
 """The state of a team night follows from its events; what is unseen stays so."""
 
 import json
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, level_chart
+from evenbreak.handicaps.charts.level_skills import level_skills
 from evenbreak.teams.evening.events import (
     NAMES,
     Begun,
     Event,
     HandedIn,
+    LevelsTonight,
+    NightPlan,
     Proposed,
     PutUp,
     Result,
     Undone,
     as_dict,
     event_of,
+    meeting_of,
 )
 from evenbreak.teams.evening.fold import EVERYBODY, team_evening
-from team_nights import AT, after, plan
+from team_nights import AT, CUES, RACKS, after, plan
 
 FIRST = (PutUp(0, 1, ("Ann",)), PutUp(1, 1, ("Wim",)))
 
@@ -110,3 +117,36 @@ def test_what_is_no_event_is_refused():
         event_of("put up", {"team": 1})
     with pytest.raises(InputError, match="not an entry of a team night"):
         event_of("put down", {"team": 1})
+
+
+def by_levels(chart: str) -> NightPlan:
+    """Return a night by the levels of a chart, as one whose file was written keeps them."""
+    kept = LevelsTonight.of(level_skills(chart))
+    weights = (float(level_chart(chart).levels[0]),) * 4
+    teams = tuple(replace(team, weights=weights[: len(team.players)]) for team in (RACKS, CUES))
+    held = json.dumps(as_dict(Begun(plan(chart=chart, by_level=True, levels=kept))))
+    read = event_of("begun", json.loads(held, parse_constant=pytest.fail))  # NaN is no JSON
+    assert isinstance(read, Begun)
+    return replace(read.plan, teams=teams)
+
+
+@pytest.mark.parametrize("chart", LEVEL_CHARTS)
+def test_a_night_keeps_how_strong_levels_are(chart):
+    night, usual = by_levels(chart), level_skills(chart)
+    held = meeting_of(night).levels
+    earlier = meeting_of(replace(night, levels=None)).levels  # of an earlier version
+    for found in (held, earlier):
+        for name, value in vars(usual).items():
+            np.testing.assert_array_equal(getattr(found, name), value)
+
+
+def test_levels_that_are_not_those_of_the_chart_are_refused():
+    night = by_levels("apa_8ball")
+    for wrong in (
+        {"gaps": night.levels.gaps[1:]},
+        {"errors": ((0.0,), *night.levels.errors[1:])},
+        {"points": (0.0,)},
+        {"source": "guess"},
+    ):
+        with pytest.raises(InputError, match=next(iter(wrong))):
+            meeting_of(replace(night, levels=replace(night.levels, **wrong)))

@@ -167,12 +167,26 @@ class AskedCommand(click.Command):
         ctx.ignore_unknown_options = any(
             word.startswith("-") and NUMBER.fullmatch(word) for word in args
         )
+        if not ctx.resilient_parsing:
+            self._refuse_twice(ctx, args)
         rest = super().parse_args(ctx, args)
         if ctx.ignore_unknown_options and not ctx.resilient_parsing:
             for param in self.params:
                 if isinstance(param, click.Argument) and param.nargs == -1:
                     self._refuse_options(ctx, ctx.params.get(param.name or "") or ())
         return rest
+
+    def _refuse_twice(self, ctx: click.Context, args: list[str]) -> None:
+        """Refuse an option with two values, of which click would take the last without a word."""
+        *_, order = self.make_parser(ctx).parse_args(list(args))
+        for param in order:
+            once = isinstance(param, click.Option) and not (param.is_flag or param.multiple)
+            if once and order.count(param) > 1:
+                name = max(param.opts, key=len)
+                raise click.UsageError(
+                    f"{name} is given twice; give it once: {name} {param.make_metavar(ctx)}",
+                    ctx=ctx,
+                )
 
     def _refuse_options(self, ctx: click.Context, words: Any) -> None:
         for word in words:

@@ -11,7 +11,7 @@ A chart by skill level does not say what a level is worth. Three sources do, the
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -52,6 +52,10 @@ chances are means over the players of two levels, so they leave no spread to ave
 """
 
 
+Source: TypeAlias = Literal["results", "measured", "chart"]
+"""What says how strong levels are."""
+
+
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class LevelSkills:
@@ -83,7 +87,7 @@ class LevelSkills:
     points: Floats
     standard_error: Floats
     spread: float
-    source: Literal["results", "measured", "chart"]
+    source: Source
     matches: int = 0
 
     def __repr__(self) -> str:

@@ -8,9 +8,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import lru_cache
-from typing import Annotated, Any, Protocol, TypeAlias
+from typing import Annotated, Any, Protocol, TypeAlias, get_args
 
-from evenbreak.checks import Between, made, whole
+import numpy as np
+
+from evenbreak.checks import Between, column, made, one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.level_chart import (
@@ -20,7 +22,7 @@ from evenbreak.handicaps.charts.level_chart import (
     level_chart,
     points_chart,
 )
-from evenbreak.handicaps.charts.level_skills import LevelSkills, level_skills
+from evenbreak.handicaps.charts.level_skills import LevelSkills, Source, level_skills
 from evenbreak.handicaps.charts.race_of_pair import Fairest
 from evenbreak.matches.form import MOST_FORM
 from evenbreak.ratings.roster import Roster
@@ -63,6 +65,75 @@ class TeamSheet:
         return Roster(self.players, self.ratings, self.errors, level=self.weights)
 
 
+Unknown: TypeAlias = float | None
+"""A standard error; None where nothing says how large it is."""
+
+
+@dataclass(frozen=True)
+class LevelsTonight:
+    """How strong skill levels are on a night, as it was known when the night began.
+
+    Parameters
+    ----------
+    gaps, errors, points, standard_error, spread, source, matches
+        as of `LevelSkills`.
+    """
+
+    gaps: tuple[tuple[float, ...], ...]
+    errors: tuple[tuple[Unknown, ...], ...]
+    points: tuple[float, ...]
+    standard_error: tuple[Unknown, ...]
+    spread: Annotated[float, Between(0, 1_000_000)]
+    source: str
+    matches: Annotated[int, Between(0, 1_000_000)] = 0
+
+    @classmethod
+    def of(cls, skills: LevelSkills) -> LevelsTonight:
+        """Return what a night keeps of how strong levels are."""
+        errors, own = (
+            np.where(np.isnan(one), None, one).tolist()
+            for one in (skills.errors, skills.standard_error)
+        )
+        return cls(
+            tuple(map(tuple, skills.gaps.tolist())),
+            tuple(map(tuple, errors)),
+            tuple(skills.points.tolist()),
+            tuple(own),
+            float(skills.spread),
+            skills.source,
+            skills.matches,
+        )
+
+    def skills(self, chart: LevelChart) -> LevelSkills:
+        """Return how strong the levels of a chart are.
+
+        Raises
+        ------
+        InputError
+            if they are not those of the chart.
+        """
+        many = len(chart.levels)
+
+        def each(values: Sequence[Unknown], name: str) -> Any:
+            known = [np.nan if one is None else one for one in values]
+            return column(known, name, many, "levels")
+
+        def pairs(rows: Sequence[Sequence[Unknown]], name: str) -> Any:
+            each([len(row) for row in rows], name)
+            return np.array([each(row, name) for row in rows])
+
+        return LevelSkills(
+            chart,
+            pairs(self.gaps, "gaps"),
+            pairs(self.errors, "errors"),
+            each(self.points, "points"),
+            each(self.standard_error, "standard_error"),
+            self.spread,
+            one_of(self.source, "source", get_args(Source)),
+            self.matches,
+        )
+
+
 @dataclass(frozen=True)
 class NightPlan:
     """What is played on a team night, and by whom.
@@ -101,6 +172,9 @@ class NightPlan:
         how many sets can be played at once.
     by_level
         whether the chances come from skill levels, and not from ratings.
+    levels
+        how strong those are by a chart of races; None in the file of an earlier version, whose
+        chances are those of `level_skills` without results.
     """
 
     teams: tuple[TeamSheet, TeamSheet]
@@ -119,6 +193,7 @@ class NightPlan:
     discipline: str = "8-ball"
     tables: Annotated[int, Between(1, 100)] = 1
     by_level: bool = False
+    levels: LevelsTonight | None = None
 
 
 @lru_cache(maxsize=8)
@@ -147,7 +222,7 @@ def meeting_of(plan: NightPlan) -> Meeting:
         scale=scale_of(plan.scale),
         sets=plan.sets,
         form=plan.match_form,
-        levels=level_skills(race) if plan.by_level and isinstance(race, LevelChart) else None,
+        levels=_levels(plan, race),
     )
 
 
@@ -244,6 +319,12 @@ def check_plan(plan: NightPlan) -> None:
         sealed(night)
     else:
         refuse_large(night)
+
+
+def _levels(plan: NightPlan, race: SetRace) -> LevelSkills | None:
+    if not plan.by_level or not isinstance(race, LevelChart):
+        return None
+    return level_skills(race) if plan.levels is None else plan.levels.skills(race)
 
 
 def _race(plan: NightPlan) -> SetRace:

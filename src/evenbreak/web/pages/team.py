@@ -161,7 +161,7 @@ async def begin(request: Request) -> Response:
     form = await form_of(request)
     check_director(request)
     try:
-        plan, warnings = await asyncio.to_thread(plan_of, form, site.league)
+        plan, warnings = await asyncio.to_thread(plan_of, form, site.league, site.rules)
         await site.night.beside.run(partial(check_plan, plan))
     except (RefusalError, EvenbreakError) as error:
         return asked_again(request, "team_new.html", form, error, **await _choices(site))
