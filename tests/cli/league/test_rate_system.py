@@ -33,8 +33,9 @@ def rate(run, tmp_path, monkeypatch):
         (tmp_path / name).write_text(text, encoding="utf-8")
 
     def ask(*words, stdin=None):
-        line = ("--system", "npl", "--roster", "last.csv", "--aliases", "aliases.csv", *words)
-        return run("rate", *line, stdin=stdin)
+        usual = {"--system": "npl", "--roster": "last.csv", "--aliases": "aliases.csv"}
+        line = [word for one in usual.items() if one[0] not in words for word in one]
+        return run("rate", *line, *words, stdin=stdin)
 
     return ask
 

@@ -90,8 +90,9 @@ class LevelsTonight:
     @classmethod
     def of(cls, skills: LevelSkills) -> LevelsTonight:
         """Return what a night keeps of how strong levels are."""
+        unknown: Any = None
         errors, own = (
-            np.where(np.isnan(one), None, one).tolist()
+            np.where(np.isnan(one), unknown, one).tolist()
             for one in (skills.errors, skills.standard_error)
         )
         return cls(
