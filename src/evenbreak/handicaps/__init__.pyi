@@ -12,6 +12,7 @@ from .charts.chart import chart as chart
 from .charts.chart_of import chart_of as chart_of
 from .charts.chart_of import level_chart_of as level_chart_of
 from .charts.chart_of import points_chart_of as points_chart_of
+from .charts.chart_of import scale_of_chart as scale_of_chart
 from .charts.design import design as design
 from .charts.design import fixed_length_chart as fixed_length_chart
 from .charts.design import nearest_chart as nearest_chart

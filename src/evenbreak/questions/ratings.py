@@ -8,16 +8,15 @@ from typing import Annotated, Any, Literal
 from evenbreak.fields.kinds import File, Flag, Named, NumberOr, Text, Whole
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.questions.common import (
-    NPL,
     ChartName,
     Dask,
     EntrantsFile,
     Jobs,
     Lengths,
-    OnScale,
     OutFolder,
     PaperName,
     PlotFile,
+    ScaleByChart,
     ScaleOf,
     Seed,
     Title,
@@ -126,7 +125,12 @@ class Rate(Results, HowToRate):
   evenbreak rate --system npl --roster last.csv tonight.csv
 """
     scale: Annotated[
-        ScaleOf, Says(usual="npl, or the only one that the points of {anchor} can be on", more="")
+        ScaleOf,
+        Says(
+            usual="npl, fargo with a chart by skill level, or the only one that the points of "
+            "{anchor} can be on",
+            more="",
+        ),
     ] = None
     anchor: Annotated[
         tuple[str, ...],
@@ -243,7 +247,7 @@ class Why(HowToRate, Lengths):
         RESULTS,
         Says("The results.", metavar="RESULTS.csv", argument=False, old=("from",)),
     ]
-    scale: OnScale = NPL
+    scale: ScaleByChart = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -260,7 +264,9 @@ class Validate(Results, Assumed):
   evenbreak validate season.csv --plot calibration.png
   evenbreak validate season.csv --prior 20 --half-life 365
 """
-    scale: Annotated[OnScale, Says("The scale in whose points priors are given and shown.")] = NPL
+    scale: Annotated[
+        ScaleByChart, Says("The scale in whose points priors are given and shown.")
+    ] = None
     seed: Annotated[Seed, Says("The seed of the intervals and simulated seasons.", rare=False)] = 1
     plot: Annotated[
         PlotFile,
@@ -302,7 +308,7 @@ class Report(Results, HowToRate, Lengths):
             "needed."
         ),
     ]
-    scale: OnScale = NPL
+    scale: ScaleByChart = None
     players: Annotated[
         tuple[str, ...],
         Field(Text("NAMES"), "The players to pair, separated by commas.", many=True),

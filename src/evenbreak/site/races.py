@@ -21,7 +21,7 @@ from evenbreak.handicaps.charts.level_chart import (
     LevelChart,
     PointsChart,
 )
-from evenbreak.handicaps.charts.level_skills import FARGO, LevelSkills
+from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.matches.form import MOST_NODES, normal_rule
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
@@ -45,7 +45,8 @@ class LeagueRaces:
         how much the log-odds of a game vary from match to match.
 
     >>> club = Roster(["Ann", "Bo"], [612.0, 521.0], [20.0, 30.0])
-    >>> LeagueRaces(club, FARGO, OfferedRaces(race_to=7)).by_pair["Bo", "Ann"][:2]
+    >>> from evenbreak.ratings import scale_of
+    >>> LeagueRaces(club, scale_of("fargo"), OfferedRaces(race_to=7)).by_pair["Bo", "Ann"][:2]
     (4, 7)
     """
 
@@ -90,8 +91,7 @@ class LeagueRaces:
         if isinstance(self.rule, PointsChart):
             return None
         if self.skills is not None:
-            levels = rating[a], rating[b]
-            return Gap(self.skills.difference(*levels), self.skills.error(*levels), FARGO)
+            return self.skills.gap(rating[a], rating[b])
         error = np.nan_to_num(self.roster.standard_error)
         return Gap(rating[a] - rating[b], np.hypot(error[a], error[b]), self.scale, self.form)
 

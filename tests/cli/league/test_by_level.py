@@ -1,10 +1,14 @@
 """Score sheets that state skill levels but no races, in every command that reads results."""
 
+import csv
 import json
+import math
+import re
 
 import pytest
 
-from evenbreak.handicaps import Gap
+from evenbreak.handicaps import Gap, level_skills
+from offices import apa_office
 
 HEADER = "date,player_a,player_b,score_a,score_b,level_a,level_b\n"
 NIGHTS = [
@@ -38,10 +42,41 @@ def test_a_chart_knows_who_won(run, sheet):
     assert "are those of apa_8ball" in told
     assert {row["result"] for row in found["matches"]} == {"won", "lost"}
     assert (found["chart_race_a"], found["chart_race_b"]) == (4, 2)
-    gap = Gap(found["difference"], found["difference_error"], "npl")
-    assert found["chart_p_win_a"] == pytest.approx(gap.win(4, 2), abs=1e-6)
+    assert found["chart_p_win_a"] == pytest.approx(level_skills("apa_8ball").gap(5, 3).win(4, 2))
     words = run("why", "Ann", "Bo", "--results", sheet, "--chart", "apa_8ball").stderr
-    assert "By apa_8ball the race of levels 5 and 3 is 4:2" in words
+    by_level, by_ratings = words.index("by apa_8ball their race is 4:2"), words.index("own results")
+    assert by_level < by_ratings
+    rated = re.search(r"Ann would then win 4:2 (\d+)% of the time", " ".join(words.split()))
+    gap = Gap(found["difference"], found["difference_error"], "fargo")
+    assert int(rated[1]) == round(100 * float(gap.win(4, 2)))
+
+
+@pytest.mark.slow
+def test_why_matchups_and_the_site_give_a_pair_one_race_and_chance(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    apa_office(tmp_path)
+    assert run("league", "init", "--yes").exit_code == 0
+    assert run("publish", "--out", "site").exit_code == 0
+    rows = csv.DictReader(run("matchups", "--csv").stdout.splitlines())
+    for row in [*rows][::13]:
+        names = row["player_a"], row["player_b"]
+        found, _ = answer(run, "why", *names)
+        race = found["chart_race_a"], found["chart_race_b"]
+        assert race == (int(row["chart_race_a"]), int(row["chart_race_b"]))
+        assert found["chart_p_win_a"] == pytest.approx(float(row["chart_p_win_a"]), abs=1e-6)
+        page = tmp_path / "site" / "players" / f"{names[0].lower().replace(' ', '-')}.html"
+        text = " ".join(re.sub(r"<[^>]+>", " ", page.read_text()).split())
+        assert f"{names[1]} {race[0]}-{race[1]} {100 * found['chart_p_win_a']:.0f}%" in text
+
+
+@pytest.mark.slow
+def test_points_of_levels_are_fargo_points_in_every_command(run, sheet):
+    for more, points in ((("--chart", "apa_8ball"), 100), ((), 30)):
+        for words in (("rate",), ("why", "Ann", "Bo", "--results")):
+            text = " ".join(run(*words, sheet, *more, "--text").stdout.split())
+            assert f"({points} points double the odds)" in text
+        validated = run("validate", sheet, *more, "--prior", str(points), "--csv").stdout
+        assert re.search(rf"prior_sd,game,plug-in,\d+,,{math.log(2):.6f}", validated)
 
 
 @pytest.mark.parametrize("words", [("rate",), ("validate",), ("report", "--out", "sheet")])

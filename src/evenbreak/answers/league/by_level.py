@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.files.results.seasons import read_seasons
+from evenbreak.files.tables.names import same_name
 from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
 from evenbreak.handicaps.charts.level_skills import LevelSkills, level_skills
+from evenbreak.handicaps.charts.played_chart import last_levels
+from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.words import FilePath, Parameter, say
@@ -66,6 +71,22 @@ def skills_of(chart: LevelChart, results: str | None) -> LevelSkills:
     if results is None:
         return level_skills(chart)
     return level_skills(chart, read_seasons([results]).results)
+
+
+def levels_of(players: Sequence[str], listed: Roster | None, results: Results | None) -> Floats:
+    """Return the skill levels of players: on the league's list, else the last in its results.
+
+    >>> sheet = Results.from_names(["Bo"], ["Ann"], [2], [1], level_a=["5"], level_b=["3"])
+    >>> levels_of(["Ann", "Bo", "Cy"], Roster(["ann"], [np.nan], level=[4]), sheet)
+    array([ 4.,  5., nan])
+    """
+    known: dict[str, float] = {}
+    if results is not None and results.level_a is not None:
+        known |= zip(map(same_name, results.players), last_levels(results).tolist(), strict=True)
+    if listed is not None:
+        stated = zip(map(same_name, listed.players), listed.level.tolist(), strict=True)
+        known |= {name: level for name, level in stated if not np.isnan(level)}
+    return np.array([known.get(same_name(name), np.nan) for name in players], dtype=np.float64)
 
 
 MANY = 10

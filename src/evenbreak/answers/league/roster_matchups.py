@@ -303,7 +303,7 @@ def roster_matchups(
         gap = Gap(roster.rating[a] - roster.rating[b], np.hypot(errors[a], errors[b]), scale, form)
     else:
         of_pair = roster.level[a], roster.level[b]
-        gap = Gap(levels.difference(*of_pair), levels.error(*of_pair), scale, form)
+        gap = levels.gap(*of_pair, form)
         stated = np.full(len(roster), levels.is_known)
     columns: dict[str, Any] = {
         "difference": gap.difference,

@@ -14,6 +14,7 @@ from evenbreak.answers.kit.columns import columns_of, in_files
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.scales import like_scale_words, points_on
 from evenbreak.answers.kit.wording import percent, race
+from evenbreak.answers.league.by_level import levels_of
 from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_warnings
 from evenbreak.answers.league.roster_matchups import OfferedRaces, cannot_be_compared
 from evenbreak.answers.league.sheet import as_listed
@@ -21,10 +22,11 @@ from evenbreak.files.results.results_file import ResultsFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.handicaps.charts.level_chart import LevelChart
-from evenbreak.handicaps.charts.played_chart import last_levels
+from evenbreak.handicaps.charts.level_skills import LevelSkills, level_skills
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.prior import PriorChoice
 from evenbreak.ratings.results import Results, who_won
+from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.sources import rating_sources
 from evenbreak.words import FilePath, Sentence, joined, say
@@ -48,6 +50,7 @@ def why_answer(
     refit: Refit,
     choice: PriorChoice | None = None,
     chart: Chart | LevelChart | None = None,
+    listed: Roster | None = None,
 ) -> Answer:
     """Return which matches made two ratings, and what one more match would change.
 
@@ -64,7 +67,9 @@ def why_answer(
     choice
         how the prior was chosen, if it was.
     chart
-        the league's chart, whose race is then shown next to the fairest one.
+        the league's chart, whose race then comes first, and is that of one more match.
+    listed
+        the league's list, whose skill levels a chart of levels reads before those of the results.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
@@ -74,11 +79,12 @@ def why_answer(
     ('7-5', True)
     """
     now = Standing.of(ratings, pair, offered)
-    more = one_more_match(file.results, ratings, pair, now, offered, refit)
     matches = matches_behind(file.results, ratings, pair, refit)
     scale = ratings.scale
     names = ratings.players[pair[0]], ratings.players[pair[1]]
-    charted = None if chart is None else _by_chart(file.results, chart, now, pair, ratings)
+    charted = None if chart is None else _by_chart(file.results, chart, now, pair, ratings, listed)
+    played = None if charted is None else charted.race
+    more = one_more_match(file.results, ratings, pair, now, offered, refit, played)
     brought, sources = ratings.levels.beginning is not None, [_sources_table(ratings, pair)]
     return Answer(
         say(
@@ -89,11 +95,19 @@ def why_answer(
             scale=like_scale_words(scale),
         ),
         [
-            joined(filter(None, [_now_in_words(now, names, scale), _more_in_words(more, now)])),
             *([_chart_in_words(charted, names)] if charted else []),
+            joined(
+                filter(
+                    None,
+                    [
+                        _now_in_words(now, names, scale, charted),
+                        "" if charted else _more_in_words(more, now),
+                    ],
+                )
+            ),
             _players_table(ratings, pair),
             *(sources if brought else []),
-            *([_more_table(more, now, names, scale)] if more else []),
+            *([_more_table(more, now, names, scale, played)] if more else []),
             *(_matches_table(matches, name, scale) for name in names),
             say(
                 "Worth: how much lower (or, with a minus, higher) the rating would be if this "
@@ -129,7 +143,9 @@ def why_answer(
     )
 
 
-def _now_in_words(now: Standing, names: tuple[str, str], scale: Scale) -> str:
+def _now_in_words(
+    now: Standing, names: tuple[str, str], scale: Scale, charted: ByChart | None
+) -> str:
     a, b = names
     points, (first, second) = points_on(scale), now.ratings
     rated = {"first": points(first), "second": points(second)}
@@ -141,27 +157,52 @@ def _now_in_words(now: Standing, names: tuple[str, str], scale: Scale) -> str:
             b=b,
             **rated,
         )
+    apart = {"gap": points(abs(first - second)), "error": points(now.difference_error)}
+    fair = {"race": race(now.race), "p": percent(now.p_win)}
+    if charted is not None and charted.stated is not None:
+        return say(
+            "By their own results {a} is rated {first} and {b} {second}: {gap} points apart, ± "
+            "{error}. {a} would then win {played} {played_p} of the time, and the race nearest to "
+            "even would be {race} ({p}).",
+            a=a,
+            b=b,
+            **rated,
+            **apart,
+            **fair,
+            played=race(charted.race),
+            played_p=percent(charted.p_rated),
+        )
     return say(
         "{a} is rated {first} and {b} {second}: {gap} points apart, ± {error}. Their fairest race "
         "is {race}, and {a} wins it {p} of the time.",
         a=a,
         b=b,
         **rated,
-        gap=points(abs(first - second)),
-        error=points(now.difference_error),
-        race=race(now.race),
-        p=percent(now.p_win),
+        **apart,
+        **fair,
     )
 
 
 class ByChart(NamedTuple):
-    """The race that a chart sets for two players: by which levels or ratings, and P(a wins)."""
+    """The race that a chart sets for two players, by their levels or by their ratings.
+
+    Parameters
+    ----------
+    chart
+        its name.
+    race
+        the games that a and b need.
+    p_win, p_rated
+        P(a wins): by what the chart reads, and by the ratings; NaN without ratings to compare.
+    stated
+        their levels, and how strong these are; None by ratings.
+    """
 
     chart: str
-    by_level: bool
-    stated: tuple[float, float]
     race: tuple[int, int]
     p_win: float
+    p_rated: float
+    stated: tuple[float, float, LevelSkills] | None = None
 
     @property
     def data(self) -> dict[str, Any]:
@@ -176,21 +217,26 @@ def _by_chart(
     now: Standing,
     pair: tuple[int, int],
     ratings: Ratings,
+    listed: Roster | None,
 ) -> ByChart | None:
-    """Return the race by the last levels that the results state, or by the ratings."""
-    if now.difference_error is None:
-        return None
+    """Return the race by the levels of the list or the results, or by the ratings."""
     a, b = now.ratings
-    gap = Gap(a - b, now.difference_error, ratings.scale, ratings.match_form)
+    error = now.difference_error
+    gap = None if error is None else Gap(a - b, error, ratings.scale, ratings.match_form)
     if isinstance(chart, LevelChart):
-        a, b = last_levels(results)[list(pair)].tolist()
-        if a not in chart.levels or b not in chart.levels:
+        names = [ratings.players[k] for k in pair]
+        first, second = levels_of(names, listed, results).tolist()
+        if first not in chart.levels or second not in chart.levels:
             return None
-        needs = chart.race(int(a), int(b))
-    else:
-        needs = chart.race(math.floor(a + 0.5) - math.floor(b + 0.5))
+        needs, skills = chart.race(int(first), int(second)), level_skills(chart, results)
+        rated = math.nan if gap is None else float(gap.win(*needs))
+        p_win = float(skills.gap(first, second).win(*needs))
+        return ByChart(chart.name, needs, p_win, rated, (first, second, skills))
+    if gap is None:
+        return None
+    needs = chart.race(math.floor(a + 0.5) - math.floor(b + 0.5))
     p_win = float(gap.win(*needs))
-    return ByChart(chart.name, isinstance(chart, LevelChart), (a, b), needs, p_win)
+    return ByChart(chart.name, needs, p_win, p_win)
 
 
 def _chart_in_words(charted: ByChart, names: tuple[str, str]) -> Sentence:
@@ -200,14 +246,17 @@ def _chart_in_words(charted: ByChart, names: tuple[str, str]) -> Sentence:
         "race": race(charted.race),
         "p": percent(charted.p_win),
     }
-    if not charted.by_level:
+    if charted.stated is None:
         return say("By {chart} their race is {race}, and {a} wins it {p} of the time.", **words)
+    x, y, skills = charted.stated
     return say(
-        "By {chart} the race of levels {x:.0f} and {y:.0f} is {race}, and {a} wins it {p} of the "
-        "time by these ratings.",
+        "{a} is a skill level {x:.0f} and {b} a {y:.0f}: by {chart} their race is {race}, and {a} "
+        "wins it {p} of the time. {why}",
         **words,
-        x=charted.stated[0],
-        y=charted.stated[1],
+        b=names[1],
+        x=x,
+        y=y,
+        why=skills.why,
     )
 
 
@@ -266,7 +315,11 @@ def _sources_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
 
 
 def _more_table(
-    more: Sequence[OneMore], now: Standing, names: tuple[str, str], scale: Scale
+    more: Sequence[OneMore],
+    now: Standing,
+    names: tuple[str, str],
+    scale: Scale,
+    played: tuple[int, int] | None,
 ) -> Table:
     a, b = names
     change = points_on(scale, "+")
@@ -287,6 +340,11 @@ def _more_table(
         for one in more
     ]
     title = say("What one more match between the two would change, at their fair race:")
+    if played is not None:
+        title = say(
+            "What one more match between the two, at {race}, would change in these ratings:",
+            race=race(played),
+        )
     return Table("", columns, rows, title)
 
 
@@ -356,8 +414,9 @@ def one_more_match(
     now: Standing,
     offered: OfferedRaces,
     refit: Refit,
+    played: tuple[int, int] | None = None,
 ) -> list[OneMore]:
-    """Return what changes if either wins their fair race by the most likely score."""
+    """Return what changes if either wins by the most likely score: their fair race, or `played`."""
     if now.race is None:
         return []
     p = ratings.scale.win_probability(now.ratings[0] - now.ratings[1])
@@ -366,7 +425,7 @@ def one_more_match(
         day = np.fmax.reduce(results.date[results.counted])
     found = []
     for winner in (0, 1):
-        needs, other = now.race[winner], now.race[1 - winner]
+        needs, other = (played or now.race)[winner], (played or now.race)[1 - winner]
         score = (needs, _likeliest_loss(needs, other, 1.0 - p if winner == 0 else p))
         a_first = score if winner == 0 else score[::-1]
         dates = None if day is None or results.date is None else np.array([day])

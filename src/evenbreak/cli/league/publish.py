@@ -110,8 +110,8 @@ def _read(asked: Publish) -> files.ResultsFile:
 
 def _scale(asked: Publish, chart: Any, listed: files.RosterFile | None) -> Scale:
     """Return the scale of the ratings, or refuse a chart of differences on an unknown one."""
-    from evenbreak.handicaps.charts.chart import Chart
-    from evenbreak.ratings.scale import SCALES
+    from evenbreak.handicaps.charts.chart_of import scale_of_chart
+    from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES
 
     stated = None if listed is None else listed.scale
     if asked.scale is not None and stated is not None and not stated.same_points(asked.scale):
@@ -121,12 +121,10 @@ def _scale(asked: Publish, chart: Any, listed: files.RosterFile | None) -> Scale
         )
     if (scale := asked.scale or stated) is not None:
         return scale
-    if not isinstance(chart, Chart):
-        return SCALES["npl" if chart is None else "fargo"]
-    named = [name for name in SCALES if chart.name.startswith(name)]
-    if not named:
+    scale = SCALES[DEFAULT_SCALE] if chart is None else scale_of_chart(chart)
+    if scale is None:
         asked.refuse("{scale} is missing; name the scale of the differences in {chart}")
-    return SCALES[named[0]]
+    return scale
 
 
 def _answer(

@@ -8,23 +8,27 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
+import click
+
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.league import league_in
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.said import SAY_WHICH, number_of, refuse
 from evenbreak.cli.kit.systems import chart_by_difference, refuse_for_system
 from evenbreak.cli.kit.terminal import say, write_file, write_plot
 from evenbreak.errors import DataError, InputError
 from evenbreak.fields.kinds import NUMBER
-from evenbreak.questions.ratings import Assumed, HowToRate, Rate, Validate, Why
-from evenbreak.ratings.scale import Scale
+from evenbreak.questions.ratings import Assumed, HowToRate, Rate, Report, Validate, Why
+from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale
 
 if TYPE_CHECKING:
     from evenbreak.ratings.beginning import Beginning
     from evenbreak.ratings.fitted import Ratings
     from evenbreak.ratings.prior import PriorChoice
     from evenbreak.ratings.results import Results
+    from evenbreak.ratings.roster import Roster
 
 MANY = 2_000_000
 """Matches in all refits together that take so long that a person wonders."""
@@ -40,7 +44,10 @@ def rate(asked: Rate) -> Answer:
     file = files.read_seasons(asked.results, **asked.reading)
     anchor = _anchor(file, asked.anchor)
     points = anchor if isinstance(anchor, dict) else {"the mean": anchor or math.nan}
-    scale = asked.scale or unstated_scale(points.values(), list(points), SAY_WHICH, "--anchor")
+    scale = asked.scale
+    if scale is None and anchor is not None:
+        scale = unstated_scale(points.values(), list(points), SAY_WHICH, "--anchor")
+    scale = scale or scale_by_chart(asked)
     ratings, choice = rated(
         asked,
         file,
@@ -172,7 +179,7 @@ def why(asked: Why) -> Answer:
     pair = answers.find_players(file.results, names, said="why", where=file.source)
     if len(pair) < 2:
         refuse(f"{names[0]!r} and {names[1]!r} are one player; name two")
-    ratings, choice = rated(asked, file, asked.scale)
+    ratings, choice = rated(asked, file, scale_by_chart(asked))
     played = int(ratings.games[pair].sum())
     if played * len(file.results) > MANY:
         say("Rating the league again without each of their matches")
@@ -185,7 +192,16 @@ def why(asked: Why) -> Answer:
         rated_alike(ratings, file.results),
         choice,
         None if isinstance(chart, handicaps.PointsChart) else chart,
+        _levels_listed(),
     )
+
+
+def _levels_listed() -> Roster | None:
+    """Return the list of the league in whose folder the command runs, if it has one."""
+    league = league_in(click.get_current_context())
+    if league is None or league.files.roster is None:
+        return None
+    return files.read_roster(league.place(league.files.roster)).roster
 
 
 @command_of(Validate, "validate")
@@ -193,7 +209,8 @@ def validate(asked: Validate) -> Answer:
     """Find out whether ratings can be trusted."""
     from evenbreak.ratings import validate as validated
 
-    prior_sd = prior_in_log_odds(asked, asked.scale) if isinstance(asked.prior, float) else None
+    scale = scale_by_chart(asked)
+    prior_sd = prior_in_log_odds(asked, scale) if isinstance(asked.prior, float) else None
     file = files.read_seasons(asked.results, **asked.reading)
     try:
         with _workers(asked) as client, Progress("steps") as progress:
@@ -201,7 +218,7 @@ def validate(asked: Validate) -> Answer:
                 file.results,
                 prior_sd=prior_sd,
                 half_life=_half_life(asked),
-                beginning=_beginning(asked, file, asked.scale),
+                beginning=_beginning(asked, file, scale),
                 seed=asked.seed,
                 executor=client,
                 jobs=asked.jobs,
@@ -214,7 +231,7 @@ def validate(asked: Validate) -> Answer:
 
         write_plot(draw_calibration(validation), asked.plot)
     chart = handicaps.league_chart(file.results)
-    return answers.validate_answer(file, validation, asked.scale, seed=asked.seed, chart=chart)
+    return answers.validate_answer(file, validation, scale, seed=asked.seed, chart=chart)
 
 
 def _workers(asked: Validate) -> AbstractContextManager[Any]:
@@ -227,6 +244,14 @@ def _workers(asked: Validate) -> AbstractContextManager[Any]:
 
 
 # How to rate, as `report` does too.
+
+
+def scale_by_chart(asked: Rate | Why | Validate | Report) -> Scale:
+    """Return the scale that is asked for, or else the one that goes with the chart."""
+    if asked.scale is not None:
+        return asked.scale
+    chart = None if asked.chart is None else files.find_chart(asked.chart)
+    return handicaps.scale_of_chart(chart) or SCALES[DEFAULT_SCALE]
 
 
 def rated(

@@ -13,7 +13,7 @@ from evenbreak.answers.league.sheet import MOST_ON_SHEET
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.faces import without_folders
 from evenbreak.cli.kit.terminal import say, write_folder
-from evenbreak.cli.league.ratings import rated
+from evenbreak.cli.league.ratings import rated, scale_by_chart
 from evenbreak.files.tables.problems import quoted
 from evenbreak.questions.ratings import Report
 from evenbreak.words import listed
@@ -43,7 +43,7 @@ def command(asked: Report) -> Answer:
         public = without_folders(more, asked.players_file, *asked.results)
         file = replace(file, warnings=(*file.warnings, *public))
     say(f"Rating {len(file.results.players):,} players")
-    ratings, choice = rated(asked, file, asked.scale, provisional=asked.provisional)
+    ratings, choice = rated(asked, file, scale_by_chart(asked), provisional=asked.provisional)
     if asked.players:
         names = _names(asked.players, ratings.players)
         chosen = answers.find_players(ratings, names, said="--players")

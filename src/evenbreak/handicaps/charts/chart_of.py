@@ -16,8 +16,22 @@ from evenbreak.handicaps.charts.level_chart import (
     level_chart,
     points_chart,
 )
+from evenbreak.ratings.scale import SCALES, Scale
 
 AnyChart = TypeVar("AnyChart", Chart, LevelChart, PointsChart)
+
+
+def scale_of_chart(chart: Chart | LevelChart | PointsChart | None) -> Scale | None:
+    """Return the scale that goes with a chart; None if there is no chart, or nothing says it.
+
+    Skill levels have their points on the Fargo scale; a chart of differences has it in its name.
+
+    >>> [scale_of_chart(one).name for one in (chart("npl_10"), level_chart("apa_8ball"))]
+    ['npl', 'fargo']
+    """
+    if isinstance(chart, LevelChart | PointsChart):
+        return SCALES["fargo"]
+    return None if chart is None else SCALES.get(chart.name.partition("_")[0])
 
 
 def catalogue_name(text: str) -> str:

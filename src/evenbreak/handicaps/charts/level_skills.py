@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from evenbreak.arrays import Floats, Ints, own_arrays
 from evenbreak.handicaps.charts.chart_of import level_chart_of
+from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.handicaps.charts.level_audit import audit_levels
 from evenbreak.handicaps.charts.level_chart import LevelChart, level_chart
 from evenbreak.handicaps.charts.played_chart import level_numbers_of
@@ -127,6 +128,14 @@ class LevelSkills:
         array([0.721, 0.594, 0.5  ])
         """
         return FARGO.win_probability(self.difference(level_1, level_2))
+
+    def gap(self, level_1: ArrayLike, level_2: ArrayLike, form: float = 0.0) -> Gap:
+        """Return how far apart players of these levels are: what all their chances come from.
+
+        >>> round(float(level_skills("apa_8ball").gap(7, 5).win(5, 3)), 2)
+        0.66
+        """
+        return Gap(self.difference(level_1, level_2), self.error(level_1, level_2), FARGO, form)
 
     def strength(self, levels: ArrayLike) -> Floats:
         """Return the points of players of these levels; NaN for what is no level of the chart."""

@@ -20,7 +20,7 @@ from evenbreak.files.tables.names import KnownNames, clean_name
 from evenbreak.files.tables.problems import quoted
 from evenbreak.questions.common import USUAL_RACE
 from evenbreak.questions.ratings import Report
-from evenbreak.ratings.scale import NAMES, SCALES
+from evenbreak.ratings.scale import DEFAULT_SCALE, NAMES, SCALES
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import form_of, list_of, value_of
 from evenbreak.web.guard import MOST_BYTES, RefusalError
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from evenbreak.answers.league.sheet import Sheet
 
 _PATIENCE = 0.5  # seconds that a page waits for what is worked out
-_SCALE, _RACE = declaration(Report, "scale"), declaration(Report, "race_to")
+_RACE = declaration(Report, "race_to")
 """What the report of a league asks too."""
 _MOST_LISTED = 1000
 _MOST_MATCHES = 60
@@ -78,7 +78,7 @@ async def league(request: Request) -> Response:
         league=found,
         rows=rows[:_MOST_LISTED],
         scales=NAMES,
-        default_scale=_SCALE.usual,
+        default_scale=DEFAULT_SCALE,
         usual_race=USUAL_RACE,
         quick=found.progress is not None,
     )
