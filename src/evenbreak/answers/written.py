@@ -47,7 +47,9 @@ def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> An
     )
 
 
-def league_answer(path: str, files: Sequence[tuple[str, str, str]], commands: Any) -> Answer:
+def league_answer(
+    path: str, files: Sequence[tuple[str, str, str]], commands: Any, warnings: Sequence[str] = ()
+) -> Answer:
     """Return what a new file of a league was written from, and what can be run now.
 
     Parameters
@@ -58,6 +60,8 @@ def league_answer(path: str, files: Sequence[tuple[str, str, str]], commands: An
         each file of the folder, what it is taken as ('' if nothing), and what it holds.
     commands
         what each command is for, and the command.
+    warnings
+        about the files.
 
     >>> answer = league_answer("league.toml", [("a.csv", "results", "9 matches")], [])
     >>> print(answer.sentences[0])
@@ -73,6 +77,7 @@ def league_answer(path: str, files: Sequence[tuple[str, str, str]], commands: An
             Table("files", columns_of("file taken_as holds"), list(files)),
             Table("commands", columns_of("for_what command"), list(commands), "To try next:"),
         ],
+        warnings=warnings,
     )
 
 

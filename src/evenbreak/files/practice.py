@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from evenbreak.files.tables.dates import DateOrder, Day
 from evenbreak.files.tables.header import missing_column
 from evenbreak.files.tables.problems import quoted, warning
 from evenbreak.files.tables.schema import Number, Schema, Text, Whole, YesNo
-from evenbreak.files.tables.table import TextTable
+from evenbreak.files.tables.table import TextTable, Values
 from evenbreak.practice.drill_log import MOST_LEVELS, DrillLog
 from evenbreak.practice.single_shots import ShotLog
 from evenbreak.ratings.results_frame import letters
@@ -30,6 +30,26 @@ WORDS = {
     ),
 }
 """The words for a success and for a miss."""
+
+_MARKS = {"x": True, "-": False, "\N{EN DASH}": False}
+
+
+class Outcome(YesNo):
+    """Whether a shot was made: words, or where a column has only these, x for made and -."""
+
+    def read(self, table: TextTable, name: str) -> Values:
+        """Read a column; an x next to other words may mean a miss, and is not read."""
+        return super(Outcome, self.as_in(table, name)).read(table, name)
+
+    def as_in(self, table: TextTable, name: str) -> Self:
+        """Return the column with the marks of a file, if it has no words."""
+        texts = {text.casefold() for text in table.columns[name].distinct if text}
+        return replace(self, values=_MARKS) if len(texts) > 1 and texts <= _MARKS.keys() else self
+
+    def meaning(self, text: str) -> bool | None:
+        """Return whether it was made."""
+        return self.values.get(letters(text) or text)
+
 
 DRILL_LOG = Schema(
     "attempts",
@@ -70,20 +90,41 @@ SCORES = Schema(
     drill=_DRILL,
 )
 
+OUTCOME = Outcome(
+    "made it, success, hit",
+    "in place of made and tried, with a row for each try: `made` or `missed`, `yes` or `no`, "
+    "`1` or `0`, `x` or `-`; also titled `result` or `made`",
+    filled=True,
+    values=WORDS,
+    choices=say("made or missed"),
+    write=say(
+        "made or missed in a row for each try, or columns shot, made and tried with a row for "
+        "each shot of each day"
+    ),
+)
+
 SHOTS = Schema(
     "shots",
-    made=Whole("makes, potted, in", "how often it was made", needed=True, filled=True),
+    made=Whole(
+        "makes, potted, in",
+        "how often it was made",
+        needed=True,
+        filled=True,
+        instead=("outcome",),
+    ),
     tried=Whole(
         "tries, attempts, attempted, of",
         "how often it was tried",
         needed=True,
         filled=True,
         least=1,
+        instead=("outcome",),
     ),
+    outcome=OUTCOME,
     shot=Text("name, exercise, shot name", "which shot; without it all rows are of one"),
     date=Day(_DAY, "the day"),
 )
-"""A log of single shots: a row for each shot of each day."""
+"""A log of single shots: a row for each shot of each day, or for each try."""
 
 NAMED = 6
 """How many drills a message names."""
@@ -293,18 +334,55 @@ def read_practice(
     >>> file.log.names, file.log.made
     (('cut', 'bank'), array([6, 2]))
     """
-    columns = [
+    shots, scores = (
         schema.but(
-            **{name: {"needed": False} for name, one in schema.columns.items() if one.needed}
+            date={"order": dates},
+            **{
+                name: {"needed": False, "instead": ()}
+                for name, one in schema.columns.items()
+                if one.needed
+            },
         )
-        for schema in (SHOTS.but(date={"order": dates}), SCORES.but(date={"order": dates}))
-    ]
-    table = (columns[1] | columns[0]).text(path)
+        for schema in (SHOTS, SCORES)
+    )
+    table = (scores | shots).text(path)
+    if (title := _outcomes_in(table)) is not None:
+        return _shots(_counted(table, title, shots), drill)
     if "score" in table or not {"made", "tried"} <= table.found:
         if "score" not in table:
-            table.problems.add(None, missing_column("score", SCORES["score"].aliases))
-        return _scores(columns[1].of(table), drill)
-    return _shots(columns[0].of(table), drill)
+            of_shots = [name for name in ("made", "tried") if name not in table]
+            lacks = of_shots if len(of_shots) == 1 else ["score"]
+            for name in lacks:
+                table.problems.add(None, missing_column(name, (scores | shots)[name].aliases))
+        return _scores(scores.of(table), drill)
+    return _shots(shots.of(table), drill)
+
+
+def _outcomes_in(table: TextTable) -> str | None:
+    """Return the column that says of each try whether it was made; None if that is not the log."""
+    for name in () if {"made", "tried"} <= table.found else ("score", "outcome", "made"):
+        if name not in table:
+            continue
+        texts = set(filter(None, table.columns[name].distinct))
+        words = {text for text in texts if SCORES["score"].meaning(text) is None}
+        if texts - words - {"0", "1"}:  # numbers
+            return None
+        outcome = OUTCOME.as_in(table, name)
+        known = any(outcome.meaning(text) is not None for text in words)
+        if name != "score" or known or (texts and "shot" in table):
+            return name
+    return None
+
+
+def _counted(table: TextTable, name: str, schema: Schema) -> TextTable:
+    """Return a table with a row for each try as one with what was made of how many."""
+    title = table.titles[name]
+    table = replace(table, columns={**table.columns, title: table.columns[name]})
+    made = OUTCOME.read(replace(table, found=table.found | {title}), title)
+    read = schema.only("date").of(table).read
+    numbers = {"made": made.values.astype(np.int64), "tried": np.ones(len(table), dtype=np.int64)}
+    more = {name: Values(values, made.good, made.stated) for name, values in numbers.items()}
+    return replace(table, read={**read, **more})
 
 
 def _shots(table: TextTable, drill: str | None) -> ShotsFile:
@@ -319,7 +397,7 @@ def _shots(table: TextTable, drill: str | None) -> ShotsFile:
     table.note(
         good & (made > tried), "made {made} of {tried}; correct one of them", made=made, tried=tried
     )
-    cells = table.cells("shot")
+    cells = table.cells("shot" if "shot" in table else "drill")
     names: dict[str, str] = {}
     for text in cells:
         names.setdefault(letters(text) or text, text)

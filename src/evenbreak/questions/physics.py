@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import dataclass
 from typing import Annotated, Any, TypeAlias
 
@@ -11,6 +10,7 @@ from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, Flag, Named, Number, Text
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.questions.common import PlotFile
+from evenbreak.questions.english import english_in, english_words
 from evenbreak.words import Parameter
 
 LENGTH = Number(0.01, 1e5, example="36", metavar="LENGTH")
@@ -39,49 +39,6 @@ def friction(text: str) -> Any:
 
         return SlipFriction()
     return Number(0.0, 1.0, example="0.06, or by-speed").read(text)
-
-
-_AMOUNT = re.compile(
-    r"\s*(?P<many>\d+(?:[.,]\d+)?|\d+/\d+|half an?|an?|one|two)\s*(?P<unit>tips?|%)?(?: of)?\s+"
-    r"(?P<way>right|left|inside|outside)(?: english)?\s*",
-    re.IGNORECASE | re.ASCII,
-)
-_WORDS = {"half a": 0.5, "half an": 0.5, "a": 1.0, "an": 1.0, "one": 1.0, "two": 2.0}
-
-
-def english_in(text: str) -> tuple[float, str]:
-    """Return the sidespin J of some english, and the side: right, left, inside or outside.
-
-    >>> english_in("1.4 tips outside"), english_in("50% right"), english_in("half a tip left")[1]
-    ((1.25, 'outside'), (0.625, 'right'), 'left')
-    """
-    from evenbreak.physics import MOST_ENGLISH_OFFSET, TIPS_OF_MOST_ENGLISH, spin_of_offset
-
-    match = _AMOUNT.fullmatch(text)
-    if match is None or (match["unit"] == "%" and match["many"].lower() in _WORDS):
-        raise InputError(
-            "{value!r}; write how much and to which side, such as 1 tip outside, 1/2 tip left or "
-            "50% right",
-            value=text,
-        )
-    word = match["many"].lower().replace(",", ".")
-    over, _, under = word.partition("/")
-    if under and not int(under):
-        raise InputError("{value!r} is no part of a tip", value=text)
-    many = _WORDS[word] if word in _WORDS else float(over) / float(under or 1.0)
-    share = many / 100.0 if match["unit"] == "%" else many / TIPS_OF_MOST_ENGLISH
-    if not 0.0 <= share <= 1.0:
-        raise InputError(
-            "{value!r} is more than the tip can give: beyond {tips:g} tips (100%) it slips",
-            value=text,
-            tips=TIPS_OF_MOST_ENGLISH,
-        )
-    return spin_of_offset(MOST_ENGLISH_OFFSET * share), match["way"].lower()
-
-
-def english_words(value: tuple[float, str]) -> str:
-    """Return some english as it is typed."""
-    return f"{80.0 * value[0]:.4g}% {value[1]}"
 
 
 def squirt_in(text: str) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from evenbreak.fields.kinds import File
 from evenbreak.fields.question import Field
@@ -21,6 +21,8 @@ class LeagueTidy(Results):
     with the lines for [aliases] in league.toml that settle it.
     """
 
+    of_form: ClassVar[bool] = True
+    """It says how the league's files are written, which other commands do not repeat."""
     examples = """\
   evenbreak league tidy
   evenbreak league tidy autumn.csv spring.xlsx cuescore.json --out season.csv

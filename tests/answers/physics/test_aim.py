@@ -10,7 +10,8 @@ from evenbreak.answers.physics.units import IMPERIAL, METRIC
 from evenbreak.errors import InputError
 from evenbreak.physics import SlipFriction, shot, strike_for_speed
 from evenbreak.physics.units import INCH
-from evenbreak.questions.physics import Aim, english_in
+from evenbreak.questions.english import english_in
+from evenbreak.questions.physics import Aim
 
 INCHES = IMPERIAL.length
 MU = 4 / 72
@@ -146,6 +147,12 @@ def test_gearing_english_at_a_half_ball_hit_is_two_fifths_outside():
         ("1/2 tip outside", -30, 0.625 / 1.4),
         ("100% left", 0, -1.25),
         ("1,4 tips right", 0, 1.25),
+        ("1 tip of inside", 30, 1.25 / 1.4),
+        ("1 tip of left-hand english", 30, -1.25 / 1.4),
+        ("50 percent right-handed side", 0, 0.625),
+        ("a half-tip of left english", 0, -0.625 / 1.4),
+        ("outside, a quarter of a tip", 30, -0.3125 / 1.4),
+        ("1 tip to the right", 0, 1.25 / 1.4),
     ],
 )
 def test_english_is_read_as_players_say_it(text, cut, side):
@@ -154,7 +161,8 @@ def test_english_is_read_as_players_say_it(text, cut, side):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "right", "1", "1 tip", "2 tips left", "1/0 tip left", "-1 tip left", "120% left"]
+    "text",
+    ["", "1", "1 tip", "1/0 tip left", "-1 tip left", "half a % left", "1 tip left right"],
 )
 def test_what_is_no_english_is_refused(text):
     with pytest.raises(InputError):

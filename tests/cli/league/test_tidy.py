@@ -91,3 +91,38 @@ def test_a_leagues_file_of_another_name_is_the_one_that_is_read(office, run):
     (office / "spring.toml").write_text('[[results]]\nfile = "b.csv"\n')
     done = json.loads(run("league", "tidy", "--league", "spring.toml", "--json").stdout)
     assert [one["file"] for one in done["sources"]] == ["b.csv"]
+
+
+def test_double_matches_of_two_files_are_one_line_and_each_in_the_details(office, run):
+    (office / "c.csv").write_text(A.replace("x\n", "4:5\n"), encoding="utf-8")
+    (office / "league.toml").write_text(TOML + '[[results]]\nfile = "c.csv"\n')
+    every = json.loads(run("league", "tidy", "--json").stdout)["changes"]
+    double = [one for one in every if one["kind"] == "double"]
+    assert [one["file"] for one in double] == ["b.csv", "c.csv", "c.csv", "c.csv"]
+    short, full = (run("league", "tidy", "--text", *more).stdout for more in ((), ("--verbose",)))
+    assert "2 matches are in a.csv too" in " ".join(short.split())
+    assert short.count("the same match is in") == 2
+    assert full.count("the same match is in") == 2 + len(double)
+
+
+def test_how_the_files_are_written_is_said_by_init_and_tidy_alone(tmp_path, run, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = ["Lee, Al", "Diaz, Bo", "Ng, Cy"]
+    rows = [f'2024-09-0{k + 1},"{names[k % 3]}","{names[(k + 1) % 3]}",5,{k},R' for k in range(4)]
+    head = "date,player_a,player_b,score_a,score_b,Referee"
+    (tmp_path / "a.csv").write_text("\n".join([head, *rows]))
+    notes = ("columns not used: 'Referee'", "with the last name first")
+    for words, said in (
+        (["league", "init", "--yes"], True),
+        (["league", "tidy", "--out", "out.txt"], True),
+        (["rate"], False),
+        (["league", "table"], False),
+        (["rate", "--json"], False),
+        (["rate", "--verbose"], True),
+        (["rate", "a.csv"], True),
+    ):
+        done = run(*words)
+        assert done.exit_code == 0, done.stderr
+        assert [note in done.stderr for note in notes] == [said, said], words
+    (tmp_path / "a.csv").write_text("\n".join([head, *rows, rows[0]]))
+    assert "Warning: a.csv:6: " in run("rate").stderr  # twice: it changes the answer

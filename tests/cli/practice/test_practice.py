@@ -256,12 +256,44 @@ def test_what_a_log_of_shots_cannot_show(practice, rows, words):
     assert words in " ".join(practice("-", stdin=rows)["sentences"])
 
 
+@pytest.mark.parametrize("title", ["Result", "Made?", "Made it", "Points"])
+@pytest.mark.parametrize(
+    ("made", "missed"),
+    [
+        ("make", "miss"),
+        ("Made", "MISSED"),
+        ("yes", "no"),
+        ("1", "0"),
+        ("x", "-"),
+        ("TRUE", "FALSE"),
+    ],
+)
+def test_a_row_a_try_is_read_as_counts(practice, title, made, missed):
+    counts = {("2025-01-03", "cut"): 7, ("2025-01-03", "bank"): 2, ("2025-02-03", "cut"): 9}
+    tries = [
+        f"{day},{shot},{made if k < n else missed}"
+        for (day, shot), n in counts.items()
+        for k in range(10)
+    ]
+    rows = [f"{day},{shot},{n},10" for (day, shot), n in counts.items()]
+    one = practice("-", stdin="\n".join([f"Date,Shot,{title}", *tries]))
+    assert one == practice("-", stdin="\n".join(["date,shot,made,tried", *rows]))
+
+
+def test_numbers_beside_a_word_are_scores(run):
+    refused = run("practice", "-", stdin="date,score\n2025-01-03,48\n2025-01-04,miss")
+    assert "write a score such as 48" in refused.stderr
+
+
 @pytest.mark.parametrize(
     ("rows", "more", "words"),
     [
         ("shot,made,tried\ncut,11,10", (), "stdin:2: made 11 of 10"),
         ("shot,made,tried\ncut,1,0", (), "tried"),
-        ("shot,made\ncut,1", (), "score"),
+        ("shot,made\ncut,6", (), "no column 'tried'"),
+        ("date,shot,result\n2025-01-01,cut,x\n2025-01-02,cut,yes", (), "made and tried"),
+        ("date,shot,result" + "\n2025-01-01,cut,good" * 20, (), "columns shot, made and tried"),
+        ("date,shot,result\n2025-01-01,cut,", (), "score is empty"),
         ("shot,made,tried\ncut,1,2", ("--new", "5"), "--new is for scores"),
         ("shot,made,tried\ncut,1,2", ("--drill", "x"), "leave --drill out"),
     ],

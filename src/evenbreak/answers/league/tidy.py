@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +13,8 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import count_of
-from evenbreak.files.league.sources import LeagueResults, alias_lines
+from evenbreak.files.league.sources import Change, LeagueResults, alias_lines
+from evenbreak.files.tables.problems import source_of_form
 from evenbreak.ratings.results_frame import FORMATS
 from evenbreak.words import listed
 
@@ -102,27 +104,40 @@ def tidy_answer(found: LeagueResults, *, answers: Mapping[str, str] | None = Non
             'that are two: write "Name" = "Name" there for one of them.',
             Table("aliases", columns_of("alias_line"), lines),
         ]
-    done = Table(
-        "changes",
-        columns_of("change_kind change_file change_line change_text"),
-        [(one.kind, one.source, one.line or None, str(one.text)) for one in found.changes],
-        most=MOST_SHOWN,
-    )
-    if found.changes:
-        more = len(found.changes) - MOST_SHOWN
+    columns = columns_of("change_kind change_file change_line change_text")
+    every = [(one.kind, one.source, one.line or None, str(one.text)) for one in found.changes]
+    done = Table("changes", columns, every, most=MOST_SHOWN)
+    short = list(_in_short(found.changes))
+    is_short = len(short) < len(every)
+    if every:
         parts.append(
             "What was changed or left out:"
-            if more <= 0
-            else f"The first {MOST_SHOWN} of {len(found.changes):,} changes; --csv has all:"
+            if len(short) <= MOST_SHOWN
+            else f"The first {MOST_SHOWN} of {len(short):,} changes; --csv has all:"
         )
-        parts.append(done)
+        parts.append(Table("", columns, short, most=MOST_SHOWN) if is_short else done)
     return Answer(
         f"{matches} from {count_of(len(found.sources), 'file')}",
         parts,
+        details=[replace(done, title="Each of them:", most=None)] if is_short else [],
         csv=done,
-        warnings=found.file.ties,
+        warnings=[*filter(source_of_form, found.file.warnings), *found.file.ties],
         data={"sources": [{"file": name, "matches": n} for name, n in found.sources]},
     )
+
+
+def _in_short(changes: Sequence[Change]) -> Iterator[tuple[str, str, int | None, str]]:
+    """Yield the changes as a person reads them, the double matches of two files as one."""
+    alike = Counter((one.source, one.first) for one in changes if one.kind == "double")
+    said = set()
+    for one in changes:
+        files = one.source, one.first
+        if one.kind != "double" or alike[files] == 1:
+            yield one.kind, one.source, one.line or None, str(one.text)
+        elif files not in said:
+            said.add(files)
+            where = "once more in this file" if one.source == one.first else f"in {one.first} too"
+            yield one.kind, one.source, None, f"{alike[files]:,} matches are {where}"
 
 
 def results_frame(results: Results) -> pd.DataFrame:

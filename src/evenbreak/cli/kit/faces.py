@@ -1,6 +1,7 @@
 """How a command's answer is printed: text on a terminal, CSV into a pipe, JSON or HTML if asked."""
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from functools import update_wrapper
 from pathlib import PurePath
 from typing import Any
@@ -9,6 +10,7 @@ import click
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.interrupts import raise_if_interrupted
+from evenbreak.cli.kit.league import without_form
 from evenbreak.cli.kit.progress import Working
 from evenbreak.cli.kit.said import said, terminal
 from evenbreak.cli.kit.terminal import say, to_terminal, write, write_file
@@ -53,6 +55,8 @@ def faces(
                 options["page_file"] = page_file
             with Working():
                 answer = function(**options)
+            if not verbose:
+                answer = replace(answer, warnings=without_form(answer.warnings))
             print_answer(answer, chosen, verbose=verbose)
             if page_file is not None and not ask_page:
                 from evenbreak.sheets.html_page import answer_page

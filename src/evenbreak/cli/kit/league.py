@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ import click
 from evenbreak.cli.kit.said import said
 from evenbreak.cli.kit.terminal import FILES_OF_LEAGUE, say
 from evenbreak.files.league import LEAGUE_TOML, find_league
+from evenbreak.files.tables.problems import source_of_form
 from evenbreak.questions import of_league
 from evenbreak.words import FilePath
 from evenbreak.words import say as sentence
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
 LEAGUE = "--league"
 _READ, _TAKEN = "evenbreak league", "evenbreak league taken"
+_FILES = "evenbreak league files"
 
 
 def league_option() -> click.Option:
@@ -83,10 +85,27 @@ def defaults(question: type, typed: Mapping[str, Any], ctx: click.Context) -> di
     every = of_league.taken(question, typed, league)
     if not every:
         return {}
+    ctx.meta[_FILES] = _files_of(every, league) if not getattr(question, "of_form", False) else ()
     ctx.meta[_TAKEN] = said(of_league.says_taken(every, league))
     if ctx.params.get("verbose"):
         show_taken(ctx)
     return {one.name: one.value for one in every}
+
+
+def _files_of(every: Iterable[of_league.Taken], league: LeagueFile) -> set[str]:
+    files = {one.text for one in every}
+    sources = league.results if str(league.path) in files else ()
+    return files.union(league.place(one.file) for one in sources)
+
+
+def without_form(warnings: Iterable[str]) -> list[str]:
+    """Return warnings without those about how the files that league.toml names are written.
+
+    They stay the same from command to command; `league init` and `league tidy` say them.
+    """
+    ctx = click.get_current_context(silent=True)
+    files = ctx.meta.get(_FILES, ()) if ctx is not None else ()
+    return [text for text in warnings if source_of_form(text) not in files]
 
 
 def show_taken(ctx: click.Context) -> None:

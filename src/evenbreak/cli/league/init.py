@@ -52,7 +52,10 @@ def command(asked: LeagueInit) -> Answer:
     league_of(content, path)  # which refuses what cannot be, such as a chart that there is not
     write_files(folder, {LEAGUE_TOML: content})
     return league_answer(
-        str(path), list(_taken(seen, league)), list(_commands(asked.folder, league))
+        str(path),
+        list(_taken(seen, league)),
+        list(_commands(asked.folder, league)),
+        [line for one in seen for line in one.warnings],
     )
 
 

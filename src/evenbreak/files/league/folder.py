@@ -17,6 +17,7 @@ from evenbreak.files.results.columns import RESULTS_FILE
 from evenbreak.files.results.proposals import readings_of
 from evenbreak.files.results.results_file import read_results
 from evenbreak.files.tables.names import same_name
+from evenbreak.files.tables.problems import source_of_form
 from evenbreak.files.tables.schema import Schema
 from evenbreak.files.tables.table import TextTable
 from evenbreak.words import Sentence, say, say_count
@@ -63,6 +64,8 @@ class SeenFile:
     squads: tuple[str, ...] = ()
     """The teams of a roster, as it writes them."""
     holds: Any = None
+    warnings: tuple[str, ...] = ()
+    """How it is written, where that is of note."""
 
 
 def seen_files(folder: str | Path) -> list[SeenFile]:
@@ -207,7 +210,7 @@ def _ways(path: Path) -> list[Mapping[str, str]]:
 
 def _results_by(path: Path, columns: Mapping[str, str]) -> SeenFile:
     try:
-        results = read_results(path, columns=columns).results
+        file = read_results(path, columns=columns)
     except DataError as error:
         about = say_count(
             "results of matches, with {n} line to mend: see `evenbreak rate {name}`",
@@ -216,12 +219,19 @@ def _results_by(path: Path, columns: Mapping[str, str]) -> SeenFile:
             name=path.name,
         )
         return SeenFile(name=path.name, what=RESULTS, about=about, columns=columns)
+    results, warnings = file.results, tuple(filter(source_of_form, file.warnings))
     about = say(
         "{n:,} matches of {players:,} players", n=len(results), players=len(results.players)
     )
     names = frozenset(map(same_name, results.players))
     return SeenFile(
-        name=path.name, what=RESULTS, about=about, columns=columns, players=names, holds=results
+        name=path.name,
+        what=RESULTS,
+        about=about,
+        columns=columns,
+        players=names,
+        holds=results,
+        warnings=warnings,
     )
 
 
@@ -241,6 +251,7 @@ def _roster(path: Path) -> SeenFile | None:
         teams=frozenset(map(same_name, squads)),
         squads=squads,
         holds=file,
+        warnings=tuple(filter(source_of_form, file.warnings)),
     )
 
 
@@ -249,7 +260,13 @@ def _fixtures(path: Path) -> SeenFile | None:
     if table is None or not {"round", "date"} & table.found:
         return None
     names = frozenset(map(same_name, (*table.cells("home"), *table.cells("away"))))
-    return SeenFile(name=path.name, what="fixtures", about=say("who plays whom"), players=names)
+    return SeenFile(
+        name=path.name,
+        what="fixtures",
+        about=say("who plays whom"),
+        players=names,
+        warnings=tuple(filter(source_of_form, table.warnings)),
+    )
 
 
 def _teams(path: Path) -> SeenFile | None:

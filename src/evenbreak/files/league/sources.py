@@ -56,12 +56,15 @@ class Change:
         the file, as the league calls it, and the line; 0 where it is the whole file.
     text
         what was done, or what is in doubt.
+    first
+        of a double match the file that has it first.
     """
 
     kind: Kind
     source: str
     line: int
     text: str
+    first: str = ""
 
 
 @dataclass(frozen=True)
@@ -231,7 +234,13 @@ def _changes(
             yield Change("renamed", name, 0, text)
         own = [Change("left out", name, line, why) for line, why in file.left_out]
         own += [
-            Change("double", name, int(rows.line[row]), _again(rows, first))
+            Change(
+                "double",
+                name,
+                int(rows.line[row]),
+                _again(rows, first),
+                rows.names[rows.source[first]],
+            )
             for row, first in doubles.items()
             if rows.source[row] == k
         ]

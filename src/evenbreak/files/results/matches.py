@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from evenbreak.files.results.columns import LAYOUTS, NAMES, RESULTS
 from evenbreak.files.tables.dates import DateOrder, read_date
 from evenbreak.files.tables.names import PlayerNames, clean_name
-from evenbreak.files.tables.problems import quoted, quoted_list, warning
+from evenbreak.files.tables.problems import form_warning, quoted, quoted_list
 from evenbreak.files.tables.table import Texts, TextTable, Values
 from evenbreak.files.tables.titles import BYE, FORFEIT, key_of
 from evenbreak.matches.formats import BETWEEN
@@ -87,7 +87,7 @@ def _not_used(names: list[str], source: str) -> list[str]:
     if not names:
         return []
     text = say("columns not used, since others say the same: {names}", names=quoted_list(names))
-    return [warning(source, None, text)]
+    return [form_warning(source, None, text)]
 
 
 def _pairs(table: TextTable, name: str, read: Callable[[str], Pair | str]) -> list[Pair]:

@@ -29,7 +29,7 @@ from evenbreak.files.results.statuses import LeftOut, played_matches
 from evenbreak.files.tables.dates import DateOrder
 from evenbreak.files.tables.header import UNREAD
 from evenbreak.files.tables.names import PlayerNames, hidden_letter_warnings, same_name
-from evenbreak.files.tables.problems import first_ones, quoted, warning
+from evenbreak.files.tables.problems import first_ones, form_warning, quoted, warning
 from evenbreak.files.tables.similar_names import similar_name_warnings, similar_names
 from evenbreak.files.tables.table import TextTable
 from evenbreak.files.tables.titles import key_of
@@ -307,7 +307,7 @@ def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:
         aliases=FilePath(aliases),
         names=joined([*changed[:MOST_RENAMED], *rest], ", "),
     )
-    return [warning(source, None, text)]
+    return [form_warning(source, None, text)]
 
 
 def _repeated_rows(table: TextTable) -> list[str]:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from evenbreak.files.tables.problems import quoted, quoted_list, warning
+from evenbreak.files.tables.problems import form_warning, quoted, quoted_list, warning
 from evenbreak.files.tables.table import Texts, TextTable
 from evenbreak.files.tables.titles import BYE, TEAM_WORDS, key_of
 from evenbreak.words import say_count
@@ -63,7 +63,7 @@ def with_given_names_first(table: TextTable, names: Sequence[str]) -> TextTable:
         name=quoted(first),
         turned=quoted(turned[first]),
     )
-    warnings = (*table.warnings, warning(table.source, None, text))
+    warnings = (*table.warnings, form_warning(table.source, None, text))
     return replace(table, columns=columns, warnings=warnings)
 
 

@@ -85,6 +85,26 @@ def warning(source: str, line: Any, template: str, /, **values: Any) -> Sentence
     )
 
 
+def form_warning(source: str, line: Any, template: str, /, **values: Any) -> Sentence:
+    """Return a warning about how a file is written: the answer is the same whether it is heeded.
+
+    >>> form_warning("r.csv", None, "columns not used: {titles}", titles="'Referee'")
+    "r.csv: columns not used: 'Referee'"
+    """
+    about = warning(source, line, template, **values)
+    return say(about.template, **about.values, of_form=True)
+
+
+def source_of_form(text: str) -> str | None:
+    """Return the file that a warning is about, if that is about how the file is written.
+
+    >>> source_of_form(form_warning("r.csv", 3, "is a header")), source_of_form("r.csv: a row")
+    ('r.csv', None)
+    """
+    of_form = isinstance(text, Sentence) and "of_form" in text.values
+    return str(text.values["source"]) if of_form else None  # type: ignore[attr-defined]
+
+
 def of_list(problem: str, name: str = "") -> str:
     """Return a problem or a warning as one of a list, whose file has no name worth saying.
 

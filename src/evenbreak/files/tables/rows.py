@@ -23,7 +23,14 @@ from typing import BinaryIO, NamedTuple, TypeAlias
 from evenbreak.errors import DataError
 from evenbreak.files.tables import workbook
 from evenbreak.files.tables.header import Fit, Header
-from evenbreak.files.tables.problems import printable, quoted, quoted_list, refusal, warning
+from evenbreak.files.tables.problems import (
+    form_warning,
+    printable,
+    quoted,
+    quoted_list,
+    refusal,
+    warning,
+)
 from evenbreak.words import say_count
 
 MAGIC = {
@@ -180,7 +187,7 @@ def text_of(content: Content, source: str) -> Text:
         if also:
             raise refusal(source, "is neither UTF-8 nor Windows-1252 text; save it as UTF-8", also)
         warnings = [
-            warning(source, wrong, "is not UTF-8; read as Windows-1252, so check the accents")
+            form_warning(source, wrong, "is not UTF-8; read as Windows-1252, so check the accents")
         ]
     if blank:
         raise refusal(source, "is empty; write a header line, then one line for each row")
@@ -472,4 +479,4 @@ def _skipped(lines: list[int], rows: list[list[str]], fit: Fit, source: str) -> 
         len(rows),
         texts=quoted_list([text for text in texts if text]),
     )
-    return [warning(source, lines[len(rows)], header)]
+    return [form_warning(source, lines[len(rows)], header)]

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from evenbreak.arrays import array_values
 from evenbreak.files.tables.header import Header, Hint
-from evenbreak.files.tables.problems import Problems, quoted_list, warning
+from evenbreak.files.tables.problems import Problems, form_warning, quoted_list
 from evenbreak.files.tables.rows import (
     Export,
     Rows,
@@ -236,7 +236,7 @@ def read_table(
     places, unused = header.places(titles, line, problems, sample)
     if unused:
         names = quoted_list(unused)
-        warnings.append(warning(source, None, "columns not used: {titles}", titles=names))
+        warnings.append(form_warning(source, None, "columns not used: {titles}", titles=names))
     misfits = Problems(source)
     row_lines, columns = _columns(body, len(titles), places, misfits)
     if len(misfits) >= ENOUGH_ROWS and not len(row_lines):

@@ -179,7 +179,7 @@ class LevelSkills:
     @property
     def _off(self) -> Sentence:
         off = float(np.median(self.errors[np.triu_indices(len(self.levels), 1)]))
-        return say("\N{PLUS-MINUS SIGN} {points:.0f} Fargo points for two levels", points=off)
+        return say("\N{PLUS-MINUS SIGN} {points:.0f} Fargo points between two levels", points=off)
 
 
 def level_skills(chart: LevelChart | str, results: Results | None = None) -> LevelSkills:
