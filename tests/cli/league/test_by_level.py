@@ -90,3 +90,28 @@ def test_each_command_that_reads_results_takes_the_chart(run, sheet, words):
 def test_a_chart_of_differences_goes_by_the_ratings(run, sheet):
     found, _ = answer(run, "why", "Ann", "Bo", "--results", sheet, "--chart", "npl_8")
     assert found["chart_race_a"] >= found["chart_race_b"]
+
+
+@pytest.mark.slow
+def test_lists_that_lack_a_level_or_a_player_take_them_from_the_results(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    sheet = [row.replace("Ann", "Mike Morris") for row in NIGHTS]
+    (tmp_path / "sheet.csv").write_text(HEADER + "".join(row + "\n" for row in sheet))
+    roster = tmp_path / "roster.csv"
+    roster.write_text("player,level\nMichael Morris,5\nBo,\nCy,4\nDi,3\nNew,\n")
+    words = ("matchups", "roster.csv", "--chart", "apa_8ball", "--results", "sheet.csv")
+    assert "'New' has no skill level" in run(*words).stderr
+    found, _ = answer(run, *words, "--starter", "2")
+    taken = [one for one in found["warnings"] if "Bo 3" in one or "New: taken at 2" in one]
+    assert len(taken) == 2
+    race = {(row["player_a"], row["player_b"]): row for row in found["pairs"]}
+    one = next(row for pair, row in race.items() if set(pair) == {"Michael Morris", "Bo"})
+    assert {one["chart_race_a"], one["chart_race_b"]} == {4, 2}
+    (tmp_path / "league.toml").write_text(
+        'chart = "apa_8ball"\n[files]\nroster = "roster.csv"\n[[results]]\nfile = "sheet.csv"\n'
+    )
+    tidied, _ = answer(run, "league", "tidy", "--out", "tidy.csv")
+    assert tidied["not_on_roster"] == [
+        {"name": "Mike Morris", "matches": 9, "nearest_name": "Michael Morris"}
+    ]
+    assert tidied["roster_aliases"] == [{"line": '"Mike Morris" = "Michael Morris"'}]

@@ -87,6 +87,7 @@ LEAGUE = registry(
     text("tidy_name", "name", name="name"),
     number("tidy_matches", "matches", name="matches"),
     text("other_name", "or"),
+    text("nearest_name", "on the roster"),
     number("other_matches", "matches"),
     text("alias_line", "", name="line"),
     text("change_kind", "", name="kind"),

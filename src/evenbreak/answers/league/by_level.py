@@ -18,7 +18,7 @@ from evenbreak.handicaps.charts.played_chart import last_levels
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
-from evenbreak.words import FilePath, Parameter, say
+from evenbreak.words import FilePath, Parameter, Sentence, listed, say
 
 
 def by_level(
@@ -73,7 +73,7 @@ def skills_of(chart: LevelChart, results: str | None) -> LevelSkills:
     return level_skills(chart, read_seasons([results]).results)
 
 
-def levels_of(players: Sequence[str], listed: Roster | None, results: Results | None) -> Floats:
+def levels_of(players: Sequence[str], roster: Roster | None, results: Results | None) -> Floats:
     """Return the skill levels of players: on the league's list, else the last in its results.
 
     >>> sheet = Results.from_names(["Bo"], ["Ann"], [2], [1], level_a=["5"], level_b=["3"])
@@ -83,8 +83,8 @@ def levels_of(players: Sequence[str], listed: Roster | None, results: Results | 
     known: dict[str, float] = {}
     if results is not None and results.level_a is not None:
         known |= zip(map(same_name, results.players), last_levels(results).tolist(), strict=True)
-    if listed is not None:
-        stated = zip(map(same_name, listed.players), listed.level.tolist(), strict=True)
+    if roster is not None:
+        stated = zip(map(same_name, roster.players), roster.level.tolist(), strict=True)
         known |= {name: level for name, level in stated if not np.isnan(level)}
     return np.array([known.get(same_name(name), np.nan) for name in players], dtype=np.float64)
 
@@ -127,6 +127,37 @@ def with_level(file: RosterFile, starter: float | None) -> RosterFile:
     roster = file.roster
     level = np.where(np.isnan(roster.level), starter, roster.level)
     return replace(file, roster=replace(roster, level=level))
+
+
+def with_known_level(
+    file: RosterFile, starter: float | None, results: str | None
+) -> tuple[RosterFile, list[Sentence]]:
+    """Return a list in which new players have the last level of the results, or a starter's.
+
+    With it, what to say of those players.
+    """
+    roster, notes = file.roster, list[Sentence]()
+    new = np.isnan(roster.level)
+    if new.any() and results is not None:
+        found = levels_of(roster.players, roster, read_seasons([results]).results)
+        file = replace(file, roster=replace(roster, level=found))
+        if (known := new & ~np.isnan(found)).any():
+            each = [f"{roster.players[k]} {found[k]:g}" for k in np.flatnonzero(known)]
+            notes.append(
+                say(
+                    "{file} lacks levels that the results state; the last ones are taken: "
+                    "{players}",
+                    file=FilePath(file.source),
+                    players=listed(each),
+                )
+            )
+        new &= ~known
+    if new.any() and starter is not None:
+        who = listed([roster.players[k] for k in np.flatnonzero(new)])
+        notes.append(
+            say("No level is known of {players}: taken at {level:g}", players=who, level=starter)
+        )
+    return with_level(file, starter), notes
 
 
 SCALE_OF_LEVELS = say(

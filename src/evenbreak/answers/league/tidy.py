@@ -14,6 +14,7 @@ from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.wording import count_of
 from evenbreak.files.league.sources import Change, LeagueResults, alias_lines
+from evenbreak.files.tables.names import KnownNames
 from evenbreak.files.tables.problems import source_of_form
 from evenbreak.ratings.results_frame import FORMATS
 from evenbreak.words import listed
@@ -34,7 +35,12 @@ _ORDER = (
 )
 
 
-def tidy_answer(found: LeagueResults, *, answers: Mapping[str, str] | None = None) -> Answer:
+def tidy_answer(
+    found: LeagueResults,
+    *,
+    answers: Mapping[str, str] | None = None,
+    roster: Sequence[str] = (),
+) -> Answer:
     """Return what became of a league's results.
 
     Parameters
@@ -43,6 +49,8 @@ def tidy_answer(found: LeagueResults, *, answers: Mapping[str, str] | None = Non
         the results.
     answers
         names with those that they mean, as somebody has just answered: lines to keep.
+    roster
+        the players of the league's list, if it has one.
     """
     changes: Counter[str] = Counter(change.kind for change in found.changes)
     matches = count_of(len(found.results), "match", "matches")
@@ -104,6 +112,18 @@ def tidy_answer(found: LeagueResults, *, answers: Mapping[str, str] | None = Non
             'that are two: write "Name" = "Name" there for one of them.',
             Table("aliases", columns_of("alias_line"), lines),
         ]
+    if roster and (strangers := _not_listed(found.results, roster)):
+        parts += [
+            "These players of the results are not on the roster; the nearest name there:",
+            Table("not_on_roster", columns_of("tidy_name tidy_matches nearest_name"), strangers),
+        ]
+        if near := {name: other for name, _, other in strangers if other is not None}:
+            parts += [
+                "Those that are one player's: put their line below [aliases] in league.toml.",
+                Table(
+                    "roster_aliases", columns_of("alias_line"), [(x,) for x in alias_lines(near)]
+                ),
+            ]
     columns = columns_of("change_kind change_file change_line change_text")
     every = [(one.kind, one.source, one.line or None, str(one.text)) for one in found.changes]
     done = Table("changes", columns, every, most=MOST_SHOWN)
@@ -138,6 +158,19 @@ def _in_short(changes: Sequence[Change]) -> Iterator[tuple[str, str, int | None,
             said.add(files)
             where = "once more in this file" if one.source == one.first else f"in {one.first} too"
             yield one.kind, one.source, None, f"{alike[files]:,} matches are {where}"
+
+
+def _not_listed(results: Results, roster: Sequence[str]) -> list[tuple[str, int, str | None]]:
+    """Return who has played but is not on the list: the name, the matches, the nearest name."""
+    known = KnownNames(roster)
+    sides = np.concatenate([results.player_a, results.player_b])
+    played = np.bincount(sides, minlength=len(results.players))
+    every = zip(results.players, played.tolist(), strict=True)
+    return [
+        (name, many, known.nearest(name))
+        for name, many in every
+        if many and known.place(name) is None
+    ]
 
 
 def results_frame(results: Results) -> pd.DataFrame:

@@ -13,7 +13,12 @@ import numpy as np
 from evenbreak import answers, files, handicaps, matches, ratings, sheets
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import league_doubts, starter_doubts
-from evenbreak.answers.league.by_level import SCALE_OF_LEVELS, by_level, rated_by_level, with_level
+from evenbreak.answers.league.by_level import (
+    SCALE_OF_LEVELS,
+    by_level,
+    rated_by_level,
+    with_known_level,
+)
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.faces import without_folders
 from evenbreak.cli.kit.league import league_in
@@ -94,9 +99,9 @@ def _rated(
     if levels is not None:
         if asked.scale is not None:
             raise InputError(SCALE_OF_LEVELS)
-        file = with_level(file, asked.starter)
+        file, notes = with_known_level(file, asked.starter, asked.results)
         players = replace(file.roster, rating=levels.strength(file.roster.level))
-        return file, players, FARGO, levels, []
+        return file, players, FARGO, levels, list(map(str, notes))
     points = _scale_of_list(file, asked.scale, of_league)
     players = file.roster
     if isinstance(of_league, handicaps.LevelChart):
@@ -126,7 +131,8 @@ def _by_points(
     if asked.games is not None or asked.race_to is not None:
         refuse(f"{chart.name} is a chart of points, and no race in games goes with it")
     file, _ = by_level(file, chart)
-    file = with_level(file, asked.starter)
+    file, notes = with_known_level(file, asked.starter, asked.results)
+    warnings = [*warnings, *map(str, notes)]
     level = file.roster.level
     players = ratings.Roster(file.roster.players, level, level=level)
     pairs, more = _pairs(asked, file, players, face, chart, FARGO)

@@ -173,6 +173,7 @@ def _races(
     """
     import numpy as np
 
+    from evenbreak.answers.league.by_level import levels_of
     from evenbreak.answers.league.sheet import as_listed
     from evenbreak.handicaps.charts.chart import Chart, ChartRow
     from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
@@ -186,9 +187,11 @@ def _races(
         roster = _last_levels(results, chart) if by_level else as_listed(ratings)
     else:
         of = listed.roster
-        values = of.level if by_level else of.rating
-        known = ~np.isnan(values)
         public = [names[name] for name in of.players]
+        values = of.rating
+        if by_level:
+            values = np.where(np.isnan(of.level), levels_of(public, None, results), of.level)
+        known = ~np.isnan(values)
         known &= [name not in public[:k] for k, name in enumerate(public)]  # aliases
         kept = np.flatnonzero(known)
         errors = None if by_level else of.standard_error[kept]

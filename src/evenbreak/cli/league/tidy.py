@@ -37,7 +37,9 @@ def tidy(asked: LeagueTidy) -> Answer:
         answers = dict(_answered(found))
         found = league_results(replace(league, aliases={**league.aliases, **answers}), **how)
     write_file(asked.out, files.to_csv(results_frame(found.results)))
-    return tidy_answer(found, answers=answers)
+    listed = league.files.roster
+    roster = files.read_roster(league.place(listed)).roster.players if listed else ()
+    return tidy_answer(found, answers=answers, roster=roster)
 
 
 def _league(asked: LeagueTidy) -> LeagueFile:

@@ -309,6 +309,10 @@ class KnownNames:
         same = [name] if name in self._exact else self._same.get(same_name(name), [])
         return self._exact[same[0]] if len(same) == 1 else None
 
+    def nearest(self, name: str) -> str | None:
+        """Return the name nearest to one that was not found, None if none is near."""
+        return next(iter(self._near(name.casefold())), None)
+
     def hint(self, name: str) -> str:
         """Return which names may have been meant by one that was not found, '' if none."""
         if name not in self._hints:
