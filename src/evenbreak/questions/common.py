@@ -48,9 +48,7 @@ _SCALE = Field(
 ScaleOf: TypeAlias = Annotated[Scale | None, _SCALE]
 OnScale: TypeAlias = Annotated[Scale, _SCALE, Says(usual="", more="")]
 """A scale that does not depend on a list."""
-ScaleByChart: TypeAlias = Annotated[
-    Scale | None, _SCALE, Says(usual="npl, or fargo with a chart by skill level", more="")
-]
+ScaleByChart: TypeAlias = Annotated[Scale | None, _SCALE, Says(usual="npl; levels: fargo", more="")]
 """The scale of estimated ratings, which is that of `handicaps.scale_of_chart` unless given."""
 
 NPL = SCALES[DEFAULT_SCALE]
