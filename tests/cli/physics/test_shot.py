@@ -17,12 +17,17 @@ def test_a_faster_table_lets_the_balls_roll_farther(ask_physics):
     assert fast["object_roll_in"] > 1.5 * slow["object_roll_in"]
 
 
+def test_a_cut_that_cannot_be_is_refused(run):
+    result = run("physics", "shot", *PLAIN.replace("--cut 30", "--cut 95").split())
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert all(word in result.stderr for word in ("--cut", "'95'", "-89 to 89"))
+
+
 @pytest.mark.parametrize(
     ("line", "words"),
     [
         ("", ["--speed", "--stick-speed"]),
         ("--speed 60 --stick-speed 3", ["--speed", "--stick-speed"]),
-        ("--speed 60 --cut 95", ["--cut", "'95'", "-89 to 89"]),
         ("--speed 60 --side-offset 0.45 --offset -0.3", ["--side-offset 0.45", "miscue", "0.5"]),
         ("--speed 60 --plot shot.gif", ["shot.gif", ".png or .svg"]),
     ],
