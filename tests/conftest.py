@@ -32,7 +32,6 @@ def pytest_collection() -> Generator[None, None, None]:
     try:
         return (yield)
     finally:
-        gc.freeze()
         gc.enable()
 
 
