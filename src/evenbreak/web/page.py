@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from pathlib import PurePath
 from typing import Any
 
@@ -99,7 +100,14 @@ def own_file(name: str) -> str:
 def style() -> str:
     """Return the style of all pages: what published sites have too, and what is for these alone."""
     common = files("evenbreak.site").joinpath("templates", "common.css")
-    return common.read_text(encoding="utf-8") + own_file("evenbreak.css")
+    own = files("evenbreak.web").joinpath("templates", "css")
+    sheets = sorted((one for one in own.iterdir() if one.name.endswith(".css")), key=_style_order)
+    return "".join(one.read_text(encoding="utf-8") for one in (common, *sheets))
+
+
+def _style_order(sheet: Traversable) -> tuple[bool, bool, str]:
+    """Return where a style sheet comes: what all pages share first, then each page's by name."""
+    return sheet.name != "parts.css", sheet.name != "old.css", sheet.name
 
 
 @cache

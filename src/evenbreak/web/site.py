@@ -11,11 +11,14 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from starlette.requests import Request
+
 from evenbreak.errors import DataError
 from evenbreak.files.league.league_file import LeagueFile
 from evenbreak.files.store.desk import change_secrets, kept_secrets, new_pin
 from evenbreak.files.store.evening_file import is_there
 from evenbreak.web.beside import Made
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
 from evenbreak.web.night import Night, mark_of, now
 from evenbreak.web.sessions import Tries
@@ -64,6 +67,11 @@ class Site:
         }
         self._secrets = dict(self._first)
         self._read_at: tuple[int, int, int] | None = None
+
+    @property
+    def nights(self) -> list[Night]:
+        """The events of the night, which share its tables."""
+        return [self.night]
 
     @property
     def names(self) -> set[str]:
@@ -163,6 +171,23 @@ class Site:
             if hmac.compare_digest(its.encode(), token.encode()):
                 return name
         return None
+
+
+def night_of(request: Request) -> Night:
+    """Return the event that a request is about: as its form or its address says, else the first.
+
+    Raises
+    ------
+    RefusalError
+        if there is no such event.
+    """
+    nights: list[Night] = request.app.state.site.nights
+    form = getattr(request.state, "form", None)
+    text = form.text("event") if form else ""
+    number = text or request.query_params.get("event") or "1"
+    if not number.isascii() or not number.isdigit() or not 1 <= int(number) <= len(nights):
+        raise RefusalError("There is no such page.", status=404)
+    return nights[int(number) - 1]
 
 
 def _token(key: str, what: str) -> str:
