@@ -19,6 +19,7 @@ from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Group
 from evenbreak.tournaments.brackets.groups import final_of_groups
 from evenbreak.tournaments.brackets.knockout import FINALS
+from evenbreak.tournaments.brackets.numbering import match_numbers
 from evenbreak.tournaments.brackets.standing import Standing, ranked, standing
 from evenbreak.tournaments.evening.chip_night import ChipNight, chip_night
 from evenbreak.tournaments.evening.events import (
@@ -49,7 +50,7 @@ from evenbreak.tournaments.evening.plan import (
     whole_bracket,
 )
 from evenbreak.tournaments.odds.races import Races, games_needed
-from evenbreak.words import Command
+from evenbreak.words import Command, Sentence, say
 
 ELIMINATIONS = ("double", "single", "pods", "consolation")
 
@@ -162,6 +163,30 @@ class Evening:
     @cached_property
     def _drawn_up(self) -> Bracket:
         return bracket_of(self.plan, self.order, self.lines)
+
+    @cached_property
+    def match_numbers(self) -> dict[str, int]:
+        """The number of each match; those that came of a late entry follow, as sheets are out."""
+        drawn = next((e.what for e in self.events if isinstance(e.what, Drawn)), None)
+        first = None
+        if drawn and self.lines is not None and len(drawn.order) < len(self.order):
+            first = match_numbers(
+                bracket_of(self.plan, self.order[: len(drawn.order)], drawn.lines)
+            )
+        return match_numbers(self.whole, first)
+
+    def number_of(self, match: str) -> int:
+        """Return the number of a match as people see it; 0 for one that is not in the bracket."""
+        return self.match_numbers.get(match, 0)
+
+    def match_words(self, match: str) -> Sentence | str:
+        """Return what people call a match, such as 'match 12'."""
+        number = self.number_of(match)
+        if not number:
+            return match
+        if self.plan.form == "chips":
+            return say("rack {n}", n=number)
+        return say("match {n}", n=number)
 
     @property
     def scale(self) -> Scale:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from difflib import get_close_matches
 
@@ -322,28 +323,39 @@ def free_tables(state: Evening) -> list[int]:
     return [table for table in range(1, state.plan.tables + 1) if table not in taken]
 
 
-def known_match(state: Evening, text: str, *, over: bool = False) -> str:
-    """Return the name of a match, in whatever case it was written.
+_NUMBERED = re.compile(r"(?:#|match|rack|partie)?\s*(\d+)")
+"""A match by its number, in small letters and as people write it."""
 
-    In a chip tournament it may be the number of a table: that of the rack on it, or of the last one
-    that is over.
+
+def known_match(state: Evening, text: str, *, over: bool = False) -> str:
+    """Return the name of a match, given by its number or its name.
+
+    '12', '#12' and 'match 12' are the same. In a chip tournament a bare number is that of a table:
+    of the rack on it, or of the last one that is over.
     """
-    listed_names = list(state.bracket.by_name)
-    names = {name.casefold(): name for name in listed_names}
-    if state.plan.form == "chips":
+    wanted = " ".join(text.split()).casefold()
+    names = {name.casefold(): name for name in state.bracket.by_name}
+    chips = state.plan.form == "chips"
+    if chips:
         racks = state.chip_night.racks.values()
         names |= {str(r.table): r.name for r in racks if (r.name in state.counted) == over}
-        if text.casefold() not in names and text.upper() in state.records:
-            raise InputError(
-                "{match} does not count: a player had no chips left", match=text.upper()
-            )
-    if text.casefold() not in names:
+    if wanted not in names and (number := _NUMBERED.fullmatch(wanted)):
+        called = {state.number_of(name): name for name in state.bracket.by_name}
+        if not (chips and wanted.isdigit()) and int(number[1]) in called:
+            return called[int(number[1])]
+        wanted = f"r{number[1]}" if chips and not wanted.isdigit() else wanted
+    if wanted in names:
+        return names[wanted]
+    if chips and wanted.upper() in state.records:
         raise InputError(
-            "there is no match {text!r}; the matches are {matches}",
-            text=text,
-            matches=some_of(listed_names),
+            "{match} does not count: a player had no chips left",
+            match=say("rack {n}", n=int(wanted[1:])),
         )
-    return names[text.casefold()]
+    raise InputError(
+        "there is no match {text!r}; the matches are {matches}",
+        text=text,
+        matches=some_of([str(n) for n in sorted(map(state.number_of, state.bracket.by_name))]),
+    )
 
 
 def known_player(state: Evening, text: str) -> str:
