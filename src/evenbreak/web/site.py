@@ -17,7 +17,9 @@ from evenbreak.errors import DataError
 from evenbreak.files.league.league_file import LeagueFile
 from evenbreak.files.store.desk import change_secrets, kept_secrets, new_pin
 from evenbreak.files.store.evening_file import is_there
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.beside import Made
+from evenbreak.web.codes import codes_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
 from evenbreak.web.night import Night, mark_of, now
@@ -67,6 +69,7 @@ class Site:
         }
         self._secrets = dict(self._first)
         self._read_at: tuple[int, int, int] | None = None
+        self._codes: tuple[Evening, dict[str, str]] | None = None
 
     @property
     def nights(self) -> list[Night]:
@@ -161,6 +164,17 @@ class Site:
         """Return the token of each match."""
         begun, key = self.night.begun_at, self._secret("match")
         return {match: _token(key, f"{begun} {match}") for match in matches}
+
+    def player_codes(self) -> dict[str, str]:
+        """Return the code of each player of the tournament; `/c/CODE` claims their phone."""
+        state = self.night.state()
+        if self._codes is None or self._codes[0] is not state:
+            self._codes = state, codes_of(state, self._secret("match"))
+        return self._codes[1]
+
+    def player_code(self, name: str) -> str:
+        """Return the short code of a player; '' of somebody who is not in the tournament."""
+        return self.player_codes().get(name, "") if self.night.exists else ""
 
     def _token(self, what: str) -> str:
         return _token(self._secret("match"), what)

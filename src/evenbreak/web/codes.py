@@ -1,0 +1,81 @@
+"""A player's short code: it is typed, or scanned from the score card, and claims their phone.
+
+It is drawn from the file's secret and from the entry with which the player came, so that it stays
+the same after a restart, on another laptop, and when the name is corrected.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+
+from evenbreak.tournaments.evening.events import Edited, Late, Opened
+from evenbreak.tournaments.evening.fold import Evening
+
+LETTERS = "CDFGHJKMNPQRTVWXY3469"
+"""No letter that looks like another or like a digit, and no vowel: a code is no word."""
+
+LENGTH = 5
+
+
+def entries_of(state: Evening) -> dict[str, str]:
+    """Return by which entry each player came, such as '1.3': the third of the first event."""
+    found: dict[str, str] = {}
+    for number, event in zip(state.numbers, state.events, strict=True):
+        match event.what:
+            case Opened(entrants=entrants):
+                found |= {one.name: f"{number}.{k}" for k, one in enumerate(entrants, 1)}
+            case Late(entrant=entrant):
+                found[entrant.name] = f"{number}.1"
+            case Edited(name=name, entrant=entrant) if name in found:
+                found[entrant.name] = found.pop(name)
+    return found
+
+
+def codes_of(state: Evening, key: str) -> dict[str, str]:
+    """Return the code of each player who is in the tournament.
+
+    Parameters
+    ----------
+    state
+        the state of the evening.
+    key
+        the secret from which codes are drawn.
+
+    >>> from evenbreak.tournaments.evening.events import Entrant, Event, Plan
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> both = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
+    >>> renamed = Edited("Ann", Entrant("Anne", 80.0))
+    >>> one, other = (
+    ...     evening([Event("2025-03-01T19:30:00", what) for what in happened])
+    ...     for happened in ([both], [both, renamed])
+    ... )
+    >>> codes_of(one, "key")["Ann"] == codes_of(other, "key")["Anne"]
+    True
+    """
+    begun = state.events[0].at
+    found: dict[str, str] = {}
+    for name, entry in entries_of(state).items():
+        again = 0
+        while (code := _code(key, f"{begun} {entry} {again}")) in found:
+            again += 1
+        found[code] = name
+    return {name: code for code, name in found.items() if name in state.entrants}
+
+
+def code_in(text: str) -> str:
+    """Return a code as it was typed, in the letters of codes.
+
+    >>> code_in(" fk7-q2 ")
+    'FK7Q2'
+    """
+    return "".join(letter for letter in text.upper() if letter.isascii() and letter.isalnum())
+
+
+def _code(key: str, what: str) -> str:
+    number = int.from_bytes(hmac.digest(key.encode(), what.encode(), hashlib.sha256)[:8])
+    code = ""
+    for _ in range(LENGTH):
+        number, at = divmod(number, len(LETTERS))
+        code += LETTERS[at]
+    return code
