@@ -476,9 +476,9 @@ def _arrow(change: Any, decimals: int) -> str:
 def _style(light: str, dark: str, on_light: str, on_dark: str, *, bracket: bool) -> str:
     """Return the style of a page: what all pages of evenbreak share, the site's, and the color."""
     color = (
-        f":root {{ --act: {light}; --link: {light}; --on-act: {on_light}; }}\n"
+        f":root {{ --accent: {light}; --accent-on: {on_light}; }}\n"
         "@media screen and (prefers-color-scheme: dark) { "
-        f":root {{ --act: {dark}; --link: {dark}; --on-act: {on_dark}; }} }}\n"
+        f":root:not([data-theme=light]) {{ --accent: {dark}; --accent-on: {on_dark}; }} }}\n"
     )
     drawn = own_file("bracket.css") if bracket else ""
     return own_file("common.css", ROOM) + drawn + own_file("site.css", ROOM) + color

@@ -14,7 +14,7 @@ import secrets
 import urllib.parse
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import PurePath
@@ -98,7 +98,7 @@ def own_file(name: str) -> str:
 
 @cache
 def style() -> str:
-    """Return the style of all pages: what published sites have too, and what is for these alone."""
+    """Return the style of all pages: what published sites have too, parts, and each screen."""
     common = files("evenbreak.site").joinpath("templates", "common.css")
     own = files("evenbreak.web").joinpath("templates", "css")
     sheets = sorted((one for one in own.iterdir() if one.name.endswith(".css")), key=_style_order)
@@ -191,6 +191,7 @@ def page(
             language=code,
             languages=languages(),
             here=request.url.path,
+            opens=partial(_can_be_opened, request),
             return_to=_return_to(request),
             site=site_of(request),
             director=is_director(request),
