@@ -30,7 +30,7 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.settling import break_ties, stand
-from evenbreak.tournaments.evening.undoing import undo
+from evenbreak.tournaments.evening.undoing import losses, undo
 from evenbreak.tournaments.odds.races import Fairest
 from rows import each_of
 from tiers import examples
@@ -398,8 +398,14 @@ def test_races_change_in_the_matches_that_have_not_begun(handicapped: bool) -> N
     assert state.needed("W1.2", state.pair("W1.2")) == (4, 4)
     assert state.races.of(state.bracket.match("L1.1")) == (Fairest(3) if handicapped else 3)
     events.append(Event(AT, moves.call(state, "W1.2", 2)))
-    with pytest.raises(InputError, match="table 2"):
-        moves.change(evening(events), tables=1)
+    events.append(Event(AT, moves.score(evening(events), "W1.2", (2, 1))))
+    closed = [*events, Event(AT, moves.change(evening(events), tables=1))]
+    (lost,) = losses(evening(events), evening(closed))
+    assert (lost.match, lost.table, lost.score) == ("W1.2", 2, None)
+    assert evening(closed).live["W1.2"].what.score == (2, 1)
+    again = [*closed, Event(AT, moves.change(evening(closed), tables=2))]
+    assert not evening(again).on_tables
+    assert evening([*closed, Event(AT, Undone())]).on_tables
     with pytest.raises(InputError, match="set tables, race"):
         moves.change(evening(events))
 
@@ -478,7 +484,7 @@ def test_a_late_player_takes_a_bye_only_while_it_is_open() -> None:
     "refused, said",
     [
         (lambda s: moves.result(s, "W9.9", (5, 0)), "W9.9"),
-        (lambda s: moves.result(s, "W1.1", (5, 5)), "5:5"),
+        (lambda s: moves.result(s, "W1.1", (5, 5)), "5-5"),
         (lambda s: moves.result(s, "W2.1", (5, 0)), "not ready"),
         (lambda s: moves.correct(s, "W1.1", (5, 0)), "no result"),
         (lambda s: moves.forfeit(s, "P2", "W1.1"), "P2 is not in W1.1"),

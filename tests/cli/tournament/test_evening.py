@@ -89,7 +89,7 @@ def test_a_player_who_drops_out_forfeits(night):
     ("words", "code", "said"),
     [
         (["result", "X1", "3:1"], 2, "X1"),
-        (["result", "W1.2", "2:1"], 2, "2:1"),
+        (["result", "W1.2", "2:1"], 2, "2-1"),
         (["result", "W2.1", "3:1"], 2, "not ready"),
         (["correct", "W1.2", "3:1"], 2, "no result"),
         (["drop", "Nobody"], 2, "Nobody"),

@@ -29,6 +29,7 @@ from evenbreak.tournaments.evening.events import (
     Opened,
     Plan,
     Result,
+    Substituted,
 )
 from evenbreak.words import Parameter
 
@@ -139,8 +140,8 @@ def chip_night(events: Sequence[Event]) -> ChipNight:
         match event.what:
             case Late(entrant=late) if not walk.start:
                 entrants[late.name] = late
-            case Edited(entrant=edited):
-                entrants[edited.name] = edited
+            case Edited(entrant=now) | Substituted(entrant=now):
+                entrants[now.name] = now
             case Drawn(order=order):
                 for name in order:
                     walk.enter(entrants[name])

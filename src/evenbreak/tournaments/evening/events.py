@@ -17,7 +17,14 @@ from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.chips.chip_charts import ChipChart
 from evenbreak.tournaments.clock.event_pace import EarlierNight
-from evenbreak.tournaments.evening.format import Discipline, Format, Race, Table, Tables
+from evenbreak.tournaments.evening.format import (
+    Discipline,
+    Format,
+    Occasion,
+    Race,
+    Slower,
+    Table,
+)
 from evenbreak.words import Sentence, say
 
 Games: TypeAlias = Annotated[int, Between(0, 10_000)]
@@ -27,8 +34,8 @@ Error: TypeAlias = Annotated[float, Between(0, 1_000_000)]
 
 
 @dataclass(frozen=True)
-class Plan(Format):
-    """What is played: the format, the races, the tables.
+class Plan(Format, Occasion):
+    """What is played: the format, the races, the tables; and the occasion.
 
     Parameters
     ----------
@@ -58,8 +65,6 @@ class Plan(Format):
         the scale of the ratings, as `scale_of` reads it.
     starter, starter_error
         the rating of a new player and how far off it may be.
-    tables
-        how many tables there are.
     discipline
         8-ball, 9-ball or 10-ball: how long matches take.
     layout
@@ -82,7 +87,6 @@ class Plan(Format):
     scale: str = DEFAULT_SCALE
     starter: Points = 0.0
     starter_error: Error = 0.0
-    tables: Tables = 4
     discipline: Discipline = "9-ball"
     layout: tuple[Draft, ...] = ()
     by_match: Mapping[str, Race] = field(default_factory=dict, hash=False)
@@ -115,7 +119,7 @@ class Opened:
 
 @dataclass(frozen=True)
 class Drawn:
-    """The draw: the players in seed order.
+    """The draw: the players in seed order; others who have entered go on the list of late players.
 
     For an elimination also the position of the player on each first-round line (None: a bye).
     """
@@ -149,6 +153,54 @@ class Edited:
 
 
 @dataclass(frozen=True)
+class Renamed:
+    """A player's right name, at any time: all that was entered before is read with it."""
+
+    name: str
+    to: str
+
+
+@dataclass(frozen=True)
+class Substituted:
+    """Somebody takes the place of a player who has not played yet."""
+
+    name: str
+    entrant: Entrant
+
+
+@dataclass(frozen=True)
+class Swapped:
+    """Two players trade places in the draw, before a match of either has begun."""
+
+    one: str
+    other: str
+
+
+@dataclass(frozen=True)
+class CheckedIn:
+    """Whether a player is here, and whether they have paid; None: as before."""
+
+    name: str
+    arrived: bool | None = None
+    paid: bool | None = None
+
+
+@dataclass(frozen=True)
+class Registered:
+    """Somebody wants to play: let in as a late entry is, or declined."""
+
+    name: str
+    rating: Points | None = None
+
+
+@dataclass(frozen=True)
+class Declined:
+    """Somebody who wanted to play does not."""
+
+    name: str
+
+
+@dataclass(frozen=True)
 class Dropped:
     """A player goes home; their matches to come are lost by forfeit."""
 
@@ -173,6 +225,33 @@ class CalledBack:
 
 
 @dataclass(frozen=True)
+class Waits:
+    """A match is let wait until it is called, or until another of these without a reason.
+
+    Parameters
+    ----------
+    match, players
+        the match.
+    absent
+        which of its players are not here.
+    until
+        when the match is forfeited, such as 2025-03-01T20:15:00; "": it is not.
+    reason
+        why it waits.
+    """
+
+    match: str
+    players: tuple[str, str]
+    absent: tuple[str, ...] = ()
+    until: str = ""
+    reason: str = ""
+
+    def __bool__(self) -> bool:
+        """Whether it waits; otherwise it waits no longer."""
+        return bool(self.absent or self.until or self.reason)
+
+
+@dataclass(frozen=True)
 class Scored:
     """The score of a match in play."""
 
@@ -190,6 +269,7 @@ class Result:
     `winner` is the player who moved on, though the score says otherwise.
     `race` is the games that each needed, where they are not those of the plan: with head starts of
     another program, for example.
+    `ended` says why the race was not played out: "time" or "conceded"; "": it was.
     """
 
     match: str
@@ -200,6 +280,7 @@ class Result:
     corrects: bool = False
     stands: bool = False
     race: tuple[Race, Race] | None = None
+    ended: str = ""
 
     @property
     def loser(self) -> str:
@@ -239,12 +320,21 @@ class LaterDraw:
 
 @dataclass(frozen=True)
 class Changed:
-    """Other tables or races from now on, in the matches that have not begun; None: as before."""
+    """Another part of the plan from now on; None: as before.
+
+    Races change in the matches that have not begun.
+    """
 
     tables: Table | None = None
     race: Race | None = None
     losers_race: Race | None = None
     final_race: Race | None = None
+    name: str | None = None
+    date: str | None = None
+    labels: tuple[str, ...] | None = None
+    reserved: tuple[Table, ...] | None = None
+    streamed: tuple[Table, ...] | None = None
+    slower: Slower | None = None
 
 
 @dataclass(frozen=True)
@@ -254,35 +344,58 @@ class Undone:
     entry: Annotated[int, Between(2, 1_000_000_000)] | None = None
 
 
+@dataclass(frozen=True)
+class Redone:
+    """An entry that was undone counts again."""
+
+    entry: Annotated[int, Between(2, 1_000_000_000)]
+
+
 What: TypeAlias = (
     Opened
     | Drawn
     | Late
     | Edited
+    | Renamed
+    | Substituted
+    | Swapped
+    | CheckedIn
+    | Registered
+    | Declined
     | Dropped
     | Called
     | CalledBack
+    | Waits
     | Scored
     | Result
     | Ranked
     | Changed
     | LaterDraw
     | Undone
+    | Redone
 )
 KINDS: dict[str, type[What]] = {
     "opened": Opened,
     "drawn": Drawn,
     "late": Late,
     "edited": Edited,
+    "renamed": Renamed,
+    "substituted": Substituted,
+    "swapped": Swapped,
+    "checked in": CheckedIn,
+    "registered": Registered,
+    "declined": Declined,
     "dropped": Dropped,
     "called": Called,
     "called back": CalledBack,
+    "waits": Waits,
     "scored": Scored,
     "result": Result,
     "ranked": Ranked,
     "later draw": LaterDraw,
     "changed": Changed,
     "undone": Undone,
+    "redone": Redone,
 }
 NAMES = {kind: name for name, kind in KINDS.items()}
 

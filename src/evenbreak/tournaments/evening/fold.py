@@ -8,9 +8,9 @@ again if the correction is undone.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -27,19 +27,22 @@ from evenbreak.tournaments.evening.events import (
     CalledBack,
     Changed,
     Drawn,
-    Dropped,
-    Edited,
     Entrant,
     Event,
-    Late,
-    LaterDraw,
     Opened,
     Plan,
     Ranked,
     Result,
     Scored,
-    Undone,
-    What,
+    Waits,
+)
+from evenbreak.tournaments.evening.history import TakenBack, read
+from evenbreak.tournaments.evening.matches import (
+    LiveScore,
+    Matches,
+    OnTable,
+    Pairing,
+    Played,
 )
 from evenbreak.tournaments.evening.plan import (
     bracket_now,
@@ -49,35 +52,11 @@ from evenbreak.tournaments.evening.plan import (
     races_of,
     whole_bracket,
 )
+from evenbreak.tournaments.evening.players import People
 from evenbreak.tournaments.odds.races import Races, games_needed
 from evenbreak.words import Command, Sentence, say
 
 ELIMINATIONS = ("double", "single", "pods", "consolation")
-
-
-Pairing: TypeAlias = tuple[str, frozenset[str]]
-"""A match and its players: a correction may send others into it, and them back."""
-
-
-class Played(NamedTuple):
-    """A result, and when it came in."""
-
-    result: Result
-    at: str
-
-
-class OnTable(NamedTuple):
-    """A match that has been called, and when."""
-
-    call: Called
-    at: str
-
-
-class LiveScore(NamedTuple):
-    """The last score of a match in play, and when it came in."""
-
-    what: Scored
-    at: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +89,21 @@ class Evening:
         the events that were not undone.
     numbers
         the number of each of them in the file, from 1.
+    entries
+        for each player the number of the entry that brought them in, and their place in it: a
+        rename keeps both.
+    former
+        the name now of players who were renamed, by the names that they had.
+    arrived, paid
+        who is here, and who has paid.
+    registered
+        who wants to play and has not been let in, with the rating that they state.
+    waits
+        for each match and its players why it waits.
+    undone
+        the entries that are undone, by number, the last undone last.
+    elsewhere
+        the tables that other events of the night have taken, and who plays there.
     """
 
     plan: Plan
@@ -124,6 +118,14 @@ class Evening:
     later: Mapping[str, tuple[str | None, ...]]
     events: tuple[Event, ...]
     numbers: tuple[int, ...]
+    entries: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    former: Mapping[str, str] = field(default_factory=dict)
+    arrived: frozenset[str] = frozenset()
+    paid: frozenset[str] = frozenset()
+    registered: Mapping[str, float | None] = field(default_factory=dict)
+    waits: Mapping[Pairing, Waits] = field(default_factory=dict)
+    undone: Mapping[int, TakenBack] = field(default_factory=dict)
+    elsewhere: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def drawn(self) -> bool:
@@ -243,9 +245,7 @@ class Evening:
         return {
             name: one
             for name, one in called.items()
-            if last[one.call.table] == name
-            and one.call.table <= self.plan.tables
-            and name in self.standing.to_play
+            if last[one.call.table] == name and name in self.standing.to_play
         }
 
     @cached_property
@@ -254,6 +254,15 @@ class Evening:
         return {
             name: one
             for (name, players), one in self.scores.items()
+            if name in self.standing.to_play and self._sitting(name) == players
+        }
+
+    @property
+    def waiting_for(self) -> dict[str, Waits]:
+        """Why matches wait that could be played."""
+        return {
+            name: one
+            for (name, players), one in self.waits.items()
             if name in self.standing.to_play and self._sitting(name) == players
         }
 
@@ -330,58 +339,42 @@ def evening(events: Iterable[Event]) -> Evening:
     >>> evening([Event("2025-03-01T19:30:00", what) for what in happened]).winners
     {'F': 'Bo'}
     """
-    first, numbered = _kept(events)
-    kept = list(numbered.values())
-    plan = first.plan
-    entrants = {entrant.name: entrant for entrant in first.entrants}
-    order: list[str] = []
-    lines: list[int | None] | None = None
-    records: dict[str, list[Played]] = {}
-    dropped: list[str] = []
-    calls: dict[Pairing, OnTable] = {}
-    scores: dict[Pairing, LiveScore] = {}
-    ties: dict[str, Ranked] = {}
-    for event in (_as_named_now(event, plan, order) for event in kept[1:]):
-        refuse_strangers(event.what, entrants)
-        match event.what:
-            case Result() as result:
-                records.setdefault(result.match, []).append(Played(result, event.at))
-            case Called() | CalledBack() as call:
-                earlier = calls.pop((call.match, frozenset(call.players)), None)
-                if isinstance(call, Called):  # anew, so that calls are in the order of time
-                    moved = earlier is not None and call.match not in records
-                    since = earlier.at if earlier and moved else event.at
-                    calls[call.match, frozenset(call.players)] = OnTable(call, since)
-            case Changed() as change:
-                begun = {*records, *(name for name, _ in (*calls, *scores))}
-                drawn_up = tuple(order), None if lines is None else tuple(lines)
-                bracket = bracket_of(plan, *drawn_up) if order else None
-                plan = changed(plan, change, bracket, begun)
-            case Scored() as scored:
-                scores[scored.match, frozenset(scored.players)] = LiveScore(scored, event.at)
-            case Ranked() as tie:
-                ties[tie.group] = tie
-            case Drawn(order=drawn, lines=drawn_lines):
-                order, lines = list(drawn), None if drawn_lines is None else list(drawn_lines)
-            case Late() | Edited() | Dropped() as entry:
-                entrants = listed(entrants, entry, drawn=bool(order))
-                if isinstance(entry, Late):
-                    let_in(entry, order, lines)
-                elif isinstance(entry, Dropped) and order:
-                    dropped.append(entry.name)
+    history = read(list(events))
+    kept, numbers = list(history.kept.values()), tuple(history.kept)
+    first = kept[0].what if kept else None
+    if not isinstance(first, Opened):
+        raise InputError("the first entry does not start a tournament")
+    plan, people, matches = first.plan, People(first.entrants), Matches()
+    for event in (_as_named_now(event, plan, people.order) for event in kept[1:]):
+        in_pairs = plan.form == "swiss" and bool(matches.later)
+        people.take(event.what, in_pairs=in_pairs)
+        if isinstance(event.what, Changed):
+            bracket = bracket_of(plan, *people.drawn_up) if people.order else None
+            plan = changed(plan, event.what, bracket, matches.begun)
+            matches.close(plan.tables)
+        else:
+            matches.take(event, in_pairs=in_pairs)
+    order, lines = people.drawn_up
     return Evening(
         plan,
-        entrants,
-        tuple(order),
-        None if lines is None else tuple(lines),
-        {name: tuple(played) for name, played in records.items()},
-        tuple(dropped),
-        calls,
-        scores,
-        ties,
-        {e.what.stage: e.what.order for e in kept if isinstance(e.what, LaterDraw)},
+        people.entrants,
+        order,
+        lines,
+        {name: tuple(played) for name, played in matches.records.items()},
+        tuple(people.dropped),
+        matches.calls,
+        matches.scores,
+        matches.ties,
+        matches.later,
         tuple(kept),
-        tuple(numbered),
+        numbers,
+        history.entries,
+        history.former,
+        frozenset(people.arrived & people.entrants.keys()),
+        frozenset(people.paid & people.entrants.keys()),
+        people.registered,
+        matches.waits,
+        history.undone,
     )
 
 
@@ -421,67 +414,3 @@ def _breaks_ties(now: Standing, tie: Ranked) -> bool:
             ranks = [ahead[name] for name in tie.order]
             return ranks == sorted(ranks)
     return False
-
-
-def _kept(events: Iterable[Event]) -> tuple[Opened, dict[int, Event]]:
-    """Return the first event, and all those that were not undone by their numbers from 1."""
-    kept: dict[int, Event] = {}
-    for number, event in enumerate(events, 1):
-        if not isinstance(event.what, Undone):
-            kept[number] = event
-            continue
-        entry = max(kept, default=1) if event.what.entry is None else event.what.entry
-        if entry == 1 or kept.pop(entry, None) is None:
-            raise InputError("there is nothing to undo")
-    if 1 not in kept or not isinstance(first := kept[1].what, Opened):
-        raise InputError("the first entry does not start a tournament")
-    return first, kept
-
-
-# Who is in: entered, late, corrected or gone home.
-
-
-def listed(
-    entrants: Mapping[str, Entrant], entry: Late | Edited | Dropped, *, drawn: bool
-) -> dict[str, Entrant]:
-    """Return the entrants after one has come, was corrected, or has gone."""
-    match entry:
-        case Late(entrant=late):
-            return {**entrants, late.name: late}
-        case Edited(name=name, entrant=now):
-            return dict((now.name, now) if n == name else (n, e) for n, e in entrants.items())
-        case Dropped(name=name):
-            return {n: e for n, e in entrants.items() if drawn or n != name}
-
-
-def let_in(late: Late, order: list[str], lines: list[int | None] | None) -> None:
-    """Let a player in who comes after the draw."""
-    if not order:
-        return
-    if late.line is not None and lines is not None:
-        lines[late.line] = len(order)
-    order.append(late.entrant.name)
-
-
-def refuse_strangers(what: What, entrants: Mapping[str, Entrant]) -> None:
-    """Refuse an event with a player who has not entered, as only a damaged file holds it."""
-    match what:
-        case Called(players=names) | CalledBack(players=names) | Scored(players=names):
-            pass
-        case Ranked(order=names):
-            pass
-        case Result(players=names, winner=winner):
-            if winner not in names:
-                raise InputError("{player} won a match they are not in", player=winner)
-        case Drawn(order=names):
-            if sorted(names) != sorted(entrants):
-                raise InputError("the draw does not match the players who have entered")
-        case Dropped(name=name) | Edited(name=name):
-            names = (name,)
-        case Late(entrant=entrant) if entrant.name in entrants:
-            raise InputError("{player} has already entered", player=entrant.name)
-        case _:
-            return
-    for name in names:
-        if name not in entrants:
-            raise InputError("{player} has not entered", player=name)

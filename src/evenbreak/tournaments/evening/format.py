@@ -6,12 +6,14 @@ from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
 from evenbreak.checks import Between
+from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, Flag, Whole
 from evenbreak.fields.question import Field
 from evenbreak.words import say
 
 Race: TypeAlias = Annotated[int, Between(1, 1_000)]
 Table: TypeAlias = Annotated[int, Between(1, 1_000)]
+Slower: TypeAlias = Annotated[float, Between(0.5, 2)]
 Few: TypeAlias = Annotated[int, Between(1, 256)]
 
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
@@ -180,3 +182,61 @@ class Format:
     ] = None
     losers_race: LosersRace = None
     final_race: FinalRace = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Occasion:
+    """What the house says of an evening: its name, what its tables are called, its pace.
+
+    Parameters
+    ----------
+    name, date
+        what the event is called, and when it is.
+    tables
+        how many tables there are.
+    labels
+        what the house calls its tables, from the first; () and beyond them: their numbers.
+    reserved
+        the tables that are given out by hand only.
+    streamed
+        the tables that are filmed.
+    slower
+        how much longer matches take here than is usual.
+    """
+
+    tables: Tables = 4
+    name: str = ""
+    date: str = ""
+    labels: tuple[str, ...] = ()
+    reserved: tuple[Table, ...] = ()
+    streamed: tuple[Table, ...] = ()
+    slower: Slower = 1.0
+
+    def table_name(self, table: int) -> str:
+        """Return what the house calls a table.
+
+        >>> plan = Occasion(labels=("1", "2", "TV"))
+        >>> plan.table_name(3), plan.table_name(4)
+        ('TV', '4')
+        """
+        return self.labels[table - 1] if table <= len(self.labels) else str(table)
+
+    def table_number(self, text: str) -> int:
+        """Return the number of a table, by what the house calls it or by the number itself.
+
+        >>> plan = Occasion(labels=("1", "2", "TV"))
+        >>> plan.table_number("tv"), plan.table_number("table 3"), plan.table_number("4")
+        (3, 3, 4)
+        """
+        wanted = " ".join(text.casefold().removeprefix("table").split())
+        names = [self.table_name(table) for table in range(1, self.tables + 1)]
+        for table, name in enumerate(names, 1):
+            if name.casefold() in (wanted, " ".join(text.casefold().split())):
+                return table
+        if wanted.isascii() and wanted.isdigit() and 1 <= int(wanted[:5]) <= self.tables:
+            return int(wanted)
+        raise InputError(
+            "there is no table {table}; the tables are {tables}",
+            table=text.strip(),
+            tables=", ".join(names) if len(names) <= 12 else f"{names[0]} to {names[-1]}",
+        )

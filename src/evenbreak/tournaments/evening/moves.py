@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import math
-import re
+from collections.abc import Sequence
 from dataclasses import replace
-from difflib import get_close_matches
 
 import numpy as np
 
 from evenbreak.errors import InputError
-from evenbreak.ratings.results_frame import folded
-from evenbreak.tournaments.brackets.bracket import some_of
 from evenbreak.tournaments.brackets.knockout import (
     blind_draw,
     by_rating,
     seeded_lines,
 )
-from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import (
     Called,
     CalledBack,
@@ -26,6 +21,7 @@ from evenbreak.tournaments.evening.events import (
     Dropped,
     Edited,
     Entrant,
+    Event,
     Late,
     LaterDraw,
     Result,
@@ -33,16 +29,30 @@ from evenbreak.tournaments.evening.events import (
     race_words,
     score_words,
 )
-from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
+from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening, evening
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
+from evenbreak.tournaments.evening.known import (
+    check_entrant,
+    entered,
+    games_in,
+    known_match,
+    known_player,
+    refuse_stranger,
+    refuse_waiting,
+    undecided,
+    winner_of,
+)
 from evenbreak.tournaments.evening.later_draws import draw_later
-from evenbreak.tournaments.evening.plan import refuse_bye
 from evenbreak.tournaments.evening.undoing import losses
 from evenbreak.words import Command, Parameter, listed, say
 
+__all__ = ["known_match", "known_player"]
 
-def draw(state: Evening, rng: np.random.Generator) -> Drawn:
+
+def draw(state: Evening, rng: np.random.Generator, *, without: Sequence[str] = ()) -> Drawn:
     """Make the draw, in the way that the plan says.
+
+    Players whom it is to do `without` go on the list of those who may be let in late.
 
     Raises
     ------
@@ -54,7 +64,7 @@ def draw(state: Evening, rng: np.random.Generator) -> Drawn:
             "the draw has already been made; to take it back: {undo}",
             undo=Command("tournament undo"),
         )
-    names = list(state.entrants)
+    names = [name for name in state.entrants if name not in without]
     if len(names) < 2:
         raise InputError(
             "a tournament takes 2 to {most} players, and {entered:,} entered",
@@ -69,7 +79,9 @@ def draw(state: Evening, rng: np.random.Generator) -> Drawn:
     return Drawn(tuple(names), lines)
 
 
-def draw_next(state: Evening, rng: np.random.Generator) -> list[Drawn | LaterDraw]:
+def draw_next(
+    state: Evening, rng: np.random.Generator, *, without: Sequence[str] = ()
+) -> list[Drawn | LaterDraw]:
     """Draw what is to be drawn next: the bracket, the next round of a Swiss, or qualifiers.
 
     Raises
@@ -79,13 +91,20 @@ def draw_next(state: Evening, rng: np.random.Generator) -> list[Drawn | LaterDra
     """
     if state.drawn:
         return [draw_later(state, rng)]
-    first = draw(state, rng)
+    first = draw(state, rng, without=without)
     if state.plan.form != "swiss":
         return [first]
-    return [first, draw_later(replace(state, order=first.order), rng)]
+    return [first, draw_later(evening([*state.events, Event(state.events[-1].at, first)]), rng)]
 
 
-def result(state: Evening, match: str, score: tuple[int, int] | str) -> Result:
+def result(
+    state: Evening,
+    match: str,
+    score: tuple[int, int] | str,
+    *,
+    ended: str = "",
+    winner: str = "",
+) -> Result:
     """Enter the result of a match that has not been decided.
 
     Parameters
@@ -96,6 +115,10 @@ def result(state: Evening, match: str, score: tuple[int, int] | str) -> Result:
         the match; in a chip tournament the number of its table will do.
     score
         the games of each player; in a chip tournament the winner will do.
+    ended
+        why the race was not played out: "time" or "conceded"; "": it was.
+    winner
+        the winner, where the score does not say it.
     """
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:
@@ -110,14 +133,47 @@ def result(state: Evening, match: str, score: tuple[int, int] | str) -> Result:
             result=score_words(before),
             correct=correct_it,
         )
-    _refuse_waiting(state, name)
+    refuse_waiting(state, name)
     pair = state.pair(name)
-    games = _games(state, name, pair, score)
-    return Result(name, pair, games, _winner(state, name, pair, games))
+    games = games_in(state, name, pair, score)
+    return _result(state, name, pair, games, ended, winner)
 
 
-def correct(state: Evening, match: str, score: tuple[int, int] | str) -> Result:
-    """Correct the result of a match; in a chip tournament a table is that of its last rack."""
+def taps(state: Evening, match: str, winner: str, games: int) -> tuple[int, int]:
+    """Return the score of a match from its winner and the loser's games."""
+    name = known_match(state, match)
+    pair = state.pair(name)
+    refuse_stranger(winner, state.match_words(name), pair)
+    needs = state.needed(name, pair)
+    return (needs[0], games) if winner == pair[0] else (games, needs[1])
+
+
+def _result(
+    state: Evening,
+    name: str,
+    pair: tuple[str, str],
+    games: tuple[int, int],
+    ended: str,
+    winner: str,
+) -> Result:
+    won = winner_of(state, name, pair, games, ended=ended, stated=winner)
+    short = all(map(int.__lt__, games, state.needed(name, pair)))
+    return Result(name, pair, games, won, ended=ended if short else "")
+
+
+def correct(
+    state: Evening,
+    match: str,
+    score: tuple[int, int] | str,
+    *,
+    follow: str = "",
+    ended: str = "",
+    winner: str = "",
+) -> Result:
+    """Correct the result of a match; in a chip tournament a table is that of its last rack.
+
+    With `follow` "keep" whoever has moved on stays, whatever the corrected score says.
+    """
     name = known_match(state, match, over=True)
     if name not in state.counted:
         raise InputError(
@@ -126,14 +182,45 @@ def correct(state: Evening, match: str, score: tuple[int, int] | str) -> Result:
             enter=Command("tournament result", name),
         )
     pair = state.pair(name)
-    games = _games(state, name, pair, score)
-    found = Result(name, pair, games, _winner(state, name, pair, games), corrects=True)
-    before = state.counted[name]
-    if not before.forfeit and before.games == found.games and before.winner == found.winner:
+    found = _result(state, name, pair, games_in(state, name, pair, score), ended, winner)
+    found, before = replace(found, corrects=True), state.counted[name]
+    if follow == "keep" and found.winner != before.winner:
+        found = replace(found, winner=before.winner, stands=True)
+    same = (before.games, before.winner, before.ended) == (found.games, found.winner, found.ended)
+    if not before.forfeit and same:
         raise InputError(
             "{match} already has that result: {result}", match=name, result=score_words(before)
         )
     return found
+
+
+def corrections(
+    state: Evening,
+    match: str,
+    score: tuple[int, int] | str,
+    *,
+    follow: str = "",
+    ended: str = "",
+    winner: str = "",
+) -> list[Called | Result]:
+    """Correct a result; with `follow` "stop" matches in play start anew with their new players.
+
+    The calls to their tables come before the correction: when it is taken back, all that was in
+    play goes on.
+    """
+    found = correct(state, match, score, follow=follow, ended=ended, winner=winner)
+    if follow != "stop":
+        return [found]
+    after = evening([*state.events, Event(state.events[-1].at, found)])
+    calls = []
+    for name, one in state.on_tables.items():
+        if name in after.on_tables or name not in after.standing.to_play:
+            continue
+        pair = after.pair(name)
+        busy = {player for there in after.on_tables.values() for player in there.call.players}
+        if not busy & {*pair}:
+            calls.append(Called(name, one.call.table, pair))
+    return [*calls, found]
 
 
 def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
@@ -143,7 +230,7 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
             "a rack has no score; to enter its winner: {enter}",
             enter=Command("tournament result", match),
         )
-    name = _undecided(state, match)
+    name = undecided(state, match)
     pair = state.pair(name)
     needs = state.needed(name, pair)
     if score[0] >= needs[0] or score[1] >= needs[1]:
@@ -160,7 +247,7 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
 
 def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
     """Let a player, by their full name, forfeit a match; None: the only one they can play now."""
-    loser = _entered(state, player)
+    loser = entered(state, player)
     if match is None:
         ready = [name for name in state.standing.to_play if loser in state.pair(name)]
         if len(ready) != 1:
@@ -175,15 +262,15 @@ def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
                 matches=", ".join(ready),
             )
         match = ready[0]
-    name = _undecided(state, match)
+    name = undecided(state, match)
     pair = state.pair(name)
-    _refuse_stranger(loser, name, pair)
+    refuse_stranger(loser, name, pair)
     return Result(name, pair, (0, 0), pair[loser == pair[0]], forfeit=True)
 
 
 def drop(state: Evening, player: str) -> Dropped:
     """Let a player, by their full name, go home."""
-    name = _entered(state, player)
+    name = entered(state, player)
     if name in state.dropped:
         raise InputError("{player} has already withdrawn", player=name)
     if not state.drawn and len(state.entrants) <= 1:
@@ -197,7 +284,7 @@ def late(state: Evening, entrant: Entrant) -> Late:
     A bye is open as long as filling it changes no match that was played or called. In a chip
     tournament a late player goes to the end of the line, as long as two are still in.
     """
-    _check_entrant(state, entrant)
+    check_entrant(state, entrant)
     if len(state.entrants) >= MOST_PLAYERS:
         raise InputError("a tournament takes at most {most} players", most=MOST_PLAYERS)
     if state.plan.form == "chips":
@@ -223,12 +310,13 @@ def late(state: Evening, entrant: Entrant) -> Late:
 
 def call(state: Evening, match: str, table: int | None) -> Called:
     """Call a match to a table, or move it to another; None: the first that is free."""
-    name = _undecided(state, match)
-    on = state.on_tables.get(name)
+    name = undecided(state, match)
+    on, names = state.on_tables.get(name), state.plan.table_name
     if on is not None and table in (None, on.call.table):
-        raise InputError("{match} is already on table {table}", match=name, table=on.call.table)
-    free = free_tables(state)
-    if table is None and not free:
+        raise InputError(
+            "{match} is already on table {table}", match=name, table=names(on.call.table)
+        )
+    if table is None and not (free := free_tables(state)):
         raise InputError("no table is free (there are {tables})", tables=state.plan.tables)
     chosen = free[0] if table is None else table
     if not 1 <= chosen <= state.plan.tables:
@@ -237,18 +325,34 @@ def call(state: Evening, match: str, table: int | None) -> Called:
             table=chosen,
             tables=state.plan.tables,
         )
-    if chosen not in free:
-        there = next(n for n, one in state.on_tables.items() if one.call.table == chosen)
-        raise InputError("table {table} is taken by {match}", table=chosen, match=there)
+    there = _on_table(state, chosen)
+    if there is not None:
+        raise InputError("table {table} is taken by {match}", table=names(chosen), match=there)
+    if chosen in state.elsewhere:
+        raise InputError(
+            "table {table} is taken by {players}",
+            table=names(chosen),
+            players=" – ".join(state.elsewhere[chosen]),
+        )
     for there, one in state.on_tables.items():
         for player in set(state.pair(name)) & set(one.call.players) if there != name else ():
             raise InputError(
                 "{player} is playing {match} on table {table}",
                 player=player,
                 match=there,
-                table=one.call.table,
+                table=names(one.call.table),
+            )
+    for taken, players in state.elsewhere.items():
+        for player in set(state.pair(name)) & {*players}:
+            raise InputError(
+                "{player} is playing on table {table}", player=player, table=names(taken)
             )
     return Called(name, chosen, state.pair(name))
+
+
+def _on_table(state: Evening, table: int) -> str | None:
+    """Return the match that is played on a table."""
+    return next((n for n, one in state.on_tables.items() if one.call.table == table), None)
 
 
 def change(
@@ -258,9 +362,19 @@ def change(
     race: int | None = None,
     losers_race: int | None = None,
     final_race: int | None = None,
+    name: str | None = None,
+    date: str | None = None,
+    labels: tuple[str, ...] | None = None,
+    reserved: tuple[int, ...] | None = None,
+    streamed: tuple[int, ...] | None = None,
+    slower: float | None = None,
 ) -> Changed:
-    """Change the tables, or the races of the matches that have not begun."""
-    found = Changed(tables, race, losers_race, final_race)
+    """Change the occasion, the tables, or the races of the matches that have not begun.
+
+    A match on a table that is closed goes back to the queue; its score is kept.
+    """
+    races = race, losers_race, final_race
+    found = Changed(tables, *races, name, date, labels, reserved, streamed, slower)
     if found == Changed():
         raise InputError(
             "nothing would change; set {changes}",
@@ -268,9 +382,9 @@ def change(
                 [Parameter(name) for name in ("tables", "race", "losers_race", "final_race")], "or"
             ),
         )
-    if state.plan.chart is not None and found != Changed(tables):
+    if state.plan.chart is not None and any(races):
         raise InputError("the races come from a chart, so only the number of tables can change")
-    if state.plan.form == "chips" and found != Changed(tables):
+    if state.plan.form == "chips" and any(races):
         raise InputError(
             "a chip tournament is played by the rack, so only the number of tables can change"
         )
@@ -283,12 +397,6 @@ def change(
         raise InputError(
             "there is no final; to change the races, set {race}", race=Parameter("race")
         )
-    if tables is not None and state.drawn and state.plan.form != "chips":  # there it closes later
-        taken = max((one.call.table for one in state.on_tables.values()), default=0)
-        if tables < taken:
-            raise InputError(
-                "a match is on table {table}; finish it before you close the table", table=taken
-            )
     return found
 
 
@@ -304,7 +412,7 @@ def call_back(state: Evening, match: str) -> CalledBack:
 
 def edit(state: Evening, player: str, *, name: str = "", rating: float | None = None) -> Edited:
     """Correct the name or the rating of a player, by their full name, before the draw."""
-    before = state.entrants[_entered(state, player)]
+    before = state.entrants[entered(state, player)]
     if state.drawn:
         raise InputError("the draw has been made, so names and ratings can no longer change")
     rated = before if rating is None else Entrant(player, rating)
@@ -313,165 +421,15 @@ def edit(state: Evening, player: str, *, name: str = "", rating: float | None = 
         raise InputError(
             "nothing about {player} would change; enter another name or rating", player=player
         )
-    _check_entrant(state, after, besides=player)
+    check_entrant(state, after, besides=player)
     return Edited(player, after)
 
 
 def free_tables(state: Evening) -> list[int]:
-    """Return the tables on which no called match is played."""
+    """Return the tables on which nobody plays, those aside that are given out by hand only."""
     taken = {one.call.table for one in state.on_tables.values()}
+    taken |= {*state.elsewhere, *state.plan.reserved}
     return [table for table in range(1, state.plan.tables + 1) if table not in taken]
-
-
-_NUMBERED = re.compile(r"(?:#|match|rack|partie)?\s*(\d+)")
-"""A match by its number, in small letters and as people write it."""
-
-
-def known_match(state: Evening, text: str, *, over: bool = False) -> str:
-    """Return the name of a match, given by its number or its name.
-
-    '12', '#12' and 'match 12' are the same. In a chip tournament a bare number is that of a table:
-    of the rack on it, or of the last one that is over.
-    """
-    wanted = " ".join(text.split()).casefold()
-    names = {name.casefold(): name for name in state.bracket.by_name}
-    chips = state.plan.form == "chips"
-    if chips:
-        racks = state.chip_night.racks.values()
-        names |= {str(r.table): r.name for r in racks if (r.name in state.counted) == over}
-    if wanted not in names and (number := _NUMBERED.fullmatch(wanted)):
-        called = {state.number_of(name): name for name in state.bracket.by_name}
-        if not (chips and wanted.isdigit()) and int(number[1]) in called:
-            return called[int(number[1])]
-        wanted = f"r{number[1]}" if chips and not wanted.isdigit() else wanted
-    if wanted in names:
-        return names[wanted]
-    if chips and wanted.upper() in state.records:
-        raise InputError(
-            "{match} does not count: a player had no chips left",
-            match=say("rack {n}", n=int(wanted[1:])),
-        )
-    raise InputError(
-        "there is no match {text!r}; the matches are {matches}",
-        text=text,
-        matches=some_of([str(n) for n in sorted(map(state.number_of, state.bracket.by_name))]),
-    )
-
-
-def known_player(state: Evening, text: str) -> str:
-    """Return the name of a player, in whatever case and spacing it was written.
-
-    The beginning of a first or last name will do if nobody else's begins like that.
-    """
-    wanted = " ".join(text.split()).casefold()
-    names = {name.casefold(): name for name in state.entrants}
-    if wanted not in names:
-        begin = [name for name in names if wanted and f" {wanted}" in f" {name}"]
-        if len(begin) == 1:
-            return names[begin[0]]
-        if begin:
-            raise InputError(
-                "{text!r} could be {players}",
-                text=text,
-                players=some_of([names[name] for name in begin]),
-            )
-        near = get_close_matches(wanted, names, 1)
-        if near:
-            raise InputError(
-                "{player!r} is not in this tournament; did you mean {near}?",
-                player=text,
-                near=names[near[0]],
-            )
-        raise InputError("{player!r} is not in this tournament", player=text)
-    return names[wanted]
-
-
-def _check_entrant(state: Evening, entrant: Entrant, besides: str = "") -> None:
-    """Refuse an entrant without a name or rating of their own."""
-    refuse_bye(entrant.name)
-    if not math.isfinite(entrant.rating):
-        raise InputError(
-            "the rating of {player} must be a finite number; it is {rating}",
-            player=entrant.name,
-            rating=entrant.rating,
-        )
-    names = {folded(name): name for name in state.entrants if name != besides}
-    if folded(entrant.name) in names:
-        raise InputError("{player} has already entered", player=names[folded(entrant.name)])
-    if state.plan.form == "chips":
-        chips_of(state.plan, entrant)  # refuses a rating below the chart
-
-
-def _entered(state: Evening, name: str) -> str:
-    """Return a name that is given in full: somebody else's that begins like it never counts."""
-    if name not in state.entrants:
-        raise InputError("{player!r} is not in this tournament", player=name)
-    return name
-
-
-def _games(
-    state: Evening, name: str, pair: tuple[str, str], score: tuple[int, int] | str
-) -> tuple[int, int]:
-    """Return the score of a result; in a chip tournament it may be the winner's name."""
-    if not isinstance(score, str):
-        return score
-    if state.plan.form != "chips":
-        raise InputError(
-            "{score!r} is not a score; write the games of each player, such as 7:5", score=score
-        )
-    winner = known_player(state, score)
-    _refuse_stranger(winner, name, pair)
-    return (1, 0) if winner == pair[0] else (0, 1)
-
-
-def _refuse_stranger(player: str, match: str, pair: tuple[str, str]) -> None:
-    if player not in pair:
-        names = {"player": player, "match": match, "a": pair[0], "b": pair[1]}
-        raise InputError("{player} is not in {match}: it is {a} against {b}", **names)
-
-
-def _undecided(state: Evening, match: str) -> str:
-    """Return the name of a match that can be played now, or refuse it."""
-    name = known_match(state, match)
-    if (before := state.counted.get(name)) is not None:
-        raise InputError(
-            "{match} already has a result: {result}", match=name, result=score_words(before)
-        )
-    _refuse_waiting(state, name)
-    return name
-
-
-def _refuse_waiting(state: Evening, name: str) -> None:
-    if name in state.standing.to_play:
-        return
-    if name in state.standing.winners:
-        raise InputError("{match} is not needed", match=name)
-    slots = zip(state.bracket.match(name).slots, state.standing.seats[name], strict=True)
-    waits = [slot.match for slot, seat in slots if seat is None and not isinstance(slot, int)]
-    raise InputError(
-        "{match} is not ready: it is waiting for {waits}",
-        match=name,
-        waits=listed(list(dict.fromkeys(waits))),
-    )
-
-
-def _winner(state: Evening, name: str, pair: tuple[str, str], score: tuple[int, int]) -> str:
-    """Return the winner; refuse a score that does not end the race."""
-    one, other = score
-    m, n = state.needed(name, pair)
-    if one == m and other < n:
-        return pair[0]
-    if other == n and one < m:
-        return pair[1]
-    raise InputError(
-        "{a}:{b} can't be the final score of {match}, {player_a} against {player_b}: it's a {race}",
-        a=one,
-        b=other,
-        match=name,
-        player_a=pair[0],
-        player_b=pair[1],
-        race=race_words((m, n)),
-    )
 
 
 def _rival(state: Evening, line: int) -> int:

@@ -25,8 +25,9 @@ from evenbreak.tournaments.clock.event_pace import Timed, event_pace, learned_pa
 from evenbreak.tournaments.clock.finish import Call, Finish, finish
 from evenbreak.tournaments.evening.chip_outlook import chip_minutes, chip_odds, drawn_racks
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
-from evenbreak.tournaments.evening.fold import Evening, Played
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import stage_to_draw
+from evenbreak.tournaments.evening.matches import Played
 from evenbreak.tournaments.evening.plan import pairings, swiss_of
 from evenbreak.tournaments.odds.draws import redraw_odds, swiss_odds
 from evenbreak.tournaments.odds.leverage import Leverage, leverages

@@ -253,7 +253,7 @@ def changed(plan: Plan, change: Changed, bracket: Bracket | None, begun: Iterabl
     4
     """
     given = {name: value for name, value in asdict(change).items() if value is not None}
-    if bracket is None or not set(given) - {"tables"}:
+    if bracket is None or not set(given) & {"race", "losers_race", "final_race"}:
         return replace(plan, **given)
     races, by_match = races_of(plan), dict(plan.by_match)
     for name in begun:

@@ -6,11 +6,21 @@ An entry takes away matches in play, and results that no longer count.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 from evenbreak.errors import InputError
-from evenbreak.tournaments.evening.events import Called, CalledBack, Event, Result, Scored, Undone
-from evenbreak.tournaments.evening.fold import Evening, LiveScore, OnTable
+from evenbreak.tournaments.evening.events import (
+    Called,
+    CalledBack,
+    Event,
+    Redone,
+    Result,
+    Scored,
+    Undone,
+)
+from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.matches import LiveScore, OnTable
 
 
 def undoable(state: Evening) -> dict[int, Event]:
@@ -37,6 +47,58 @@ def undo(state: Evening, entry: int | None = None) -> Undone:
     if entry is not None and entry not in can:
         raise InputError("entry {entry} is not the last one, so it can't be undone", entry=entry)
     return Undone(own[0] if entry is None else entry)
+
+
+def own_last(state: Evening, by: str = "") -> int | None:
+    """Return the number of the last act of an author; all who direct are one author.
+
+    Scores that players tap are no acts.
+    """
+    phone = Event("", Undone(), by).by_phones
+    for number, event in zip(state.numbers[:0:-1], state.events[:0:-1], strict=True):
+        if phone and event.by == by and not isinstance(event.what, Scored):
+            return number
+        if not phone and not event.by_phones:
+            return number
+    return None
+
+
+def free_entries(state: Evening) -> set[int]:
+    """Return the numbers of the entries that nothing follows from.
+
+    Undone, they leave every other result and match in play as it is.
+    """
+    found = set()
+    for k, number in enumerate(state.numbers[1:], 1):
+        event = state.events[k]
+        if event.by_phones and isinstance(event.what, Scored):
+            continue
+        try:
+            after = evening(event for n, event in enumerate(state.events) if n != k)
+        except InputError:
+            continue
+        if not losses(
+            state, replace(after, numbers=tuple(n for n in state.numbers if n != number))
+        ):
+            found.add(number)
+    return found
+
+
+def redoable(state: Evening) -> int | None:
+    """Return the entry that was undone last, unless the director has entered something since."""
+    if not state.undone:
+        return None
+    entry, last = list(state.undone.items())[-1]
+    mine = [n for n, one in zip(state.numbers, state.events, strict=True) if not one.by_phones]
+    return entry if last.by > max(mine) else None
+
+
+def redo(state: Evening, entry: int | None = None) -> Redone:
+    """Let an entry that was undone count again; None: the last that was."""
+    last = redoable(state)
+    if last is None or entry not in (None, last):
+        raise InputError("there is nothing to redo")
+    return Redone(last)
 
 
 class Loss(NamedTuple):

@@ -275,7 +275,7 @@ async def change(request: Request) -> Response:
     races = {name: form.whole(name, 0, 100, default=0) for name in RACES_TO_CHANGE}
 
     def decide(state: Evening) -> list[What]:
-        asked = {name: n for name, n in ({"tables": tables} | races).items() if n}
+        asked: dict[str, Any] = {n: k for n, k in ({"tables": tables} | races).items() if k}
         return [moves.change(state, **asked)]
 
     def said(_: Evening, after: Evening) -> list[str]:

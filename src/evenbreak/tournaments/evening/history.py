@@ -1,0 +1,166 @@
+"""How the entries of an evening are read: those that count, with the names that players have now.
+
+A rename is read into all other entries, those before it too. Each entry names players as they were
+called when it was made; so a rename can be taken back by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any, NamedTuple, TypeAlias
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments.evening.events import (
+    Edited,
+    Event,
+    Late,
+    LaterDraw,
+    Opened,
+    Redone,
+    Renamed,
+    Substituted,
+    Undone,
+    What,
+)
+
+Entered: TypeAlias = tuple[int, int]
+"""A player, by the number of the entry that brought them in, and their place in it."""
+
+_NAMED = {"name", "names", "order", "players", "winner", "one", "other", "absent"}
+"""The fields of entries that hold names of players."""
+
+
+_NAMING = Opened | Late | Substituted | Renamed | Edited
+
+
+class TakenBack(NamedTuple):
+    """An entry that is undone, and the number of that which undid it."""
+
+    event: Event
+    by: int
+
+
+class ReadRename(Renamed):
+    """A rename that has been read into the other entries."""
+
+
+@dataclass(frozen=True)
+class History:
+    """The entries of an evening, as they are read.
+
+    Parameters
+    ----------
+    kept
+        those that are not undone, by number from 1.
+    undone
+        those that are, the last undone last.
+    entries
+        the players by the names that they have now.
+    former
+        for names that players had: those that they have now.
+    """
+
+    kept: Mapping[int, Event]
+    undone: Mapping[int, TakenBack]
+    entries: Mapping[str, Entered]
+    former: Mapping[str, str]
+
+
+def read(events: Sequence[Event]) -> History:
+    """Return the entries of an evening as they are read.
+
+    Raises
+    ------
+    InputError
+        if something is undone that is not there, or done again that was not undone.
+    """
+    kept: dict[int, Event] = {}
+    undone: dict[int, TakenBack] = {}
+    renames = any(isinstance(event.what, Renamed) for event in events)
+    called: dict[int, Mapping[str, Entered]] = {}  # by what names, when each entry was made
+    names: dict[str, Entered] = {}
+    for number, event in enumerate(events, 1):
+        what = event.what
+        if isinstance(what, Undone):
+            entry = max(kept, default=1) if what.entry is None else what.entry
+            if entry == 1 or entry not in kept:
+                raise InputError("there is nothing to undo")
+            undone[entry] = TakenBack(kept.pop(entry), number)
+        elif isinstance(what, Redone):
+            entry = what.entry
+            if entry not in undone:
+                raise InputError("entry {entry} is not undone", entry=entry)
+            kept[entry] = undone.pop(entry).event
+            kept = dict(sorted(kept.items()))
+        else:
+            kept[number] = event
+            before, names = names, _names_after(names, number, what)
+            if renames:
+                called[number] = {**before, **names}
+            continue
+        if isinstance(events[entry - 1].what, _NAMING):
+            names = _names(kept)
+    former: dict[str, str] = {}
+    if renames:
+        now = {who: name for name, who in names.items()}
+        kept = {number: _read(event, called[number], now) for number, event in kept.items()}
+        undone = {
+            number: one._replace(event=_read(one.event, called[number], now))
+            for number, one in undone.items()
+        }
+        former = {
+            name: now[who]
+            for known in called.values()
+            for name, who in known.items()
+            if name not in names and who in now
+        }
+    return History(kept, undone, names, former)
+
+
+def _names(kept: Mapping[int, Event]) -> dict[str, Entered]:
+    names: dict[str, Entered] = {}
+    for number, event in kept.items():
+        names = _names_after(names, number, event.what)
+    return names
+
+
+def _names_after(names: dict[str, Entered], number: int, what: What) -> dict[str, Entered]:
+    """Return who is called what after an entry; the names before it stay as they were."""
+    match what:
+        case Opened(entrants=entrants):
+            return {one.name: (number, k) for k, one in enumerate(entrants)}
+        case Late(entrant=entrant) | Substituted(entrant=entrant):
+            return {**names, entrant.name: (number, 0)}
+        case Renamed(name=old, to=now) if not isinstance(what, ReadRename) and old in names:
+            return {now if name == old else name: who for name, who in names.items()}
+        case Edited(name=old, entrant=entrant) if old != entrant.name and old in names:
+            return {entrant.name if name == old else name: who for name, who in names.items()}
+    return names
+
+
+def _read(event: Event, called: Mapping[str, Entered], now: Mapping[Entered, str]) -> Event:
+    """Return an entry with the names that players have now."""
+    what = event.what
+    if isinstance(what, Renamed):
+        return replace(event, what=ReadRename(what.name, what.to))
+    if isinstance(what, LaterDraw) and not what.stage.startswith("R"):
+        return event  # of matches
+    names = {name: now[who] for name, who in called.items() if now.get(who, name) != name}
+    return replace(event, what=_with(what, names)) if names else event
+
+
+def _with(what: Any, names: Mapping[str, str]) -> Any:
+    """Return an entry with other names."""
+    changed: dict[str, Any] = {}
+    for one in fields(what):
+        value = getattr(what, one.name)
+        if one.name == "entrants":
+            changed[one.name] = tuple(_with(entrant, names) for entrant in value)
+        elif one.name == "entrant" and is_dataclass(value):
+            changed[one.name] = _with(value, names)
+        elif one.name in _NAMED and isinstance(value, str):
+            changed[one.name] = names.get(value, value)
+        elif one.name in _NAMED and isinstance(value, tuple):
+            changed[one.name] = tuple(names.get(name, name) for name in value)
+    return replace(what, **changed)

@@ -1,0 +1,197 @@
+"""What moves name, and what they refuse: matches, players, scores."""
+
+from __future__ import annotations
+
+import math
+import re
+from difflib import get_close_matches
+
+from evenbreak.errors import InputError
+from evenbreak.ratings.results_frame import folded
+from evenbreak.tournaments.brackets.bracket import some_of
+from evenbreak.tournaments.evening.chip_night import chips_of
+from evenbreak.tournaments.evening.events import Entrant, race_words, score_words
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.plan import refuse_bye
+from evenbreak.words import listed, say
+
+ENDINGS = ("time", "conceded")
+"""Why a race was not played out."""
+
+_NUMBERED = re.compile(r"(?:#|match|rack|partie)?\s*(\d+)")
+"""A match by its number, in small letters and as people write it."""
+
+
+def known_match(state: Evening, text: str, *, over: bool = False) -> str:
+    """Return the name of a match, given by its number or its name.
+
+    '12', '#12' and 'match 12' are the same. In a chip tournament a bare number is that of a table:
+    of the rack on it, or of the last one that is over.
+    """
+    wanted = " ".join(text.split()).casefold()
+    names = {name.casefold(): name for name in state.bracket.by_name}
+    chips = state.plan.form == "chips"
+    if chips:
+        racks = state.chip_night.racks.values()
+        names |= {str(r.table): r.name for r in racks if (r.name in state.counted) == over}
+    if wanted not in names and (number := _NUMBERED.fullmatch(wanted)):
+        called = {state.number_of(name): name for name in state.bracket.by_name}
+        if not (chips and wanted.isdigit()) and int(number[1]) in called:
+            return called[int(number[1])]
+        wanted = f"r{number[1]}" if chips and not wanted.isdigit() else wanted
+    if wanted in names:
+        return names[wanted]
+    if chips and wanted.upper() in state.records:
+        raise InputError(
+            "{match} does not count: a player had no chips left",
+            match=say("rack {n}", n=int(wanted[1:])),
+        )
+    raise InputError(
+        "there is no match {text!r}; the matches are {matches}",
+        text=text,
+        matches=some_of([str(n) for n in sorted(map(state.number_of, state.bracket.by_name))]),
+    )
+
+
+def known_player(state: Evening, text: str) -> str:
+    """Return the name of a player, in whatever case and spacing it was written.
+
+    The beginning of a first or last name will do if nobody else's begins like that.
+    """
+    wanted = " ".join(text.split()).casefold()
+    names = {name.casefold(): name for name in state.entrants}
+    if wanted not in names:
+        begin = [name for name in names if wanted and f" {wanted}" in f" {name}"]
+        if len(begin) == 1:
+            return names[begin[0]]
+        if begin:
+            raise InputError(
+                "{text!r} could be {players}",
+                text=text,
+                players=some_of([names[name] for name in begin]),
+            )
+        near = get_close_matches(wanted, names, 1)
+        if near:
+            raise InputError(
+                "{player!r} is not in this tournament; did you mean {near}?",
+                player=text,
+                near=names[near[0]],
+            )
+        raise InputError("{player!r} is not in this tournament", player=text)
+    return names[wanted]
+
+
+def check_entrant(state: Evening, entrant: Entrant, besides: str = "") -> None:
+    """Refuse an entrant without a name or rating of their own."""
+    refuse_bye(entrant.name)
+    if not math.isfinite(entrant.rating):
+        raise InputError(
+            "the rating of {player} must be a finite number; it is {rating}",
+            player=entrant.name,
+            rating=entrant.rating,
+        )
+    names = {folded(name): name for name in state.entrants if name != besides}
+    if folded(entrant.name) in names:
+        raise InputError("{player} has already entered", player=names[folded(entrant.name)])
+    if state.plan.form == "chips":
+        chips_of(state.plan, entrant)  # refuses a rating below the chart
+
+
+def entered(state: Evening, name: str) -> str:
+    """Return a name that is given in full: somebody else's that begins like it never counts."""
+    if name not in state.entrants:
+        raise InputError("{player!r} is not in this tournament", player=name)
+    return name
+
+
+def games_in(
+    state: Evening, name: str, pair: tuple[str, str], score: tuple[int, int] | str
+) -> tuple[int, int]:
+    """Return the score of a result; in a chip tournament it may be the winner's name."""
+    if not isinstance(score, str):
+        return score
+    if state.plan.form != "chips":
+        raise InputError(
+            "{score!r} is not a score; write the games of each player, such as 7:5", score=score
+        )
+    winner = known_player(state, score)
+    refuse_stranger(winner, name, pair)
+    return (1, 0) if winner == pair[0] else (0, 1)
+
+
+def refuse_stranger(player: str, match: str, pair: tuple[str, str]) -> None:
+    """Refuse a player who is not in a match."""
+    if player not in pair:
+        names = {"player": player, "match": match, "a": pair[0], "b": pair[1]}
+        raise InputError("{player} is not in {match}: it is {a} against {b}", **names)
+
+
+def undecided(state: Evening, match: str) -> str:
+    """Return the name of a match that can be played now, or refuse it."""
+    name = known_match(state, match)
+    if (before := state.counted.get(name)) is not None:
+        raise InputError(
+            "{match} already has a result: {result}", match=name, result=score_words(before)
+        )
+    refuse_waiting(state, name)
+    return name
+
+
+def refuse_waiting(state: Evening, name: str) -> None:
+    """Refuse a match that cannot be played now."""
+    if name in state.standing.to_play:
+        return
+    if name in state.standing.winners:
+        raise InputError("{match} is not needed", match=name)
+    slots = zip(state.bracket.match(name).slots, state.standing.seats[name], strict=True)
+    waits = [slot.match for slot, seat in slots if seat is None and not isinstance(slot, int)]
+    raise InputError(
+        "{match} is not ready: it is waiting for {waits}",
+        match=name,
+        waits=listed(list(dict.fromkeys(waits))),
+    )
+
+
+def winner_of(
+    state: Evening,
+    name: str,
+    pair: tuple[str, str],
+    score: tuple[int, int],
+    *,
+    ended: str = "",
+    stated: str = "",
+) -> str:
+    """Return the winner; refuse a score that does not end the race, unless it was cut short.
+
+    By time whoever needs fewer games wins; the winner of a tie, and of a match that was conceded,
+    must be stated.
+    """
+    one, other = score
+    m, n = state.needed(name, pair)
+    if stated:
+        refuse_stranger(stated, name, pair)
+    if ended and one < m and other < n:
+        if ended not in ENDINGS or state.plan.form == "chips":
+            raise InputError("a rack is played out; enter who won it")
+        if stated:
+            return stated
+        if ended == "time" and m - one != n - other:
+            return pair[m - one > n - other]
+        raise InputError(
+            "say who won {match}, {player_a} or {player_b}",
+            match=state.match_words(name),
+            player_a=pair[0],
+            player_b=pair[1],
+        )
+    winner = pair[0] if one == m and other < n else pair[1] if other == n and one < m else ""
+    if winner and stated in ("", winner):
+        return winner
+    raise InputError(
+        "{a}-{b} can't be the final score of {match}, {player_a} against {player_b}: it's a {race}",
+        a=one,
+        b=other,
+        match=state.match_words(name),
+        player_a=pair[0],
+        player_b=pair[1],
+        race=race_words((m, n)),
+    )

@@ -1,0 +1,110 @@
+"""What has happened in the matches of an evening: results, calls, scores, what they wait for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import NamedTuple, TypeAlias
+
+from evenbreak.tournaments.evening.events import (
+    Called,
+    CalledBack,
+    Event,
+    LaterDraw,
+    Ranked,
+    Result,
+    Scored,
+    Substituted,
+    Swapped,
+    Waits,
+)
+
+Pairing: TypeAlias = tuple[str, frozenset[str]]
+"""A match and its players: a correction may send others into it, and them back."""
+
+
+class Played(NamedTuple):
+    """A result, and when it came in."""
+
+    result: Result
+    at: str
+
+
+class OnTable(NamedTuple):
+    """A match that has been called, and when."""
+
+    call: Called
+    at: str
+
+
+class LiveScore(NamedTuple):
+    """The last score of a match in play, and when it came in."""
+
+    what: Scored
+    at: str
+
+
+class Matches:
+    """What has happened in the matches so far."""
+
+    def __init__(self) -> None:
+        self.records: dict[str, list[Played]] = {}
+        self.calls: dict[Pairing, OnTable] = {}
+        self.scores: dict[Pairing, LiveScore] = {}
+        self.waits: dict[Pairing, Waits] = {}
+        self.ties: dict[str, Ranked] = {}
+        self.later: dict[str, tuple[str | None, ...]] = {}
+
+    @property
+    def begun(self) -> set[str]:
+        """The matches that have been called, scored or played."""
+        return {*self.records, *(name for name, _ in (*self.calls, *self.scores))}
+
+    def take(self, event: Event, *, in_pairs: bool) -> None:
+        """Let something happen; `in_pairs`: in a round of a Swiss."""
+        match event.what:
+            case Result() as result:
+                self.records.setdefault(result.match, []).append(Played(result, event.at))
+            case Called() | CalledBack() | Waits() as call:
+                self.call(call, event.at)
+            case Scored() as scored:
+                pairing = scored.match, frozenset(scored.players)
+                self.scores[pairing] = LiveScore(scored, event.at)
+            case Ranked() as tie:
+                self.ties[tie.group] = tie
+            case LaterDraw(stage=stage, order=seats):
+                self.later[stage] = seats
+            case Swapped(one=one, other=other) if in_pairs:
+                self.trade({one: other, other: one})
+            case Substituted(name=name, entrant=now):
+                self.trade({name: now.name})
+
+    def call(self, call: Called | CalledBack | Waits, at: str) -> None:
+        """Let a match come to a table, leave it, or wait."""
+        pairing = call.match, frozenset(call.players)
+        if isinstance(call, Waits) and not call:
+            self.waits.pop(pairing, None)
+            return
+        earlier = self.calls.pop(pairing, None)
+        if isinstance(call, Waits):
+            self.waits[pairing] = call
+        elif isinstance(call, Called):  # anew, so that calls are in the order of time
+            self.waits.pop(pairing, None)
+            moved = earlier is not None and call.match not in self.records
+            self.calls[pairing] = OnTable(call, earlier.at if earlier and moved else at)
+
+    def close(self, tables: int) -> None:
+        """Take matches off tables that there are no more."""
+        self.calls = {key: one for key, one in self.calls.items() if one.call.table <= tables}
+
+    def trade(self, names: Mapping[str, str]) -> None:
+        """Let players stand where others stood, in the last round and in what is called."""
+        if self.later:
+            last = next(reversed(self.later))
+            self.later[last] = tuple(names.get(str(name), name) for name in self.later[last])
+        calls, self.calls = self.calls, {}
+        for (match, _), one in calls.items():
+            first, second = (names.get(name, name) for name in one.call.players)
+            pairing = match, frozenset((first, second))
+            self.calls[pairing] = one._replace(call=replace(one.call, players=(first, second)))
+        self.waits = {key: one for key, one in self.waits.items() if not key[1] & names.keys()}

@@ -1,0 +1,151 @@
+"""Who is in an evening: entered, here, late, in place of another, or gone home."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments.evening.events import (
+    Called,
+    CalledBack,
+    CheckedIn,
+    Declined,
+    Drawn,
+    Dropped,
+    Edited,
+    Entrant,
+    Late,
+    Ranked,
+    Registered,
+    Result,
+    Scored,
+    Substituted,
+    Swapped,
+    Waits,
+    What,
+)
+
+DrawnUp: TypeAlias = tuple[tuple[str, ...], tuple[int | None, ...] | None]
+
+
+class People:
+    """Who is in, in which order, who has come and paid, and who would like to play."""
+
+    def __init__(self, entrants: Sequence[Entrant]) -> None:
+        self.entrants = {one.name: one for one in entrants}
+        self.order: list[str] = []
+        self.lines: list[int | None] | None = None
+        self.dropped: list[str] = []
+        self.arrived: set[str] = set()
+        self.paid: set[str] = set()
+        self.registered: dict[str, float | None] = {}
+
+    @property
+    def drawn_up(self) -> DrawnUp:
+        """The players in seed order, and the player on each first-round line."""
+        return tuple(self.order), None if self.lines is None else tuple(self.lines)
+
+    def take(self, what: What, *, in_pairs: bool = False) -> None:
+        """Let something happen; `in_pairs`: in a round of a Swiss, whose pairs are no seeds.
+
+        Raises
+        ------
+        InputError
+            if a player is in it who has not entered, as only a damaged file holds it.
+        """
+        for name in _names_in(what):
+            if name not in self.entrants:
+                raise InputError("{player} has not entered", player=name)
+        match what:
+            case Drawn():
+                self.draw(what)
+            case Late(entrant=late):
+                self.let_in(late, what.line)
+            case Edited(name=name, entrant=now) | Substituted(name=name, entrant=now):
+                self.put(name, now)
+                self.tick(name, to=now.name if isinstance(what, Edited) else "")
+            case Swapped(one=one, other=other) if not in_pairs:
+                trade = {one: other, other: one}
+                self.order = [trade.get(name, name) for name in self.order]
+            case CheckedIn():
+                self.check_in(what)
+            case Registered(name=name, rating=rating):
+                self.registered[name] = rating
+            case Declined(name=name):
+                self.registered.pop(name, None)
+            case Dropped(name=name):
+                self.drop(name)
+
+    def draw(self, draw: Drawn) -> None:
+        """Draw players; those who are left out may be let in late."""
+        if len({*draw.order}) < len(draw.order):
+            raise InputError("a player is in the draw twice")
+        self.order = list(draw.order)
+        self.lines = None if draw.lines is None else list(draw.lines)
+        absent = [one for name, one in self.entrants.items() if name not in self.order]
+        self.registered |= {one.name: None if one.provisional else one.rating for one in absent}
+        for one in absent:
+            del self.entrants[one.name]
+
+    def let_in(self, late: Entrant, line: int | None) -> None:
+        """Let a player in: after the draw at the end, or on the line of a bye."""
+        if late.name in self.entrants:
+            raise InputError("{player} has already entered", player=late.name)
+        self.registered.pop(late.name, None)
+        self.entrants[late.name] = late
+        if self.order:
+            if line is not None and self.lines is not None:
+                self.lines[line] = len(self.order)
+            self.order.append(late.name)
+
+    def put(self, name: str, now: Entrant) -> None:
+        """Put an entrant in place of another."""
+        if now.name != name and now.name in self.entrants:
+            raise InputError("{player} has already entered", player=now.name)
+        self.registered.pop(now.name, None)
+        self.entrants = dict(
+            (now.name, now) if n == name else (n, one) for n, one in self.entrants.items()
+        )
+        self.order = [now.name if n == name else n for n in self.order]
+
+    def check_in(self, entry: CheckedIn) -> None:
+        """Let a player have come, or paid, or not."""
+        for who, is_in in ((self.arrived, entry.arrived), (self.paid, entry.paid)):
+            if is_in is not None:
+                (who.add if is_in else who.discard)(entry.name)
+
+    def drop(self, name: str) -> None:
+        """Let a player go home."""
+        if self.order:
+            self.dropped.append(name)
+        else:
+            del self.entrants[name]
+            self.tick(name)
+
+    def tick(self, name: str, to: str = "") -> None:
+        """Let it be forgotten that a player has come and paid; or be so of another name."""
+        for who in (self.arrived, self.paid):
+            if name in who:
+                who.remove(name)
+                who |= {to} - {""}
+
+
+def _names_in(what: What) -> tuple[str, ...]:
+    """Return the players in an entry who must have entered before it."""
+    match what:
+        case Called(players=names) | CalledBack(players=names) | Scored(players=names):
+            return names
+        case Result(players=names, winner=winner):
+            if winner not in names:
+                raise InputError("{player} won a match they are not in", player=winner)
+            return names
+        case Waits(players=names) | Ranked(order=names) | Drawn(order=names):
+            return names
+        case Swapped(one=one, other=other):
+            return one, other
+        case Dropped(name=name) | Edited(name=name) | CheckedIn(name=name):
+            return (name,)
+        case Substituted(name=name):
+            return (name,)
+    return ()

@@ -1,0 +1,90 @@
+"""Moves about who plays: check-in, other names, substitutes, places traded in the draw."""
+
+from __future__ import annotations
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments.evening.events import (
+    CheckedIn,
+    Declined,
+    Entrant,
+    Late,
+    Registered,
+    Renamed,
+    Substituted,
+    Swapped,
+)
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.known import check_entrant, entered
+from evenbreak.tournaments.evening.moves import late
+
+
+def rename(state: Evening, player: str, to: str) -> Renamed:
+    """Give a player, by their full name, another name, at any time."""
+    before = state.entrants[entered(state, player)]
+    if to == player:
+        raise InputError("{player} already has that name; enter another", player=player)
+    check_entrant(state, Entrant(to, before.rating), besides=player)
+    return Renamed(player, to)
+
+
+def substitute(state: Evening, player: str, entrant: Entrant) -> Substituted:
+    """Let somebody take the place of a player, by their full name, who has not played yet."""
+    name = entered(state, player)
+    check_entrant(state, entrant)
+    _refuse_begun(state, name)
+    return Substituted(name, entrant)
+
+
+def swap(state: Evening, one: str, other: str) -> Swapped:
+    """Let two players, by their full names, trade places in the draw."""
+    if not state.drawn:
+        raise InputError("there is no draw yet in which players could trade places")
+    for name in (one, other):
+        _refuse_begun(state, entered(state, name))
+    if one == other:
+        raise InputError("name two players who are to trade places")
+    return Swapped(one, other)
+
+
+def _refuse_begun(state: Evening, player: str) -> None:
+    """Refuse what can only be done before a player's first match."""
+    if not state.drawn:
+        return
+    for name, result in state.counted.items():
+        if player in result.players and name in state.records:
+            raise InputError("{player} has already played", player=player)
+
+
+def check_in(
+    state: Evening, player: str, *, arrived: bool | None = None, paid: bool | None = None
+) -> CheckedIn:
+    """Note whether a player, by their full name, is here and has paid."""
+    name = entered(state, player)
+    if arrived is None and paid is None:
+        raise InputError("say whether {player} is here, or has paid", player=name)
+    return CheckedIn(name, arrived, paid)
+
+
+def register(state: Evening, name: str, rating: float | None = None) -> Registered:
+    """Let somebody ask to play."""
+    check_entrant(state, Entrant(name, state.plan.starter if rating is None else rating))
+    if name in state.registered:
+        raise InputError("{player} is already on the list", player=name)
+    return Registered(name, rating)
+
+
+def accept(state: Evening, name: str) -> Late:
+    """Let in somebody who has asked to play, or was left out of the draw."""
+    rating = state.registered[_registered(state, name)]
+    return late(state, state.plan.newcomer(name) if rating is None else Entrant(name, rating))
+
+
+def decline(state: Evening, name: str) -> Declined:
+    """Take somebody off the list of those who would like to play."""
+    return Declined(_registered(state, name))
+
+
+def _registered(state: Evening, name: str) -> str:
+    if name not in state.registered:
+        raise InputError("{player} is not on the list of those who would like to play", player=name)
+    return name
