@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar
 
 from evenbreak.fields.kinds import File, Flag, Named, Whole
 from evenbreak.fields.question import Field, Question, Says
-from evenbreak.files.league.values import LINE
+from evenbreak.files.league.values import COLOR, LINE
 from evenbreak.questions.common import ChartName, HandicappedRace, OutFolder, ScaleOf, folder
 from evenbreak.tournaments.evening.format import Discipline, Tables
 
@@ -80,7 +80,7 @@ class Serve(Question):
     examples = """\
   evenbreak serve
   evenbreak serve saturday.db --lan
-  evenbreak serve --demo
+  evenbreak serve --demo --color "#7a1f5c"
 """
     file: Annotated[str | None, Field(File("FILE.db"), metavar="[FILE.db]", argument=True)] = None
     demo: Annotated[
@@ -102,6 +102,15 @@ class Serve(Question):
     port: Annotated[int, Field(Whole(1024, 65535), "Where the page is found on this computer.")] = (
         8000
     )
+    color: Annotated[
+        str | None,
+        Field(
+            COLOR,
+            "The color of the house for buttons and chances, such as #7a1f5c.",
+            usual="blue",
+            more="Where it could not be read, it is made darker by day and lighter by night.",
+        ),
+    ] = None
 
     def check(self) -> None:
         """Refuse a file for the demo, which makes its own."""

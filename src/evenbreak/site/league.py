@@ -79,7 +79,7 @@ class PublishedLeague:
     names
         what the players are called, and how that was chosen.
     accent, logo
-        the color, and the name and the content of the logo, if there is one.
+        the color if it is not the usual one, and the name and the content of the logo.
     rules, head_start, count_games
         those of the standings, the points that sides have besides their matches, and whether a
         team's score is the games of its players.
@@ -90,7 +90,7 @@ class PublishedLeague:
     ratings: Ratings
     races: LeagueRaces
     names: PublicNames
-    accent: Accent
+    accent: Accent | None
     logo: tuple[str, bytes] | None = None
     rules: TableRules = field(default_factory=TableRules)
     head_start: Mapping[str, float] = field(default_factory=dict)

@@ -1,11 +1,14 @@
-"""A league's color and logo: what is readable, and what may be handed out.
+"""The colors of pages, a venue's own among them, and its logo: what is readable.
 
-The contrast of two colors is that of WCAG 2.2: (L1 + .05) / (L2 + .05), with the relative
-luminances L, the larger one above. Text needs 4.5.
+The colors are those of `common.css`, which all pages share. The contrast of two is that of WCAG
+2.2: (L1 + .05) / (L2 + .05), with the relative luminances L, the larger one above. Text needs 4.5.
 """
 
 from __future__ import annotations
 
+import re
+from functools import cache
+from importlib.resources import files
 from typing import NamedTuple
 
 from evenbreak.errors import InputError
@@ -14,8 +17,8 @@ from evenbreak.files.league.values import COLOR
 CONTRAST = 4.5
 """The contrast that text needs."""
 
-LIGHT, DARK = ("#ffffff", "#f1f3f5"), ("#12161b", "#090c10", "#1a2027")
-"""What the color is read on: cards and pages, by day and by night."""
+BEHIND = ("paper", "card", "sunk", "live-tint", "call-tint", "stop-tint")
+"""What text is read on; the accent's own tint is made for it."""
 
 MOST_LOGO_BYTES = 200_000
 """The largest logo; a phone loads it with the first page."""
@@ -36,12 +39,36 @@ class Accent(NamedTuple):
     on_dark: str
     changed: bool
 
+    def style(self) -> str:
+        """Return the style that gives pages this color."""
+        day, night = tokens(dark=False)["card"], tokens(dark=True)["card"]
+        return (
+            f":root {{ --accent: {self.light}; --accent-on: {self.on_light}; "
+            f"--accent-tint: {_mixed(day, self.light, 12)}; }}\n@media screen {{\n"
+            "@media (prefers-color-scheme: dark) { :root:not([data-theme=light]) "
+            f"{(dark := self._dark(night))} }}\n[data-theme=dark] {dark}\n}}\n"
+        )
 
-USUAL = "#00479e"
+    def _dark(self, card: str) -> str:
+        tint = _mixed(card, self.dark, 18)
+        return f"{{ --accent: {self.dark}; --accent-on: {self.on_dark}; --accent-tint: {tint}; }}"
+
+
+@cache
+def tokens(*, dark: bool) -> dict[str, str]:
+    """Return the colors that pages are made of, by day or by night, as #rrggbb.
+
+    >>> tokens(dark=False)["card"], tokens(dark=True)["card"]
+    ('#ffffff', '#14181e')
+    """
+    style = files("evenbreak.site").joinpath("templates", "common.css").read_text("utf-8")
+    blocks = style.split("}")[:2]  # the first rule is that of the day, the second of the night
+    found = re.findall(r"--([\w-]+): #(\w{3}|\w{6});", blocks[dark])
+    return {name: "#" + (code if len(code) == 6 else 2 * code) for name, code in found}
 
 
 def accent(color: str) -> Accent:
-    """Return a color that can be read on the site's pages: darker by day, lighter by night.
+    """Return a color that can be read on all pages: darker by day, lighter by night.
 
     Raises
     ------
@@ -52,7 +79,10 @@ def accent(color: str) -> Accent:
     ('#1b6e53', '#787000', True)
     """
     asked = COLOR.read(color)
-    light, dark = _toward(asked, "#000000", LIGHT), _toward(asked, "#ffffff", DARK)
+    light, dark = (
+        _toward(asked, end, tuple(tokens(dark=dark)[name] for name in BEHIND))
+        for end, dark in (("#000000", False), ("#ffffff", True))
+    )
     return Accent(light, dark, _on(light), _on(dark), light != asked)
 
 
@@ -78,13 +108,16 @@ def _parts(color: str) -> list[float]:
 def _toward(color: str, end: str, behind: tuple[str, ...]) -> str:
     """Return the color, mixed with as little of the end as makes it readable on these."""
     for step in range(101):
-        mixed = "#" + "".join(
-            f"{round(255 * (a + (b - a) * step / 100)):02x}"
-            for a, b in zip(_parts(color), _parts(end), strict=True)
-        )
+        mixed = _mixed(color, end, step)
         if all(contrast(mixed, one) >= CONTRAST for one in behind):
             return mixed
     return end
+
+
+def _mixed(color: str, other: str, percent: int) -> str:
+    """Return a color with some percent of another in it."""
+    parts = zip(_parts(color), _parts(other), strict=True)
+    return "#" + "".join(f"{round(255 * (a + (b - a) * percent / 100)):02x}" for a, b in parts)
 
 
 def _on(color: str) -> str:

@@ -26,6 +26,7 @@ from evenbreak.sheets.html_page import environment, own_file, policy
 from evenbreak.site import pictures
 from evenbreak.site.bundle import bundle
 from evenbreak.site.league import RECENT, PublishedLeague
+from evenbreak.site.look import Accent
 from evenbreak.site.pictures import short_day
 from evenbreak.site.tournaments import Tournament
 from evenbreak.words import ordinal
@@ -96,7 +97,7 @@ class _Pages:
 
     def _page(self, template: str, title: str, *, here: str = "", **values: Any) -> bytes:
         league = self.league
-        style = _style(league.accent.light, *league.accent[1:4], bracket="panels" in values)
+        style = _style(league.accent, bracket="panels" in values)
         script = values.get("script", "")
         filled = environment(ROOM)
         filled.filters.update(self._filters())
@@ -473,12 +474,8 @@ def _arrow(change: Any, decimals: int) -> str:
 
 
 @cache
-def _style(light: str, dark: str, on_light: str, on_dark: str, *, bracket: bool) -> str:
+def _style(accent: Accent | None, *, bracket: bool) -> str:
     """Return the style of a page: what all pages of evenbreak share, the site's, and the color."""
-    color = (
-        f":root {{ --accent: {light}; --accent-on: {on_light}; }}\n"
-        "@media screen and (prefers-color-scheme: dark) { "
-        f":root:not([data-theme=light]) {{ --accent: {dark}; --accent-on: {on_dark}; }} }}\n"
-    )
     drawn = own_file("bracket.css") if bracket else ""
+    color = accent.style() if accent else ""
     return own_file("common.css", ROOM) + drawn + own_file("site.css", ROOM) + color

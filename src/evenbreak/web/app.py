@@ -28,7 +28,7 @@ from evenbreak.errors import EvenbreakError
 from evenbreak.files.store.tournament import TakenBeforeError
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import Guard, RefusalError
-from evenbreak.web.page import begun_at, done, refused, script_hash, style
+from evenbreak.web.page import begun_at, done, refused, script_hash, site_of, style
 from evenbreak.web.pages import (
     bracket,
     desk,
@@ -115,9 +115,10 @@ def cookie_name(site: Site) -> str:
     return f"evenbreak-{hashlib.sha256(site.cookie_key.encode()).hexdigest()[:8]}"
 
 
-async def _style(_: Request) -> Response:
-    kept = {"cache-control": "max-age=3600"}
-    return PlainTextResponse(style(), media_type="text/css", headers=kept)
+async def _style(request: Request) -> Response:
+    kept = {"cache-control": "max-age=31536000, immutable"}  # another style has another address
+    text = style(site_of(request).color)
+    return PlainTextResponse(text, media_type="text/css", headers=kept)
 
 
 async def _refused(request: Request, error: Exception) -> Response:

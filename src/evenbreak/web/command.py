@@ -45,7 +45,7 @@ def serve(asked: Serve, league: LeagueFile | None) -> None:
     if asked.lan:
         hosts |= {socket.gethostname().lower(), f"{socket.gethostname().lower()}.local"}
     address = f"http://{own}:{asked.port}"
-    site = Site(path, frozenset(hosts), address, league)
+    site = Site(path, frozenset(hosts), address, league, color=asked.color)
     if why := _taken(host, asked.port):
         asked.refuse(
             "{port} {n}: {why}; give another one, such as {free}",

@@ -32,6 +32,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.wording import share, share_at_a_glance
 from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.files.catalogues import face_in, language_of, languages
+from evenbreak.site.look import accent
 from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site
@@ -97,12 +98,19 @@ def own_file(name: str) -> str:
 
 
 @cache
-def style() -> str:
+def style(color: str | None = None) -> str:
     """Return the style of all pages: what published sites have too, parts, and each screen."""
     common = files("evenbreak.site").joinpath("templates", "common.css")
     own = files("evenbreak.web").joinpath("templates", "css")
     sheets = sorted((one for one in own.iterdir() if one.name.endswith(".css")), key=_style_order)
-    return "".join(one.read_text(encoding="utf-8") for one in (common, *sheets))
+    text = "".join(one.read_text(encoding="utf-8") for one in (common, *sheets))
+    return text + (accent(color).style() if color else "")
+
+
+@cache
+def style_address(color: str | None) -> str:
+    """Return where the style is: elsewhere after each change, so that phones may keep it."""
+    return f"/evenbreak.css?{hashlib.sha256(style(color).encode()).hexdigest()[:8]}"
 
 
 def _style_order(sheet: Traversable) -> tuple[bool, bool, str]:
@@ -191,6 +199,7 @@ def page(
             language=code,
             languages=languages(),
             here=request.url.path,
+            style=style_address(site_of(request).color),
             opens=partial(_can_be_opened, request),
             return_to=_return_to(request),
             site=site_of(request),

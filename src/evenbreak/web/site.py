@@ -43,6 +43,8 @@ class Site:
         where phones find it, such as http://192.168.1.20:8000; for QR codes.
     rules
         the league's file, from which forms begin; None if there is none.
+    color
+        of the house, such as #7a1f5c; None: the usual one.
     clock
         returns what time it is, such as 2025-03-01T19:30:00.
     tries, all_tries, taps
@@ -53,6 +55,7 @@ class Site:
     hosts: frozenset[str] = frozenset({"127.0.0.1", "localhost", "::1"})
     address: str = "http://127.0.0.1:8000"
     rules: LeagueFile | None = None
+    color: str | None = None
     clock: Callable[[], str] = now
     tries: Tries = field(default_factory=lambda: Tries(5))
     all_tries: Tries = field(default_factory=lambda: Tries(30))

@@ -41,7 +41,7 @@ def command(asked: Publish) -> Answer:
     from evenbreak.files.store.folder import check_folder
     from evenbreak.ratings.usual import usual_ratings
     from evenbreak.site.league import PublishedLeague
-    from evenbreak.site.look import USUAL, accent
+    from evenbreak.site.look import accent
     from evenbreak.site.names import PublicNames, by_appearance
     from evenbreak.site.pages import site_files
 
@@ -78,7 +78,7 @@ def command(asked: Publish) -> Answer:
         ratings,
         _races(asked, chart, ratings, results, names, listed),
         names,
-        accent(asked.color or USUAL),
+        accent(asked.color) if asked.color else None,
         logo=_logo(asked.logo),
         rules=replace(asked.table_points, ties=asked.ties),
         head_start=head_start,
@@ -147,7 +147,7 @@ def _answer(
             "Every player is named in full. Ask them first: the page About this site says why, and "
             "--names initials or --names hidden shows less."
         )
-    if league.accent.changed:
+    if league.accent and league.accent.changed:
         said.append(
             f"The color {asked.color} is too light for text on white, so the site uses "
             f"{league.accent.light} on light screens."
