@@ -22,6 +22,7 @@ from evenbreak.site.look import (
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ROOT / "src" / "evenbreak"
+WEB = SOURCES / "web" / "templates"
 STYLE = (SOURCES / "site" / "templates" / "common.css").read_text("utf-8")
 
 TEXT = ("ink", "ink-2", "ink-3", "live", "call", "stop", "accent")
@@ -43,7 +44,8 @@ def test_every_text_can_be_read_and_every_edge_seen(*, dark: bool) -> None:
 
 
 def test_the_night_that_is_chosen_is_the_night_of_the_system() -> None:
-    system, chosen = re.findall(r"\{\s*(?:color-scheme: dark;\s*)?(--paper: #07.*?)\}", STYLE, re.S)
+    both = STYLE + (WEB / "css" / "parts.css").read_text("utf-8")
+    system, chosen = re.findall(r"\{\s*(?:color-scheme: dark;\s*)?(--paper: #07.*?)\}", both, re.S)
     assert system.split() == chosen.split()
 
 
@@ -146,9 +148,6 @@ def test_a_logo_is_known_by_its_content() -> None:
             logo_name(wrong, "club.png")
     with pytest.raises(InputError, match="save it smaller"):
         logo_name(b"\x89PNG\r\n\x1a\n" + bytes(MOST_LOGO_BYTES), "club.png")
-
-
-WEB = SOURCES / "web" / "templates"
 
 
 def test_every_variable_of_a_style_is_declared() -> None:
