@@ -35,6 +35,7 @@ LAYERS: tuple[tuple[str, ...], ...] = tuple(
         "handicaps.ladders",
         "handicaps",
         "league",
+        "evenings",
         "teams tournaments",
         "files",
         "questions",

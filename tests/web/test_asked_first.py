@@ -25,7 +25,7 @@ def tap(hall: Hall, phone: Phone, match: str, a: int, b: int) -> Shown:
 def busy(hall: Hall) -> Hall:
     """W2.2 is on table 4 at 2:0, as its players' phones have it; L1.2 on table 1."""
     for name in ("W1.1", "W1.2", "W1.3", "W1.4"):
-        hall.director.send("/desk/result", match=name, a=3, b=1, how="new")
+        hall.director.send("/desk/result", match=name, a=3, b=1)
     hall.director.send("/desk/call", match="L1.2", table=1)
     hall.director.send("/desk/call", match="W2.2", table=4)
     assert tap(hall, hall.guest, "W2.2", 2, 0).status == 200
@@ -40,36 +40,36 @@ def answered(hall: Hall, path: str, shown: Shown, **more: Any) -> Shown:
     return hall.director.send_raw(path, {**fields, "sure": "yes", **more})
 
 
-WRONG = {"match": "W1.3", "a": 1, "b": 3, "how": "correct"}
+WRONG = {"match": "W1.3", "a": 1, "b": 3}
 
 
 @pytest.mark.slow
 def test_a_correction_names_what_it_takes_off_the_tables_and_gives_it_back(busy: Hall) -> None:
     before = busy.state
     pair = " against ".join(before.pair("W2.2"))
-    shown = busy.director.send("/desk/result", **WRONG)
+    shown = busy.director.send("/desk/correct", **WRONG)
     assert f"W2.2 ({pair}) would leave table 4 at 2:0." in shown.words
     assert "Nothing that was played is lost" in shown.words
     assert "would leave table 1." in shown.words
     assert busy.state.on_tables == before.on_tables
-    assert answered(busy, "/desk/result", shown).status == 200
+    assert answered(busy, "/desk/correct", shown).status == 200
     assert not busy.state.on_tables
     right = {**WRONG, "a": 3, "b": 1}
-    assert busy.director.send("/desk/result", **right).status == 200
+    assert busy.director.send("/desk/correct", **right).status == 200
     assert (busy.state.on_tables, busy.state.live) == (before.on_tables, before.live)
 
 
 @pytest.mark.slow
 def test_the_answer_is_for_what_was_named(busy: Hall) -> None:
-    asked = busy.director.send("/desk/result", **WRONG)
+    asked = busy.director.send("/desk/correct", **WRONG)
     assert tap(busy, busy.guest, "W2.2", 2, 1).status == 200  # the same match, one game further
-    busy.director.send("/desk/back", match="L1.2")
-    again = answered(busy, "/desk/result", asked)
+    busy.director.send("/desk/uncall", match="L1.2")
+    again = answered(busy, "/desk/correct", asked)
     assert "would leave table 4 at 2:1." in again.words
     assert busy.state.counted["W1.3"].score == (3, 1)
     entries = len(read_events(busy.site.path))
     for _ in range(2):
-        assert answered(busy, "/desk/result", again).status == 200
+        assert answered(busy, "/desk/correct", again).status == 200
     assert len(read_events(busy.site.path)) == entries + 1
 
 
@@ -101,7 +101,7 @@ def test_undo_names_the_directors_entry_and_taps_do_not_get_in_the_way(busy: Hal
         busy.director.send("/desk/call", match="W2.2", table=4)
         entry = len(read_events(busy.site.path))
     assert busy.state.live["W2.2"].what.score == (2, 1)
-    assert busy.director.send("/desk/undo", entry=entry - 2).status == 409
+    assert busy.director.send("/desk/undo", entry=entry - 2).status == 400
     history = busy.director.open("/desk/history").text
     assert history.count("<s>Call of W2.2 to table 4</s> (undone)") == TAPS
     assert history.count("undone: call of W2.2 to table 4") == TAPS
@@ -122,17 +122,17 @@ def test_what_was_entered_at_a_terminal_says_so(busy: Hall) -> None:
 @pytest.mark.slow
 def test_a_match_is_called_back_on_the_desk(busy: Hall) -> None:
     assert "Take it off the table" in busy.director.open("/desk").words
-    shown = busy.director.send("/desk/back", match="W2.2")
-    assert "W2.2 is off table 4." in shown.words
+    shown = busy.director.send("/desk/uncall", match="W2.2")
+    assert "Taken off table 4: " in shown.words
     assert busy.state.live["W2.2"].what.score == (2, 0)
-    assert busy.guest.send("/desk/back", match="L1.2").status == 403
+    assert busy.guest.send("/desk/uncall", match="L1.2").status == 403
 
 
 def test_a_correction_before_the_draw_keeps_the_seeds(hall: Hall) -> None:
     hall.director.send("/desk/undo", entry=2)
-    shown = hall.director.send("/desk/entrant", player="Player 1", name="Player One")
+    shown = hall.director.send("/desk/edit", player="Player 1", name="Player One")
     assert shown.status == 200
-    shown = hall.director.send("/desk/entrant", player="Player 2", name="", rating="655")
+    shown = hall.director.send("/desk/edit", player="Player 2", name="", rating="655")
     assert list(hall.state.entrants)[:3] == ["Player One", "Player 2", "Player 3"]
     assert hall.state.entrants["Player 2"].rating == 655.0
 
@@ -147,7 +147,7 @@ def test_a_phone_is_told_when_others_play_the_match_that_it_opened(busy: Hall) -
     for name, phone in phones.items():
         if name != "a guest":
             phone.send(f"{at}/me", me=busy.state.pair(match).index(name))
-    busy.director.send("/desk/result", **WRONG, sure="yes")
+    busy.director.send("/desk/correct", **WRONG, sure="yes")
     now = " and ".join(busy.state.pair(match))
     assert gone not in now
     for name, phone in phones.items():
@@ -158,5 +158,5 @@ def test_a_phone_is_told_when_others_play_the_match_that_it_opened(busy: Hall) -
     assert "Game for" in Phone(busy.site).open(at).words
     fresh = next(k for k, name in enumerate(busy.state.pair(match)) if name not in phones)
     assert "Game for" in phones["a guest"].send(f"{at}/me", me=fresh).words
-    busy.director.send("/desk/result", **{**WRONG, "a": 3, "b": 1})
+    busy.director.send("/desk/correct", **{**WRONG, "a": 3, "b": 1})
     assert "Game for" in phones[gone].open(at).words

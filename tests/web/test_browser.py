@@ -106,7 +106,7 @@ def test_a_bracket_of_groups_scrolls_in_its_own_frame(browser: Any, tmp_path: Pa
             director, [f"A Rather Long Name {k}" for k in range(9)], format="groups", losers_race=""
         )
         for name in read_tournament(site.path).standing.to_play[:3]:
-            director.send("/desk/result", match=name, a=3, b=1, how="new")
+            director.send("/desk/result", match=name, a=3, b=1)
         page = opened(browser, site)
         page.goto(f"{site.address}/bracket")
         assert page.evaluate("document.documentElement.scrollWidth") <= 390

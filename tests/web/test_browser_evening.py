@@ -87,9 +87,9 @@ class Director:
         raise AssertionError("no match is proposed for a free table")
 
     def enters(self, match: str, score: Score, *, how: str = "new") -> None:
-        inputs = f"input[name=match][value='{match}']", f"input[name=how][value={how}]"
-        form = self.page.locator("form").filter(has=self.page.locator(inputs[0]))
-        form = form.filter(has=self.page.locator(inputs[1]))
+        word = "result" if how == "new" else "correct"
+        match_field = self.page.locator(f"input[name=match][value='{match}']")
+        form = self.page.locator(f"form[action='/desk/{word}']").filter(has=match_field)
         if form.count() == 2:  # a race to 1: a button for each player
             form = form.nth(0 if score[0] else 1)
         else:
@@ -97,7 +97,6 @@ class Director:
         clicks(self.page, form.get_by_role("button"))
         if (sure := self.page.get_by_role("button", name="Yes, do it")).count():
             clicks(self.page, sure)
-        word = "result" if how == "new" else "correct"
         self.commands.append(f"{word} {match} {score[0]}:{score[1]}")
 
     @staticmethod

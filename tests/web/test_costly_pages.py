@@ -42,7 +42,7 @@ def test_guests_who_ask_for_paper_cost_one_drawing_a_state(hall: Hall, made: Cou
         assert set(guests.map(ask, range(24))) == {(200, "%PDF-")}
     assert dict(made) == {"bracket_pdf": 1, "score_cards_pdf": 1}
     before = hall.guest.open("/bracket.pdf").text
-    hall.director.send("/desk/result", match="W1.1", a=3, b=1, how="new")
+    hall.director.send("/desk/result", match="W1.1", a=3, b=1)
     assert hall.guest.open("/bracket.pdf").text != before
     assert made["bracket_pdf"] == 2
 

@@ -70,7 +70,7 @@ def test_every_form_of_every_page_carries_a_number(six: Hall) -> None:
     six.director.send("/desk/call", match=six.state.standing.to_play[0], table=1)
     six.director.send("/team/new", **TEAMS)
     first = six.state.standing.to_play[1]
-    six.director.send("/desk/result", match=first, a=3, b=0, how="new")
+    six.director.send("/desk/result", match=first, a=3, b=0)
     seen = set()
     for shown in pages_of(six, six.director):
         assert 'method="post"' in shown.text, shown.url
@@ -100,10 +100,10 @@ def test_the_routes_that_are_taken_twice_are_those_of_the_session(tmp_path: Path
 
 
 FORMS: list[tuple[str, dict[str, Any], int]] = [
-    ("/desk/late", {"name": "Late Larry", "rating": "500"}, 1),
+    ("/desk/late", {"player": "Late Larry", "rating": "500"}, 1),
     ("/desk/call", {"match": "W1.4", "table": 1}, 1),
-    ("/desk/result", {"match": "W1.4", "a": 3, "b": 1, "how": "new"}, 1),
-    ("/desk/result", {"match": "W1.4", "a": 1, "b": 3, "how": "correct", "sure": "yes"}, 1),
+    ("/desk/result", {"match": "W1.4", "a": 3, "b": 1}, 1),
+    ("/desk/correct", {"match": "W1.4", "a": 1, "b": 3, "sure": "yes"}, 1),
     ("/desk/change", {"tables": 3}, 1),
     ("/desk/undo", {}, 1),
     ("/desk/forfeit", {"player": "Cy", "sure": "yes"}, 1),
@@ -184,7 +184,7 @@ def test_a_form_without_its_number_is_refused(six: Hall) -> None:
 
 
 def test_a_page_of_an_earlier_tournament_changes_nothing_in_the_next(six: Hall) -> None:
-    six.director.send("/desk/result", match="W1.3", a=3, b=0, how="new")
+    six.director.send("/desk/result", match="W1.3", a=3, b=0)
     pages = [(shown.url, Forms(shown.text).found) for shown in pages_of(six, six.director)]
     stale = [(action, fields) for _, found in pages for action, fields in found]
     six.site.clock = lambda: "2031-01-01T20:00:00"

@@ -88,7 +88,7 @@ def begun(room: Room, names: list[str]) -> tuple[Browser, list[str]]:
     assert got.status == 400, got.words
     plain = "player,rating\nAaa,600\nBbb,590\n"
     assert director.send("/new", **{**NEW, "entrants": plain}).status == 303
-    taken = [n for n in names if director.send("/desk/late", name=n, rating="500").status == 303]
+    taken = [n for n in names if director.send("/desk/late", player=n, rating="500").status == 303]
     return director, ["Aaa", "Bbb", *map(clean_name, taken)]
 
 
@@ -117,7 +117,7 @@ def shown(director: Browser, luck: random.Random) -> Iterator[tuple[str, str]]:
     links = [f"/m/{director.room.site.match_token(name)}" for name in (first, *rest)]
     for page in (*PAGES, *links):
         yield page, director.open(page).text
-    director.send("/desk/result", match=first, a=3, b=1, how="new")
+    director.send("/desk/result", match=first, a=3, b=1)
     for page in (*PAGES, *links):
         got = director.open(page)
         assert got.status == 200, page

@@ -63,13 +63,13 @@ def test_a_killed_server_has_lost_nothing(tmp_path: Path, company: bool) -> None
             moment.start()
             while matches:
                 try:
-                    shown = phone.send("/desk/result", match=matches[0], a=5, b=2, how="new")
+                    shown = phone.send("/desk/result", match=matches[0], a=5, b=2)
                 except (OSError, http.client.HTTPException):
                     break
                 assert shown.status == 200
                 acknowledged.add(matches.pop(0))
                 if other is not None and matches:
-                    shown = other.send("/desk/result", match=matches[-1], a=2, b=5, how="new")
+                    shown = other.send("/desk/result", match=matches[-1], a=2, b=5)
                     assert shown.status == 200
                     acknowledged.add(matches.pop())
             moment.join()

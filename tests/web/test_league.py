@@ -212,14 +212,14 @@ def test_an_evening_is_added_to_the_league_once(hall: Hall) -> None:
     director, league = hall.director, hall.site.league
     assert director.send("/league/tonight").status == 409  # nothing has been played
     for k in range(1, 9):
-        director.send("/desk/result", match=f"W1.{k}", a=3, b=k % 3, how="new")
+        director.send("/desk/result", match=f"W1.{k}", a=3, b=k % 3)
     assert hall.guest.send("/league/tonight").status == 403
     shown = hall.guest.open("/results.csv")
     assert len(shown.text.splitlines()) == 9
     assert director.send("/league/tonight").status == 200
     worked_out(director)
     assert (len(league.sheet.file.results), len(league.sheet.ratings.players)) == (8, 16)
-    director.send("/desk/result", match="W1.1", a=2, b=3, how="correct")
+    director.send("/desk/correct", match="W1.1", a=2, b=3)
     director.send("/league/tonight")  # again: in place of what was added before
     worked_out(director)
     assert len(league.sheet.file.results) == 8

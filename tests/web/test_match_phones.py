@@ -49,7 +49,7 @@ def test_one_phone_cannot_confirm_itself(hall: Hall, *, private_tab: bool) -> No
     assert ("ask the director to confirm" in shown.words) is private_tab
     desk = hall.director.open("/desk").words
     assert ("One person may have entered both" in desk) is private_tab
-    assert hall.director.send("/desk/result", match="W1.1", a=3, b=0, how="new").status == 200
+    assert hall.director.send("/desk/result", match="W1.1", a=3, b=0).status == 200
 
 
 def test_a_side_belongs_to_the_first_phone_that_claims_it(hall: Hall) -> None:
@@ -85,7 +85,7 @@ def test_the_director_alone_releases_a_side(hall: Hall) -> None:
 
 def test_a_phone_that_waits_in_a_match_that_nobody_is_in_any_more_is_told_so(hall: Hall) -> None:
     for match in ("W1.1", "W1.2"):
-        hall.director.send("/desk/result", match=match, a=3, b=0, how="new")
+        hall.director.send("/desk/result", match=match, a=3, b=0)
     one = Player(hall, "127.0.0.2", "W2.1")
     assert hall.director.send("/desk/undo", entry=hall.state.numbers[-1]).status == 200
     for shown in (one.claims(0), one.sends(1, 0), hall.director.send(f"{one.to}/release", me=0)):

@@ -33,16 +33,16 @@ def test_nobody_is_renamed_on_a_german_page(tmp_path: Path) -> None:
             state = read_tournament(site.path)
             match = state.standing.to_play[0]
             first, second = state.pair(match)
-            said = send("/desk/result", match=match, a=3, b=1, how="new")
+            said = send("/desk/result", match=match, a=3, b=1)
             assert f"{first} schlägt {second} 3:1 in {match}." in said
-            assert f"{first} schlägt" in send("/desk/result", match=match, a=3, b=1, how="new")
+            assert f"{first} schlägt" in send("/desk/result", match=match, a=3, b=1)
             if match == "W1.1":
                 assert "Distanz im Finale (jetzt 3)" in director.open("/desk").words
                 ends = director.open("/desk/time").words
                 assert "Mit einem Tisch mehr" in ends
                 assert "100 %" in ends
                 assert not [one for one in ("Races", "With", "\\x") if one in ends]
-        assert "Tom and Jerry" in send("/desk/late", name="Tom and Jerry", rating=500)
+        assert "Tom and Jerry" in send("/desk/late", player="Tom and Jerry", rating=500)
         pages = ("/", "/screen", "/players", "/bracket", "/desk/history")
         heard.extend(director.open(page).words for page in pages)
         for words in heard:

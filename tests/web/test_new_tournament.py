@@ -173,14 +173,14 @@ def test_doubtful_ratings_are_said(tmp_path: Path) -> None:
 
 def test_another_tournament_takes_the_place_of_the_first(hall: Hall, tmp_path: Path) -> None:
     token = hall.site.match_token("W1.1")
-    hall.director.send("/desk/result", match="W1.1", a=3, b=1, how="new")
+    hall.director.send("/desk/result", match="W1.1", a=3, b=1)
     hall.guest.open("/")
     shown = hall.director.send("/new", **ASKED)
     assert shown.status == 400
     assert "already" in shown.words
     assert len(hall.state.entrants) == 16
     seen = again(hall.director)
-    hall.director.send("/desk/result", match="W1.2", a=3, b=1, how="new")
+    hall.director.send("/desk/result", match="W1.2", a=3, b=1)
     assert hall.director.send("/new", **ASKED | seen).status == 400  # somebody has played on
     hall.site.clock = lambda: "2031-03-01T19:30:00"
     assert hall.director.send("/new", **ASKED | again(hall.director)).status == 200
@@ -215,7 +215,7 @@ def test_the_desk_says_what_would_end_it_sooner(hall: Hall) -> None:
 
 
 def test_odds_are_those_of_the_moment_after_an_undo(hall: Hall) -> None:
-    hall.director.send("/desk/result", match="W1.1", a=3, b=1, how="new")
+    hall.director.send("/desk/result", match="W1.1", a=3, b=1)
     hall.director.send("/desk/undo", entry=hall.state.numbers[-1])
     for _ in range(200):
         words = hall.guest.open("/prizes", fee="20", payout="40/30/20/10").words
@@ -233,11 +233,11 @@ def test_a_late_player_is_read_like_one_of_the_list(hall: Hall) -> None:
     }
     for field, values in refused.items():
         for value in values:
-            shown = hall.director.send("/desk/late", **{"name": "Zoe", field: value})
+            shown = hall.director.send("/desk/late", **{"player": "Zoe", field: value})
             assert shown.status == 400, (value, shown.words)
     assert len(hall.state.events) == before
     hall.director.send("/desk/undo", entry=before)
-    shown = hall.director.send("/desk/late", name="Bo\u202e  Diaz", rating=9000)
+    shown = hall.director.send("/desk/late", player="Bo\u202e  Diaz", rating=9000)
     assert "Bo Diaz" in hall.state.entrants
     assert "from the median" in shown.words
 
@@ -270,8 +270,8 @@ def test_an_entry_is_corrected_before_the_draw(tmp_path: Path) -> None:
     with running(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         director.send("/new", **ASKED)
-        assert director.send("/desk/entrant", player="Bo", name="Bo Lee").status == 200
-        shown = director.send("/desk/entrant", player="Cy", rating="5000")
+        assert director.send("/desk/edit", player="Bo", name="Bo Lee").status == 200
+        shown = director.send("/desk/edit", player="Cy", rating="5000")
         assert "1 of 4 ratings (Cy: 5000) is more than 600 points" in shown.words
         found = read_tournament(site.path).entrants
         assert {name: one.rating for name, one in found.items()} == {
@@ -286,9 +286,9 @@ def test_an_entry_is_corrected_before_the_draw(tmp_path: Path) -> None:
             {"player": "Cy", "name": "ann"},
             {"rating": "nan"},
         ):
-            assert director.send("/desk/entrant", **{"player": "Cy"} | wrong).status == 400
+            assert director.send("/desk/edit", **{"player": "Cy"} | wrong).status == 400
         director.send("/desk/draw")
-        assert director.send("/desk/entrant", player="Ann", rating="600").status == 409
+        assert director.send("/desk/edit", player="Ann", rating="600").status == 400
 
 
 def test_a_refusal_leads_back_to_where_it_came_from(hall: Hall) -> None:

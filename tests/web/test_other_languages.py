@@ -49,7 +49,7 @@ def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: 
         assert "Ce soir" in shown.words
         assert "Français" in shown.words
         assert "Bracket" in shown.words  # what it does not say is said in English
-        words = director.send("/desk/result", match="F", a=3, b=1, how="new").words
+        words = director.send("/desk/result", match="F", a=3, b=1).words
         assert "Tom and Jerry bat the Shark 3:1" in words
 
 
@@ -57,5 +57,5 @@ def test_english_can_be_said_in_other_words(tmp_path: Path, locale: Path) -> Non
     catalogue(locale, "en", {"{winner} beat {loser} {won}:{lost}": "{loser} lost to {winner}"})
     with running(tmp_path / "tonight.db") as site:
         director = begin(site)
-        words = director.send("/desk/result", match="F", a=3, b=1, how="new").words
+        words = director.send("/desk/result", match="F", a=3, b=1).words
         assert "the Shark lost to Tom and Jerry" in words

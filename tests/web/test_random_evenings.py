@@ -160,7 +160,7 @@ class Played:
         corrected = {
             dict(form.fields)["match"]: (dict(form.fields)["a"], dict(form.fields)["b"])
             for form in forms_of(desk)
-            if dict(form.fields).get("how") == "correct"
+            if form.action == "/desk/correct"
         }
         for name, result in played(state):
             pair = state.pair(name)

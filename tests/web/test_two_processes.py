@@ -153,7 +153,7 @@ def until_it_answers(phone: Phone) -> None:
 def enter(phone: Phone, matches: list[str], acknowledged: list[str]) -> None:
     """Enter results at one server, and look at its pages."""
     for match in matches:
-        if phone.send("/desk/result", match=match, a=5, b=2, how="new").status == 200:
+        if phone.send("/desk/result", match=match, a=5, b=2).status == 200:
             acknowledged.append(match)
         phone.open("/")
 
@@ -220,7 +220,7 @@ def test_the_file_is_opened_through_sqlite_alone(tmp_path: Path) -> None:
         director = Phone(site, director=True)
         for page in ("/", "/desk", "/bracket", "/players", "/new", "/league", "/screen"):
             assert director.open(page).status == 200
-        assert director.send("/desk/result", match="W1.1", a=5, b=2, how="new").status == 200
+        assert director.send("/desk/result", match="W1.1", a=5, b=2).status == 200
         assert director.send_files("/new", own, format="double").status == 400
     said = (tmp_path / "log").read_text()
     asked = [[word.format(path=path) for word in words] for words in COMMANDS_OF_A_FILE]

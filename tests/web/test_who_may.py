@@ -41,9 +41,16 @@ MAY = {
         [
             *("GET /desk", "GET /desk/time", "GET /desk/history", "GET /desk/codes", "GET /new"),
             *("GET /team/new", "GET /team/history", "POST /desk/draw", "POST /desk/call"),
-            *("POST /desk/result", "POST /desk/forfeit", "POST /desk/drop", "POST /desk/entrant"),
+            *(
+                "POST /desk/result",
+                "POST /desk/correct",
+                "POST /desk/score",
+                "POST /desk/forfeit",
+                "POST /desk/drop",
+                "POST /desk/edit",
+            ),
             *("POST /desk/change", "POST /desk/tiebreak", "POST /desk/undo", "POST /desk/stand"),
-            *("POST /desk/back", "POST /desk/late", "POST /desk/save", "POST /prizes"),
+            *("POST /desk/uncall", "POST /desk/late", "POST /desk/save", "POST /prizes"),
             *("POST /league", "POST /league/tonight", "POST /m/{token}/release"),
             *("POST /team/undo", "POST /team/new", "POST /desk/pin", "POST /new"),
         ],
@@ -80,7 +87,7 @@ class Rooms:
         assert first.send("/desk/draw").status == 303
         assert first.send("/team/new", **TEAMS).status == 303, first.send("/team/new", **TEAMS)
         self.night = site.night
-        assert first.send("/desk/result", match="W1.4", a=3, b=1, how="new").status == 303
+        assert first.send("/desk/result", match="W1.4", a=3, b=1).status == 303
         assert first.send("/league", results=RESULTS, scale="fargo", race=5).status == 303
         for _ in range(600):
             if site.league.sheet is not None:
@@ -127,15 +134,17 @@ class Rooms:
             by["by"] = "AB".index(role[-1])
         return {
             "/desk/call": {"match": "W1.2", "table": 1},
-            "/desk/back": {"match": "W1.2"},
-            "/desk/result": {"match": "W1.3", "a": 3, "b": 1, "how": "new"},
+            "/desk/uncall": {"match": "W1.2"},
+            "/desk/result": {"match": "W1.3", "a": 3, "b": 1},
+            "/desk/correct": {"match": "W1.3", "a": 1, "b": 3, "sure": "yes"},
+            "/desk/score": {"match": "W1.2", "a": 1, "b": 0},
             "/desk/forfeit": {"player": "Hal", "sure": "yes"},
             "/desk/drop": {"player": "Gus", "sure": "yes"},
-            "/desk/entrant": {"player": "Ann", "name": "Annie", "rating": 640},
+            "/desk/edit": {"player": "Ann", "name": "Annie", "rating": 640},
             "/desk/change": {"tables": 3},
             "/desk/undo": {"entry": state.numbers[-1] if state.numbers else 2},
             "/desk/stand": {"match": "W1.3"},
-            "/desk/late": {"name": "Late Larry", "rating": 500},
+            "/desk/late": {"player": "Late Larry", "rating": 500},
             "/prizes": {"fee": 10, "added": 0, "payout": "60/40"},
             "/league": {"results": RESULTS, "scale": "fargo", "race": 5},
             "/new": NEW,
@@ -221,7 +230,7 @@ def test_a_form_in_an_address_changes_nothing(rooms: Rooms) -> None:
             fields = {key: str(value) for key, value in rooms.fields(route, "director").items()}
             path = route.replace("{token}", rooms.match)
             director.open(path, csrf=director.token(), **fields)
-            director.ask("HEAD", f"{path}?csrf={director.token()}&match=W1.1&a=3&b=1&how=new")
+            director.ask("HEAD", f"{path}?csrf={director.token()}&match=W1.1&a=3&b=1")
     assert held(rooms.site.path) == before
 
 

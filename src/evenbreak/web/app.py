@@ -38,6 +38,7 @@ from evenbreak.web.pages import (
     home,
     league,
     match,
+    moves,
     players,
     team,
 )
@@ -78,6 +79,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
                 *league.ROUTES,
                 *match.ROUTES,
                 *desk.ROUTES,
+                *moves.ROUTES,
                 *desk_extras.ROUTES,
                 *entry.ROUTES,
                 *team.ROUTES,

@@ -298,9 +298,9 @@ def fields_named(question: type, *names: str) -> list[Declared]:
     return [by_name[name] for name in names]
 
 
-def entered_name(form: Form) -> str:
+def entered_name(form: Form, field: str = "name") -> str:
     """Return the name in a form, as it is read from a list; '': the field was left empty."""
-    name = clean_name(form.text("name", longest=80))
+    name = clean_name(form.text(field, longest=80))
     if name and not is_name(name):
         raise RefusalError("The name {value!r} can't be printed. Type it again.", value=name)
     return name

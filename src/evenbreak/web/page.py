@@ -57,6 +57,8 @@ FIELDS = {
     "sets": say("the number of sets"),
     "times": say("how often each may play"),
     "table": say("the table"),
+    "player": say("the name"),
+    "games": say("the loser's games"),
     "payout": say("the payout"),
     "cap": say("the cap"),
     "doubling": say("the points that double the odds"),
@@ -252,12 +254,12 @@ def _came_from(request: Request) -> str:
     except ValueError:
         return ""
     own = came.netloc == request.headers.get("host") and not came.path.startswith("//")
-    if own and _can_be_opened(request, came.path):
+    if own and can_be_opened(request, came.path):
         return came._replace(scheme="", netloc="").geturl()
     return ""
 
 
-def _can_be_opened(request: Request, path: str) -> bool:
+def can_be_opened(request: Request, path: str) -> bool:
     """Return whether a path is that of a page, and not only of a form."""
     asked = {"type": "http", "path": path, "method": "GET"}
     return any(route.matches(asked)[0] is Match.FULL for route in request.app.routes)

@@ -188,9 +188,9 @@ def test_what_is_in_play_is_named_before_it_is_taken_away(begun):
     begun("correct", "W1.1", "3:0")
     on = {one["match"]: one["table"] for one in begun("next")["next"]}
     assert on["W2.1"] == 2
-    said = begun.run("tournament", "call", "W2.1", "--back", "--file", begun.file, "--text")
-    assert "W2.1 is off table 2." in said.stdout
-    assert begun.run("tournament", "call", "--back", "--file", begun.file).exit_code == 2
+    said = begun.run("tournament", "uncall", "W2.1", "--file", begun.file, "--text")
+    assert "Taken off table 2: match " in said.stdout
+    assert begun.run("tournament", "uncall", "--file", begun.file).exit_code == 2
     said = begun.run("tournament", "undo", "--file", begun.file, "--text")
     assert "Undone: W2.1 taken off its table." in said.stdout
     assert len(read_events(begun.file)) == entered + 4

@@ -39,6 +39,45 @@ from evenbreak.tournaments.evening.undoing import losses
 from evenbreak.words import Sentence, joined, say
 
 
+def called_words(before: Evening, after: Evening) -> list[Sentence]:
+    """Return in words which matches have come to a table, and which have left theirs."""
+    said = [
+        say(
+            "Table {table}: {match}, {pair}.",
+            table=one.call.table,
+            match=after.match_words(name),
+            pair=against(one.call.players),
+        )
+        for name, one in after.on_tables.items()
+        if before.on_tables.get(name) != one
+    ]
+    said += [
+        say(
+            "Taken off table {table}: {match}.",
+            match=before.match_words(name),
+            table=one.call.table,
+        )
+        for name, one in before.on_tables.items()
+        if name not in after.on_tables
+    ]
+    return said
+
+
+def live_words(state: Evening, match: str) -> Sentence:
+    """Return the score of a match in play in words."""
+    score = state.live[match].what
+    (first, second), (a, b) = score.players, score.score
+    name = state.match_words(match)
+    return say(
+        "Score in {match}: {first} {a}, {second} {b}.",
+        match=name,
+        first=first,
+        a=a,
+        second=second,
+        b=b,
+    )
+
+
 def happened(before: Evening, after: Evening, event: Event) -> list[Sentence]:
     """Return in words what a result changed: who moves where, what no longer counts.
 

@@ -6,25 +6,14 @@ import click
 
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 from evenbreak.cli.kit.said import works_on
+from evenbreak.questions.moves import COMMANDS as MOVES
 
 COMMANDS = {
     "new": Entry("tournament.new", "Begin a tournament that is run here."),
     "import": Entry("tournament.new:import_", "Go on with a tournament from another program."),
-    "draw": Entry("tournament.moves:draw", "Make the draw."),
+    **{name: Entry(f"tournament.moves:{name}", line) for name, (_, line) in MOVES.items()},
     "show": Entry("tournament.paper:show", "Show the bracket."),
     "next": Entry("tournament.paper:next_matches", "Show who plays next, and on which table."),
-    "call": Entry("tournament.moves:call", "Call matches to tables."),
-    "result": Entry("tournament.moves:result", "Enter the result of a match."),
-    "score": Entry("tournament.moves:score", "Enter the score of a match in play."),
-    "correct": Entry("tournament.moves:correct", "Correct the result of a match."),
-    "stand": Entry("tournament.moves:stand", "Let a match stand that the wrong player has played."),
-    "change": Entry("tournament.moves:change", "Change the tables, or the races to come."),
-    "undo": Entry("tournament.moves:undo", "Take back the last entry."),
-    "late": Entry("tournament.moves:late", "Let a late player in."),
-    "edit": Entry("tournament.moves:edit", "Correct a name or a rating before the draw."),
-    "drop": Entry("tournament.moves:drop", "Let a player go home."),
-    "forfeit": Entry("tournament.moves:forfeit", "Let a player forfeit a match."),
-    "tiebreak": Entry("tournament.moves:tiebreak", "Break the ties of a round robin."),
     "export": Entry(
         "tournament.paper:export", "List the matches that were played, for the ratings."
     ),

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from evenbreak.errors import InputError
+from evenbreak.evenings.move import AlreadyError
 from evenbreak.tournaments.brackets.knockout import (
     blind_draw,
     by_rating,
@@ -127,12 +128,14 @@ def result(
             raise InputError(
                 "{match} was forfeited; to change that: {correct}", match=name, correct=correct_it
             )
-        raise InputError(
+        again = score == tuple(before.games[player] for player in state.pair(name))
+        why = say(
             "{match} already has a result ({result}); to change it: {correct}",
             match=name,
             result=score_words(before),
             correct=correct_it,
         )
+        raise AlreadyError(why) if again else InputError(why)
     refuse_waiting(state, name)
     pair = state.pair(name)
     games = games_in(state, name, pair, score)
@@ -188,7 +191,7 @@ def correct(
         found = replace(found, winner=before.winner, stands=True)
     same = (before.games, before.winner, before.ended) == (found.games, found.winner, found.ended)
     if not before.forfeit and same:
-        raise InputError(
+        raise AlreadyError(
             "{match} already has that result: {result}", match=name, result=score_words(before)
         )
     return found
@@ -313,7 +316,7 @@ def call(state: Evening, match: str, table: int | None) -> Called:
     name = undecided(state, match)
     on, names = state.on_tables.get(name), state.plan.table_name
     if on is not None and table in (None, on.call.table):
-        raise InputError(
+        raise AlreadyError(
             "{match} is already on table {table}", match=name, table=names(on.call.table)
         )
     if table is None and not (free := free_tables(state)):

@@ -14,7 +14,6 @@ from starlette.routing import Route
 
 from evenbreak.answers.kit.scales import chart_doubts, league_doubts
 from evenbreak.answers.league.prior import games_words, unrated_words
-from evenbreak.answers.tournament.moves import entry_words
 from evenbreak.answers.tournament.time import venue_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.fields.question import declared
@@ -23,7 +22,6 @@ from evenbreak.files.lists.entrants import read_entrants
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.store.desk import back_up
 from evenbreak.files.store.tournament import (
-    add_events,
     earlier_nights,
     new_tournament,
     read_events,
@@ -34,9 +32,7 @@ from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import NAMES, Scale
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS
 from evenbreak.tournaments.clock.event_pace import EarlierNight
-from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan
-from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.format import LONGEST_RACE, MOST_TABLES, Format
 from evenbreak.tournaments.evening.plan import FORMATS, opened
 from evenbreak.web.defaults import of_league
@@ -47,13 +43,10 @@ from evenbreak.web.forms import (
     RACES,
     Form,
     asked_in,
-    entered_name,
-    entered_rating,
     fields_named,
     form_fields,
     form_of,
     list_of,
-    rating_doubts,
     read_upload,
     scale_in,
     warnings_of,
@@ -268,25 +261,7 @@ def _entrants(filled: Roster, league: League | None) -> tuple[Entrant, ...]:
     return tuple(Entrant(*((league.known(one[0]) if league else None) or one)) for one in rows)
 
 
-async def late(request: Request) -> Response:
-    """Let a late player in."""
-    form = await form_of(request)
-    check_director(request)
-    site, name, rating = site_of(request), entered_name(form), entered_rating(form)
-    if not name:
-        raise RefusalError("Enter at least one player.")
-
-    def decide(state: Evening) -> list[Event]:
-        entrant = state.plan.newcomer(name) if rating is None else Entrant(name, rating)
-        return [Event(site.clock(), moves.late(state, entrant))]
-
-    key = form.key(request.url.path)
-    _, after = await asyncio.to_thread(add_events, site.path, decide, by=DIRECTORS_PAGE, form=key)
-    return done(request, "/desk", entry_words(after, name), *rating_doubts(after))
-
-
 ROUTES = [
     Route("/new", ask, methods=["GET"]),
     Route("/new", begin, methods=["POST"]),
-    Route("/desk/late", late, methods=["POST"]),
 ]

@@ -1,0 +1,214 @@
+"""The moves of a tournament: what each does, and what is said of it.
+
+Commands, forms and their routes are made from this table; the options are in `questions.moves`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from evenbreak.answers.kit.scales import far_doubts
+from evenbreak.answers.tournament.moves import (
+    called_words,
+    draw_words,
+    entry_words,
+    forfeited,
+    happened,
+    live_words,
+    reopened,
+    settled_words,
+    tie_words,
+    undone_words,
+)
+from evenbreak.answers.tournament.night import next_calls
+from evenbreak.answers.tournament.tournament import races_words
+from evenbreak.errors import InputError
+from evenbreak.evenings.move import Move
+from evenbreak.files.tables.names import NAME, clean_name, is_name
+from evenbreak.questions.moves import (
+    Call,
+    Change,
+    Correct,
+    Drop,
+    Edit,
+    EnterResult,
+    EnterScore,
+    Forfeit,
+    LetIn,
+    MakeDraw,
+    Stand,
+    TieBreak,
+    Uncall,
+    Undo,
+)
+from evenbreak.tournaments.evening import moves, settling, undoing
+from evenbreak.tournaments.evening.events import Entrant, What
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.words import Command, Parameter, Sentence, say
+
+_GAMES = Parameter("games")
+
+
+def _draw(state: Evening, asked: MakeDraw, _: str) -> Sequence[What]:
+    return moves.draw_next(state, np.random.default_rng(asked.seed))
+
+
+def _call(state: Evening, asked: Call, at: str) -> Sequence[What]:
+    if state.plan.form == "chips":
+        raise InputError(
+            "a chip tournament needs no calls: each result brings the next in the line to the "
+            "table; see {next}",
+            next=Command("tournament next"),
+        )
+    if asked.match is not None:
+        return [moves.call(state, asked.match, asked.table)]
+    called = [moves.call(state, name, table) for table, name in next_calls(Outlook(state, at))]
+    if not called:
+        raise InputError("no match can be called: no table is free, or no match is ready")
+    return called
+
+
+def _result(state: Evening, asked: EnterResult, _: str) -> Sequence[What]:
+    return [moves.result(state, asked.match, _score(state, asked))]
+
+
+def _correct(state: Evening, asked: Correct, _: str) -> Sequence[What]:
+    return [moves.correct(state, asked.match, _score(state, asked))]
+
+
+def _score(state: Evening, asked: EnterResult | Correct) -> tuple[int, int] | str:
+    """Return the score of a match, from the winner and the loser's games if they were given."""
+    if asked.winner is None:
+        return asked.score or ""
+    if state.plan.form == "chips":
+        return asked.winner
+    match = moves.known_match(state, asked.match, over=isinstance(asked, Correct))
+    if match not in {*state.standing.to_play, *state.counted}:
+        return 0, 0  # it has no result, and that is what is refused
+    if asked.games is None:
+        raise InputError("{games} is missing; enter how many games the loser won", games=_GAMES)
+    pair = state.pair(match)
+    if asked.winner not in pair:
+        words = state.match_words(match)
+        raise InputError("{player} is not in {match}", player=asked.winner, match=words)
+    first = asked.winner == pair[0]
+    needs = state.needed(match, pair)[0 if first else 1]
+    return (needs, asked.games) if first else (asked.games, needs)
+
+
+def _last_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
+    return happened(before, after, after.events[-1])
+
+
+def _stand_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
+    return [*settled_words(before, after), *reopened(before, after)]
+
+
+def _change(state: Evening, asked: Change, _: str) -> Sequence[What]:
+    return [
+        moves.change(
+            state,
+            tables=asked.tables,
+            race=asked.race,
+            losers_race=asked.losers_race,
+            final_race=asked.final_race,
+        )
+    ]
+
+
+def _change_words(_: Evening, after: Evening, __: Change) -> list[Sentence]:
+    tables, races = after.plan.tables, races_words(after.races)
+    return [say("{tables} tables. {races}.", tables=tables, races=races)]
+
+
+def _undo_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
+    events = dict(zip(before.numbers, before.events, strict=True))
+    (gone,) = events.keys() - set(after.numbers)
+    return [undone_words(events[gone].what), *reopened(before, after)]
+
+
+def name_in(text: str) -> str:
+    """Return a name as lists are read; refuse what cannot be printed."""
+    name = clean_name(text)
+    if not is_name(name):
+        raise InputError("{name!r} is not {what}", name=text, what=NAME)
+    return name
+
+
+def _late(state: Evening, asked: LetIn, _: str) -> Sequence[What]:
+    name, rating = name_in(asked.player), asked.rating
+    entrant = state.plan.newcomer(name) if rating is None else Entrant(name, rating)
+    return [moves.late(state, entrant)]
+
+
+def _rating_doubts(before: Evening, after: Evening, _: object) -> list[str]:
+    """Return whether a rating is far from all others, unless the others were so before."""
+    then, now = ([one.rating for one in state.entrants.values()] for state in (before, after))
+    if far_doubts(before.scale, then):
+        return []
+    return list(far_doubts(after.scale, now, list(after.entrants)))
+
+
+def _edit(state: Evening, asked: Edit, _: str) -> Sequence[What]:
+    name = name_in(asked.name) if asked.name else ""
+    return [moves.edit(state, asked.player, name=name, rating=asked.rating)]
+
+
+def _edit_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
+    (now,) = set(after.entrants.values()) - set(before.entrants.values())
+    return [
+        say("{player} is entered with a rating of {rating:g}.", player=now.name, rating=now.rating)
+    ]
+
+
+def _tie_break(state: Evening, asked: TieBreak) -> settling.TieBreak:
+    return settling.break_ties(state, np.random.default_rng(asked.seed), only_lots=asked.lot)
+
+
+MOVES: dict[str, Move[Evening, What]] = {
+    "draw": Move(MakeDraw, _draw, lambda before, after, _: [draw_words(before, after)]),
+    "call": Move(Call, _call, lambda before, after, _: called_words(before, after)),
+    "uncall": Move(
+        Uncall,
+        lambda state, asked, _: [moves.call_back(state, asked.match)],
+        lambda before, after, _: called_words(before, after),
+    ),
+    "result": Move(EnterResult, _result, _last_words),
+    "score": Move(
+        EnterScore,
+        lambda state, asked, _: [moves.score(state, asked.match, asked.score)],
+        lambda _, after, asked: [live_words(after, moves.known_match(after, asked.match))],
+    ),
+    "correct": Move(Correct, _correct, _last_words),
+    "stand": Move(Stand, lambda state, asked, _: settling.stand(state, asked.match), _stand_words),
+    "change": Move(Change, _change, _change_words),
+    "undo": Move(Undo, lambda state, asked, _: [undoing.undo(state, asked.entry)], _undo_words),
+    "late": Move(
+        LetIn,
+        _late,
+        lambda _, after, asked: [entry_words(after, name_in(asked.player))],
+        _rating_doubts,
+    ),
+    "edit": Move(Edit, _edit, _edit_words, _rating_doubts),
+    "drop": Move(
+        Drop,
+        lambda state, asked, _: [moves.drop(state, asked.player)],
+        lambda before, after, _: forfeited(before, after),
+        always_asks=True,
+    ),
+    "forfeit": Move(
+        Forfeit,
+        lambda state, asked, _: [moves.forfeit(state, asked.player, asked.match)],
+        _last_words,
+        always_asks=True,
+    ),
+    "tiebreak": Move(
+        TieBreak,
+        lambda state, asked, _: [_tie_break(state, asked).ranked],
+        lambda before, _, asked: tie_words(_tie_break(before, asked)),
+    ),
+}
+"""Each move by the name of its command and of its form."""

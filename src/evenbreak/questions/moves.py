@@ -1,0 +1,289 @@
+"""Questions that enter something in the tournament under way: a class for each move."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, TypeAlias
+
+from evenbreak.fields.kinds import Flag, Named, Number, Text, Whole
+from evenbreak.fields.question import Field, Says
+from evenbreak.questions.common import SCORE, Seed
+from evenbreak.questions.evening import TimedUnderWay
+from evenbreak.tournaments.evening.format import (
+    LONGEST_RACE,
+    MOST_TABLES,
+    FinalRace,
+    LosersRace,
+    Tables,
+)
+
+
+def score_or_name(text: str) -> tuple[int, int] | str:
+    """Return a score, or in a chip tournament the name of the winner.
+
+    >>> score_or_name("7:5"), score_or_name("ann")
+    ((7, 5), 'ann')
+    """
+    return text if text.strip()[:1].isalpha() else SCORE.read(text)
+
+
+PLAYER = Text("PLAYER")
+"""The name of somebody who has entered; on the terminal its beginning will do."""
+Winner: TypeAlias = Annotated[
+    str | None, Field(PLAYER, "The winner, in place of a score; with {games}.")
+]
+Games: TypeAlias = Annotated[
+    int | None, Field(Whole(0, LONGEST_RACE - 1), "The games of the loser, with {winner}.")
+]
+Match: TypeAlias = Annotated[str, Field(Text("MATCH"), argument=True)]
+Player: TypeAlias = Annotated[str, Field(PLAYER, argument=True)]
+Result: TypeAlias = Annotated[
+    tuple[int, int] | str, Field(Named(score_or_name, "SCORE"), argument=True)
+]
+Rating: TypeAlias = Annotated[
+    float | None,
+    Field(
+        Number(-1e6, 1e6, " is not a number of rating points; give one such as 80", metavar="R"),
+        "Their rating.",
+    ),
+]
+Lots: TypeAlias = Annotated[
+    Seed, Says("The seed of the lots.", usual="a new one each time", rare=False)
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry(TimedUnderWay):
+    """An entry that may take away a match in play or a result."""
+
+    yes: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Enter it even if a match in play leaves its table, or a result no longer counts.",
+        ),
+    ] = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class MakeDraw(TimedUnderWay):
+    """Make the draw, in the way that {seeding} of evenbreak tournament new said.
+
+    Later it draws what comes next: the next round of a Swiss once a round is over, or, with
+    {placement} redraw, the losers' side's qualifiers for the knock-out.
+    """
+
+    seed: Annotated[Lots | None, Says("The seed of a blind draw.")] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Call(TimedUnderWay):
+    """Call a match to a table, or move it; without MATCH, call the next to all free tables.
+
+    In a chip tournament players come to the tables by themselves, in the order of the line.
+
+    The times of calls and results show how fast this evening is, and so when it ends.
+    """
+
+    match: Annotated[Match | None, Says(metavar="[MATCH]")] = None
+    table: Annotated[int | None, Field(Whole(1, MOST_TABLES), "The table.", usual="a free one")] = (
+        None
+    )
+
+    def check(self) -> None:
+        """Refuse a table without a match."""
+        if self.match is None and self.table is not None:
+            self.refuse("{table} is for one match; name it, such as 12")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Uncall(TimedUnderWay):
+    """Take a match off its table; it keeps its score, and can be called again later."""
+
+    match: Match
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ended(TimedUnderWay):
+    """How a match ended: its score, or its winner and the games of its loser."""
+
+    match: Match
+    score: Annotated[Result | None, Says(metavar="[SCORE]")] = None
+    winner: Winner = None
+    games: Games = None
+
+    def check(self) -> None:
+        """Refuse a result that is not stated, or stated twice."""
+        if (self.score is None) == (self.winner is None):
+            self.refuse("give a score, such as 7:5, or {winner} with {games}")
+        if self.winner is None and self.games is not None:
+            self.refuse("{games} is for {winner}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnterResult(Ended):
+    """Enter the result of a match: the games of its first player, a colon, those of the second.
+
+    In a chip tournament the number of the table and the winner's name will do; a first name is
+    enough if no other player has it.
+
+    If a forfeit was meant, use evenbreak tournament forfeit.
+    """
+
+    examples = """\
+  evenbreak tournament result 12 7:5
+  evenbreak tournament result 12 --winner ann --games 5
+  evenbreak tournament result 12 7:5 --at 20:15
+  evenbreak tournament result 3 ann            (a chip tournament: Ann won the rack on table 3)
+"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnterScore(TimedUnderWay):
+    """Enter the score of a match in play; the odds and the finish go by it from then on.
+
+    It is not needed: the result alone will do.
+    """
+
+    match: Match
+    score: Annotated[tuple[int, int], Field(SCORE, metavar="SCORE", argument=True)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Correct(Ended, Entry):
+    """Correct the result of a match, at any time.
+
+    If others move on because of it, later matches that the wrong players have played are open
+    again, and those that they are playing leave their tables: it is then refused without {yes}.
+    Results and scores are kept, and count again if the correction is undone or corrected.
+
+    In a chip tournament name the winner, and the rack or, for the last rack on a table, the table.
+    The chip goes back to its owner; racks that were played since still count, unless a player had
+    no chips left by then.
+    """
+
+    examples = """\
+  evenbreak tournament correct 12 5:7
+  evenbreak tournament correct 12 5:7 --at 20:15
+  evenbreak tournament correct R12 bo          (a chip tournament: Bo won rack R12)
+"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stand(Entry):
+    """Let a match stand that was played before a correction sent somebody else into it.
+
+    The corrected score is kept, but those who have played on stay where they are.
+    """
+
+    match: Match
+
+
+@dataclass(frozen=True, kw_only=True)
+class Change(TimedUnderWay):
+    """Change the number of tables, or the races of the matches that have not begun.
+
+    What it would bring is in evenbreak tournament time, under What if.
+    """
+
+    examples = """\
+  evenbreak tournament change --tables 5
+  evenbreak tournament change --losers-race 4
+"""
+    tables: Tables | None = None
+    race: Annotated[int | None, Field(Whole(1, LONGEST_RACE), "What is raced to.")] = None
+    losers_race: Annotated[
+        LosersRace, Says("The same on the losers' side.", usual="", section="")
+    ] = None
+    final_race: Annotated[FinalRace, Says("The same in the final.", usual="", section="")] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Undo(Entry):
+    """Take back the director's last entry; once more takes back the one before that.
+
+    Scores that players tap on their phones stay. A result that both players entered is taken back
+    only if {entry} names it, or corrected.
+    """
+
+    entry: Annotated[
+        int | None,
+        Field(
+            Whole(2, 10**7),
+            "A result that both players entered, by its number in the history.",
+            usual="the director's last entry",
+        ),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class LetIn(TimedUnderWay):
+    """Let PLAYER in: before the draw, or afterwards in place of a bye that is still open.
+
+    In a chip tournament they get chips by the chart and go to the end of the line.
+    """
+
+    player: Annotated[str, Field(Text("NAME"), metavar="PLAYER", argument=True)]
+    rating: Annotated[Rating, Says(usual="that of a new player")] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Edit(TimedUnderWay):
+    """Correct PLAYER's name or rating before the draw; they keep their place in the list."""
+
+    player: Player
+    name: Annotated[str, Field(Text("NAME"), "The right name.")] = ""
+    rating: Annotated[Rating, Says("The right rating.")] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drop(Entry):
+    """Let PLAYER go home: they forfeit all their matches to come.
+
+    In the next rounds of a Swiss they are not paired. In a chip tournament they are out, and the
+    next in the line takes their place at the table.
+    """
+
+    player: Player
+
+
+@dataclass(frozen=True, kw_only=True)
+class Forfeit(Entry):
+    """Let PLAYER forfeit the match they are to play; they play on if the format lets them.
+
+    MATCH is needed only if they have several to play, as in a round robin.
+    """
+
+    player: Player
+    match: Annotated[Match | None, Says(metavar="[MATCH]")] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TieBreak(TimedUnderWay):
+    """Break the ties of a round robin when all its matches are played.
+
+    Players are ranked by matches won, and those who are level by the matches among them. Who is
+    still level is ranked by games won minus games lost, and finally by lot.
+    """
+
+    lot: Annotated[bool, Field(Flag(), "Break them by lot alone; games do not count.")] = False
+    seed: Lots | None = None
+
+
+COMMANDS: dict[str, tuple[type[TimedUnderWay], str]] = {
+    "draw": (MakeDraw, "Make the draw."),
+    "call": (Call, "Call matches to tables."),
+    "uncall": (Uncall, "Take a match off its table."),
+    "result": (EnterResult, "Enter the result of a match."),
+    "score": (EnterScore, "Enter the score of a match in play."),
+    "correct": (Correct, "Correct the result of a match."),
+    "stand": (Stand, "Let a match stand that the wrong player has played."),
+    "change": (Change, "Change the tables, or the races to come."),
+    "undo": (Undo, "Take back the last entry."),
+    "late": (LetIn, "Let a late player in."),
+    "edit": (Edit, "Correct a name or a rating before the draw."),
+    "drop": (Drop, "Let a player go home."),
+    "forfeit": (Forfeit, "Let a player forfeit a match."),
+    "tiebreak": (TieBreak, "Break the ties of a round robin."),
+}
+"""The command of each move: what it asks, and its line in the help of the group."""

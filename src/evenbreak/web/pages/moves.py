@@ -1,0 +1,165 @@
+"""What the director enters: a form for each move, taken at /desk/ and its name."""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import secrets
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.answers.tournament.move_table import MOVES
+from evenbreak.answers.tournament.moves import lost_words
+from evenbreak.evenings.move import AlreadyError, Move
+from evenbreak.fields.question import AskedError, Declared, declared
+from evenbreak.files.store.tournament import add_events
+from evenbreak.tournaments.evening.events import Event, What
+from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.undoing import losses, matches_of
+from evenbreak.web.forms import (
+    Fields,
+    Form,
+    entered_name,
+    entered_rating,
+    form_of,
+    name_of,
+    value_of,
+)
+from evenbreak.web.guard import RefusalError
+from evenbreak.web.page import can_be_opened, done, in_words, page, site_of
+from evenbreak.web.sessions import DIRECTORS_PAGE, check_director
+from evenbreak.web.site import night_of
+from evenbreak.words import Parameter
+
+OF_COMMANDS = ("file", "at", "yes", "seed")
+"""The fields of a question that no form has."""
+_READ: dict[str, Callable[[Form], Any]] = {
+    "rating": entered_rating,
+    "name": entered_name,
+    "player": lambda form: entered_name(form, "player"),
+}
+_DESK = "/desk"
+
+
+class _AskError(Exception):
+    """What is entered takes something away, or is to be asked about in any case."""
+
+    def __init__(self, before: Evening, after: Evening) -> None:
+        self.before, self.after = before, after
+
+
+def asked_in(question: type, form: Form) -> list[Any]:
+    """Return what a form of a move asks: several moves, if its fields come several times.
+
+    A score may come as the games of each player, in the fields a and b.
+    """
+    fields = [one for one in declared(question) if one.name not in OF_COMMANDS]
+    given = {name_of(one): form.texts(name_of(one)) for one in fields}
+    texts = [[(name, text) for text in each] for name, each in given.items() if each]
+    if len(texts) < 2 or len(texts[0]) == 1:
+        return [_asked(question, fields, form)]
+    if any(len(each) != len(texts[0]) for each in texts):
+        raise RefusalError("A match has no table, or a table has no match. Open the page again.")
+    return [_asked(question, fields, Form(Fields(one))) for one in zip(*texts, strict=True)]
+
+
+def _asked(question: type, fields: Sequence[Declared], form: Form) -> Any:
+    values = {
+        one.name: _READ[one.name](form) if one.name in _READ else value_of(one, form)
+        for one in fields
+        if form.text(name_of(one))
+    }
+    if form.text("a") or form.text("b"):
+        values["score"] = form.whole("a", 0, 999), form.whole("b", 0, 999)
+    if any(one.name == "seed" for one in declared(question)):
+        values["seed"] = secrets.randbelow(2**32)  # so that it draws and says the same
+    missing = [one.name for one in fields if one.required and one.name not in values]
+    if missing:
+        raise RefusalError("{field} is blank.", field=Parameter(missing[0]))
+    try:
+        return question(**values)
+    except AskedError as error:
+        raise RefusalError(error.sentence) from None
+
+
+def _route(name: str, move: Move[Evening, What]) -> Route:
+    async def enter(request: Request) -> Response:
+        form = await form_of(request)
+        if move.by == "director":
+            check_director(request)
+        return await _enter(request, form, move)
+
+    return Route(f"{_DESK}/{name}", enter, methods=["POST"])
+
+
+async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Response:
+    """Enter what a form asks; if it takes something away, ask first, and name it.
+
+    The answer is for what was named: if that has changed by then, it is asked again.
+    """
+    night = night_of(request)
+    asked, at = asked_in(move.question, form), site_of(request).clock()
+    named, sure, key = form.text("named"), form.text("sure"), form.key(request.url.path)
+    already: list[str] = []
+
+    def decide(state: Evening) -> list[Event]:
+        events: list[Event] = []
+        for one in asked:
+            now = state if not events else evening([*state.events, *events])
+            try:
+                events += [Event(at, what) for what in move.decide(now, one, at)]
+            except AlreadyError as error:  # the same tap again
+                already.append(error.sentence)
+        return events
+
+    def check(before: Evening, after: Evening) -> None:
+        meant = sure and named in ("", _name_of(before, after))
+        if (move.always_asks or losses(before, after)) and not meant:
+            raise _AskError(before, after)
+
+    def said(before: Evening, after: Evening) -> list[str]:
+        if already:
+            return already
+        words = [line for one in asked for line in move.said(before, after, one)]
+        words += [line for one in asked for line in move.doubts(before, after, one)]
+        return list(dict.fromkeys(words))
+
+    try:
+        before, after = await asyncio.to_thread(
+            add_events, night.path, decide, by=DIRECTORS_PAGE, form=key, check=check
+        )
+    except _AskError as error:
+        return _ask(request, form, said(error.before, error.after), error)
+    return done(request, _back(request, form), *said(before, after))
+
+
+def _back(request: Request, form: Form) -> str:
+    """Return the page that a form leads back to: the one that it names, else the desk."""
+    back = form.text("back")
+    is_page = back.startswith("/") and can_be_opened(request, back.partition("?")[0])
+    return back if is_page and not back.startswith("//") else _DESK
+
+
+def _ask(request: Request, form: Form, said: Sequence[str], asked: _AskError) -> Response:
+    """Ask whether it is meant, with the same number, so that two answers enter it once."""
+    fields = [(k, v) for k, v in form.fields.multi_items() if k not in ("csrf", "sure", "named")]
+    fields.append(("named", _name_of(asked.before, asked.after)))
+    lost = lost_words(asked.before, asked.after)
+    lines = [in_words(request, one) for one in (*lost, *said)]
+    return page(
+        request, "sure.html", fields=fields, lines=lines, lost=lost, back=_back(request, form)
+    )
+
+
+def _name_of(before: Evening, after: Evening) -> str:
+    """Return what a question is known by: the matches that it is about, and those in play."""
+    lost = sorted((one.match, *sorted(one.players)) for one in losses(before, after))
+    text = repr((sorted(matches_of(before, after)), lost))
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+ROUTES = [_route(name, move) for name, move in MOVES.items()]
