@@ -202,7 +202,7 @@ def page(
             languages=languages(),
             here=request.url.path,
             style=style_address(site_of(request).color),
-            opens=partial(_can_be_opened, request),
+            opens=partial(can_be_opened, request),
             return_to=_return_to(request),
             site=site_of(request),
             director=is_director(request),

@@ -90,13 +90,7 @@ def _score(state: Evening, asked: EnterResult | Correct) -> tuple[int, int] | st
         return 0, 0  # it has no result, and that is what is refused
     if asked.games is None:
         raise InputError("{games} is missing; enter how many games the loser won", games=_GAMES)
-    pair = state.pair(match)
-    if asked.winner not in pair:
-        words = state.match_words(match)
-        raise InputError("{player} is not in {match}", player=asked.winner, match=words)
-    first = asked.winner == pair[0]
-    needs = state.needed(match, pair)[0 if first else 1]
-    return (needs, asked.games) if first else (asked.games, needs)
+    return moves.taps(state, asked.match, asked.winner, asked.games)
 
 
 def _last_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
