@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
-from typing import Annotated, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
-from evenbreak.fields.kinds import Flag, Named, Number, Text, Whole
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Choice, Flag, Named, Number, Text, Whole
 from evenbreak.fields.question import Field, Says
 from evenbreak.questions.common import SCORE, Seed
-from evenbreak.questions.evening import TimedUnderWay
+from evenbreak.questions.evening import TIME_OF_DAY, TimedUnderWay
 from evenbreak.tournaments.evening.format import (
     LONGEST_RACE,
     MOST_TABLES,
@@ -16,6 +18,22 @@ from evenbreak.tournaments.evening.format import (
     LosersRace,
     Tables,
 )
+
+
+def labels_in(text: str) -> tuple[str, ...]:
+    """Return the names of tables in a list; numbers may be a range.
+
+    >>> labels_in("5-8, TV"), labels_in("none")
+    (('5', '6', '7', '8', 'TV'), ())
+    """
+    found: list[str] = []
+    for part in filter(None, (one.strip() for one in text.split(","))):
+        ends = re.fullmatch(r"(\d{1,3})\s*[-–]\s*(\d{1,3})", part)
+        low, high = (int(ends[1]), int(ends[2])) if ends else (1, 0)
+        if high - low >= MOST_TABLES:
+            raise InputError("{text!r} is more than {most} tables", text=part, most=MOST_TABLES)
+        found += [str(n) for n in range(low, high + 1)] if ends else [part]
+    return () if [one.casefold() for one in found] == ["none"] else tuple(found)
 
 
 def score_or_name(text: str) -> tuple[int, int] | str:
@@ -37,6 +55,8 @@ Games: TypeAlias = Annotated[
 ]
 Match: TypeAlias = Annotated[str, Field(Text("MATCH"), argument=True)]
 Player: TypeAlias = Annotated[str, Field(PLAYER, argument=True)]
+NewName: TypeAlias = Annotated[str, Field(Text("NAME"), argument=True)]
+YES = Choice({"yes": True, "no": False})
 Result: TypeAlias = Annotated[
     tuple[int, int] | str, Field(Named(score_or_name, "SCORE"), argument=True)
 ]
@@ -74,6 +94,9 @@ class MakeDraw(TimedUnderWay):
     """
 
     seed: Annotated[Lots | None, Says("The seed of a blind draw.")] = None
+    here: Annotated[
+        bool, Field(Flag(), "Draw those who have checked in; the others can be let in late.")
+    ] = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,9 +109,9 @@ class Call(TimedUnderWay):
     """
 
     match: Annotated[Match | None, Says(metavar="[MATCH]")] = None
-    table: Annotated[int | None, Field(Whole(1, MOST_TABLES), "The table.", usual="a free one")] = (
-        None
-    )
+    table: Annotated[
+        str | None, Field(Text("TABLE"), "The table, by its name or number.", usual="a free one")
+    ] = None
 
     def check(self) -> None:
         """Refuse a table without a match."""
@@ -111,10 +134,17 @@ class Ended(TimedUnderWay):
     score: Annotated[Result | None, Says(metavar="[SCORE]")] = None
     winner: Winner = None
     games: Games = None
+    ended: Annotated[
+        Literal["time", "conceded"] | None,
+        Field(
+            Choice(("time", "conceded")),
+            "Why it was not played to the end; with SCORE, and {winner} where it does not show.",
+        ),
+    ] = None
 
     def check(self) -> None:
         """Refuse a result that is not stated, or stated twice."""
-        if (self.score is None) == (self.winner is None):
+        if (self.score is None) == (self.winner is None) and not (self.score and self.ended):
             self.refuse("give a score, such as 7:5, or {winner} with {games}")
         if self.winner is None and self.games is not None:
             self.refuse("{games} is for {winner}")
@@ -154,8 +184,8 @@ class Correct(Ended, Entry):
     """Correct the result of a match, at any time.
 
     If others move on because of it, later matches that the wrong players have played are open
-    again, and those that they are playing leave their tables: it is then refused without {yes}.
-    Results and scores are kept, and count again if the correction is undone or corrected.
+    again, and those that they are playing leave their tables: it is then refused without {yes} or
+    {follow}. Results and scores are kept, and count again if the correction is undone or corrected.
 
     In a chip tournament name the winner, and the rack or, for the last rack on a table, the table.
     The chip goes back to its owner; racks that were played since still count, unless a player had
@@ -167,6 +197,13 @@ class Correct(Ended, Entry):
   evenbreak tournament correct 12 5:7 --at 20:15
   evenbreak tournament correct R12 bo          (a chip tournament: Bo won rack R12)
 """
+    follow: Annotated[
+        Literal["stop", "keep"] | None,
+        Field(
+            Choice(("stop", "keep")),
+            "What happens to matches in play that follow: stop them, or keep who plays.",
+        ),
+    ] = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,14 +217,17 @@ class Stand(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Change(TimedUnderWay):
-    """Change the number of tables, or the races of the matches that have not begun.
+class Change(Entry):
+    """Change the tables, the pace, or the races of the matches that have not begun.
+
+    A match on a table that is closed goes back to the queue, and keeps its score.
 
     What it would bring is in evenbreak tournament time, under What if.
     """
 
     examples = """\
   evenbreak tournament change --tables 5
+  evenbreak tournament change --labels 5-8,TV --reserved TV
   evenbreak tournament change --losers-race 4
 """
     tables: Tables | None = None
@@ -196,6 +236,24 @@ class Change(TimedUnderWay):
         LosersRace, Says("The same on the losers' side.", usual="", section="")
     ] = None
     final_race: Annotated[FinalRace, Says("The same in the final.", usual="", section="")] = None
+    name: Annotated[str | None, Field(Text("NAME"), "What the tournament is called.")] = None
+    date: Annotated[str | None, Field(Text("DATE"), "Its date.")] = None
+    labels: Annotated[
+        tuple[str, ...] | None,
+        Field(Named(labels_in, "NAME,..."), "What the tables are called, such as 5-8,TV."),
+    ] = None
+    reserved: Annotated[
+        tuple[str, ...] | None,
+        Field(Named(labels_in, "TABLE,..."), "Tables that are given out by name alone, or none."),
+    ] = None
+    streamed: Annotated[
+        tuple[str, ...] | None,
+        Field(Named(labels_in, "TABLE,..."), "Tables that are shown on a stream, or none."),
+    ] = None
+    slower: Annotated[
+        float | None,
+        Field(Number(0.5, 2.0, metavar="X"), "How much longer matches take here than elsewhere."),
+    ] = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -223,7 +281,7 @@ class LetIn(TimedUnderWay):
     In a chip tournament they get chips by the chart and go to the end of the line.
     """
 
-    player: Annotated[str, Field(Text("NAME"), metavar="PLAYER", argument=True)]
+    player: Annotated[NewName, Says(metavar="PLAYER")]
     rating: Annotated[Rating, Says(usual="that of a new player")] = None
 
 
@@ -270,20 +328,117 @@ class TieBreak(TimedUnderWay):
     seed: Lots | None = None
 
 
+@dataclass(frozen=True, kw_only=True)
+class Redo(Entry):
+    """Enter again what was taken back last."""
+
+    entry: Annotated[
+        int | None, Field(Whole(2, 10**7), "Its number in the history.", usual="the last one")
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SwapTables(TimedUnderWay):
+    """Let two matches that have been called trade tables."""
+
+    one: Annotated[Match, Says(metavar="MATCH")]
+    other: Annotated[Match, Says(metavar="MATCH2")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wait(TimedUnderWay):
+    """Let a match wait, off its table; without an option it waits no longer."""
+
+    examples = """\
+  evenbreak tournament wait 12 --absent ann --until 20:15
+"""
+    match: Match
+    absent: Annotated[
+        tuple[str, ...], Field(PLAYER, "Who of its players is not here.", many=True)
+    ] = ()
+    until: Annotated[
+        int | None, Field(TIME_OF_DAY, "When they are to forfeit it.", usual="not at all")
+    ] = None
+    reason: Annotated[str, Field(Text("TEXT"), "Another reason.")] = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rename(TimedUnderWay):
+    """Give PLAYER another name, at any time: their seed and their results stay."""
+
+    player: Player
+    to: NewName
+
+
+@dataclass(frozen=True, kw_only=True)
+class Substitute(Entry):
+    """Let NAME take the place of PLAYER, who has not played yet."""
+
+    player: Player
+    to: NewName
+    rating: Annotated[Rating, Says(usual="that of a new player")] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Swap(Entry):
+    """Let two players trade places in the draw, before either has played."""
+
+    one: Annotated[Player, Says(metavar="PLAYER")]
+    other: Annotated[Player, Says(metavar="PLAYER2")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckIn(TimedUnderWay):
+    """Note that PLAYER is here, or has paid."""
+
+    examples = """\
+  evenbreak tournament check-in ann --paid yes
+"""
+    player: Player
+    arrived: Annotated[
+        bool | None,
+        Field(YES, "Whether they are here.", usual="yes, if {paid} is not given"),
+    ] = None
+    paid: Annotated[bool | None, Field(YES, "Whether they have paid.", usual="as before")] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Accept(TimedUnderWay):
+    """Let NAME in, who has asked to play or was not here at the draw."""
+
+    name: NewName
+
+
+@dataclass(frozen=True, kw_only=True)
+class Decline(TimedUnderWay):
+    """Take NAME off the list of those who would like to play."""
+
+    name: NewName
+
+
 COMMANDS: dict[str, tuple[type[TimedUnderWay], str]] = {
     "draw": (MakeDraw, "Make the draw."),
     "call": (Call, "Call matches to tables."),
     "uncall": (Uncall, "Take a match off its table."),
+    "swap-tables": (SwapTables, "Let two matches trade tables."),
+    "wait": (Wait, "Let a match wait."),
     "result": (EnterResult, "Enter the result of a match."),
     "score": (EnterScore, "Enter the score of a match in play."),
     "correct": (Correct, "Correct the result of a match."),
     "stand": (Stand, "Let a match stand that the wrong player has played."),
     "change": (Change, "Change the tables, or the races to come."),
     "undo": (Undo, "Take back the last entry."),
+    "redo": (Redo, "Enter again what was taken back."),
     "late": (LetIn, "Let a late player in."),
     "edit": (Edit, "Correct a name or a rating before the draw."),
     "drop": (Drop, "Let a player go home."),
     "forfeit": (Forfeit, "Let a player forfeit a match."),
+    "rename": (Rename, "Give a player their right name."),
+    "substitute": (Substitute, "Let somebody take the place of a player."),
+    "swap": (Swap, "Let two players trade places in the draw."),
+    "check-in": (CheckIn, "Note who is here, and who has paid."),
+    "accept": (Accept, "Let in somebody who has asked to play."),
+    "decline": (Decline, "Turn down somebody who has asked to play."),
     "tiebreak": (TieBreak, "Break the ties of a round robin."),
 }
 """The command of each move: what it asks, and its line in the help of the group."""

@@ -6,6 +6,8 @@ Commands, forms and their routes are made from this table; the options are in `q
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from datetime import datetime, timedelta
 
 import numpy as np
 
@@ -14,6 +16,7 @@ from evenbreak.answers.tournament.moves import (
     called_words,
     draw_words,
     entry_words,
+    event_words,
     forfeited,
     happened,
     live_words,
@@ -28,22 +31,32 @@ from evenbreak.errors import InputError
 from evenbreak.evenings.move import Move
 from evenbreak.files.tables.names import NAME, clean_name, is_name
 from evenbreak.questions.moves import (
+    Accept,
     Call,
     Change,
+    CheckIn,
     Correct,
+    Decline,
     Drop,
     Edit,
+    Ended,
     EnterResult,
     EnterScore,
     Forfeit,
     LetIn,
     MakeDraw,
+    Redo,
+    Rename,
     Stand,
+    Substitute,
+    Swap,
+    SwapTables,
     TieBreak,
     Uncall,
     Undo,
+    Wait,
 )
-from evenbreak.tournaments.evening import moves, settling, undoing
+from evenbreak.tournaments.evening import moves, roster, settling, tables, undoing
 from evenbreak.tournaments.evening.events import Entrant, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
@@ -53,7 +66,8 @@ _GAMES = Parameter("games")
 
 
 def _draw(state: Evening, asked: MakeDraw, _: str) -> Sequence[What]:
-    return moves.draw_next(state, np.random.default_rng(asked.seed))
+    without = [name for name in state.entrants if asked.here and name not in state.arrived]
+    return moves.draw_next(state, np.random.default_rng(asked.seed), without=without)
 
 
 def _call(state: Evening, asked: Call, at: str) -> Sequence[What]:
@@ -64,7 +78,8 @@ def _call(state: Evening, asked: Call, at: str) -> Sequence[What]:
             next=Command("tournament next"),
         )
     if asked.match is not None:
-        return [moves.call(state, asked.match, asked.table)]
+        table = state.plan.table_number(asked.table) if asked.table else None
+        return [moves.call(state, asked.match, table)]
     called = [moves.call(state, name, table) for table, name in next_calls(Outlook(state, at))]
     if not called:
         raise InputError("no match can be called: no table is free, or no match is ready")
@@ -72,16 +87,21 @@ def _call(state: Evening, asked: Call, at: str) -> Sequence[What]:
 
 
 def _result(state: Evening, asked: EnterResult, _: str) -> Sequence[What]:
-    return [moves.result(state, asked.match, _score(state, asked))]
+    return [moves.result(state, asked.match, _score(state, asked), **_ended(asked))]
 
 
 def _correct(state: Evening, asked: Correct, _: str) -> Sequence[What]:
-    return [moves.correct(state, asked.match, _score(state, asked))]
+    score, follow = _score(state, asked), asked.follow or ""
+    return moves.corrections(state, asked.match, score, follow=follow, **_ended(asked))
 
 
-def _score(state: Evening, asked: EnterResult | Correct) -> tuple[int, int] | str:
+def _ended(asked: Ended) -> dict[str, str]:
+    return {"ended": asked.ended, "winner": asked.winner or ""} if asked.ended else {}
+
+
+def _score(state: Evening, asked: Ended) -> tuple[int, int] | str:
     """Return the score of a match, from the winner and the loser's games if they were given."""
-    if asked.winner is None:
+    if asked.winner is None or asked.score is not None:
         return asked.score or ""
     if state.plan.form == "chips":
         return asked.winner
@@ -102,20 +122,33 @@ def _stand_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
 
 
 def _change(state: Evening, asked: Change, _: str) -> Sequence[What]:
+    count = asked.tables if asked.tables or not asked.labels else len(asked.labels)
+    then = replace(state.plan, tables=count or state.plan.tables)
+    then = replace(then, labels=then.labels if asked.labels is None else asked.labels)
+
+    def numbers(names: tuple[str, ...] | None) -> tuple[int, ...] | None:
+        return None if names is None else tuple(map(then.table_number, names))
+
     return [
         moves.change(
             state,
-            tables=asked.tables,
+            tables=count,
             race=asked.race,
             losers_race=asked.losers_race,
             final_race=asked.final_race,
+            name=asked.name,
+            date=asked.date,
+            labels=asked.labels,
+            reserved=numbers(asked.reserved),
+            streamed=numbers(asked.streamed),
+            slower=asked.slower,
         )
     ]
 
 
 def _change_words(_: Evening, after: Evening, __: Change) -> list[Sentence]:
-    tables, races = after.plan.tables, races_words(after.races)
-    return [say("{tables} tables. {races}.", tables=tables, races=races)]
+    races = races_words(after.races)
+    return [say("{tables} tables. {races}.", tables=after.plan.tables, races=races)]
 
 
 def _undo_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
@@ -133,9 +166,7 @@ def name_in(text: str) -> str:
 
 
 def _late(state: Evening, asked: LetIn, _: str) -> Sequence[What]:
-    name, rating = name_in(asked.player), asked.rating
-    entrant = state.plan.newcomer(name) if rating is None else Entrant(name, rating)
-    return [moves.late(state, entrant)]
+    return [moves.late(state, _entrant(state, asked.player, asked.rating))]
 
 
 def _rating_doubts(before: Evening, after: Evening, _: object) -> list[str]:
@@ -156,6 +187,41 @@ def _edit_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
     return [
         say("{player} is entered with a rating of {rating:g}.", player=now.name, rating=now.rating)
     ]
+
+
+def _wait(state: Evening, asked: Wait, at: str) -> Sequence[What]:
+    until = ""
+    if asked.until is not None:
+        now = datetime.fromisoformat(at)
+        when = now.replace(hour=asked.until // 60, minute=asked.until % 60, second=0)
+        until = (when + timedelta(days=now - when > timedelta(hours=12))).isoformat()
+    absent, reason = asked.absent, asked.reason
+    return [tables.wait(state, asked.match, absent=absent, until=until, reason=reason)]
+
+
+def _substitute(state: Evening, asked: Substitute, _: str) -> Sequence[What]:
+    return [roster.substitute(state, asked.player, _entrant(state, asked.to, asked.rating))]
+
+
+def _entrant(state: Evening, text: str, rating: float | None) -> Entrant:
+    name = name_in(text)
+    return state.plan.newcomer(name) if rating is None else Entrant(name, rating)
+
+
+def _check_in(state: Evening, asked: CheckIn, _: str) -> Sequence[What]:
+    arrived = True if asked.arrived is None is asked.paid else asked.arrived
+    return [roster.check_in(state, asked.player, arrived=arrived, paid=asked.paid)]
+
+
+def _said(_: Evening, after: Evening, __: object) -> list[Sentence]:
+    return [say("{entry}.", entry=event_words(after.events[-1].what))]
+
+
+def _redone_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
+    events = dict(zip(after.numbers, after.events, strict=True))
+    (back,) = events.keys() - set(before.numbers)
+    said = say("Entered again: {entry}.", entry=event_words(events[back].what))
+    return [said, *reopened(before, after)]
 
 
 def _tie_break(state: Evening, asked: TieBreak) -> settling.TieBreak:
@@ -199,6 +265,27 @@ MOVES: dict[str, Move[Evening, What]] = {
         _last_words,
         always_asks=True,
     ),
+    "redo": Move(Redo, lambda state, asked, _: [undoing.redo(state, asked.entry)], _redone_words),
+    "swap-tables": Move(
+        SwapTables,
+        lambda state, asked, _: tables.swap_tables(state, asked.one, asked.other),
+        lambda before, after, _: called_words(before, after),
+    ),
+    "wait": Move(Wait, _wait, _said),
+    "rename": Move(
+        Rename,
+        lambda state, asked, _: [roster.rename(state, asked.player, name_in(asked.to))],
+        _said,
+    ),
+    "substitute": Move(Substitute, _substitute, _said, _rating_doubts),
+    "swap": Move(Swap, lambda state, asked, _: [roster.swap(state, asked.one, asked.other)], _said),
+    "check-in": Move(CheckIn, _check_in, _said),
+    "accept": Move(
+        Accept,
+        lambda state, asked, _: [roster.accept(state, asked.name)],
+        lambda _, after, asked: [entry_words(after, asked.name)],
+    ),
+    "decline": Move(Decline, lambda state, asked, _: [roster.decline(state, asked.name)], _said),
     "tiebreak": Move(
         TieBreak,
         lambda state, asked, _: [_tie_break(state, asked).ranked],

@@ -64,7 +64,8 @@ def add(
         return [Event(at, what) for what in decide(state)]
 
     def check(before: Evening, after: Evening) -> None:
-        lost = [] if getattr(asked, "yes", False) else lost_words(before, after)
+        meant = getattr(asked, "yes", False) or getattr(asked, "follow", None)
+        lost = [] if meant else lost_words(before, after)
         if lost:
             refuse(f"nothing was entered yet. {' '.join(lost)} Give --yes if that is meant")
 

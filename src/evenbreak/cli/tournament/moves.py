@@ -41,7 +41,11 @@ def _in_full(asked: Any, state: Evening) -> Any:
     question: Any = type(asked)
     names = [one.name for one in declared(question) if one.kind == PLAYER]
     typed = {name: getattr(asked, name) for name in names if getattr(asked, name)}
-    return replace(asked, **{name: known_player(state, text) for name, text in typed.items()})
+
+    def full(text: Any) -> Any:
+        return known_player(state, text) if isinstance(text, str) else tuple(map(full, text))
+
+    return replace(asked, **{name: full(text) for name, text in typed.items()})
 
 
 def __getattr__(name: str) -> click.Command:

@@ -18,6 +18,7 @@ from evenbreak.tournaments.evening.events import (
     Result,
     Scored,
     Undone,
+    Waits,
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.matches import LiveScore, OnTable
@@ -139,7 +140,8 @@ def matches_of(before: Evening, after: Evening) -> set[str]:
     """Return the matches that what was entered, or taken back, is about."""
     then, now = (dict(zip(s.numbers, s.events, strict=True)) for s in (before, after))
     entries = [(then | now)[number].what for number in then.keys() ^ now.keys()]
-    return {one.match for one in entries if isinstance(one, Result | Called | CalledBack | Scored)}
+    kinds = Result | Called | CalledBack | Scored | Waits
+    return {one.match for one in entries if isinstance(one, kinds)}
 
 
 def _no_longer_played(before: Evening, after: Evening, about: set[str]) -> Iterator[Loss]:

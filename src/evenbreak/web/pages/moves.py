@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import hashlib
 import secrets
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from starlette.requests import Request
@@ -15,8 +15,10 @@ from starlette.routing import Route
 from evenbreak.answers.tournament.move_table import MOVES
 from evenbreak.answers.tournament.moves import lost_words
 from evenbreak.evenings.move import AlreadyError, Move
+from evenbreak.fields.kinds import Text
 from evenbreak.fields.question import AskedError, Declared, declared
 from evenbreak.files.store.tournament import add_events
+from evenbreak.questions.moves import PLAYER
 from evenbreak.tournaments.evening.events import Event, What
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.undoing import losses, matches_of
@@ -37,11 +39,7 @@ from evenbreak.words import Parameter
 
 OF_COMMANDS = ("file", "at", "yes", "seed")
 """The fields of a question that no form has."""
-_READ: dict[str, Callable[[Form], Any]] = {
-    "rating": entered_rating,
-    "name": entered_name,
-    "player": lambda form: entered_name(form, "player"),
-}
+_NAMES = (PLAYER, Text("NAME"))
 _DESK = "/desk"
 
 
@@ -58,21 +56,19 @@ def asked_in(question: type, form: Form) -> list[Any]:
     A score may come as the games of each player, in the fields a and b.
     """
     fields = [one for one in declared(question) if one.name not in OF_COMMANDS]
-    given = {name_of(one): form.texts(name_of(one)) for one in fields}
-    texts = [[(name, text) for text in each] for name, each in given.items() if each]
-    if len(texts) < 2 or len(texts[0]) == 1:
+    names = [name_of(one) for one in fields if not one.field.many]
+    texts = [(name, form.texts(name)) for name in names if name in form.fields]
+    count = max((len(each) for _, each in texts), default=1)
+    if count == 1:
         return [_asked(question, fields, form)]
-    if any(len(each) != len(texts[0]) for each in texts):
+    if any(len(each) not in (1, count) for _, each in texts):
         raise RefusalError("A match has no table, or a table has no match. Open the page again.")
-    return [_asked(question, fields, Form(Fields(one))) for one in zip(*texts, strict=True)]
+    rows = [[(name, each[k % len(each)]) for name, each in texts] for k in range(count)]
+    return [_asked(question, fields, Form(Fields(one))) for one in rows]
 
 
 def _asked(question: type, fields: Sequence[Declared], form: Form) -> Any:
-    values = {
-        one.name: _READ[one.name](form) if one.name in _READ else value_of(one, form)
-        for one in fields
-        if form.text(name_of(one))
-    }
+    values = {one.name: _value(one, form) for one in fields if form.text(name_of(one))}
     if form.text("a") or form.text("b"):
         values["score"] = form.whole("a", 0, 999), form.whole("b", 0, 999)
     if any(one.name == "seed" for one in declared(question)):
@@ -84,6 +80,15 @@ def _asked(question: type, fields: Sequence[Declared], form: Form) -> Any:
         return question(**values)
     except AskedError as error:
         raise RefusalError(error.sentence) from None
+
+
+def _value(one: Declared, form: Form) -> Any:
+    name = name_of(one)
+    if one.field.many:
+        return tuple(one.kind.read(text) for text in form.texts(name))
+    if one.name == "rating":
+        return entered_rating(form)
+    return entered_name(form, name) if one.kind in _NAMES else value_of(one, form)
 
 
 def _route(name: str, move: Move[Evening, What]) -> Route:
@@ -158,7 +163,7 @@ def _ask(request: Request, form: Form, said: Sequence[str], asked: _AskError) ->
 def _name_of(before: Evening, after: Evening) -> str:
     """Return what a question is known by: the matches that it is about, and those in play."""
     lost = sorted((one.match, *sorted(one.players)) for one in losses(before, after))
-    text = repr((sorted(matches_of(before, after)), lost))
+    text = repr(lost or sorted(matches_of(before, after)))
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
