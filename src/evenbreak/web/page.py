@@ -12,7 +12,7 @@ import json
 import os
 import secrets
 import urllib.parse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from importlib.resources import files
@@ -40,6 +40,9 @@ from evenbreak.words import Face, Figure, capital_in_face, in_face, say, say_as,
 
 _LANGUAGE = "language"
 _SAID = "said"
+_CSRF, _ONCE = (f"mark-{secrets.token_hex(12)}" for _ in range(2))
+"""What stands in a rendered page for the marks of its reader's forms."""
+_MOST_RENDERED = 200
 _MOST_SAID = 1500  # letters as JSON writes them: a cookie holds 4 KB
 
 FIELDS = {
@@ -160,6 +163,7 @@ def page(
     live: bool = False,
     quick: bool = False,
     status: int = 200,
+    of: Sequence[object] = (),
     **values: Any,
 ) -> Response:
     """Return a page.
@@ -176,11 +180,22 @@ def page(
         whether it asks again after a second or two, for what is being worked out.
     status
         of HTTP.
+    of
+        what the page is made of, besides who reads it and the minute: while these stay the same
+        objects (or equal texts), a hundred phones get what was rendered for the first.
     values
         what the template shows.
     """
     code = language(request)
     face = page_face(code)
+    said = request.session.pop(_SAID, [])
+    site = site_of(request)
+    own = {_CSRF: form_token(request), _ONCE: secrets.token_urlsafe(9)}
+    kinds = [one if isinstance(one, str) else id(one) for one in of]
+    asked = f"{request.url.path}?{request.url.query}"
+    key = (template, asked, code, is_director(request), live, quick, site.clock()[:16], *kinds)
+    if of and not said and (kept := site.rendered.get(key)):
+        return HTMLResponse(_with(kept[0], own), status_code=status)
 
     def capital(text: str) -> str:
         return _without_folder(request, capital_in_face(text, face))
@@ -201,23 +216,34 @@ def page(
             language=code,
             languages=languages(),
             here=request.url.path,
-            style=style_address(site_of(request).color),
+            style=style_address(site.color),
             opens=partial(can_be_opened, request),
             return_to=_return_to(request),
-            site=site_of(request),
+            site=site,
             director=is_director(request),
-            csrf=form_token(request),
-            once=secrets.token_urlsafe(9),
+            csrf=_CSRF,
+            once=_ONCE,
             of_league=values.pop("of_league", {}),
             begun=begun_at(request),
-            said=request.session.pop(_SAID, []),
+            said=said,
             live=live,
             quick=quick,
             script=own_file("live.js"),
             **values,
         )
     )
-    return HTMLResponse(shown, status_code=status)
+    if of and not said:
+        site.rendered[key] = shown, of  # which keeps the objects, so that no other has their place
+        while len(site.rendered) > _MOST_RENDERED:
+            site.rendered.pop(next(iter(site.rendered)))
+    return HTMLResponse(_with(shown, own), status_code=status)
+
+
+def _with(shown: str, own: Mapping[str, str]) -> str:
+    """Return a page with the marks of its reader's forms."""
+    for mark, text in own.items():
+        shown = shown.replace(mark, text)
+    return shown
 
 
 def begun_at(request: Request) -> str:

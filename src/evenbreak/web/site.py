@@ -6,7 +6,7 @@ import hashlib
 import hmac
 import itertools
 import secrets
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -66,6 +66,7 @@ class Site:
         self.teams = TeamNights(self.path, self.night.beside)
         self.league = League(self.path)
         self.made = Made()
+        self.rendered: dict[tuple[object, ...], tuple[str, Sequence[object]]] = {}
         self._first = {
             "pin": new_pin(),
             **{name: _mark() for name in ("cookie", "director", "match")},

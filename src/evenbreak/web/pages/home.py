@@ -36,7 +36,9 @@ async def tonight(request: Request) -> Response:
     known = await night.outlook()
     state = night.state()
     view = view_of(state, known)
-    return page(request, "tonight.html", live=True, view=view, prizes=night.prizes())
+    prizes = night.prizes()
+    of = (state, known, str(prizes))
+    return page(request, "tonight.html", live=True, of=of, view=view, prizes=prizes)
 
 
 async def ask_pin(request: Request) -> Response:
