@@ -11,7 +11,8 @@ from evenbreak.tournaments import chances_given, over_ratings, pair_odds, title_
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, What
 from evenbreak.tournaments.evening.fold import evening
-from evenbreak.tournaments.evening.outlook import Games, Outlook, skills_tonight
+from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.evening.skills import Games, skills_tonight
 from evenbreak.tournaments.odds.races import Races
 
 FARGO = scale_of("fargo")

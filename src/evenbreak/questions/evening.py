@@ -119,12 +119,29 @@ class Export(UnderWay):
   evenbreak tournament export --out matches.csv
   evenbreak rate matches.csv
   evenbreak tournament export --events --out cup.csv
+  evenbreak tournament export --story --out story.svg
 """
-    out: Annotated[str | None, Field(File("FILE.csv"), "Write them to this file.")] = None
+    out: Annotated[
+        str | None,
+        Field(File("FILE.csv"), "Write them to this file; with {story} .svg is a picture."),
+    ] = None
     events: Annotated[
         bool,
         Field(Flag(), "List all that happened instead, which evenbreak tournament import reads."),
     ] = False
+    story: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "The story of the night instead: each player's title odds after each match, the upset, "
+            "the closest match.",
+        ),
+    ] = False
+
+    def check(self) -> None:
+        """Refuse two lists at once."""
+        if self.events and self.story:
+            self.refuse("{events} and {story} are two lists; give one of them")
 
 
 @dataclass(frozen=True, kw_only=True)

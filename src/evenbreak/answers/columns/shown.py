@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from evenbreak.answers.kit.parts import Column, Show
-from evenbreak.answers.kit.wording import clock, decimals, range_words
+from evenbreak.answers.kit.wording import clock, decimals, range_words, share_at_a_glance
 from evenbreak.words import joined, say
 
 plain: Show = "{:g}".format
@@ -76,6 +76,16 @@ def small_p(p: float) -> str:
 def imaginary(part: float) -> str:
     """Return an imaginary part; nothing for a real number."""
     return f"{part:+.6f}i" if part else ""
+
+
+def band(ends: tuple[float, float]) -> str:
+    """Return two chances as a range.
+
+    >>> print(band((0.021, 0.19)))
+    2.1%-19%
+    """
+    low, high = map(share_at_a_glance, ends)
+    return say("{low}-{high}", low=low, high=high)
 
 
 def yes_or_blank(truth: bool) -> str:

@@ -23,6 +23,12 @@ TOURNAMENT = registry(
     number("matches_won", say("matches\nwon"), name="won"),
     number("buchholz", say("won by their\nopponents")),
     number("p_title", say("title"), share),
+    number(
+        "p_title_band",
+        say("no rating:\nbetween"),
+        shown.band,
+        ("p_title_low", "p_title_high"),
+    ),
     number("p_place", "{place}", share, "{name}"),
     number("p_title_if_sure", say("title, if the\nratings are right"), share),
     detail("p_title_if_sure_error", "standard error\nof that", chance),
@@ -71,6 +77,10 @@ TOURNAMENT = registry(
     number("p_stronger", "the stronger\nwins", chance),
     number("spread", "unfairness (0: equal odds for all)", 2),
     number("racks_mean", "racks until two are left", 0),
+    text("happened_at", "at", name="at"),
+    text("happened", ""),
+    number("p_winner", "given\nbefore", percent),
+    number("title_moved", "title odds\nthat moved", percent),
     text("event_title", "{title}", name="{title}"),
     files_only="event exact ratings_averaged p_second_final matches_mean rematches_mean pot paid "
     "finish_error unfairness_by_round games_mean_by_round",

@@ -124,8 +124,15 @@ def title_odds_of(night: Outlook) -> list[tuple[str, float, float]]:
 def odds_data(night: Outlook) -> dict[str, Any]:
     """Return what JSON holds of the odds, and of the matches that are set aside."""
     names = ("name", "p_title", "p_title_if_sure")
+    bands = {
+        name: dict(zip(("p_title_low", "p_title_high"), ends, strict=True))
+        for name, ends in night.bands.items()
+    }
     return {
-        "odds": [dict(zip(names, row, strict=True)) for row in title_odds_of(night)],
+        "odds": [
+            dict(zip(names, row, strict=True)) | bands.get(row[0], {})
+            for row in title_odds_of(night)
+        ],
         "odds_exact": night.odds.exact,
         "ratings_averaged": night.odds is not night.as_if_sure,
         "set_aside": [as_dict(one.result) for one in night.state.aside],

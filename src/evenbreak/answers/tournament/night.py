@@ -18,7 +18,7 @@ from evenbreak.answers.tournament.chips import (
     odds_data,
     title_odds_of,
 )
-from evenbreak.answers.tournament.odds import points_off
+from evenbreak.answers.tournament.odds import favorites, points_off
 from evenbreak.answers.tournament.prizes import Stake, stakes
 from evenbreak.answers.tournament.time import (
     ends_words,
@@ -208,11 +208,16 @@ def _draw_words(state: Evening) -> str:
 
 
 def _title_table(night: Outlook) -> Table:
-    rows = sorted((row for row in title_odds_of(night) if row[1] > 0.0), key=lambda row: -row[1])
-    columns = columns_of("name p_title")
-    sure = column_of("p_title_if_sure")
-    shown = [*columns, sure] if night.odds is not night.as_if_sure else columns
-    few = [row[: len(shown)] for row in rows[:_SHOWN]]
+    every, bands = title_odds_of(night), night.bands
+    rows = [every[k] for k in favorites(night.odds, bands) if every[k][1] > 0.0][:_SHOWN]
+    shown = columns_of("name p_title")
+    few = [list(row[:2]) for row in rows]
+    if bands.keys() & {row[0] for row in rows}:
+        shown.append(column_of("p_title_band"))
+        few = [[*row, bands.get(str(row[0]))] for row in few]
+    if night.odds is not night.as_if_sure:
+        shown.append(column_of("p_title_if_sure"))
+        few = [[*row, every[2]] for row, every in zip(few, rows, strict=True)]
     title = say("Title odds")
     if not night.odds.exact:
         title = say("Title odds (± {points})", points=points_off(night.odds, title=True))

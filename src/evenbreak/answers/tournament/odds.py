@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from types import MappingProxyType
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, quantities_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import form_used_words
-from evenbreak.answers.kit.wording import count_of, percent
+from evenbreak.answers.kit.wording import count_of, percent, share_at_a_glance
 from evenbreak.answers.tournament.handicap import fairer_races, favours, favours_words
 from evenbreak.answers.tournament.tournament import Tournament
 from evenbreak.arrays import Floats
@@ -25,6 +26,11 @@ from evenbreak.tournaments.odds.races import chances_given
 from evenbreak.tournaments.odds.rematches import expected_rematches
 from evenbreak.tournaments.odds.title import PlaceOdds, TitleOdds, title_odds
 from evenbreak.tournaments.odds.uncertain import drawn_chances, over_ratings
+
+Bands: TypeAlias = Mapping[str, tuple[float, float]]
+"""The title odds of players without a rating if they are weak, and if they are strong."""
+
+NOTHING: Bands = MappingProxyType({})
 
 _NAMED = {1: "title", 2: "second", 3: "third", 4: "fourth"}
 _SHOWN = 3  # places that everybody sees; the others are details
@@ -72,11 +78,11 @@ def tournament_odds_answer(
     who have met before; a second final is needed 41% of the time.
     """
     found = solved(tournament, sure=sure, walkovers=walkovers, seed=seed)
-    plug_in, odds = found
+    plug_in, odds, bands = found
     quantities = quantities_of(
         {"exact": plug_in.exact and (not found.averaged), "ratings_averaged": found.averaged}
     )
-    words = _in_words(odds)
+    words = _in_words(odds, bands)
     if isinstance(odds, TitleOdds):
         rng = np.random.default_rng(seed)
         rematches = expected_rematches(tournament.bracket, tournament.laws, rng=rng).mean
@@ -95,7 +101,7 @@ def tournament_odds_answer(
     if handicapped:
         words += f"\n{favours_words(tournament.ratings, odds)}"
         quantities += favours(tournament.ratings, odds)
-    table = odds_table(tournament.ratings, plug_in, odds, prizes, shares=handicapped)
+    table = odds_table(tournament.ratings, plug_in, odds, prizes, bands, shares=handicapped)
     parts: list[Part] = [words, Quantities(quantities), table]
     if fairest:
         parts += fairer_races(tournament)
@@ -116,6 +122,7 @@ def odds_table(
     plug_in: PlaceOdds,
     odds: PlaceOdds,
     prizes: Sequence[float] = (),
+    bands: Bands = NOTHING,
     *,
     shares: bool = False,
 ) -> Table:
@@ -130,6 +137,8 @@ def odds_table(
         if they are not averaged.
     prizes
         the money for each place.
+    bands
+        the title odds of players without a rating if they are weak, and if they are strong.
     shares
         whether to say how many times an equal share the title odds are.
     """
@@ -145,6 +154,8 @@ def odds_table(
             "p_place", detail=k >= _SHOWN, name=place_key(place), place=place_words(place)
         )
         values[column] = odds.p_place[:, k]
+        if k == 0 and bands:
+            values["p_title_band"] = [bands.get(name) for name in odds.bracket.players]
     if odds is not plug_in:
         values["p_title_if_sure"] = plug_in.title
         if not plug_in.exact:
@@ -158,7 +169,18 @@ def odds_table(
         values[column] = len(seats) * odds.title
     if prizes:
         values["prize_mean"] = odds.expected_prize(prizes)
-    return table_by_column("players", values, order=sorted(seats, key=lambda k: -odds.title[k]))
+    return table_by_column("players", values, order=favorites(odds, bands))
+
+
+def favorites(odds: PlaceOdds, bands: Bands = NOTHING) -> list[int]:
+    """Return the players' seats, the favorite first.
+
+    A player without a rating comes where the low end of their band puts them: so nobody is the
+    favorite of a night for what a few games may or may not say.
+    """
+    players, title = odds.bracket.players, odds.title.tolist()
+    known = [bands[name][0] if name in bands else title[k] for k, name in enumerate(players)]
+    return sorted(range(len(players)), key=lambda k: (-known[k], -title[k]))
 
 
 def place_errors(places: Mapping[str, str], error: Floats) -> dict[Any, Any]:
@@ -192,26 +214,33 @@ def place_words(place: Place) -> str:
     return str(place)
 
 
-def favourite_words(odds: PlaceOdds) -> str:
+def favourite_words(odds: PlaceOdds, bands: Bands = NOTHING) -> str:
     """Return who is likely to win."""
     players, title = odds.bracket.players, odds.title
-    alive = [k for k in np.argsort(-title, kind="stable")[:3].tolist() if title[k] > 0.0]
+    alive = [k for k in favorites(odds, bands)[:3] if title[k] > 0.0]
     best, *others = alive
     if not others:
         return f"{players[best]} wins the tournament."
+    given = {k: percent(title[k]) for k in alive}
+    given |= {
+        k: f"no rating: {share_at_a_glance(low)} to {share_at_a_glance(high)}"
+        for k in alive
+        for low, high in [bands.get(players[k], (0.0, 0.0))]
+        if players[k] in bands
+    }
     text = (
         f"The favourite is {players[best]}, who wins the tournament {percent(title[best])} of the "
         "time"
     )
     if others:
-        following = " and ".join(f"{players[k]} ({percent(title[k])})" for k in others)
+        following = " and ".join(f"{players[k]} ({given[k]})" for k in others)
         text += f"; next {'are' if len(others) > 1 else 'is'} {following}"
     return f"{text}."
 
 
-def _in_words(odds: PlaceOdds) -> str:
+def _in_words(odds: PlaceOdds, bands: Bands) -> str:
     equal = percent(1.0 / len(odds.bracket.players))
-    return f"{favourite_words(odds)}\nAn equal share would be {equal}."
+    return f"{favourite_words(odds, bands)}\nAn equal share would be {equal}."
 
 
 def _matches_words(odds: TitleOdds, rematches: float) -> str:
@@ -290,6 +319,7 @@ class Solved(NamedTuple):
 
     plug_in: PlaceOdds
     odds: PlaceOdds
+    bands: Bands = NOTHING
 
     @property
     def averaged(self) -> bool:
@@ -312,8 +342,7 @@ def solved(tournament: Tournament, *, sure: bool, walkovers: float, seed: int) -
         of what has to be sampled.
     """
     bracket = tournament.bracket
-    errors = np.nan_to_num(tournament.roster.standard_error)
-    uncertain = bool(errors.any()) and not sure
+    uncertain = bool(tournament.skills[1].any()) and not sure
     form = tournament.file.form
     win_of = chances_given(
         bracket, tournament.ratings, tournament.races, scale=tournament.scale, form=form
@@ -323,14 +352,18 @@ def solved(tournament: Tournament, *, sure: bool, walkovers: float, seed: int) -
         if not uncertain:
             odds = title_odds(bracket, tournament.laws, **asked)
             return Solved(odds, odds)
-        both = over_ratings(bracket, win_of, tournament.ratings, errors, **asked)
-        return Solved(both.as_if_sure, both.averaged)
+        both = over_ratings(bracket, win_of, *tournament.skills, **asked)
+        if not tournament.unrated:
+            return Solved(both.as_if_sure, both.averaged)
+        seats = {name: bracket.players.index(name) for name in tournament.unrated}
+        bands = {name: (both.bands[k, 0], both.bands[k, 1]) for name, k in seats.items()}
+        return Solved(title_odds(bracket, tournament.laws, **asked), both.averaged, bands)
     plug_in = _drawn_later(tournament, tournament.laws, asked)
     if not uncertain:
         return Solved(plug_in, plug_in)
     if tournament.to_draw == "qualifiers":
-        return Solved(plug_in, _redrawn(tournament, win_of, errors, asked))
-    every = drawn_chances(bracket, win_of, tournament.ratings, errors, samples=_RATINGS, **asked)
+        return Solved(plug_in, _redrawn(tournament, win_of, asked))
+    every = drawn_chances(bracket, win_of, *tournament.skills, samples=_RATINGS, **asked)
     return Solved(plug_in, _drawn_later(tournament, every, {**asked, "walkovers": 0.0}))
 
 
@@ -347,15 +380,15 @@ def _drawn_later(tournament: Tournament, win: Wins, asked: Any) -> PlaceOdds:
     return swiss_odds(swiss(bracket.players, rounds), table, rng=asked["rng"])
 
 
-def _redrawn(tournament: Tournament, win_of: Any, errors: Floats, asked: Any) -> PlaceOdds:
+def _redrawn(tournament: Tournament, win_of: Any, asked: Any) -> PlaceOdds:
     """Return the odds averaged over the ratings and over some redraws."""
     bracket = tournament.bracket
     qualifiers = losers_qualifiers(bracket)
     laws = []
     for _ in range(_REDRAWS):
         order = [qualifiers[k] for k in asked["rng"].permutation(len(qualifiers)).tolist()]
-        ratings = tournament.ratings
-        both = over_ratings(redrawn(bracket, order), win_of, ratings, errors, samples=100, **asked)
+        skills = tournament.skills
+        both = over_ratings(redrawn(bracket, order), win_of, *skills, samples=100, **asked)
         laws.append(both.averaged.p_place)
     # How the redraws differ holds both kinds of luck: theirs, and that of the ratings within each.
     error = np.std(laws, axis=0, ddof=1) / np.sqrt(_REDRAWS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,6 +22,7 @@ from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.brackets.bracket import Bracket, Place, Slot
 from evenbreak.tournaments.brackets.standing import Standing
 from evenbreak.tournaments.evening.plan import TO_DRAW
+from evenbreak.tournaments.evening.skills import skills_before
 from evenbreak.tournaments.odds.races import Fairest, PairOdds, Race, Races, pair_odds
 from evenbreak.words import Sentence, joined, ordinal, say
 
@@ -71,6 +73,13 @@ class Tournament:
         """The ratings, in seed order."""
         return self.roster.rating
 
+    @cached_property
+    def skills(self) -> tuple[Floats, Floats]:
+        """What the players' skills may be: the mean and the covariance (see `skills_before`)."""
+        errors = np.nan_to_num(self.roster.standard_error)
+        unrated = np.array([name in self.unrated for name in self.roster.players])
+        return skills_before(self.ratings, errors, unrated)
+
     @property
     def heading(self) -> str:
         """What is played by whom."""
@@ -104,8 +113,11 @@ class Tournament:
         said = [games_words(self.file.roster, self.roster)] if spread else []
         if names := self.unrated:
             seat = self.roster.players.index(names[0])
-            error = float(self.roster.standard_error[seat]) if spread else 0.0
-            said.insert(0, unrated_words(names, float(self.roster.rating[seat]), error))
+            rating, error = float(self.ratings[seat]), 0.0
+            if spread:
+                mean, covariance = self.skills
+                rating, error = round(mean[seat]), round(math.sqrt(covariance[seat, seat]))
+            said.insert(0, unrated_words(names, rating, error))
         return joined(filter(None, said))
 
 

@@ -67,7 +67,8 @@ def odds_under_way(
     """
     state, plug_in = outlook.state, outlook.as_if_sure
     odds = plug_in if sure else outlook.odds
-    table = odds_table(state.ratings, plug_in, odds, prizes)
+    bands = {} if sure else outlook.bands
+    table = odds_table(state.ratings, plug_in, odds, prizes, bands)
     quantities = quantities_of(
         {"exact": plug_in.exact and odds is plug_in, "ratings_averaged": odds is not plug_in}
     )
@@ -78,7 +79,7 @@ def odds_under_way(
             ),
             *quantities,
         ]
-    parts: list[Part] = [favourite_words(odds), Quantities(quantities), table]
+    parts: list[Part] = [favourite_words(odds, bands), Quantities(quantities), table]
     if state.standing.to_play:
         if (at_stake := _at_stake(outlook, prizes)).rows:
             parts.append(at_stake)

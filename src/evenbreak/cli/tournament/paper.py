@@ -74,11 +74,33 @@ def export(asked: Export) -> Answer:
     from evenbreak.files.store.tournament import read_events, read_tournament
 
     name = PurePath(asked.path).stem
+    if asked.story:
+        return _story(asked)
     if asked.events:
         answer = tournament_events_answer(read_events(asked.path), name)
     else:
         answer = tournament_matches_answer(read_tournament(asked.path), name)
     if asked.out is not None:
+        write_file(asked.out, "".join(to_csv(answer)).encode())
+    return answer
+
+
+def _story(asked: Export) -> Answer:
+    """Return the story of the night, and write it as a table or a picture."""
+    from evenbreak.answers.faces.to_csv import to_csv
+    from evenbreak.answers.tournament.story import story_answer
+    from evenbreak.files.store.tournament import read_tournament
+    from evenbreak.tournaments.evening.story import story_of
+
+    state = read_tournament(asked.path)
+    _ = state.bracket  # which refuses a tournament without a draw
+    story = story_of(state)
+    answer = story_answer(state, story)
+    if asked.out is not None and PurePath(asked.out).suffix.lower() == ".svg":
+        from evenbreak.sheets.story_drawing import story_svg
+
+        write_file(asked.out, story_svg(story).encode())
+    elif asked.out is not None:
         write_file(asked.out, "".join(to_csv(answer)).encode())
     return answer
 

@@ -206,6 +206,18 @@ class Evening:
         return np.array([self.entrants[name].rating for name in self.order])
 
     @cached_property
+    def unrated(self) -> frozenset[str]:
+        """Whoever entered without a rating; nobody where nobody has one."""
+        plan = self.plan
+        new = plan.starter, plan.starter_error
+        found = {
+            one.name
+            for one in self.entrants.values()
+            if one.provisional and one.standard_error and (one.rating, one.standard_error) == new
+        }
+        return frozenset(found if len(found) < len(self.entrants) else ())
+
+    @cached_property
     def counted(self) -> dict[str, Result]:
         """The result of each decided match, forfeits of players who went home among them."""
         return self._settled[0]

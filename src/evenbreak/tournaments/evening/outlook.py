@@ -6,7 +6,6 @@ into what is expected of the matches to come.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -18,7 +17,6 @@ import numpy as np
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Pace, Turnover
-from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.chips.play import rack_chances
 from evenbreak.tournaments.clock.evenings import InPlay
 from evenbreak.tournaments.clock.event_pace import Timed, event_pace, learned_pace
@@ -29,6 +27,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import stage_to_draw
 from evenbreak.tournaments.evening.matches import Played
 from evenbreak.tournaments.evening.plan import pairings, swiss_of
+from evenbreak.tournaments.evening.skills import Games, skills_before, skills_tonight
 from evenbreak.tournaments.odds.draws import redraw_odds, swiss_odds
 from evenbreak.tournaments.odds.leverage import Leverage, leverages
 from evenbreak.tournaments.odds.races import (
@@ -40,7 +39,7 @@ from evenbreak.tournaments.odds.races import (
     race_chance,
 )
 from evenbreak.tournaments.odds.title import PlaceOdds, title_odds
-from evenbreak.tournaments.odds.uncertain import drawn_chances, over_ratings
+from evenbreak.tournaments.odds.uncertain import UncertainOdds, drawn_chances, over_ratings
 
 _REDRAWS = 6  # of the qualifiers, if there are more ways than 24
 _SWISSES = 600  # are played out
@@ -164,18 +163,41 @@ class Outlook:
         if not self.errors.any() or not self.state.standing.to_play:
             return self.as_if_sure
         state = self.state
-        skills, covariance = skills_tonight(state.ratings, self.errors, self.games, state.scale)
         if state.plan.form == "chips":
-            return chip_odds(state, drawn_racks(state, skills, covariance))
+            return chip_odds(state, drawn_racks(state, *self.skills))
         if state.plan.form == "swiss":
-            asked = state.whole, self.chances, skills, covariance
+            asked = state.whole, self.chances, *self.skills
             rng = np.random.default_rng(0)
             return self._swiss_odds(drawn_chances(*asked, samples=_RATINGS, rng=rng))
         if stage_to_draw(state) is not None:
             return self.as_if_sure
-        return over_ratings(
-            state.bracket, self.chances, skills, covariance, results=state.results
-        ).averaged
+        return self._over_ratings.averaged
+
+    @cached_property
+    def skills(self) -> tuple[Floats, Floats]:
+        """What the players' skills may be, given tonight's games: the mean and the covariance."""
+        state = self.state
+        unrated = np.array([name in state.unrated for name in state.order])
+        prior = skills_before(state.ratings, self.errors, unrated)
+        return skills_tonight(*prior, self.games, state.scale, state.plan.match_form)
+
+    @cached_property
+    def _over_ratings(self) -> UncertainOdds:
+        state = self.state
+        return over_ratings(state.bracket, self.chances, *self.skills, results=state.results)
+
+    @property
+    def bands(self) -> dict[str, tuple[float, float]]:
+        """The title odds of each unrated player if they are weak, or strong.
+
+        See `UncertainOdds.bands`; nothing where the odds are not averaged like that.
+        """
+        state = self.state
+        simple = state.plan.form not in ("swiss", "chips") and stage_to_draw(state) is None
+        if not (simple and state.unrated and self.errors.any() and state.standing.to_play):
+            return {}
+        every = zip(state.order, self._over_ratings.bands.tolist(), strict=True)
+        return {name: (low, high) for name, (low, high) in every if name in state.unrated}
 
     def _swiss_odds(self, chances: Mapping[str, Floats]) -> PlaceOdds:
         state = self.state
@@ -376,72 +398,3 @@ def played_matches(state: Evening) -> list[Played]:
         for one in played
     }
     return list(found.values())
-
-
-# What tonight's games say of the players' skills.
-#
-# Each skill is normal around its rating, with the rating's standard error, and a game between two
-# players is won with the chances of the scale. The posterior is approximated by a normal
-# distribution at its mode (Laplace's method).
-
-
-_STEPS = 50
-_FARTHEST = 2.0  # how many doublings of the odds one step may go
-
-
-class Games(NamedTuple):
-    """The games between two players, by position, and how many each of them won."""
-
-    one: int
-    other: int
-    won: int
-    lost: int
-
-
-def skills_tonight(
-    ratings: Floats, errors: Floats, games: Sequence[Games], scale: Scale
-) -> tuple[Floats, Floats]:
-    """Return the mean and the covariance of the players' skills, given tonight's games.
-
-    Parameters
-    ----------
-    ratings, errors
-        the ratings and their standard errors; a rating with the error 0 is right.
-    games
-        what was played.
-    scale
-        the scale of the ratings.
-
-    >>> from evenbreak.ratings.scale import scale_of
-    >>> even = np.array([500.0, 500.0]), np.array([100.0, 0.0])
-    >>> mean, spread = skills_tonight(*even, [Games(0, 1, 7, 2)], scale_of("fargo"))
-    >>> mean.round(), np.sqrt(spread[0, 0]).round()
-    (array([584., 500.]), np.float64(71.0))
-    """
-    slope = math.log(2.0) / scale.points_per_doubling
-    unsure = errors > 0.0
-    precision = np.zeros(len(errors))
-    precision[unsure] = errors[unsure] ** -2.0
-    mean = ratings.astype(float).copy()
-    covariance = np.zeros((len(mean), len(mean)))
-    if not unsure.any():
-        return mean, covariance
-    free = np.ix_(unsure, unsure)
-    for _ in range(_STEPS):
-        gradient = precision * (ratings - mean)
-        curvature = np.diag(precision)
-        for one, other, won, lost in games:
-            p = float(scale.win_probability(mean[one] - mean[other]))
-            pull = slope * (won - (won + lost) * p)
-            gradient[one] += pull
-            gradient[other] -= pull
-            bend = slope**2 * (won + lost) * p * (1.0 - p)
-            both = [one, other]
-            curvature[np.ix_(both, both)] += bend * np.array([[1.0, -1.0], [-1.0, 1.0]])
-        step = np.linalg.solve(curvature[free], gradient[unsure])
-        most = _FARTHEST * scale.points_per_doubling
-        mean[unsure] += step * min(1.0, most / max(float(np.abs(step).max()), 1e-300))
-        if np.abs(step).max() < 1e-9 * scale.points_per_doubling:
-            break
-    covariance[free] = np.linalg.inv(curvature[free])
-    return mean, covariance

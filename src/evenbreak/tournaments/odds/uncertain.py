@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from evenbreak.arrays import Floats
 from evenbreak.checks import column, floats, whole
 from evenbreak.errors import InputError
-from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.standing import Results, Standing, standing
 from evenbreak.tournaments.odds.chances import Chances, Wins, chances_of
 from evenbreak.tournaments.odds.passes import forward_pass
@@ -51,10 +51,15 @@ class UncertainOdds:
         the odds averaged over samples of the ratings; its `error` is that of the average.
     as_if_sure
         the odds by the ratings as they are.
+    bands
+        two columns: each player's title odds, averaged over the fifth of the draws in which their
+        own rating is lowest, and over that in which it is highest. Their middles are the tenth
+        and the ninetieth percentile of what the rating may be.
     """
 
     averaged: TitleOdds
     as_if_sure: TitleOdds
+    bands: Floats
 
 
 def over_ratings(
@@ -128,7 +133,16 @@ def over_ratings(
     else:
         laws, meetings = _exactly(now, plan, of_skills(drawn), 2 * pairs)
     odds = TitleOdds(bracket, laws.mean(axis=2), error_of_pairs(laws), 2 * pairs, meetings)
-    return UncertainOdds(odds, sure)
+    title = laws[:, bracket.places.index(Place(1, 1))]
+    return UncertainOdds(odds, sure, _bands(title, drawn.T))
+
+
+def _bands(title: Floats, drawn: Floats) -> Floats:
+    """Return the title odds where a player's own rating is low, and where it is high."""
+    fifth = max(1, drawn.shape[1] // 5)
+    by_skill = np.take_along_axis(title, np.argsort(drawn, axis=1, kind="stable"), axis=1)
+    ends = by_skill[:, :fifth], by_skill[:, -fifth:]
+    return np.stack([end.mean(axis=1) for end in ends], axis=1)
 
 
 def error_of_pairs(laws: Floats) -> Floats:

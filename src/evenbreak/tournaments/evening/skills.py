@@ -1,0 +1,125 @@
+"""What tonight's games say of the players' skills.
+
+Each skill is normal around its rating, with the rating's standard error; those of players without a
+rating are as far apart as the others' (`skills_before`). A game between two players is won with the
+chances of the scale. The posterior is approximated by a normal distribution at its mode (Laplace's
+method).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from evenbreak.arrays import Bools, Floats
+from evenbreak.ratings.scale import Scale
+
+_STEPS = 50
+_FARTHEST = 2.0  # how many doublings of the odds one step may go
+_CENTRE, _SPREAD = 2.0, 4.0  # as many rated players the starter's place, and its error, weigh
+
+
+class Games(NamedTuple):
+    """The games between two players, by position, and how many each of them won."""
+
+    one: int
+    other: int
+    won: int
+    lost: int
+
+
+def skills_before(ratings: Floats, errors: Floats, unrated: Bools) -> tuple[Floats, Floats]:
+    """Return the mean and the covariance of the players' skills before any game.
+
+    A player without a rating is one more of the field: as good on average as those with one, and as
+    far apart as they are. The starter's rating and error weigh as much as a few players of the
+    field, so that they decide where few are rated (the normal-inverse-chi-square posterior). Where
+    the centre of the field lies is not known for certain either, and is the same for all without a
+    rating.
+
+    Parameters
+    ----------
+    ratings, errors
+        the ratings and their standard errors; of a player without a rating those of a new player.
+    unrated
+        who has no rating.
+
+    >>> field = np.array([500.0, 430.0, 440.0, 450.0, 460.0])
+    >>> mean, spread = skills_before(field, np.array([100.0, 0, 0, 0, 0]), field == 500.0)
+    >>> mean[0].round(), np.sqrt(spread[0, 0]).round()
+    (np.float64(463.0), np.float64(81.0))
+    """
+    mean, covariance = ratings.astype(float).copy(), np.diag(errors.astype(float) ** 2)
+    field = ratings[~unrated].astype(float)
+    if not unrated.any() or not field.size:
+        return mean, covariance
+    starter, error, rated = float(ratings[unrated][0]), float(errors[unrated][0]), field.size
+    centre = (_CENTRE * starter + field.sum()) / (_CENTRE + rated)
+    apart = float(((field - field.mean()) ** 2).sum() - (errors[~unrated] ** 2).sum())
+    squares = _SPREAD * error**2 + max(apart, 0.0)
+    squares += _CENTRE * rated / (_CENTRE + rated) * (float(field.mean()) - starter) ** 2
+    variance = squares / (_SPREAD + rated)
+    mean[unrated] = centre
+    shared = variance / (_CENTRE + rated)
+    covariance[np.ix_(unrated, unrated)] = shared + variance * np.eye(int(unrated.sum()))
+    return mean, covariance
+
+
+def skills_tonight(
+    ratings: Floats, spread: Floats, games: Sequence[Games], scale: Scale, form: float = 0.0
+) -> tuple[Floats, Floats]:
+    """Return the mean and the covariance of the players' skills, given tonight's games.
+
+    Parameters
+    ----------
+    ratings
+        the ratings.
+    spread
+        their standard errors, or the covariance matrix; a rating without an error is right.
+    games
+        what was played.
+    scale
+        the scale of the ratings.
+    form
+        how much the log-odds of a game vary from match to match: the games of one match then say
+        less than as many games of several.
+
+    >>> from evenbreak.ratings.scale import scale_of
+    >>> even = np.array([500.0, 500.0]), np.array([100.0, 0.0])
+    >>> mean, spread = skills_tonight(*even, [Games(0, 1, 7, 2)], scale_of("fargo"))
+    >>> mean.round(), np.sqrt(spread[0, 0]).round()
+    (array([584., 500.]), np.float64(71.0))
+    """
+    slope = math.log(2.0) / scale.points_per_doubling
+    covariance = spread.astype(float) if spread.ndim == 2 else np.diag(spread.astype(float) ** 2)
+    mean = ratings.astype(float).copy()
+    unsure = np.diag(covariance) > 0.0
+    if not unsure.any():
+        return mean, np.zeros_like(covariance)
+    free = np.ix_(unsure, unsure)
+    precision = np.zeros_like(covariance)
+    precision[free] = np.linalg.inv(covariance[free])
+    for _ in range(_STEPS):
+        gradient = precision @ (ratings - mean)
+        curvature = precision.copy()
+        for one, other, won, lost in games:
+            p = float(scale.win_probability(mean[one] - mean[other]))
+            says = (won + lost) * p * (1.0 - p)
+            weight = 1.0 / (1.0 + says * form**2)
+            pull = weight * slope * (won - (won + lost) * p)
+            gradient[one] += pull
+            gradient[other] -= pull
+            both = [one, other]
+            bend = weight * slope**2 * says
+            curvature[np.ix_(both, both)] += bend * np.array([[1.0, -1.0], [-1.0, 1.0]])
+        step = np.linalg.solve(curvature[free], gradient[unsure])
+        most = _FARTHEST * scale.points_per_doubling
+        mean[unsure] += step * min(1.0, most / max(float(np.abs(step).max()), 1e-300))
+        if np.abs(step).max() < 1e-9 * scale.points_per_doubling:
+            break
+    tonight = np.zeros_like(covariance)
+    tonight[free] = np.linalg.inv(curvature[free])
+    return mean, tonight

@@ -1,0 +1,208 @@
+"""The story of a night: each player's chance of the title after each match, and what stood out.
+
+The log is folded again up to each result, so that the story is the same wherever and whenever it is
+worked out. A corrected result counts as if it had been right at once; scores of matches in play are
+left out.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from evenbreak.tournaments.evening.events import Drawn, Event, Result, Scored
+from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.matches import Pairing
+from evenbreak.tournaments.evening.outlook import Outlook
+
+MOST_STEPS = 64
+"""Steps of a story: of a night with more results, those in between are left out."""
+
+
+class Step(NamedTuple):
+    """A result, and the title odds after it.
+
+    Parameters
+    ----------
+    at
+        when it came in, such as 2025-03-01T19:30:00; of the first step: when the draw was made.
+    result
+        the result; None: of the first step.
+    chance
+        what its winner had been given in that match before it began; None if that is not known,
+        as of a forfeit.
+    title
+        each player's chance of the title afterwards, by name.
+    minutes
+        how long the match took since it was called; None if it was not.
+    """
+
+    at: str
+    result: Result | None
+    chance: float | None
+    title: dict[str, float]
+    minutes: float | None = None
+
+    @property
+    def hill(self) -> bool:
+        """Whether both players were one game short of the match when the last game began."""
+        one = self.result
+        return one is not None and one.race is not None and _is_hill(one.score, one.race)
+
+
+@dataclass(frozen=True)
+class Story:
+    """The story of a night so far.
+
+    Parameters
+    ----------
+    steps
+        from the draw on; empty before it.
+    folded
+        the events up to each step, for a later story that goes on from here.
+    whole
+        whether it is told up to now.
+    """
+
+    steps: tuple[Step, ...]
+    folded: tuple[tuple[Event, ...], ...] = ()
+    whole: bool = True
+
+    @property
+    def leaders(self) -> list[str]:
+        """Everyone, the best chance of the title now first; then the best chance ever."""
+        last, best = self.steps[-1].title, self.highest
+        return sorted(best, key=lambda name: (-last[name], -best[name]))
+
+    @property
+    def highest(self) -> dict[str, float]:
+        """The best chance of the title that each player has had."""
+        names = self.steps[-1].title
+        return {name: max(step.title.get(name, 0.0) for step in self.steps) for name in names}
+
+    @property
+    def upset(self) -> Step | None:
+        """The match whose winner had been given the least, if that was less than an even chance."""
+        found = [one for one in self.steps if one.chance is not None and one.chance < 0.5]
+        return min(found, key=lambda one: one.chance or 0.0, default=None)
+
+    @property
+    def climb(self) -> tuple[str, float, float] | None:
+        """Whose chance of the title has grown most since the draw: from what, to what."""
+        first, last = self.steps[0].title, self.steps[-1].title
+        name = max(last, key=lambda one: last[one] - first.get(one, 0.0))
+        start = first.get(name, 0.0)
+        return (name, start, last[name]) if last[name] - start >= 0.01 else None
+
+    @property
+    def closest(self) -> Step | None:
+        """The match that went to the last game and moved most of the title odds."""
+        moved = [(self.moved(k), k) for k, one in enumerate(self.steps) if one.hill]
+        return self.steps[max(moved)[1]] if moved else None
+
+    @property
+    def turn(self) -> Step | None:
+        """The match that moved most of the title odds, without the last one of the night."""
+        over = max(self.steps[-1].title.values()) > 1.0 - 1e-9
+        moved = [(self.moved(k), k) for k in range(1, len(self.steps) - over)]
+        return self.steps[max(moved)[1]] if moved else None
+
+    def moved(self, step: int) -> float:
+        """Return the share of the title odds that a step has moved."""
+        before, after = self.steps[step - 1].title, self.steps[step].title
+        return 0.5 * sum(abs(after[name] - before.get(name, 0.0)) for name in after)
+
+
+def _is_hill(score: Sequence[int], race: Sequence[int]) -> bool:
+    short = [need - won for need, won in zip(race, score, strict=True)]
+    return sorted(short) == [0, 1]
+
+
+def story_of(
+    state: Evening,
+    earlier: Story | None = None,
+    *,
+    within: float = math.inf,
+) -> Story:
+    """Return the story of a night so far.
+
+    Parameters
+    ----------
+    state
+        the state of the evening.
+    earlier
+        a story of the same night: what both have in common is not worked out again.
+    within
+        after so many seconds no second step is begun; then the story is not `whole` yet.
+
+    >>> from evenbreak.tournaments.evening.events import Entrant, Opened, Plan
+    >>> both = Entrant("Ann", 80.0), Entrant("Bo", 80.0)
+    >>> happened = Opened(Plan("single", 5), both), Drawn(("Ann", "Bo"), (0, 1))
+    >>> happened += (Result("F", ("Ann", "Bo"), (5, 4), "Ann"),)
+    >>> story = story_of(evening([Event("2025-03-01T19:30:00", what) for what in happened]))
+    >>> [step.title["Ann"] for step in story.steps], story.steps[1].chance, story.steps[1].hill
+    ([0.5, 1.0], 0.5, True)
+    """
+    known = {} if earlier is None else dict(zip(earlier.folded, earlier.steps, strict=True))
+    folded, latest = _prefixes(state), time.monotonic() + within
+    steps: list[Step] = []
+    begun = False
+    for events in folded:
+        step = known.get(events)
+        if step is None:
+            if begun and time.monotonic() > latest:
+                break
+            begun, step = True, _step(events)
+        steps.append(step)
+    return Story(tuple(steps), tuple(folded[: len(steps)]), len(steps) == len(folded))
+
+
+def _prefixes(state: Evening) -> list[tuple[Event, ...]]:
+    """Return the events up to the draw, and up to each result that counts, at most `MOST_STEPS`."""
+    counted: dict[Pairing, Result] = {
+        (name, frozenset(one.players)): one for name, one in state.counted.items()
+    }
+    events: list[Event] = []
+    ends: list[int] = []
+    for event in state.events:
+        what = event.what
+        if isinstance(what, Scored):
+            continue
+        if isinstance(what, Result):
+            settled = counted.pop((what.match, frozenset(what.players)), None)
+            if settled is None:
+                continue
+            event = replace(event, what=settled)
+        events.append(event)
+        if isinstance(what, Result) or (isinstance(what, Drawn) and not ends):
+            ends.append(len(events))
+    every = -(-len(ends) // MOST_STEPS) or 1
+    kept = [end for k, end in enumerate(ends) if (len(ends) - 1 - k) % every == 0 or k == 0]
+    return [tuple(events[:end]) for end in kept]
+
+
+def _step(events: tuple[Event, ...]) -> Step:
+    """Return what the last of some events has made of the title odds."""
+    last = events[-1]
+    outlook = Outlook(evening(events), last.at)
+    odds = outlook.odds
+    title = dict(zip(outlook.state.order, odds.title.tolist(), strict=True))
+    if not isinstance(last.what, Result):
+        return Step(last.at, None, None, title)
+    before = Outlook(evening(events[:-1]), last.at)
+    state, result = before.state, last.what
+    minutes = None
+    if result.match in state.on_tables:
+        minutes = before.minutes(last.at) - before.minutes(state.on_tables[result.match].at)
+    chance = None
+    if not result.forfeit and result.match in state.standing.to_play:
+        race = state.needed(result.match, result.players)
+        if result.race is None:
+            result = replace(result, race=race)
+        one, other = (state.order.index(name) for name in result.players)
+        win = before.chances(before.skills[0])[result.match]
+        chance = float(win[one, other] if result.winner == result.players[0] else win[other, one])
+    return Step(last.at, result, chance, title, minutes)
