@@ -371,7 +371,7 @@ def test_a_match_stands_only_when_those_before_it_do() -> None:
     scores = {"W1_1": (5, 0), "W1_2": (5, 0), "W1_3": (5, 0), "W1_4": (5, 0)}
     events = played(drawn(8), **scores, W2_1=(5, 0), W2_2=(5, 0), W3_1=(5, 0))
     events.append(Event(AT, moves.correct(evening(events), "W1.1", (0, 5))))
-    with pytest.raises(InputError, match=r"settle W2\.1 first"):
+    with pytest.raises(InputError, match="settle match 5 first"):
         stand(evening(events), "W3.1")
 
 
@@ -464,7 +464,7 @@ def test_a_handicapped_race_is_won_by_the_games_that_each_needs() -> None:
     state = evening(events)
     assert state.needed("F", ("Ann", "Bo")) == (7, 4)
     assert moves.result(state, "F", (5, 4)).winner == "Bo"
-    with pytest.raises(InputError, match="7:4"):
+    with pytest.raises(InputError, match="7-4"):
         moves.result(state, "F", (7, 5))
 
 
@@ -487,8 +487,8 @@ def test_a_late_player_takes_a_bye_only_while_it_is_open() -> None:
         (lambda s: moves.result(s, "W1.1", (5, 5)), "5-5"),
         (lambda s: moves.result(s, "W2.1", (5, 0)), "not ready"),
         (lambda s: moves.correct(s, "W1.1", (5, 0)), "no result"),
-        (lambda s: moves.forfeit(s, "P2", "W1.1"), "P2 is not in W1.1"),
-        (lambda s: moves.score(s, "W1.1", (5, 0)), "result W1.1 5:0"),
+        (lambda s: moves.forfeit(s, "P2", "W1.1"), "P2 is not in match 1"),
+        (lambda s: moves.score(s, "W1.1", (5, 0)), "result 1 5:0"),
         (lambda s: stand(s, "W1.1"), "nothing to let stand"),
         (lambda s: break_ties(s, np.random.default_rng()), "no tie"),
         (lambda s: moves.drop(s, "P99"), "P99"),
@@ -507,7 +507,7 @@ def test_the_same_match_cannot_be_called_twice_nor_a_taken_table_used() -> None:
     events.append(Event(AT, moves.call(evening(events), "W1.1", 2)))
     with pytest.raises(InputError, match="on table 2"):
         moves.call(evening(events), "W1.1", None)
-    with pytest.raises(InputError, match=r"taken by W1\.1"):
+    with pytest.raises(InputError, match="taken by match 1"):
         moves.call(evening(events), "W1.2", 2)
 
 

@@ -48,7 +48,7 @@ def test_a_correction_names_what_it_takes_off_the_tables_and_gives_it_back(busy:
     before = busy.state
     pair = " against ".join(before.pair("W2.2"))
     shown = busy.director.send("/desk/correct", **WRONG)
-    assert f"W2.2 ({pair}) would leave table 4 at 2:0." in shown.words
+    assert f"{pair} (match 10) would leave table 4 at 2-0." in shown.words
     assert "Nothing that was played is lost" in shown.words
     assert "would leave table 1." in shown.words
     assert busy.state.on_tables == before.on_tables
@@ -65,7 +65,7 @@ def test_the_answer_is_for_what_was_named(busy: Hall) -> None:
     assert tap(busy, busy.guest, "W2.2", 2, 1).status == 200  # the same match, one game further
     busy.director.send("/desk/uncall", match="L1.2")
     again = answered(busy, "/desk/correct", asked)
-    assert "would leave table 4 at 2:1." in again.words
+    assert "would leave table 4 at 2-1." in again.words
     assert busy.state.counted["W1.3"].score == (3, 1)
     entries = len(read_events(busy.site.path))
     for _ in range(2):
@@ -82,8 +82,9 @@ def test_whoever_leaves_a_match_in_play_is_asked_for_with_its_score(
     busy: Hall, path: str, fields: dict[str, str]
 ) -> None:
     (name,) = [n for n, one in busy.state.live.items() if "Player 4" in one.what.players]
+    number = busy.state.number_of(name)
     shown = busy.director.send(f"/desk/{path}", **fields)
-    assert re.search(rf"{name} \([^.]*\) would (leave table 4|end) at 2:0\.", shown.words), (
+    assert re.search(rf"\(match {number}\) would (leave table 4|end) at 2-0\.", shown.words), (
         shown.words
     )
 
@@ -91,31 +92,35 @@ def test_whoever_leaves_a_match_in_play_is_asked_for_with_its_score(
 @pytest.mark.slow
 def test_undo_names_the_directors_entry_and_taps_do_not_get_in_the_way(busy: Hall) -> None:
     desk = busy.director.open("/desk").words
-    assert "Undo: call of W2.2 to table 4" in desk
+    assert "Undo: match 10 called to table 4" in desk
     entry = busy.state.numbers[-2]
     for k in range(TAPS):
         assert tap(busy, busy.guest, "W2.2", 2, 1 - k % 2).status == 200
         shown = busy.director.send("/desk/undo", entry=entry)
         assert shown.status == 200
-        assert "Undone: call of W2.2 to table 4." in shown.words
+        assert "Undone: match 10 called to table 4." in shown.words
         busy.director.send("/desk/call", match="W2.2", table=4)
         entry = len(read_events(busy.site.path))
     assert busy.state.live["W2.2"].what.score == (2, 1)
     assert busy.director.send("/desk/undo", entry=entry - 2).status == 400
     history = busy.director.open("/desk/history").text
-    assert history.count("<s>Call of W2.2 to table 4</s> (undone)") == TAPS
-    assert history.count("undone: call of W2.2 to table 4") == TAPS
+    assert history.count("<s>Match 10 called to table 4</s> (undone)") == TAPS
+    assert history.count("undone: match 10 called to table 4") == TAPS
     busy.director.send("/language", language="de")
     history = busy.director.open("/desk/history").text
-    assert len(re.findall(r"Eingabe \d+ zurückgenommen: [^<:]*W2.2[^<:]*Tisch 4", history)) == TAPS
+    assert len(re.findall(r"Eingabe \d+ zurückgenommen: [^<:]*10[^<:]*Tisch 4", history)) == TAPS
 
 
 @pytest.mark.slow
 def test_what_was_entered_at_a_terminal_says_so(busy: Hall) -> None:
     called = moves.call(busy.state, "W1.5", None)
     add_events(busy.site.path, lambda _: [Event(busy.site.clock(), called)])
+    number = busy.state.number_of("W1.5")
     rows = busy.director.open("/desk/history").text.split("<tr>")
-    assert next(row for row in rows if "W1.5" in row).count("<td>a terminal</td>") == 1
+    assert (
+        next(row for row in rows if f"Match {number} called" in row).count("<td>a terminal</td>")
+        == 1
+    )
     assert sum("a terminal" in row for row in rows) == 1  # the page began the tournament
 
 
@@ -123,7 +128,7 @@ def test_what_was_entered_at_a_terminal_says_so(busy: Hall) -> None:
 def test_a_match_is_called_back_on_the_desk(busy: Hall) -> None:
     assert "Take it off the table" in busy.director.open("/desk").words
     shown = busy.director.send("/desk/uncall", match="W2.2")
-    assert "Taken off table 4: " in shown.words
+    assert "Off table 4: match 10" in shown.words
     assert busy.state.live["W2.2"].what.score == (2, 0)
     assert busy.guest.send("/desk/uncall", match="L1.2").status == 403
 

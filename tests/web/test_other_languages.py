@@ -39,7 +39,7 @@ def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: 
         "{a} against {b}": "{a} contre {b}",
         "Fair race": "Match équitable",
     }
-    won = {"{winner} beat {loser} {won}:{lost}": "{winner} bat {loser} {won}:{lost}"}
+    won = {"{winner} beat {loser} {won}-{lost}": "{winner} bat {loser} {won}-{lost}"}
     catalogue(locale, "fr", said | won)
     with running(tmp_path / "tonight.db") as site:
         begin(site)
@@ -50,11 +50,11 @@ def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: 
         assert "Français" in shown.words
         assert "Bracket" in shown.words  # what it does not say is said in English
         words = director.send("/desk/result", match="F", a=3, b=1).words
-        assert "Tom and Jerry bat the Shark 3:1" in words
+        assert "Tom and Jerry bat the Shark 3-1" in words
 
 
 def test_english_can_be_said_in_other_words(tmp_path: Path, locale: Path) -> None:
-    catalogue(locale, "en", {"{winner} beat {loser} {won}:{lost}": "{loser} lost to {winner}"})
+    catalogue(locale, "en", {"{winner} beat {loser} {won}-{lost}": "{loser} lost to {winner}"})
     with running(tmp_path / "tonight.db") as site:
         director = begin(site)
         words = director.send("/desk/result", match="F", a=3, b=1).words

@@ -89,14 +89,14 @@ def test_a_match_stands_and_results_count_again(begun):
         begun("result", match, score)
     asked = begun.run("tournament", "correct", "W1.1", "0:3", "--file", begun.file)
     assert asked.exit_code == 2
-    assert "W2.1 (Ann beat Bo 3:1) would no longer count. Give --yes" in asked.stderr
+    assert "Ann beat Bo 3-1 (match 3) would no longer count. Give --yes" in asked.stderr
     wrong = begun("correct", "W1.1", "0:3", "--yes")
     assert [one["match"] for one in wrong["set_aside"]] == ["W2.1"]
     shown = begun.run("tournament", "stand", "W2.1", "--file", begun.file, "--text").stdout
     assert "Counts again" in shown
     assert not begun("next")["set_aside"]
     undone = begun.run("tournament", "undo", "--file", begun.file, "--text", "--yes")
-    assert "Must be replayed: W2.1" in undone.stdout
+    assert "Must be replayed: match 3" in undone.stdout
 
 
 def test_ties_of_a_round_robin(night):
@@ -136,12 +136,12 @@ def test_bad_entries_are_one_line(begun):
         (["odds", "--race", "5"], "--race"),
         (["odds", begun.entrants, "--race", "5"], "--file"),
         (["time", "--discipline", "9-ball"], "--discipline"),
-        (["score", "W1.1", "3:0"], "result W1.1 3:0"),
-        (["stand", "W1.1"], "W1.1"),
+        (["score", "W1.1", "3:0"], "result 1 3:0"),
+        (["stand", "W1.1"], "match 1"),
         (["tiebreak"], "tie"),
         (["change"], "--tables"),
         (["odds", "--fairest"], "--fairest"),
-        (["forfeit", "Cy", "W1.1"], "W1.1"),
+        (["forfeit", "Cy", "W1.1"], "match 1"),
     ):
         result = begun.run("tournament", *words, "--file", begun.file)
         assert result.exit_code == 2, words
@@ -177,8 +177,8 @@ def test_what_is_in_play_is_named_before_it_is_taken_away(begun):
     begun("score", "W2.1", "2:1")
     wrong = ("tournament", "correct", "W1.1", "0:3", "--file", begun.file)
     for words, said in (
-        (wrong, "W2.1 (Ann against Bo) would leave table 2 at 2:1. "),
-        (("tournament", "drop", "ann", "--file", begun.file), "would end at 2:1. "),
+        (wrong, "Ann against Bo (match 3) would leave table 2 at 2-1. "),
+        (("tournament", "drop", "ann", "--file", begun.file), "would end at 2-1. "),
     ):
         asked = begun.run(*words)
         assert asked.exit_code == 2
@@ -189,10 +189,10 @@ def test_what_is_in_play_is_named_before_it_is_taken_away(begun):
     on = {one["match"]: one["table"] for one in begun("next")["next"]}
     assert on["W2.1"] == 2
     said = begun.run("tournament", "uncall", "W2.1", "--file", begun.file, "--text")
-    assert "Taken off table 2: match " in said.stdout
+    assert "Off table 2: match 3; 2-1 is kept." in said.stdout
     assert begun.run("tournament", "uncall", "--file", begun.file).exit_code == 2
     said = begun.run("tournament", "undo", "--file", begun.file, "--text")
-    assert "Undone: W2.1 taken off its table." in said.stdout
+    assert "Undone: match 3 taken off its table." in said.stdout
     assert len(read_events(begun.file)) == entered + 4
 
 

@@ -153,8 +153,8 @@ def _change_words(_: Evening, after: Evening, __: Change) -> list[Sentence]:
 
 def _undo_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
     events = dict(zip(before.numbers, before.events, strict=True))
-    (gone,) = events.keys() - set(after.numbers)
-    return [undone_words(events[gone].what), *reopened(before, after)]
+    gone = max(events.keys() - set(after.numbers))
+    return [undone_words(events[gone].what, after), *reopened(before, after)]
 
 
 def name_in(text: str) -> str:
@@ -214,13 +214,13 @@ def _check_in(state: Evening, asked: CheckIn, _: str) -> Sequence[What]:
 
 
 def _said(_: Evening, after: Evening, __: object) -> list[Sentence]:
-    return [say("{entry}.", entry=event_words(after.events[-1].what))]
+    return [say("{entry}.", entry=event_words(after.events[-1].what, after))]
 
 
 def _redone_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
     events = dict(zip(after.numbers, after.events, strict=True))
     (back,) = events.keys() - set(before.numbers)
-    said = say("Entered again: {entry}.", entry=event_words(events[back].what))
+    said = say("Entered again: {entry}.", entry=event_words(events[back].what, after))
     return [said, *reopened(before, after)]
 
 

@@ -19,6 +19,8 @@ from evenbreak.tournaments.evening.events import (
     Called,
     CalledBack,
     Changed,
+    CheckedIn,
+    Declined,
     Drawn,
     Dropped,
     Edited,
@@ -26,41 +28,24 @@ from evenbreak.tournaments.evening.events import (
     Late,
     LaterDraw,
     Ranked,
+    Redone,
+    Registered,
+    Renamed,
     Result,
     Scored,
+    Substituted,
+    Swapped,
     Undone,
+    Waits,
     What,
     score_words,
 )
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.history import as_read
 from evenbreak.tournaments.evening.plan import KNOCK_OUT, pairings
 from evenbreak.tournaments.evening.settling import TieBreak
 from evenbreak.tournaments.evening.undoing import losses
 from evenbreak.words import Sentence, joined, say
-
-
-def called_words(before: Evening, after: Evening) -> list[Sentence]:
-    """Return in words which matches have come to a table, and which have left theirs."""
-    said = [
-        say(
-            "Table {table}: {match}, {pair}.",
-            table=one.call.table,
-            match=after.match_words(name),
-            pair=against(one.call.players),
-        )
-        for name, one in after.on_tables.items()
-        if before.on_tables.get(name) != one
-    ]
-    said += [
-        say(
-            "Taken off table {table}: {match}.",
-            match=before.match_words(name),
-            table=one.call.table,
-        )
-        for name, one in before.on_tables.items()
-        if name not in after.on_tables
-    ]
-    return said
 
 
 def live_words(state: Evening, match: str) -> Sentence:
@@ -93,7 +78,7 @@ def happened(before: Evening, after: Evening, event: Event) -> list[Sentence]:
     result = event.what
     if after.plan.form == "chips":
         return [say("{result}.", result=rack_words(result)), *chip_changes(before, after)]
-    said = [_result_words(result.match, result)]
+    said = [_result_words(after, result)]
     if any(_leads_on(after, result.match)):
         said += [_moves(after, result.match, name) for name in (result.winner, result.loser)]
     if result.corrects and after.plan.form == "swiss":
@@ -101,8 +86,56 @@ def happened(before: Evening, after: Evening, event: Event) -> list[Sentence]:
     return [*said, *reopened(before, after, result.match)]
 
 
-def _result_words(match: str, result: Result) -> Sentence:
-    return say("{result} in {match}.", result=score_words(result), match=match)
+def _result_words(state: Evening, result: Result) -> Sentence:
+    return say(
+        "{result} in {match}.", result=score_words(result), match=state.match_words(result.match)
+    )
+
+
+def shout(state: Evening, match: str) -> Sentence:
+    """Return what to call out when a match is called to its table."""
+    call = state.on_tables[match].call
+    return say(
+        "Table {table}: {pair}.",
+        table=state.plan.table_name(call.table),
+        pair=against(call.players),
+    )
+
+
+def called_words(before: Evening, after: Evening) -> list[Sentence]:
+    """Return in words which matches have come to a table, and which have left one."""
+    said = [
+        shout(after, name)
+        for name, one in after.on_tables.items()
+        if before.on_tables.get(name) != one
+    ]
+    for name, one in before.on_tables.items():
+        if name not in after.on_tables and name not in after.counted:
+            table = after.plan.table_name(one.call.table)
+            left = say("Off table {table}: {match}", match=after.match_words(name), table=table)
+            why = after.waiting_for.get(name)
+            if why and why.absent:
+                gone = and_words(list(why.absent))
+                said.append(say("{left}, which waits for {players}.", left=left, players=gone))
+            elif name in after.live:
+                said.append(say("{left}; {score} is kept.", left=left, score=_live(after, name)))
+            else:
+                said.append(say("{left}.", left=left))
+    return said
+
+
+def _live(state: Evening, match: str) -> str:
+    """Return the score of a match in play, in the order of its players."""
+    games = state.live[match].what
+    score = games.score if games.players == state.pair(match) else games.score[::-1]
+    return "{}-{}".format(*score)
+
+
+def and_words(names: Sequence[str]) -> Sentence | str:
+    """Return names with an "and" before the last."""
+    if len(names) < 2:
+        return "".join(names)
+    return say("{first} and {last}", first=", ".join(names[:-1]), last=names[-1])
 
 
 def _kept_rounds(state: Evening, match: str) -> list[Sentence]:
@@ -142,7 +175,7 @@ def _leads_on(state: Evening, match: str) -> tuple[bool, bool]:
 def settled_words(before: Evening, after: Evening) -> list[Sentence]:
     """Return in words the results that count otherwise since a match was let stand."""
     return [
-        _result_words(name, result)
+        _result_words(after, result)
         for name, result in after.counted.items()
         if before.counted.get(name, result) != result
     ]
@@ -165,10 +198,10 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentenc
     said = []
     gone = [name for name in before.counted if name not in after.counted and name != besides]
     if gone:
-        again = some_of([_open_words(after, name) for name in gone])
+        again = some_of([open_words(after, name) for name in gone])
         said.append(say("Must be replayed: {matches}.", matches=again))
     back = [
-        say("{result} in {match}", result=score_words(result), match=name)
+        say("{result} in {match}", result=score_words(result), match=after.match_words(name))
         for name, result in after.counted.items()
         if name not in before.counted and name != besides and name in after.records
     ]
@@ -181,21 +214,23 @@ def lost_words(before: Evening, after: Evening) -> list[Sentence]:
     """Return in words what an entry takes away besides that which it is about."""
     said = []
     for one in losses(before, after):
-        match = say("{match} ({pair})", match=one.match, pair=against(one.players))
-        at = "" if one.score is None or not any(one.score) else "{}:{}".format(*one.score)
+        name = before.match_words(one.match)
+        match = say("{pair} ({match})", match=name, pair=against(one.players))
+        at = "" if one.score is None or not any(one.score) else "{}-{}".format(*one.score)
+        table = None if one.table is None else before.plan.table_name(one.table)
         if one.result is not None:
-            match = say("{match} ({result})", match=one.match, result=score_words(one.result))
+            match = say("{result} ({match})", match=name, result=score_words(one.result))
             said.append(say("{match} would no longer count.", match=match))
-        elif one.table is None:
+        elif table is None:
             said.append(say("{match} would end at {score}.", match=match, score=at))
-        elif after.drawn and after.plan.form == "chips" and one.match in after.on_tables:
+        elif after.drawn and one.match in after.on_tables:
             now = against(after.pair(one.match))
             said.append(
                 say(
                     "{match} would become {pair} on table {table}.",
                     match=match,
                     pair=now,
-                    table=one.table,
+                    table=table,
                 )
             )
         elif at:
@@ -203,21 +238,22 @@ def lost_words(before: Evening, after: Evening) -> list[Sentence]:
                 say(
                     "{match} would leave table {table} at {score}.",
                     match=match,
-                    table=one.table,
+                    table=table,
                     score=at,
                 )
             )
         else:
-            said.append(say("{match} would leave table {table}.", match=match, table=one.table))
+            said.append(say("{match} would leave table {table}.", match=match, table=table))
     return said
 
 
-def _open_words(state: Evening, match: str) -> str:
+def open_words(state: Evening, match: str) -> Sentence | str:
     """Return a match with whoever plays it now, or what it waits for."""
+    name = state.match_words(match)
     if match in state.standing.to_play:
-        return say("{match} ({pair})", match=match, pair=against(state.pair(match)))
+        return say("{match} ({pair})", match=name, pair=against(state.pair(match)))
     waits = waits_for(state, match)
-    return say("{match} (waits for {matches})", match=match, matches=waits) if waits else match
+    return say("{match} (waits for {matches})", match=name, matches=waits) if waits else name
 
 
 def _moves(state: Evening, match: str, player: str) -> Sentence:
@@ -238,7 +274,7 @@ def _moves(state: Evening, match: str, player: str) -> Sentence:
             return say(
                 "{player} goes to {match} and meets {opponent}.",
                 player=player,
-                match=one.name,
+                match=state.match_words(one.name),
                 opponent=rival,
             )
     if place := _place(state, match, player):
@@ -260,7 +296,7 @@ def forfeited(before: Evening, after: Evening) -> list[Sentence]:
         return said + chip_changes(before, after)
     if after.drawn:
         said += [
-            _result_words(name, result)
+            _result_words(after, result)
             for name, result in after.counted.items()
             if name not in before.counted
         ]
@@ -291,7 +327,7 @@ def _entered(state: Evening, name: str) -> Sentence:
                 "{player} has entered in place of a bye and meets {opponent} in {match}.",
                 player=name,
                 opponent=rival,
-                match=match,
+                match=state.match_words(match),
             )
     return say("{player} has entered.", player=name)
 
@@ -316,33 +352,43 @@ def draw_words(before: Evening, after: Evening) -> Sentence:
     return joined(said)
 
 
-def undone_words(what: What) -> Sentence:
-    """Return what was taken back.
-
-    >>> undone_words(Result("W1.1", ("Ann", "Bo"), (7, 5), "Ann"))
-    'Undone: Ann beat Bo 7:5 in W1.1.'
-    """
-    return say("Undone: {entry}.", entry=event_words(what))
+def undone_words(what: What, state: Evening) -> Sentence:
+    """Return what was taken back."""
+    return say("Undone: {entry}.", entry=event_words(what, state))
 
 
-def event_words(what: What) -> Sentence:
-    """Return what happened, in a few words.
-
-    >>> event_words(Called("W1.1", 3, ("Ann", "Bo")))
-    'call of W1.1 to table 3'
-    """
+def event_words(what: What, state: Evening) -> Sentence:
+    """Return what happened, in a few words; matches by the numbers that they have in a state."""
     match what:
         case Result(corrects=corrects, stands=stands):
-            found = say("{result} in {match}", result=score_words(what), match=what.match)
+            found = say(
+                "{result} ({match})",
+                result=score_words(what) if what.forfeit or what.ended else _short_words(what),
+                match=state.match_words(what.match),
+            )
             return say("correction: {result}", result=found) if corrects and not stands else found
+        case Called(match=match):
+            return say(
+                "{match} called to table {table}",
+                match=state.match_words(match),
+                table=state.plan.table_name(what.table),
+            )
+        case CalledBack(match=match):
+            return say("{match} taken off its table", match=state.match_words(match))
+        case Waits(match=match, absent=absent):
+            name = state.match_words(match)
+            if absent:
+                return say("{match} waits for {players}", match=name, players=and_words(absent))
+            return (
+                say("{match} waits: {reason}", match=name, reason=what.reason or "–")
+                if what
+                else say("{match} waits no longer", match=name)
+            )
         case Scored(match=match, score=score):
-            return say("score {a}:{b} in {match}", a=score[0], b=score[1], match=match)
+            name = state.match_words(match)
+            return say("score {a}-{b} in {match}", a=score[0], b=score[1], match=name)
         case Ranked():
             return say("tie-break")
-        case Called():
-            return say("call of {match} to table {table}", match=what.match, table=what.table)
-        case CalledBack(match=match):
-            return say("{match} taken off its table", match=match)
         case Drawn():
             return say("draw")
         case LaterDraw(stage=stage):
@@ -353,29 +399,39 @@ def event_words(what: What) -> Sentence:
             return _entry_words(what)
 
 
-def history_words(events: Sequence[Event]) -> list[Sentence]:
+def _short_words(result: Result) -> str:
+    """Return a result as it is written on a sheet: Ann 5-3 Bo."""
+    won, lost = result.games[result.winner], result.games[result.loser]
+    names = {"winner": result.winner, "loser": result.loser}
+    if result.stands:
+        return score_words(result)
+    return say("{winner} {won}-{lost} {loser}", won=won, lost=lost, **names)
+
+
+def history_words(events: Sequence[Event], state: Evening) -> list[Sentence]:
     """Return what happened in each entry, in a few words; of an undo, what it took back.
 
-    >>> called = Event("2025-03-01T19:30:00", Called("W1.1", 3, ("Ann", "Bo")))
-    >>> history_words([called, Event("2025-03-01T19:31:00", Undone(1))])[1]
-    'entry 1 undone: call of W1.1 to table 3'
+    Players have the names that they have now, and matches their numbers.
     """
-    said = [event_words(one.what) for one in events]
-    for k, one in enumerate(events):
-        if isinstance(one.what, Undone) and one.what.entry is not None:
-            said[k] = say(
-                "entry {n} undone: {entry}", n=one.what.entry, entry=said[one.what.entry - 1]
+    told = as_read(events)
+    said = [event_words(one.what, state) for one in told]
+    for k, one in enumerate(told):
+        entry = one.what.entry if isinstance(one.what, Undone | Redone) else None
+        if entry is not None:
+            words = (
+                say("entry {n} undone: {entry}", n=entry, entry=said[entry - 1])
+                if isinstance(one.what, Undone)
+                else say("entry {n} entered again: {entry}", n=entry, entry=said[entry - 1])
             )
+            said[k] = words
     return said
 
 
 def _entry_words(what: What) -> Sentence:
     """Return in words what concerns the list of players, or the evening as a whole."""
     match what:
-        case Changed():
-            return say("change of tables or races")
-        case Late():
-            return say("entry of {player}", player=what.entrant.name)
+        case Late(entrant=entrant):
+            return say("entry of {player}", player=entrant.name)
         case Edited(name=name, entrant=entrant):
             return say(
                 "{player} corrected to {name}, {rating:g}",
@@ -383,14 +439,42 @@ def _entry_words(what: What) -> Sentence:
                 name=entrant.name,
                 rating=entrant.rating,
             )
+        case Renamed(name=name, to=to):
+            return say("{player} is now called {name}", player=name, name=to)
+        case Substituted(name=name, entrant=entrant):
+            return say("{name} plays in place of {player}", player=name, name=entrant.name)
+        case Swapped(one=one, other=other):
+            return say("{players} traded places", players=and_words([one, other]))
         case Dropped():
             return say("withdrawal of {player}", player=what.name)
+        case CheckedIn() | Registered() | Declined():
+            return _list_words(what)
+        case Changed():
+            return say("change of tables or races")
         case Undone(entry=None):
             return say("last entry undone")
         case Undone(entry=entry):
             return say("entry {n} undone", n=entry)
         case _:
             return say("start")
+
+
+def _list_words(what: CheckedIn | Registered | Declined) -> Sentence:
+    """Return in words what was ticked on the list of players."""
+    player = what.name
+    if isinstance(what, Registered):
+        return say("{player} would like to play", player=player)
+    if isinstance(what, Declined):
+        return say("{player} does not play", player=player)
+    here = say("{player} is here", player=player)
+    if what.arrived is False:
+        here = say("{player} is not here", player=player)
+    paid = say("{player} has paid", player=player)
+    if what.paid is False:
+        paid = say("{player} has not paid", player=player)
+    if what.arrived is None or what.paid is None:
+        return paid if what.arrived is None else here
+    return joined([here, paid], "; ")
 
 
 def tie_words(found: TieBreak) -> list[Sentence]:

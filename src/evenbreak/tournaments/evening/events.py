@@ -446,31 +446,30 @@ def score_words(found: Result) -> Sentence:
     """Return a result in words.
 
     >>> score_words(Result("W1.1", ("Ann", "Bo"), (5, 7), "Bo"))
-    'Bo beat Ann 7:5'
+    'Bo beat Ann 7-5'
+    >>> score_words(Result("W1.1", ("Ann", "Bo"), (3, 2), "Ann", ended="time"))
+    'Ann beat Bo 3-2 when time was up'
     """
+    names: dict[str, Any] = {"winner": found.winner, "loser": found.loser}
     if found.forfeit:
-        return say("{loser} forfeited to {winner}", loser=found.loser, winner=found.winner)
+        return say("{loser} forfeited to {winner}", **names)
     if found.stands:
         beaten = replace(found, winner=found.loser, stands=False)
-        return say(
-            "{result}, but {winner} has played on", result=score_words(beaten), winner=found.winner
-        )
-    won, lost = found.games[found.winner], found.games[found.loser]
-    return say(
-        "{winner} beat {loser} {won}:{lost}",
-        winner=found.winner,
-        loser=found.loser,
-        won=won,
-        lost=lost,
-    )
+        return say("{result}, but {winner} has played on", result=score_words(beaten), **names)
+    names |= {"won": found.games[found.winner], "lost": found.games[found.loser]}
+    if found.ended == "time":
+        return say("{winner} beat {loser} {won}-{lost} when time was up", **names)
+    if found.ended:
+        return say("{loser} conceded to {winner} at {won}-{lost}", **names)
+    return say("{winner} beat {loser} {won}-{lost}", **names)
 
 
 def race_words(needs: tuple[int, int]) -> Sentence:
     """Return a race in words.
 
     >>> race_words((7, 7)), race_words((7, 5))
-    ('race to 7', 'race 7:5')
+    ('race to 7', 'race 7-5')
     """
     if needs[0] == needs[1]:
         return say("race to {n}", n=needs[0])
-    return say("race {race}", race=":".join(map(str, needs)))
+    return say("race {race}", race="-".join(map(str, needs)))

@@ -179,7 +179,7 @@ class Evening:
 
     def number_of(self, match: str) -> int:
         """Return the number of a match as people see it; 0 for one that is not in the bracket."""
-        return self.match_numbers.get(match, 0)
+        return self.match_numbers.get(match, 0) if self.order else 0
 
     def match_words(self, match: str) -> Sentence | str:
         """Return what people call a match, such as 'match 12'."""
@@ -252,7 +252,7 @@ class Evening:
                 one.name: OnTable(Called(one.name, one.table, one.players), one.since)
                 for one in self.chip_night.playing
             }
-        called = {n: one for (n, who), one in self.calls.items() if self._sitting(n) == who}
+        called = {n: one for (n, who), one in self.calls.items() if self.sitting(n) == who}
         last = {one.call.table: name for name, one in called.items()}
         return {
             name: one
@@ -266,7 +266,7 @@ class Evening:
         return {
             name: one
             for (name, players), one in self.scores.items()
-            if name in self.standing.to_play and self._sitting(name) == players
+            if name in self.standing.to_play and self.sitting(name) == players
         }
 
     @property
@@ -275,10 +275,10 @@ class Evening:
         return {
             name: one
             for (name, players), one in self.waits.items()
-            if name in self.standing.to_play and self._sitting(name) == players
+            if name in self.standing.to_play and self.sitting(name) == players
         }
 
-    def _sitting(self, match: str) -> frozenset[str]:
+    def sitting(self, match: str) -> frozenset[str]:
         """Return the players who are known to be in a match."""
         seats = self.standing.seats.get(match, ())
         return frozenset(self.order[k] for k in seats if k is not None and k >= 0)
@@ -344,6 +344,7 @@ def evening(events: Iterable[Event]) -> Evening:
     InputError
         if they are not those of an evening.
 
+    >>> from evenbreak.tournaments.evening.events import Undone
     >>> ann, bo = Entrant("Ann", 80.0), Entrant("Bo", 70.0)
     >>> happened = [Opened(Plan("single", 5), (ann, bo)), Drawn(("Ann", "Bo"), (0, 1))]
     >>> happened += [Result("F", ("Ann", "Bo"), (3, 5), "Bo")]

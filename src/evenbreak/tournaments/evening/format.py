@@ -238,5 +238,5 @@ class Occasion:
         raise InputError(
             "there is no table {table}; the tables are {tables}",
             table=text.strip(),
-            tables=", ".join(names) if len(names) <= 12 else f"{names[0]} to {names[-1]}",
+            tables=", ".join(names),
         )

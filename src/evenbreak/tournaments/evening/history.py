@@ -118,6 +118,14 @@ def read(events: Sequence[Event]) -> History:
     return History(kept, undone, names, former)
 
 
+def as_read(events: Sequence[Event]) -> list[Event]:
+    """Return all entries of an evening, those that are undone too, as they are read."""
+    history = read(events)
+    undone = {number: one.event for number, one in history.undone.items()}
+    told = {**history.kept, **undone}
+    return [told.get(number, event) for number, event in enumerate(events, 1)]
+
+
 def _names(kept: Mapping[int, Event]) -> dict[str, Entered]:
     names: dict[str, Entered] = {}
     for number, event in kept.items():

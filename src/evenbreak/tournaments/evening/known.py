@@ -53,6 +53,11 @@ def known_match(state: Evening, text: str, *, over: bool = False) -> str:
     )
 
 
+def typed(state: Evening, match: str) -> str:
+    """Return how a match is given to a command: by its number, but for a rack."""
+    return match if state.plan.form == "chips" else str(state.number_of(match) or match)
+
+
 def known_player(state: Evening, text: str) -> str:
     """Return the name of a player, in whatever case and spacing it was written.
 
@@ -115,14 +120,14 @@ def games_in(
             "{score!r} is not a score; write the games of each player, such as 7:5", score=score
         )
     winner = known_player(state, score)
-    refuse_stranger(winner, name, pair)
+    refuse_stranger(state, winner, name, pair)
     return (1, 0) if winner == pair[0] else (0, 1)
 
 
-def refuse_stranger(player: str, match: str, pair: tuple[str, str]) -> None:
+def refuse_stranger(state: Evening, player: str, match: str, pair: tuple[str, str]) -> None:
     """Refuse a player who is not in a match."""
     if player not in pair:
-        names = {"player": player, "match": match, "a": pair[0], "b": pair[1]}
+        names = {"player": player, "match": state.match_words(match), "a": pair[0], "b": pair[1]}
         raise InputError("{player} is not in {match}: it is {a} against {b}", **names)
 
 
@@ -131,7 +136,9 @@ def undecided(state: Evening, match: str) -> str:
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:
         raise InputError(
-            "{match} already has a result: {result}", match=name, result=score_words(before)
+            "{match} already has a result: {result}",
+            match=state.match_words(name),
+            result=score_words(before),
         )
     refuse_waiting(state, name)
     return name
@@ -142,13 +149,13 @@ def refuse_waiting(state: Evening, name: str) -> None:
     if name in state.standing.to_play:
         return
     if name in state.standing.winners:
-        raise InputError("{match} is not needed", match=name)
+        raise InputError("{match} is not needed", match=state.match_words(name))
     slots = zip(state.bracket.match(name).slots, state.standing.seats[name], strict=True)
     waits = [slot.match for slot, seat in slots if seat is None and not isinstance(slot, int)]
     raise InputError(
         "{match} is not ready: it is waiting for {waits}",
-        match=name,
-        waits=listed(list(dict.fromkeys(waits))),
+        match=state.match_words(name),
+        waits=listed([state.match_words(one) for one in dict.fromkeys(waits)]),
     )
 
 
@@ -169,7 +176,7 @@ def winner_of(
     one, other = score
     m, n = state.needed(name, pair)
     if stated:
-        refuse_stranger(stated, name, pair)
+        refuse_stranger(state, stated, name, pair)
     if ended and one < m and other < n:
         if ended not in ENDINGS or state.plan.form == "chips":
             raise InputError("a rack is played out; enter who won it")

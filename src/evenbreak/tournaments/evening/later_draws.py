@@ -49,9 +49,8 @@ def draw_later(state: Evening, rng: np.random.Generator) -> LaterDraw:
     if not can_draw(state):
         open_matches = [name for name in state.standing.to_play if name[0] != "K"]
         raise InputError(
-            "{stage} can't be drawn yet; first enter the result of {matches}",
-            stage=stage,
-            matches=listed(open_matches[:3]),
+            "the next draw must wait; first enter the result of {matches}",
+            matches=listed([state.match_words(name) for name in open_matches[:3]]),
         )
     if state.plan.form == "swiss":
         played = pairings(state.later, state.counted)

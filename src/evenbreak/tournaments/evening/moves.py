@@ -40,6 +40,7 @@ from evenbreak.tournaments.evening.known import (
     known_player,
     refuse_stranger,
     refuse_waiting,
+    typed,
     undecided,
     winner_of,
 )
@@ -123,15 +124,17 @@ def result(
     """
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:
-        correct_it = Command("tournament correct", name)
+        correct_it = Command("tournament correct", typed(state, name))
         if before.forfeit:
             raise InputError(
-                "{match} was forfeited; to change that: {correct}", match=name, correct=correct_it
+                "{match} was forfeited; to change that: {correct}",
+                match=state.match_words(name),
+                correct=correct_it,
             )
         again = score == tuple(before.games[player] for player in state.pair(name))
         why = say(
             "{match} already has a result ({result}); to change it: {correct}",
-            match=name,
+            match=state.match_words(name),
             result=score_words(before),
             correct=correct_it,
         )
@@ -146,7 +149,7 @@ def taps(state: Evening, match: str, winner: str, games: int) -> tuple[int, int]
     """Return the score of a match from its winner and the loser's games."""
     name = known_match(state, match)
     pair = state.pair(name)
-    refuse_stranger(winner, state.match_words(name), pair)
+    refuse_stranger(state, winner, name, pair)
     needs = state.needed(name, pair)
     return (needs[0], games) if winner == pair[0] else (games, needs[1])
 
@@ -181,8 +184,8 @@ def correct(
     if name not in state.counted:
         raise InputError(
             "{match} has no result to correct; to enter one: {enter}",
-            match=name,
-            enter=Command("tournament result", name),
+            match=state.match_words(name),
+            enter=Command("tournament result", typed(state, name)),
         )
     pair = state.pair(name)
     found = _result(state, name, pair, games_in(state, name, pair, score), ended, winner)
@@ -192,7 +195,9 @@ def correct(
     same = (before.games, before.winner, before.ended) == (found.games, found.winner, found.ended)
     if not before.forfeit and same:
         raise AlreadyError(
-            "{match} already has that result: {result}", match=name, result=score_words(before)
+            "{match} already has that result: {result}",
+            match=state.match_words(name),
+            result=score_words(before),
         )
     return found
 
@@ -238,12 +243,12 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
     needs = state.needed(name, pair)
     if score[0] >= needs[0] or score[1] >= needs[1]:
         raise InputError(
-            "{a}:{b} ends {match}, a {race}; to enter it: {enter}",
+            "{a}-{b} ends {match}, a {race}; to enter it: {enter}",
             a=score[0],
             b=score[1],
-            match=name,
+            match=state.match_words(name),
             race=race_words(needs),
-            enter=Command("tournament result", name, f"{score[0]}:{score[1]}"),
+            enter=Command("tournament result", typed(state, name), f"{score[0]}:{score[1]}"),
         )
     return Scored(name, pair, score)
 
@@ -262,12 +267,12 @@ def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
                 "{player} has {n} matches ready; say which: {matches}",
                 player=loser,
                 n=len(ready),
-                matches=", ".join(ready),
+                matches=listed([state.match_words(one) for one in ready]),
             )
         match = ready[0]
     name = undecided(state, match)
     pair = state.pair(name)
-    refuse_stranger(loser, name, pair)
+    refuse_stranger(state, loser, name, pair)
     return Result(name, pair, (0, 0), pair[loser == pair[0]], forfeit=True)
 
 
@@ -317,7 +322,9 @@ def call(state: Evening, match: str, table: int | None) -> Called:
     on, names = state.on_tables.get(name), state.plan.table_name
     if on is not None and table in (None, on.call.table):
         raise AlreadyError(
-            "{match} is already on table {table}", match=name, table=names(on.call.table)
+            "{match} is already on table {table}",
+            match=state.match_words(name),
+            table=names(on.call.table),
         )
     if table is None and not (free := free_tables(state)):
         raise InputError("no table is free (there are {tables})", tables=state.plan.tables)
@@ -330,7 +337,9 @@ def call(state: Evening, match: str, table: int | None) -> Called:
         )
     there = _on_table(state, chosen)
     if there is not None:
-        raise InputError("table {table} is taken by {match}", table=names(chosen), match=there)
+        raise InputError(
+            "table {table} is taken by {match}", table=names(chosen), match=state.match_words(there)
+        )
     if chosen in state.elsewhere:
         raise InputError(
             "table {table} is taken by {players}",
@@ -342,7 +351,7 @@ def call(state: Evening, match: str, table: int | None) -> Called:
             raise InputError(
                 "{player} is playing {match} on table {table}",
                 player=player,
-                match=there,
+                match=state.match_words(there),
                 table=names(one.call.table),
             )
     for taken, players in state.elsewhere.items():
@@ -409,7 +418,7 @@ def call_back(state: Evening, match: str) -> CalledBack:
     if state.plan.form == "chips":
         raise InputError("a chip tournament has no calls: the players at the tables play on")
     if name not in state.on_tables:
-        raise InputError("{match} is not on a table", match=name)
+        raise InputError("{match} is not on a table", match=state.match_words(name))
     return CalledBack(name, state.pair(name))
 
 

@@ -40,13 +40,13 @@ def stand(state: Evening, match: str) -> list[Result]:
         if not played:
             raise InputError(
                 "{match} was not played by the wrong players, so there is nothing to let stand",
-                match=name,
+                match=state.match_words(name),
             )
         raise InputError(
             "{match} was not played by the wrong players, so there is nothing to let stand; "
             "{others} can stand",
-            match=name,
-            others=listed(list(played)),
+            match=state.match_words(name),
+            others=listed([state.match_words(one) for one in played]),
         )
     wanted = set(played[name].players)
     found = []
@@ -63,16 +63,16 @@ def stand(state: Evening, match: str) -> list[Result]:
             first = slot.match if isinstance(slot, Source) else name
             raise InputError(
                 "{first}, which leads to {match}, is open; settle {first} first",
-                first=first,
-                match=name,
+                first=state.match_words(first),
+                match=state.match_words(name),
             )
         if not missing & set(before.players):
             raise InputError(
                 "{players} did not come from {before}, so {match} can't stand; play it "
                 "again, or undo",
                 players=listed(sorted(missing)),
-                before=before.match,
-                match=name,
+                before=state.match_words(before.match),
+                match=state.match_words(name),
             )
         found.append(replace(before, winner=before.loser, corrects=True, stands=not before.stands))
     return found

@@ -16,7 +16,7 @@ def swap_tables(state: Evening, one: str, other: str) -> list[Called]:
     names = undecided(state, one), undecided(state, other)
     for name in names:
         if name not in state.on_tables:
-            raise InputError("{match} is not on a table", match=name)
+            raise InputError("{match} is not on a table", match=state.match_words(name))
     if names[0] == names[1]:
         raise InputError("name two matches that are to trade tables")
     calls = [state.on_tables[name].call for name in names]
@@ -54,10 +54,11 @@ def wait(
         raise InputError("a chip tournament has no calls: the players at the tables play on")
     pair = state.pair(name)
     for player in absent:
-        refuse_stranger(player, name, pair)
+        refuse_stranger(state, player, name, pair)
     found = Waits(name, pair, tuple(dict.fromkeys(absent)), until, reason)
     if not found and name not in state.waiting_for:
         raise InputError(
-            "{match} is not waiting; say who is absent, or why it is to wait", match=name
+            "{match} is not waiting; say who is absent, or why it waits",
+            match=state.match_words(name),
         )
     return found

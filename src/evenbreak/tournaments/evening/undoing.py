@@ -137,11 +137,18 @@ def losses(before: Evening, after: Evening) -> list[Loss]:
 
 
 def matches_of(before: Evening, after: Evening) -> set[str]:
-    """Return the matches that what was entered, or taken back, is about."""
+    """Return the matches that what was entered, or taken back, is about.
+
+    Calls that come with a correction are of players who were not in the match before it.
+    """
     then, now = (dict(zip(s.numbers, s.events, strict=True)) for s in (before, after))
     entries = [(then | now)[number].what for number in then.keys() ^ now.keys()]
-    kinds = Result | Called | CalledBack | Scored | Waits
-    return {one.match for one in entries if isinstance(one, kinds)}
+    return {
+        one.match
+        for one in entries
+        if isinstance(one, Result | CalledBack | Scored | Waits)
+        or (isinstance(one, Called) and before.sitting(one.match) == frozenset(one.players))
+    }
 
 
 def _no_longer_played(before: Evening, after: Evening, about: set[str]) -> Iterator[Loss]:

@@ -49,7 +49,9 @@ async def desk(request: Request) -> Response:
         "tied": [],
         "drawable": False,
         "changeable": _changeable(state),
-        "undoable": [(n, event_words(e.what), e.by_phones) for n, e in undoable(state).items()],
+        "undoable": [
+            (n, event_words(e.what, state), e.by_phones) for n, e in undoable(state).items()
+        ],
     }
     if state.drawn:
         entered = [one.what.match for one in state.events if isinstance(one.what, Result)]

@@ -17,7 +17,6 @@ from evenbreak.answers.tournament.night import played_words
 from evenbreak.answers.tournament.under_way import time_under_way
 from evenbreak.files.store.desk import ENTERED, back_up, phone_entries
 from evenbreak.files.store.tournament import read_events
-from evenbreak.tournaments.evening.events import Undone
 from evenbreak.tournaments.evening.fold import evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.web.forms import form_of
@@ -81,12 +80,12 @@ async def history(request: Request) -> Response:
     if not path.exists():
         raise RefusalError("No tournament is running yet.", status=404)
     found = await asyncio.to_thread(read_events, path)
+    state = evening(found)
     rows: list[tuple[str, int | str, str, str]] = [
         (one.at, k, what, author_words(one.by))
-        for k, (one, what) in enumerate(zip(found, history_words(found), strict=True), 1)
+        for k, (one, what) in enumerate(zip(found, history_words(found, state), strict=True), 1)
     ]
-    undos = {k for k, one in enumerate(found, 1) if isinstance(one.what, Undone)}
-    gone = set(range(1, len(found) + 1)) - undos - set(evening(found).numbers)
+    gone = set(state.undone)
     rows += [
         (one.at, "", phone_words(one), phone_label(one))
         for one in await asyncio.to_thread(phone_entries, path)

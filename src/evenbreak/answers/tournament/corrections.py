@@ -1,0 +1,120 @@
+"""What may happen to matches that are played on a result that is corrected, in words."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from evenbreak.answers.tournament.moves import and_words, open_words
+from evenbreak.answers.tournament.tournament import against
+from evenbreak.tournaments.evening.events import race_words
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.undoing import Loss, losses
+from evenbreak.words import Sentence, joined, say, say_count
+
+
+class Choice(NamedTuple):
+    """What may happen to matches that are played on a result that is corrected.
+
+    Parameters
+    ----------
+    follow
+        what the correction is then given: stop or keep.
+    headline
+        what happens, as a person would say it.
+    details
+        a line for each table, and for what stays in the history.
+    button
+        the choice, on a button.
+    """
+
+    follow: str
+    headline: Sentence
+    details: list[Sentence]
+    button: Sentence
+
+
+def correction_choices(before: Evening, stop: Evening, match: str) -> list[Choice]:
+    """Return what may happen to matches that are played on a result; [] if there are none.
+
+    Parameters
+    ----------
+    before
+        the state before the correction.
+    stop
+        the state after it, with matches in play stopped.
+    match
+        the match that is corrected.
+    """
+    lost = losses(before, stop)
+    if not lost:
+        return []
+    number, many = before.match_words(match), len(lost)
+    in_play = all(one.result is None for one in lost)
+    traded = say(
+        "{players} trade places.",
+        players=and_words(_first_names(before, before.counted[match].players)),
+    )
+    if not in_play:
+        stopped = say_count("Open {n} match again.", "Open {n} matches again.", many)
+        stop_button = say("Change it, open again what follows")
+        kept, keep_button = say("Let everything stand."), say("Change it, let everything stand")
+    elif many == 1:
+        stopped, stop_button = say("Stop it."), say("Change it, stop it")
+        kept, keep_button = say("Let it finish as it is."), say("Change it, let it finish")
+    elif many == 2:
+        stopped, stop_button = say("Stop both."), say("Change it, stop both")
+        kept = say("Let both finish as they are.")
+        keep_button = say("Change it, let both finish")
+    else:
+        stopped = say("Stop all {n}.", n=many)
+        stop_button = say("Change it, stop all {n}", n=many)
+        kept = say("Let all {n} finish as they are.", n=many)
+        keep_button = say("Change it, let all {n} finish", n=many)
+    bracket = say("The bracket stays; only the record of {match} changes.", match=number)
+    return [
+        Choice("stop", joined([stopped, traded]), _stop_details(stop, lost), stop_button),
+        Choice("keep", kept, [bracket], keep_button),
+    ]
+
+
+def _stop_details(stop: Evening, lost: Sequence[Loss]) -> list[Sentence]:
+    """Return what happens to each match that stops or opens, and what stays in the history."""
+    said = []
+    for one in lost:
+        number = stop.match_words(one.match)
+        if one.match in stop.on_tables:
+            said.append(
+                say(
+                    "Table {table}: {pair}, {race}, from 0-0.",
+                    table=stop.plan.table_name(stop.on_tables[one.match].call.table),
+                    pair=against(_first_names(stop, stop.pair(one.match))),
+                    race=race_words(stop.needed(one.match, stop.pair(one.match))),
+                )
+            )
+        elif one.table is not None:
+            table = stop.plan.table_name(one.table)
+            said.append(
+                say(
+                    "Table {table} is free; {match}.",
+                    table=table,
+                    match=open_words(stop, one.match),
+                )
+            )
+        else:
+            said.append(say("Open again: {match}.", match=open_words(stop, one.match)))
+        if one.result is not None:
+            said[-1] = say("{open} {result} no longer counts.", open=said[-1], result=number)
+    scores = ["{}-{}".format(*one.score) for one in lost if one.score and any(one.score)]
+    if len(scores) == 1:
+        said.append(say("{score} stays in the history.", score=scores[0]))
+    elif scores:
+        said.append(say("{scores} stay in the history.", scores=and_words(scores)))
+    return said
+
+
+def _first_names(state: Evening, names: Sequence[str]) -> list[str]:
+    """Return what players are called in short: by their first name, unless others have it too."""
+    first = Counter(name.split()[0].casefold() for name in state.entrants)
+    return [name.split()[0] if first[name.split()[0].casefold()] == 1 else name for name in names]
