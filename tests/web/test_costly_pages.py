@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from evenbreak.sheets import bracket_drawing
+from evenbreak.sheets import bracket_paper
 from evenbreak.sheets import paper_pages as score_card_pages
 from evenbreak.web.beside import Made
 from web.conftest import Hall
@@ -21,7 +21,7 @@ PAPERS = ("/bracket.pdf", "/cards.pdf")
 def made(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
     """How often each paper was made."""
     count: Counter[str] = Counter()
-    for module, name in ((bracket_drawing, "bracket_pdf"), (score_card_pages, "score_cards_pdf")):
+    for module, name in ((bracket_paper, "bracket_pdf"), (score_card_pages, "score_cards_pdf")):
         own = getattr(module, name)
 
         def counting(*given: object, name: str = name, own: object = own, **more: object) -> bytes:

@@ -1,231 +1,258 @@
-"""A bracket as a drawing: on pages for the wall, or as one picture.
+"""A bracket as a drawing, in units of its own: boxes, lines, headings; whole, or in parts.
 
-Winners are bold, and a match that is being played has a thick frame and its table beside it.
+One unit across is a round, one unit down a match. Pages, pictures and paper scale the same drawing.
+A match stands between those whose winners come to it; losers are below the winners, round under
+round, and the line of the last of them comes up to the final.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple, TypeAlias
 
-from evenbreak.answers.tournament.bracket_view import Box, Line, Panel, short_names
-from evenbreak.sheets.pdf_page import MARGIN, PAPERS, POINTS, Paper, fitted, pdf_bytes, width_of
+from evenbreak.answers.tournament.bracket_view import Box, Panel
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+HEADING = 0.62
+"""The height of headings."""
 
-SIZES = {
-    "a4": (PAPERS["a4"], (16.54, 11.69), (23.39, 16.54), (33.11, 23.39)),
-    "letter": (PAPERS["letter"], (17.0, 11.0), (22.0, 17.0), (34.0, 22.0)),
-}
-"""A4, A3, A2 and A1; letter, tabloid, ANSI C and D: landscape, in inches."""
+GAP = 0.25
+"""What is free below a part of the bracket."""
 
-ROW, COLUMN = 0.6, 2.3
-"""How high a match is, and how wide, in a picture and at the most on paper, in inches."""
+BOX_WIDE, BOX_HIGH = 0.85, 0.86
+"""The part of a round's width and of a match's height that its box takes, at the right."""
 
-LOWEST = 0.34
-"""The least height of a match on paper, in inches."""
-
-WIDEST = 4.0
-"""How wide a match is in a picture at the most, so that names are written in full."""
-
-READABLE = 5.0
-"""The least size of a name, in points, for which a larger paper is not tried."""
-
-_TITLE = 0.62  # above the bracket
-_SIDE = 0.48  # of the heading of a side
-_BOX = 0.86  # the part of a column that is the box
-_EDGE, _SEED = 0.05, 0.22  # beside a name: what is left free, and where its seed is
+_FINALS_APART = 1.62  # between a final and the one above or below it
 
 
-class _Area(NamedTuple):
-    """Where a side of the bracket is drawn, and the short forms of names."""
-
-    left: float
-    top: float
-    column: float
-    row: float
-    short: Mapping[str, str]
+Corners: TypeAlias = tuple[tuple[float, float], ...]
+"""The corners of a line."""
 
 
-def bracket_pdf(
-    panels: Sequence[Panel], heading: Sequence[str], title: str, *, paper: str = "a4"
-) -> bytes:
-    """Return the bracket as a PDF: one page if it can be read there, else a page for each side.
+class Placed(NamedTuple):
+    """A match and where the middle of its box's left side is."""
 
-    The pages are A4 (or letter) unless that is too small to read; then A3 (tabloid) and so on. A
-    name for which there is no room is written in its short form (see `short_names`), and smaller,
-    but never cut.
+    box: Box
+    x: float
+    y: float
+
+
+class Heading(NamedTuple):
+    """A heading, the left end of its line, and whether it is that of a part."""
+
+    text: str
+    x: float
+    y: float
+    large: bool = False
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A bracket, or a part of one, as a drawing.
+
+    Parameters
+    ----------
+    wide, high
+        its size, in rounds and in matches.
+    boxes
+        its matches.
+    lines
+        the corners of the lines between them.
+    headings
+        what stands above rounds and matches.
+    onward
+        the ends of lines that lead to a match that is not in it, and that match's number.
+    """
+
+    wide: float
+    high: float
+    boxes: tuple[Placed, ...]
+    lines: tuple[Corners, ...]
+    headings: tuple[Heading, ...]
+    onward: tuple[tuple[float, float, int], ...] = ()
+
+
+def rows(panel: Panel) -> dict[str, float]:
+    """Return how many matches below the top of its part the middle of each match is.
+
+    >>> from evenbreak.answers.tournament.bracket_view import Line, Round
+    >>> nobody = Line("", False), Line("", False)
+    >>> one, other = (Box(f"W1.{k}", k, 0, nobody, "F", 3, "waits") for k in (1, 2))
+    >>> both = Round("Semifinals", "Semis"), Round("Final", "Final")
+    >>> rows(Panel("winners", "", both, (one, other, Box("F", 3, 1, nobody, "", 0, "waits"))))
+    {'W1.1': 0.5, 'W1.2': 1.5, 'F': 1.0}
+    """
+    if not panel.linked:
+        return {box.match: k + 0.5 for column in panel.columns for k, box in enumerate(column)}
+    found: dict[str, float] = {}
+    leaves = 0
+    for box in panel.boxes:  # those that feed a match stand before it
+        if box.beside:
+            continue
+        fed = [found[one.match] for one in panel.feeding(box)]
+        leaves += not fed
+        found[box.match] = sum(fed) / len(fed) if fed else leaves - 0.5
+    for box in panel.boxes:
+        if box.beside:
+            final = [found[b.match] for b in panel.boxes if b.column == box.column and not b.beside]
+            found[box.match] = max(final, default=0.5) + box.beside * _FINALS_APART
+    top = min(found.values(), default=0.5)
+    return {name: y + max(0.0, 0.5 - top) for name, y in found.items()}
+
+
+def height(panel: Panel) -> float:
+    """Return how many matches high a part of the bracket is, without its headings."""
+    return max(rows(panel).values(), default=0.5) + 0.5
+
+
+def drawing(panels: Sequence[Panel]) -> Drawing:
+    """Return a drawing of parts of a bracket: sides below each other, small groups side by side."""
+    across = max([len(panel.rounds) for panel in panels], default=1)
+    parts: list[list[Placed]] = []
+    headings: list[Heading] = []
+    left, top, lowest = 0.0, 0.0, 0.0
+    for panel in panels:
+        if left and (panel.linked or left + len(panel.rounds) > across):
+            left, top = 0.0, lowest + GAP
+        titled = panel.title and panel.kind not in ("winners", "losers") and len(panels) > 1
+        if titled:
+            headings.append(Heading(panel.title, left + 1 - BOX_WIDE, top + 0.6 * HEADING, True))
+        y = top + (HEADING if titled else 0.0)
+        if any(one.title for one in panel.rounds):
+            y += HEADING
+        at = rows(panel)
+        placed = [
+            Placed(box, left + box.column + 1 - BOX_WIDE, y + at[box.match]) for box in panel.boxes
+        ]
+        headings += _headings(panel, placed, left)
+        parts.append(placed)
+        lowest = max(lowest, y + height(panel))
+        left += len(panel.rounds)
+        if panel.linked:
+            left, top = 0.0, lowest + GAP
+    boxes = [one for part in parts for one in part]
+    wide = max((one.x for one in boxes), default=0.0) + BOX_WIDE
+    lines, onward = _lines(parts)
+    return Drawing(wide, lowest, tuple(boxes), tuple(lines), tuple(headings), tuple(onward))
+
+
+def _headings(panel: Panel, placed: list[Placed], left: float) -> Iterator[Heading]:
+    """Return the headings of rounds, above them, and of finals, right above their boxes."""
+    top = min((p.y for p in placed if not p.box.title), default=0.5)
+    for k, one in enumerate(panel.rounds):
+        column = [p for p in placed if p.box.column == k and not p.box.title]
+        if column and one.title:
+            alone = panel.linked and len(column) == 1 and panel.kind != "losers"
+            yield Heading(one.title, left + k + 1 - BOX_WIDE, (column[0].y if alone else top) - 0.6)
+    for p in placed:
+        if p.box.title:
+            yield Heading(p.box.title, p.x, p.y - 0.6)
+
+
+def _lines(parts: list[list[Placed]]) -> tuple[list[Corners], list[tuple[float, float, int]]]:
+    """Return the lines to the matches that winners go to, and those that lead elsewhere."""
+    everywhere = {one.box.match: one for part in parts for one in part}
+    lines: list[Corners] = []
+    onward = []
+    for part in parts:
+        here = {one.box.match for one in part}
+        for box, x, y in part:
+            to, right = everywhere.get(box.to), x + BOX_WIDE
+            if to is not None and box.to in here and to.x > x:
+                bend = to.x - 0.8 * (1.0 - BOX_WIDE)
+                level = abs(to.y - y) < 1e-9
+                middle = () if level else ((bend, y), (bend, to.y))
+                lines.append(((right, y), *middle, (to.x, to.y)))
+            elif to is not None and to.box.title and to.x >= x and to.y < y:  # up to the final
+                across, bottom = to.x + 0.5 * BOX_WIDE, to.y + 0.5 * BOX_HIGH
+                start = [(right, y), (across, y)] if to.x > x else [(across, y - 0.5 * BOX_HIGH)]
+                lines.append((*start, (across, bottom)))
+            elif box.to:
+                onward.append((right, y, box.to_number))
+    return lines, onward
+
+
+# Parts of a bracket that is too large for one page.
+
+
+def pages(panels: Sequence[Panel], high: float, wide: int) -> list[list[Panel]]:
+    """Return the parts of a bracket that go on each page.
 
     Parameters
     ----------
     panels
-        the sides of the bracket.
-    heading
-        the lines above it.
-    title
-        of the document.
-    paper
-        'a4' or 'letter'.
+        the bracket.
+    high, wide
+        how many matches, headings among them, and how many rounds a page has room for.
     """
-    return pdf_bytes(bracket_pages(panels, heading, paper), title)
+    whole = drawing(panels)
+    if whole.high <= high and whole.wide <= wide:
+        return [list(panels)]
+    parts = [part for panel in panels for part in _split(panel, high - 2 * HEADING, wide)]
+    found: list[list[Panel]] = []
+    for part in parts:
+        if found and drawing([*found[-1], part]).high <= high:
+            found[-1].append(part)
+        else:
+            found.append([part])
+    return found
 
 
-def bracket_pages(
-    panels: Sequence[Panel], heading: Sequence[str], paper: str = "a4"
-) -> list[Figure]:
-    """Return the pages of `bracket_pdf`; no name on them is cut."""
-    short = short_names(_players(panels))
-    one_page, page_each = [list(panels)], [[panel] for panel in panels]
-    tried = [
-        (size, [(part, _area(part, size, short)) for part in parts])
-        for size in SIZES[paper]
-        for parts in (one_page, page_each)
-    ]
-    readable = (one for one in tried if all(_is_readable(*page) for page in one[1]))
-    size, pages = next(readable, tried[-1])
-    return [_page(part, heading, size, area) for part, area in pages]
+def _split(panel: Panel, high: float, wide: int) -> list[Panel]:
+    """Return parts of a part of the bracket that are small enough, the earlier rounds first."""
+    panel = _without_empty(panel)
+    if height(panel) <= high and len(panel.rounds) <= wide:
+        return [panel]
+    if not panel.linked:
+        return _blocks(panel, high, wide)
+    for cut in range(min(wide, len(panel.rounds)), 0, -1):
+        trees = _trees(panel, cut)
+        if cut > 1 and any(height(tree) > high for tree in trees):
+            continue
+        front: list[list[Box]] = []
+        for tree in trees:
+            if front and height(_some(panel, [*front[-1], *tree.boxes])) <= high:
+                front[-1] += tree.boxes
+            else:
+                front.append(list(tree.boxes))
+        rest = [box for box in panel.boxes if box.column >= cut]
+        made = [_without_empty(_some(panel, part)) for part in front]
+        return [*made, *(_split(_some(panel, rest), high, wide) if rest else [])]
+    return [panel]
 
 
-def bracket_figure(panels: Sequence[Panel], heading: Sequence[str]) -> Figure:
-    """Return the whole bracket as one picture, as large as it needs to be."""
-    columns = max(len(panel.rounds) for panel in panels)
-    area = _Area(MARGIN, 0.0, COLUMN, ROW, short_names(_players(panels)))
-    needed = max(_needed(line, area) for line in _lines(panels))
-    column = min(WIDEST, max(COLUMN, needed / _BOX))
-    high = sum(panel.rows for panel in panels) * ROW + len(panels) * _SIDE
-    size = columns * column + 2 * MARGIN, high + 2 * MARGIN + _TITLE
-    return _page(panels, heading, size, area._replace(column=column))
+def _blocks(panel: Panel, high: float, wide: int) -> list[Panel]:
+    """Return parts of rounds without lines."""
+    found = []
+    for first in range(0, len(panel.rounds), wide):
+        columns = panel.columns[first : first + wide]
+        most = max(map(len, columns))
+        for k in range(0, most, max(1, int(high))):
+            some = [box for column in columns for box in column[k : k + max(1, int(high))]]
+            found.append(_without_empty(_some(panel, some)))
+    return found
 
 
-def _players(panels: Sequence[Panel]) -> set[str]:
-    return {line.text for line in _lines(panels) if line.known}
+def _trees(panel: Panel, cut: int) -> list[Panel]:
+    """Return the matches of the first rounds, those that lead to one match together."""
+    early = [box for box in panel.boxes if box.column < cut]
+    names = {box.match: box for box in early}
+    ends: dict[str, list[Box]] = {}
+    for box in early:
+        end = box
+        while end.to in names:
+            end = names[end.to]
+        ends.setdefault(end.match, []).append(box)
+    return [_some(panel, boxes) for boxes in ends.values()]
 
 
-def _lines(panels: Sequence[Panel]) -> Iterator[Line]:
-    return (line for panel in panels for box in panel.boxes for line in box.lines)
+def _some(panel: Panel, boxes: Sequence[Box]) -> Panel:
+    return replace(panel, boxes=tuple(boxes))
 
 
-def _area(panels: Sequence[Panel], size: tuple[float, float], short: Mapping[str, str]) -> _Area:
-    """Return how large matches are on a paper of a size."""
-    rows, columns = sum(p.rows for p in panels), max(len(panel.rounds) for panel in panels)
-    row = (size[1] - 2 * MARGIN - _TITLE - len(panels) * _SIDE) / rows
-    column = (size[0] - 2 * MARGIN) / columns
-    return _Area(MARGIN, 0.0, min(COLUMN, column), min(ROW, row), short)
-
-
-def _is_readable(panels: Sequence[Panel], area: _Area) -> bool:
-    """Return whether matches are high enough, and names large enough, to be read."""
-    sizes = (_name(line, area)[1] for line in _lines(panels))
-    return area.row >= LOWEST and min(sizes, default=READABLE) >= READABLE
-
-
-def _page(
-    panels: Sequence[Panel], heading: Sequence[str], size: tuple[float, float], area: _Area
-) -> Figure:
-    page = Paper(size)
-    width = size[0] - 2 * MARGIN
-    for line, y, points in zip(heading, (0.2, 0.42), (15.0, 9.0), strict=False):
-        bold = points > 9.0
-        text, fitting = fitted(line, points, width, bold=bold)
-        page.text(MARGIN, MARGIN + y, text, size=fitting, bold=bold)
-    top = MARGIN + _TITLE
-    for panel in panels:
-        _side(page, panel, area._replace(top=top))
-        top += panel.rows * area.row + _SIDE
-    return page.figure
-
-
-def _side(page: Paper, panel: Panel, area: _Area) -> None:
-    """Draw one side: its headings, its boxes, and the lines between them."""
-    if panel.title:
-        page.text(area.left, area.top + 0.12, panel.title, size=10, bold=True)
-    for k, title in enumerate(panel.rounds):
-        text, size = fitted(title, _size(area), _BOX * area.column)
-        left = area.left + k * area.column
-        page.text(left, area.top + 0.34, text, size=size, color="0.35")
-    places = {box.match: _place(box, panel, area) for box in panel.boxes}
-    for box in panel.boxes:
-        x, y = places[box.match]
-        _box(page, box, x, y, area)
-        if box.to and box.column < _column_of(panel, box.to):
-            other_x, other_y = places[box.to]
-            right = x + _BOX * area.column
-            middle = 0.5 * (right + other_x)
-            page.line((right, middle, middle, other_x), (y, y, other_y, other_y), lw=0.6)
-
-
-def _column_of(panel: Panel, match: str) -> int:
-    return next(box.column for box in panel.boxes if box.match == match)
-
-
-def _place(box: Box, panel: Panel, area: _Area) -> tuple[float, float]:
-    """Return the left end and the middle of a box."""
-    y = area.top + _SIDE + panel.row(box) * area.row
-    return area.left + box.column * area.column, y
-
-
-def _size(area: _Area) -> float:
-    """Return the size of the names, in points."""
-    return min(9.0, 0.3 * area.row * POINTS)
-
-
-def _box(page: Paper, box: Box, x: float, y: float, area: _Area) -> None:
-    width, half = _BOX * area.column, 0.35 * area.row
-    playing = box.state == "playing"
-    if box.state == "ready" or playing:
-        page.band(x, y - half, width, 2.0 * half, grey="0.93")
-    page.frame(x, y - half, width, 2.0 * half, thick=1.8 if playing else 0.6)
-    page.line((x, x + width), (y, y), lw=0.3)
-    for k, line in enumerate(box.lines):
-        _line(page, line, x, y + (k - 0.5) * half, area)
-    size = 0.62 * _size(area)
-    if box.race:
-        page.text(x + width, y - half - 0.02, box.race, size=size, color="0.35", ha="right")
-    note = box.match if box.table is None else f"{box.match}  table {box.table}"
-    room = width - (width_of(box.race, size) + _EDGE if box.race else 0.0)
-    note, size = fitted(note, size, room, bold=playing)
-    page.text(x, y - half - 0.02, note, size=size, color="0.35", bold=playing)
-
-
-def _line(page: Paper, line: Line, x: float, y: float, area: _Area) -> None:
-    """Write a player of a box, with seed and score."""
-    size, left = _size(area), x + _EDGE
-    if _has_seed(line):
-        seed, points = fitted(str(line.seed), 0.7 * size, 0.9 * _SEED)
-        page.centred(left + 0.4 * _SEED, y, seed, size=points, color="0.35")
-        left += _SEED
-    if line.score:
-        right = x + _BOX * area.column - _EDGE
-        page.centred(right, y, _score(line), size=size, bold=line.won, ha="right")
-    text, size = _name(line, area)
-    color = "black" if line.known else "0.45"
-    page.centred(left, y, text, size=size, bold=line.won, ha="left", color=color)
-
-
-def _has_seed(line: Line) -> bool:
-    return line.seed is not None and line.known
-
-
-def _score(line: Line) -> str:
-    return line.score if line.score.isdigit() or not line.score else "w/o"
-
-
-def _beside(line: Line, size: float) -> float:
-    """Return the width that seed, score and edges take from a name."""
-    score = width_of(_score(line), size, bold=line.won) + 2 * _EDGE if line.score else 0.0
-    return 2 * _EDGE + (_SEED if _has_seed(line) else 0.0) + score
-
-
-def _name(line: Line, area: _Area) -> tuple[str, float]:
-    """Return what is written for a player, and its size in points."""
-    size = _size(area)
-    room = _BOX * area.column - _beside(line, size)
-    short = area.short.get(line.text, "")
-    return fitted(line.text, size, max(room, 0.1), short=short, bold=line.won)
-
-
-def _needed(line: Line, area: _Area) -> float:
-    """Return how wide a box has to be for a name in full."""
-    size = _size(area)
-    return width_of(line.text, size, bold=line.won) / 0.98 + _beside(line, size)
+def _without_empty(panel: Panel) -> Panel:
+    """Return a part of the bracket without rounds that have no match."""
+    used = sorted({box.column for box in panel.boxes})
+    place = {column: k for k, column in enumerate(used)}
+    boxes = tuple(replace(box, column=place[box.column]) for box in panel.boxes)
+    return replace(panel, rounds=tuple(panel.rounds[k] for k in used), boxes=boxes)

@@ -1,36 +1,354 @@
-"""A bracket as a page: whole on a laptop or a screen on the wall, a round at a time on a phone."""
+"""A bracket on a page: one drawing on a laptop or a wall, a round at a time on a phone.
+
+Both are made here as text, for they are drawn anew with every score. Pages bring the look
+(bracket.css), and say the words in their reader's language.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+import re
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from html import escape
 
 from markupsafe import Markup
 
-from evenbreak.answers.tournament.bracket_view import Box, Panel, short_names
-from evenbreak.sheets.html_page import Section, drawn, html_page
-from evenbreak.sheets.pdf_page import POINTS, fitted
+from evenbreak.answers.kit.wording import share_at_a_glance
+from evenbreak.answers.tournament.bracket_view import Box, Line, Panel
+from evenbreak.answers.tournament.short_names import rough_width, short_names
+from evenbreak.sheets.bracket_drawing import BOX_HIGH, BOX_WIDE, Drawing, Placed, drawing
+from evenbreak.sheets.html_page import Section, html_page, own_file, shown_name
+from evenbreak.words import say
 
-COLUMN, ROW, WIDE, HIGH = 250.0, 66.0, 214.0, 46.0
-"""The distance of columns and of rows, and the size of a box, in units of the drawing."""
+COLUMN, ROW = 232.0, 49.0
+"""The width of a round and the height of a match, in the drawing's own pixels."""
 
-_HEADINGS = 34.0
-_LETTERS = 12.5  # the size of names in the drawing
-_ROOM = WIDE - 60.0  # for a name
+LETTERS = 18.5
+"""The size of names."""
+
+_WIDE, _HIGH = COLUMN * BOX_WIDE, ROW * BOX_HIGH
+_EDGE, _SCORE, _CHANCE = 7.0, 24.0, 38.0  # beside a name
+SHAPES = {
+    "ready": ("open", "M10 5.5a4.5 4.5 0 1 1-9 0 4.5 4.5 0 1 1 9 0z"),
+    "called": ("", "M2 1 10 5.5 2 10z"),
+    "playing": ("", "M10 5.5a4.5 4.5 0 1 1-9 0 4.5 4.5 0 1 1 9 0z"),
+    "hill": ("", "M0 10 3.5 3 5.5 6.5 7 4 11 10z"),
+    "sent": ("open", "M10 5.5a4.5 4.5 0 1 1-9 0 4.5 4.5 0 1 1 9 0zM5.5 1v9M7.7 2v7"),
+    "two": ("", "M5.5 0 11 5.5 5.5 11 0 5.5z"),
+    "forfeit": ("open", "M1 1l9 9M10 1l-9 9"),
+}
+"""The state of a match as a shape, 11 by 11: whether it is only an outline, and its outline."""
+
+_ON_WHITE = {
+    "paper": "#fff",
+    "card": "#fff",
+    "ink": "#0e151d",
+    "ink-2": "#46515e",
+    "ink-3": "#5b6572",
+    "edge": "#7d8793",
+    "rule": "#b9c0c8",
+    "live": "#00694c",
+    "live-on": "#fff",
+    "call-surface": "#ffb32e",
+    "call-on": "#221200",
+    "stop": "#ad1457",
+    "stop-on": "#fff",
+    "accent": "#0a57c2",
+    "accent-on": "#fff",
+}
+_WORD = 7.5  # the width of the longest word on a small card, in sizes of its letters
+_FEW = 8.0  # rounds that fit on a laptop
+
+Words = Callable[[str], object]
+"""What says a sentence in the reader's language."""
+
+Link = Callable[[Box], str]
+"""The address of a match; '' for none."""
 
 
-class _Drawn(NamedTuple):
-    """A box in the drawing: its left end and its middle, and its two names.
+def no_link(_: Box) -> str:
+    """Return no address: what a page without links has."""
+    return ""
 
-    `squeezed` is the width that a name is squeezed into; 0 if it fits.
+
+def bracket_svg(
+    panels: Sequence[Panel],
+    *,
+    words: Words = str,
+    link: Link = no_link,
+    chosen: str = "",
+    within: float = 0.0,
+    drawn: Drawing | None = None,
+) -> Markup:
+    """Return the drawing of a bracket as inline SVG.
+
+    Parameters
+    ----------
+    panels
+        the parts of the bracket.
+    words
+        says a sentence in the reader's language.
+    link
+        the address of a match.
+    chosen
+        a match that was tapped, by name.
+    within
+        the width of the room by its height, where the drawing is to fill it; 0: as wide as usual.
+    drawn
+        the drawing of these parts, if it has been made.
+
+    >>> "<svg" in bracket_svg([Panel("winners", "", (), ())])
+    True
     """
+    drawn = drawn or drawing(panels)
+    high = drawn.high * ROW + 4.0
+    column = min(1.7 * COLUMN, max(COLUMN, within * high / max(1.0, drawn.wide)))
+    page = _Page(column, words, link, _written(panels, column), chosen)
+    wide = drawn.wide * column + 3.0
+    lines = "".join(
+        "M" + "L".join(f"{_at(x * column)} {_at(y * ROW)}" for x, y in corners)
+        for corners in drawn.lines
+    )
+    lines += "".join(f"M{_at(x * column)} {_at(y * ROW)}h14" for x, y, _ in drawn.onward)
+    many = " many" if drawn.wide > _FEW else ""
+    text = [
+        f'<svg class="drawn{many}" viewBox="0 0 {wide:.0f} {high:.0f}" width="{1.4 * wide:.0f}" '
+        f'font-size="{LETTERS}" role="group" aria-label="{_said(words, say("Bracket"))}">',
+        f'<path class="to" d="{lines}"/>' if lines else "",
+    ]
+    for one in drawn.headings:
+        kind = "part" if one.large else "head"
+        text.append(_text(kind, one.x * column, one.y * ROW, escape(str(words(one.text)))))
+    text.append(
+        f'<defs><g id="b{column:.0f}"><rect width="{_at(page.wide)}" height="{_HIGH:.1f}" rx="5"/>'
+        f'<path class="mid" d="M0 {0.5 * _HIGH:.1f}h{_at(page.wide)}"/></g></defs>'
+    )
+    text += [page.box(one) for one in drawn.boxes]
+    return Markup("".join([*text, "</svg>"]))  # noqa: S704  # every text in it is escaped
 
-    box: Box
-    x: float
-    y: float
-    names: tuple[str, str]
-    squeezed: tuple[float, float]
-    path: str
+
+def _written(panels: Sequence[Panel], column: float) -> dict[str, str]:
+    """Return how names are written in the drawing: alike everywhere."""
+    room = (column * BOX_WIDE - 2 * _EDGE - _SCORE) / LETTERS
+    return short_names(_names(panels), lambda text: rough_width(text, bold=True) <= room)
+
+
+def _text(kind: str, x: float, y: float, text: str, size: float = 0.0) -> str:
+    sized = f' font-size="{size:.1f}"' if size else ""
+    return f'<text class="{kind}" x="{_at(x)}" y="{_at(y)}"{sized}>{text}</text>'
+
+
+def _at(place: float) -> str:
+    """Return a coordinate in few letters."""
+    return f"{place:.1f}".removesuffix(".0")
+
+
+class _Page:
+    """How matches are drawn on a page."""
+
+    def __init__(
+        self, column: float, words: Words, link: Link, written: dict[str, str], chosen: str
+    ) -> None:
+        self.column, self.words, self.link, self.written = column, words, link, written
+        self.chosen = chosen
+        self.wide = column * BOX_WIDE
+
+    def box(self, placed: Placed) -> str:
+        """Return a match: its number or table, its state, its two players."""
+        box = placed.box
+        x, y = placed.x * self.column, placed.y * ROW
+        top = y - 0.5 * _HIGH
+        parts = [f'<use href="#b{self.column:.0f}" x="{_at(x)}" y="{_at(top)}"/>']
+        if box.table:
+            size = 14.0 if len(box.table) > 2 else 17.0
+            room = max(29.0, 0.72 * size * len(box.table) + 8.0)
+            left = x - room + 5.0
+            parts.append(
+                f'<rect class="badge" x="{_at(left)}" y="{_at(y - 14.5)}" width="{_at(room)}" '
+                'height="29" rx="6"/>'
+            )
+            table = escape(box.table)
+            parts.append(_text("table", left + 0.5 * room, y + 0.36 * size, table, size))
+        else:
+            parts.append(_text("no", x - 5.0, y - 4.0, str(box.number)))
+        if box.state in SHAPES and (box.table or box.state == "ready"):
+            kind, path = SHAPES[box.state]
+            at = f"{_at(x - 17.0)} {_at(y + 3.0)}"
+            if box.table:  # on the frame
+                left = x + self.wide - 21.0
+                halo = f'x="{_at(left)}" y="{_at(top - 7)}" width="17" height="14"'
+                parts.append(f'<rect class="halo" {halo}/>')
+                at = f"{_at(left + 3.0)} {_at(top - 5.5)}"
+            parts.append(f'<path class="shape {kind}" transform="translate({at})" d="{path}"/>')
+        parts += [self.line(box, k, one, x, y) for k, one in enumerate(box.lines)]
+        address = self.link(box)
+        maybe = " maybe" if box.beside < 0 and box.state == "waits" else ""
+        kind = f'class="{_kind(box, self.chosen)}{maybe}"'
+        if not address:
+            return f"<g {kind}>{''.join(parts)}</g>"
+        return f'<a {kind} href="{escape(address)}">{"".join(parts)}</a>'
+
+    def line(self, box: Box, k: int, line: Line, x: float, y: float) -> str:
+        """Return a player of a match."""
+        middle = y + (k - 0.5) * 0.5 * _HIGH + 0.36 * LETTERS
+        text = self.written.get(line.text, line.text) if line.known else str(self.words(line.text))
+        right, parts = x + self.wide - _EDGE, []
+        room = self.wide - 2 * _EDGE
+        if line.score:
+            forfeit = line.score == "forfeit"
+            parts.append(_text("score", right, middle, "✕" if forfeit else line.score))
+            room -= _SCORE
+        if line.chance is not None:
+            at = right - (_SCORE if line.score else 0.0)
+            parts.append(_text("odds", at, middle, str(self.words(share_at_a_glance(line.chance)))))
+            room -= _CHANCE
+        wide = rough_width(text, bold=line.known) * LETTERS
+        size = LETTERS * max(0.3, room / wide) if wide > room else 0.0
+        kind = "name won" if line.won else "name" if line.known else "from"
+        lost = " beaten" if line.known and not line.won and box.state in ("done", "forfeit") else ""
+        parts.insert(0, _text(kind + lost, x + _EDGE, middle, escape(shown_name(text)), size))
+        return "".join(parts)
+
+
+def _kind(box: Box, chosen: str) -> str:
+    """Return the classes of a match: its state, whether it is on a table, whether it was tapped."""
+    on = " is-on" if box.table else ""
+    return f"m {box.state}{on}{' chosen' if box.match == chosen else ''}"
+
+
+def bracket_rounds(
+    panels: Sequence[Panel],
+    *,
+    words: Words = str,
+    link: Link = no_link,
+    chosen: str = "",
+    sight: bool = True,
+) -> Markup:
+    """Return a bracket for a phone: a round at a time, the next one in sight.
+
+    Parameters
+    ----------
+    panels
+        the parts of the bracket.
+    words, link, chosen
+        as in `bracket_svg`.
+    sight
+        whether the next round is in sight, which takes a third more bytes.
+    """
+    say_it = partial(_said, words)
+    card = partial(_card, words=words, chosen=chosen, written=_small(panels))
+    text = ['<div class="phone">']
+    for number, panel in enumerate(panels, 1):
+        text.append(f'<section class="side" id="r{number}"><h2>{say_it(panel.title)}</h2>')
+        if len(panels) > 1:
+            names = [(f"r{k}", say_it(one.title)) for k, one in enumerate(panels, 1)]
+            text.append(_nav("sides", say_it(say("Parts")), names, f"r{number}"))
+        columns = panel.columns
+        rounds = [k for k, column in enumerate(columns) if column]
+        turns = [(f"r{number}-{k}", say_it(panel.rounds[k].short or str(k + 1))) for k in rounds]
+        now = _round_now(panel)
+        text.append('<div class="rounds" tabindex="0" role="group">')
+        for k in rounds:
+            here = f"r{number}-{k}"
+            kind = "round now" if k == now else "round"
+            title = say_it(panel.rounds[k].title or panel.title)
+            text.append(f'<section class="{kind}" id="{here}"><h3>{title}</h3>')
+            if len(rounds) > 1:
+                text.append(_nav("turns", say_it(say("Rounds")), turns, here))
+
+            def there(box: Box, here: str = here) -> str:
+                address = link(box)
+                return f"{address}#{here}" if address else ""
+
+            text += _round(panel, k, partial(card, link=there), sight=sight)
+            text.append("</section>")
+        text.append("</div></section>")
+    return Markup("".join([*text, "</div>"]))  # noqa: S704  # every text in it is escaped
+
+
+def _small(panels: Sequence[Panel]) -> dict[str, str]:
+    """Return names for the small cards of the next round, where words are not divided."""
+
+    def fits(text: str) -> bool:
+        return max(rough_width(word, bold=True) for word in re.split(r"[ -]", text)) <= _WORD
+
+    return short_names(_names(panels), fits)
+
+
+def _names(panels: Sequence[Panel]) -> list[str]:
+    return [one.text for p in panels for box in p.boxes for one in box.lines if one.known]
+
+
+def _said(words: Words, text: str) -> str:
+    return escape(str(words(text)))
+
+
+def _nav(kind: str, label: str, links: Sequence[tuple[str, str]], here: str) -> str:
+    """Return links within the page; the one to where they stand is marked."""
+    text = [f'<div class="{kind}" role="group" aria-label="{label}">']
+    for to, word in links:
+        current = ' aria-current="true"' if to == here else ""
+        text.append(f'<a href="#{to}"{current}>{word}</a>')
+    return "".join([*text, "</div>"])
+
+
+def _round_now(panel: Panel) -> int:
+    """Return the first round that is not over; the last if all are."""
+    over = ("done", "forfeit")
+    still = [box.column for box in panel.boxes if box.state not in over and box.beside >= 0]
+    return min(still, default=max((box.column for box in panel.boxes), default=0))
+
+
+def _round(panel: Panel, column: int, card: Callable[..., str], *, sight: bool) -> list[str]:
+    """Return the matches of a round, those that lead to one match together with it."""
+    names = {box.match: box for box in panel.boxes}
+    groups: dict[str, list[Box]] = {}
+    for box in panel.columns[column]:
+        meet = sight and panel.linked and box.to in names
+        groups.setdefault(box.to if meet else box.match, []).append(box)
+    text = []
+    for to, boxes in groups.items():
+        text.append(f'<div class="meet{" two" if len(boxes) > 1 else ""}"><div>')
+        text += [card(box) for box in boxes]
+        then = f'<div class="then">{card(names[to], small=True)}</div>' if to == boxes[0].to else ""
+        text.append(f"</div>{then}</div>")
+    return text
+
+
+def _card(
+    box: Box,
+    *,
+    words: Words,
+    link: Link,
+    chosen: str,
+    written: Mapping[str, str],
+    small: bool = False,
+) -> str:
+    """Return a match as a card; a small one has short names."""
+    lines = []
+    over = box.state in ("done", "forfeit")
+    for one in box.lines:
+        text = one.text if one.known else str(words(one.text))
+        text = written.get(text, text) if small else text
+        kind = "won" if one.won else "from" if not one.known else "beaten" if over else ""
+        score = "✕" if one.score == "forfeit" else one.score
+        name = escape(shown_name(text))
+        of_kind, games = (f' class="{kind}"' if kind else ""), (f" <b>{score}</b>" if score else "")
+        lines.append(f"<span{of_kind}><bdi>{name}</bdi>{games}</span>")
+    note = str(box.number)
+    if box.table:
+        note += f" · {_said(words, say('table {n}', n=box.table))}"
+    elif box.title:
+        note += f" · {_said(words, box.title)}"
+    if box.state in SHAPES and box.state != "forfeit":
+        kind, path = SHAPES[box.state]
+        shape = f'<path class="{kind}" d="{path}"/>'
+        note = f'<svg viewBox="-1 -1 13 13" aria-hidden="true">{shape}</svg>{note}'
+    inside = f'<small>{note}</small><span class="lines">{"".join(lines)}</span>'
+    address, kind = link(box), _kind(box, chosen)
+    if small or not address:
+        return f'<span class="{kind}"{" aria-hidden=true" if small else ""}>{inside}</span>'
+    return f'<a class="{kind}" id="c{box.number}" href="{escape(address)}">{inside}</a>'
 
 
 def bracket_html(panels: Sequence[Panel], heading: Sequence[str]) -> bytes:
@@ -39,64 +357,39 @@ def bracket_html(panels: Sequence[Panel], heading: Sequence[str]) -> bytes:
     Parameters
     ----------
     panels
-        the sides of the bracket.
+        the parts of the bracket.
     heading
         its name, and what else stands above it.
 
-    >>> page = bracket_html([Panel("", ("Final",), ())], ["Tuesday"])
+    >>> page = bracket_html([Panel("", "", (), ())], ["Tuesday"])
     >>> b"<h1>Tuesday</h1>" in page
     True
     """
-    links, sections = [], []
-    for number, panel in enumerate(panels, start=1):
-        title = panel.title or "Bracket"
-        name = f"side-{number}"
-        links.append((name, title))
-        sections.append(Section(name, title, drawn_panel(panel, name)))
-    return html_page(
-        heading=list(heading),
-        links=links if len(links) > 1 else [],
-        sections=sections,
-        below="",
-        made_of="",
+    section = Section("bracket", "Bracket", bracket_both(panels))
+    return html_page(heading=list(heading), links=[], sections=[section], below="", made_of="")
+
+
+def bracket_both(
+    panels: Sequence[Panel],
+    *,
+    words: Words = str,
+    link: Link = no_link,
+    chosen: str = "",
+    sight: bool = True,
+) -> Markup:
+    """Return the drawing of a bracket and its rounds; the style shows one of them, by the width."""
+    drawn = bracket_svg(panels, words=words, link=link, chosen=chosen)
+    rounds = bracket_rounds(panels, words=words, link=link, chosen=chosen, sight=sight)
+    return Markup('<div class="bracket">{}{}</div>').format(drawn, rounds)
+
+
+def bracket_picture(panels: Sequence[Panel]) -> bytes:
+    """Return the drawing of a bracket as an SVG file, dark letters on white."""
+    colors = "".join(f"--{name}:{color};" for name, color in _ON_WHITE.items())
+    style = (
+        f"svg{{{colors}background:#fff;font-family:system-ui,'Segoe UI',Roboto,'Noto Sans',"
+        f"sans-serif}}{own_file('bracket.css').partition('.phone')[0]}"
     )
-
-
-def drawn_panel(panel: Panel, name: str) -> Markup:
-    """Return one side of a bracket, whose heading has the id `name`-title, for a page."""
-    return drawn("bracket", panel, _drawing(panel), name)
-
-
-def _drawing(panel: Panel) -> dict[str, object]:
-    """Return what the drawing of a side needs."""
-    height = _HEADINGS + panel.rows * ROW
-    places = {
-        box.match: (box.column * COLUMN + 1.0, _HEADINGS + panel.row(box) * ROW)
-        for box in panel.boxes
-    }
-    column = {box.match: box.column for box in panel.boxes}
-    short = short_names(line.text for box in panel.boxes for line in box.lines if line.known)
-    room = _ROOM / POINTS
-    boxes = []
-    for box in panel.boxes:
-        x, y = places[box.match]
-        path = ""
-        if box.to and column[box.to] > box.column:
-            other_x, other_y = places[box.to]
-            middle = 0.5 * (x + WIDE + other_x)
-            path = f"M{x + WIDE:g} {y:g}H{middle:g}V{other_y:g}H{other_x:g}"
-        names = [
-            fitted(line.text, _LETTERS, room, short=short.get(line.text, "")) for line in box.lines
-        ]
-        squeezed = [_ROOM if size < _LETTERS else 0.0 for _, size in names]
-        boxes.append(
-            _Drawn(box, x, y, (names[0][0], names[1][0]), (squeezed[0], squeezed[1]), path)
-        )
-    return {
-        "width": len(panel.rounds) * COLUMN - (COLUMN - WIDE) + 2.0,
-        "height": height,
-        "boxes": boxes,
-        "wide": WIDE,
-        "high": HIGH,
-        "column": COLUMN,
-    }
+    head, _, drawn = str(bracket_svg(panels)).partition(">")
+    head = head.replace("<svg", '<svg xmlns="http://www.w3.org/2000/svg"', 1)
+    return f"{head}><style>{style}</style>{drawn}\n".encode()

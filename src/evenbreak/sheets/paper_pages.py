@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple, TypeAlias
 
 from evenbreak.answers.tournament.printed import Card
 from evenbreak.sheets.pdf_page import MARGIN, PAPERS, Paper, fitted, pdf_bytes
@@ -20,16 +20,16 @@ class FirstMatch(NamedTuple):
     name, seed
         the player.
     match, other
-        the first match, and who is met there; '' if there is none.
+        the number of the first match, and who is met there; 0 and '' if there is none.
     table
-        where it is played; None: not called yet.
+        where it is played; '': not called yet.
     """
 
     name: str
     seed: int
-    match: str
+    match: int
     other: str
-    table: int | None
+    table: str
 
 
 def draw_list_pdf(
@@ -48,7 +48,7 @@ def draw_list_pdf(
     paper
         'a4' or 'letter'.
 
-    >>> draw_list_pdf([FirstMatch("Ann", 1, "W1.1", "Bo", 3)], "Tuesday")[:5]
+    >>> draw_list_pdf([FirstMatch("Ann", 1, 1, "Bo", "3")], "Tuesday")[:5]
     b'%PDF-'
     """
     listed = sorted(players, key=lambda first_match: first_match.name.casefold())
@@ -73,11 +73,12 @@ def _row(page: Paper, first_match: FirstMatch, y: float, wide: float, *, grey: b
     name, size = fitted(first_match.name, _SIZE, 2.6, bold=True)
     page.text(MARGIN + 0.05, y, name, size=size, bold=True)
     page.text(MARGIN + 2.75, y, f"seed {first_match.seed}", size=9, color="0.3")
-    page.text(MARGIN + 3.45, y, first_match.match, size=_SIZE)
+    number = f"match {first_match.match}" if first_match.match else ""
+    page.text(MARGIN + 3.4, y, number, size=_SIZE)
     against = f"against {first_match.other}" if first_match.other else ""
     against, size = fitted(against, _SIZE, 2.1)
     page.text(MARGIN + 4.3, y, against, size=size)
-    if first_match.table is not None:
+    if first_match.table:
         page.text(wide - MARGIN - 0.05, y, f"table {first_match.table}", size=_SIZE, ha="right")
 
 
@@ -87,7 +88,13 @@ MOST_BOXES = 15
 
 
 def score_cards_pdf(
-    cards: Sequence[Card], event: str, *, per_page: int = 4, paper: str = "a4"
+    cards: Sequence[Card],
+    event: str,
+    *,
+    per_page: int = 4,
+    paper: str = "a4",
+    codes: Mapping[str, str] | None = None,
+    address: str = "",
 ) -> bytes:
     """Return score cards as a PDF.
 
@@ -101,57 +108,82 @@ def score_cards_pdf(
         1 or 4.
     paper
         'a4' or 'letter'.
+    codes
+        the short code by which each player's phone is claimed.
+    address
+        what a code is put after to open it on a phone, such as 'http://192.168.1.7:8000/c/'.
 
-    >>> card = Card("W1.1", "winners' side, round 1", ("Ann", "Bo"), (7, 5), 3, ())
+    >>> card = Card(1, "winners’ side, round 1", ("Ann", "Bo"), (7, 5), "3", "")
     >>> score_cards_pdf([card], "Tuesday")[:5]
     b'%PDF-'
     """
     pages = []
+    claims = {name: (code, f"{address}{code}") for name, code in (codes or {}).items()}
     room_wide, room_high = (side - 2 * MARGIN for side in PAPERS[paper])
     for start in range(0, len(cards), per_page):
         page = Paper(PAPERS[paper])
         for k, card in enumerate(cards[start : start + per_page]):
             if per_page == 1:
-                _card(page, card, event, MARGIN, MARGIN, room_wide, room_high)
+                _card(page, card, event, claims, (MARGIN, MARGIN, room_wide, room_high))
                 continue
             wide, high = (room_wide - _GAP) / 2, (room_high - _GAP) / 2
             left, top = MARGIN + (k % 2) * (wide + _GAP), MARGIN + (k // 2) * (high + _GAP)
-            _card(page, card, event, left, top, wide, high)
+            _card(page, card, event, claims, (left, top, wide, high))
         pages.append(page.figure)
     return pdf_bytes(pages, f"Score cards: {event}")
 
 
+_Claims: TypeAlias = Mapping[str, tuple[str, str]]
+"""Each player's code, and the address that claims a phone by it."""
+
+
 def _card(
-    page: Paper, card: Card, event: str, left: float, top: float, wide: float, high: float
+    page: Paper,
+    card: Card,
+    event: str,
+    claims: _Claims,
+    place: tuple[float, float, float, float],
 ) -> None:
     """Draw a card in a rectangle."""
+    left, top, wide, high = place
     unit = high / 3.5  # a card that fills the page has larger letters
     page.frame(left, top, wide, high, thick=0.8)
     inner, right = left + 0.15 * unit, left + wide - 0.15 * unit
     room = right - inner
-    title, size = fitted(event, 9 * unit, 0.6 * room)
-    page.text(inner, top + 0.32 * unit, title, size=size)
-    table = "table ____" if card.table is None else f"table {card.table}"
+    page.text(inner, top + 0.36 * unit, f"Match {card.number}", size=16 * unit, bold=True)
+    table = f"table {card.table}" if card.table else "table ____"
     page.text(right, top + 0.36 * unit, table, size=16 * unit, bold=True, ha="right")
-    page.text(inner, top + 0.56 * unit, f"{card.match}: {card.where}", size=8 * unit, color="0.3")
+    about, size = fitted(f"{event} · {card.where}", 8 * unit, room)
+    page.text(inner, top + 0.58 * unit, about, size=size, color="0.3")
     for k, (name, needs) in enumerate(zip(card.names, card.needs, strict=True)):
-        y = top + (1.0 + 0.88 * k) * unit
-        _player(page, name, needs, inner, y, room, unit)
-    y = top + 2.82 * unit
+        y = top + (0.98 + 0.88 * k) * unit
+        _player(page, (name, needs), claims.get(name), (inner, y, room), unit)
+    y = top + 2.86 * unit
     page.text(inner, y, "Final score", size=9 * unit)
     page.line((inner + 0.85 * unit, inner + 1.9 * unit), (y, y))
     page.text(inner + 2.05 * unit, y, "Signed", size=9 * unit)
     page.line((inner + 2.55 * unit, right), (y, y))
-    onward = "  ".join(card.onward)
-    onward, size = fitted(onward, 8 * unit, room)
+    onward, size = fitted(str(card.onward), 8 * unit, room)
     page.text(inner, top + 3.3 * unit, onward, size=size)
 
 
 def _player(
-    page: Paper, name: str, needs: int, left: float, y: float, room: float, unit: float
+    page: Paper,
+    player: tuple[str, int],
+    claim: tuple[str, str] | None,
+    place: tuple[float, float, float],
+    unit: float,
 ) -> None:
-    """Write a player's name and race, with a box for each game."""
-    text, size = fitted(name, 15 * unit, room - 1.1 * unit, bold=True)
+    """Write a player's name and race, with a box for each game, and the code for their phone."""
+    (name, needs), (left, y, room) = player, place
+    if claim:
+        code, address = claim
+        side = 0.62 * unit
+        page.code(left + room - side, y - 0.2 * unit, side, address)
+        at = y + 0.54 * unit
+        page.text(left + room - 0.5 * side, at, code, size=6.6 * unit, bold=True, ha="center")
+        room -= side + 0.1 * unit
+    text, size = fitted(name, 15 * unit, room - 0.8 * unit, bold=True)
     page.text(left, y, text, size=size, bold=True)
     page.text(left + room, y, f"needs {needs}", size=11 * unit, ha="right")
     if needs > MOST_BOXES:

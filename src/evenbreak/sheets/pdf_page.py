@@ -118,6 +118,24 @@ class Paper:
             Rectangle((left, top), width, height, fill=False, ec="black", lw=thick)
         )
 
+    def code(self, left: float, top: float, size: float, text: str) -> None:
+        """Draw a QR code in a square."""
+        import segno
+        from matplotlib.collections import PolyCollection
+
+        modules = [[bool(one) for one in row] for row in segno.make(text, error="m").matrix]
+        step = size / len(modules)
+        dots = [
+            [
+                (left + (k + dx) * step, top + (j + dy) * step)
+                for dx, dy in ((0, 0), (1, 0), (1, 1), (0, 1))
+            ]
+            for j, row in enumerate(modules)
+            for k, dark in enumerate(row)
+            if dark
+        ]
+        self._axes.add_collection(PolyCollection(dots, facecolors="black", edgecolors="none"))
+
 
 def pdf_bytes(pages: Sequence[Figure], title: str) -> bytes:
     """Return pages as one PDF document, the same bytes every time.

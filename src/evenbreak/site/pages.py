@@ -21,7 +21,7 @@ from evenbreak.answers.league.roster_matchups import OfferedRaces
 from evenbreak.answers.league.standings import rules_words
 from evenbreak.league.tables.fixtures import Fixture
 from evenbreak.league.tables.table import LeagueTable
-from evenbreak.sheets.bracket_page import drawn_panel
+from evenbreak.sheets.bracket_page import bracket_both
 from evenbreak.sheets.html_page import environment, own_file, policy
 from evenbreak.site import pictures
 from evenbreak.site.bundle import bundle
@@ -368,14 +368,15 @@ class _Pages:
 
     def tournament(self, one: Tournament) -> dict[str, bytes]:
         """Return a tournament with its bracket: a page, or one for each side of a large one."""
+        whole = bracket_both(one.panels)
+        if len(whole) < MOST_BYTES - _ROUND_A_BRACKET:
+            return {one.file: self._bracket(one, [("bracket", "Bracket", whole)], [], one.file)}
         panels = [
-            (f"side-{k}", panel.title or "Bracket", drawn_panel(panel, f"side-{k}"))
+            (f"side-{k}", panel.title or "Bracket", bracket_both([panel], sight=False))
             for k, panel in enumerate(one.panels, 1)
         ]
         stem = one.file.removesuffix(".html")
         files = [one.file, *(f"{stem}-side-{k}.html" for k in range(2, len(panels) + 1))]
-        if sum(len(html) for _, _, html in panels) < MOST_BYTES - _ROUND_A_BRACKET:
-            return {one.file: self._bracket(one, panels, [], one.file)}
         parts = [(file, title) for file, (_, title, _) in zip(files, panels, strict=True)]
         return {
             file: self._bracket(one, [panel], parts, file)

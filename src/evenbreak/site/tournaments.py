@@ -39,7 +39,7 @@ def tournament_of(name: str, state: Evening, names: PublicNames) -> Tournament |
 
     def public(box: Box) -> Box:
         first, second = (
-            replace(one, text=names[one.text] if one.known else str(one.text)) for one in box.lines
+            one._replace(text=names[one.text] if one.known else str(one.text)) for one in box.lines
         )
         return replace(box, lines=(first, second))
 

@@ -62,6 +62,8 @@ class Known:
     next_starts
         when each player's next match begins: early, in the middle and late, in minutes since the
         start; only of players who may still play.
+    chances
+        the first player's of each match that is played or ready.
     problem
         why nothing of all this could be worked out; '' if it was.
     """
@@ -73,6 +75,7 @@ class Known:
     start: int = 0
     odds: PlaceOdds | None = None
     next_starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
+    chances: Mapping[str, float] = field(default_factory=dict)
     problem: str = ""
 
 
@@ -175,7 +178,8 @@ class Night:
             to_play = bool(state.standing.to_play)
             calls = next_calls(night) if to_play else []
             starts = _next_starts(night) if to_play else {}
-            return Known(state, 0.0, data, calls, begun_at(night), night.odds, starts)
+            chances = match_chances(night)
+            return Known(state, 0.0, data, calls, begun_at(night), night.odds, starts, chances)
 
         try:
             found = await self.beside.run(work)
@@ -191,6 +195,14 @@ def problem_of(error: Exception) -> str:
     if isinstance(error, EvenbreakError):
         return error.sentence
     return say(str(error) or type(error).__name__)
+
+
+def match_chances(night: Outlook) -> dict[str, float]:
+    """Return the first player's chance in each match that can be played, from its score on."""
+    if night.state.plan.form == "chips":
+        return {}
+    seats = {name: night.state.standing.seats[name] for name in night.state.standing.to_play}
+    return {name: float(night.laws[name].win[pair]) for name, pair in seats.items()}
 
 
 def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:

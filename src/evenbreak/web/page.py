@@ -107,8 +107,9 @@ def style(color: str | None = None) -> str:
     """Return the style of all pages: what published sites have too, parts, and each screen."""
     common = files("evenbreak.site").joinpath("templates", "common.css")
     own = files("evenbreak.web").joinpath("templates", "css")
+    drawn = files("evenbreak.sheets").joinpath("templates", "bracket.css")
     sheets = sorted((one for one in own.iterdir() if one.name.endswith(".css")), key=_style_order)
-    text = "".join(one.read_text(encoding="utf-8") for one in (common, *sheets))
+    text = "".join(one.read_text(encoding="utf-8") for one in (common, *sheets, drawn))
     return text + (accent(color).style() if color else "")
 
 

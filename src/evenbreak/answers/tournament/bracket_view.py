@@ -1,41 +1,31 @@
-"""A bracket as boxes on columns: what every picture of it shows, and where.
+"""A bracket as everybody sees it: its parts, rounds and matches, by number.
 
-A panel is one side of the bracket. Its columns are rounds; heights count from 0 at the top to 1 at
-the bottom, and the winner's line of a box leads to a box of the next column.
+A panel is a part of the bracket. Its columns are rounds; who wins a match goes to a later column.
 """
 
 from __future__ import annotations
 
-import re
-from collections import Counter
-from collections.abc import Iterable
-from dataclasses import dataclass
-from itertools import pairwise
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from evenbreak.tournaments.brackets.bracket import Bracket, Match, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
-from evenbreak.tournaments.evening.events import race_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.words import Sentence, ordinal, say
 
-_MAIN = ("winners", "knock-out")
-"""The sides that a final belongs to."""
+_FINALS = ("final", "second final", "third place")
+_LINKED = ("winners", "losers", "knock-out", "consolation")
+"""The parts in which lines lead from match to match; the others are lists of rounds."""
 
-_NAME = re.compile(r"([A-Z]+)(\d+)\.(\d+)")
-_TITLES = {
-    "winners": say("Winners' side"),
-    "losers": say("Losers' side"),
-    "consolation": say("Consolation"),
-    "third place": say("Third place"),
-    "knock-out": say("Knock-out"),
-    "round robin": say("Round robin"),
-    "king of the hill": say("King of the hill"),
-    "Swiss": say("Swiss"),
-}
+_THEN = {"knock-out", "pod final"}
+"""What follows the sides of a double elimination that is not played to the end."""
+
+_ACROSS = 6
+"""How many matches stand in a row where rounds mean nothing."""
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(NamedTuple):
     """One player of a match.
 
     Parameters
@@ -44,19 +34,22 @@ class Line:
         the name, or where the player comes from.
     known
         whether it is a player.
-    seed
-        the seed; None where not known.
     score
         games won, also of a match in play; 'forfeit' or ''.
     won
         whether this player won the match.
+    needs
+        the games that the player needs; None where it is over, or the players are not known.
+    chance
+        of winning the match; None where it is not known.
     """
 
     text: str
     known: bool
-    seed: int | None = None
     score: str = ""
     won: bool = False
+    needs: int | None = None
+    chance: float | None = None
 
 
 @dataclass(frozen=True)
@@ -65,88 +58,95 @@ class Box:
 
     Parameters
     ----------
-    match
-        its name.
+    match, number
+        its name, and the number by which people know it.
     column
         the round, from 0.
-    height
-        where its middle is, from 0 (top) to 1.
     lines
         its two players.
-    to
-        the match that the winner goes to, in the same panel; '' if none.
+    to, to_number
+        the match that the winner goes to; '' and 0 if none.
     state
-        'over', 'playing', 'ready' or 'waits'.
+        'waits', 'ready', 'called', 'playing', 'hill', 'done' or 'forfeit'; pages know 'sent' and
+        'two' besides, for scores that phones have sent.
+    title
+        its own heading, such as 'Final'; '' where that of its round will do.
+    beside
+        -1 if it stands above the final, in the same column, 1 if below; 0: in a place of its own.
     table
-        the table on which it is played; None unless it is.
-    needs
-        the games that each player needs; None where it is over, or the players are not known.
+        the name of the table on which it is played; '' unless it is.
     """
 
     match: str
+    number: int
     column: int
-    height: float
     lines: tuple[Line, Line]
     to: str
+    to_number: int
     state: str
-    table: int | None = None
-    needs: tuple[int, int] | None = None
+    title: str = ""
+    beside: int = 0
+    table: str = ""
 
-    @property
-    def race(self) -> str:
-        """What is raced to, such as 'race to 5', unlike a score; '' where it is not known."""
-        if self.needs is None:
-            return ""
-        return race_words(self.needs)
+
+class Round(NamedTuple):
+    """What a round is called, and in one word or number where there is no room."""
+
+    title: str
+    short: str
 
 
 @dataclass(frozen=True)
 class Panel:
-    """A side of a bracket.
+    """A part of a bracket.
 
     Parameters
     ----------
+    kind
+        'winners', 'losers', 'knock-out', 'consolation', or the name of another part.
     title
         what it is called.
     rounds
         the heading of each column.
     boxes
-        its matches.
+        its matches, from the top.
     """
 
+    kind: str
     title: str
-    rounds: tuple[str, ...]
+    rounds: tuple[Round, ...]
     boxes: tuple[Box, ...]
 
     @property
-    def most(self) -> int:
-        """The most matches of a round, byes counted: how high the panel has to be."""
-        closest = [
-            min((b.height - a.height for a, b in pairwise(column)), default=1.0)
-            for column in self.columns
-        ]
-        return max(1, round(1.0 / min(closest, default=1.0)))
-
-    @property
-    def rows(self) -> float:
-        """How many matches high the panel is."""
-        return self.row(max(self.boxes, key=lambda box: box.height)) + 0.5 if self.boxes else 1.0
-
-    def row(self, box: Box) -> float:
-        """Return how many matches below the top of the panel the middle of a match is."""
-        return (box.height - min(one.height for one in self.boxes)) * self.most + 0.5
+    def linked(self) -> bool:
+        """Whether lines lead from match to match."""
+        return self.kind in _LINKED
 
     @property
     def columns(self) -> list[list[Box]]:
-        """The boxes of each round, from the top."""
-        return [
-            sorted((box for box in self.boxes if box.column == k), key=lambda box: box.height)
-            for k in range(len(self.rounds))
-        ]
+        """The matches of each round, from the top."""
+        return [[box for box in self.boxes if box.column == k] for k in range(len(self.rounds))]
+
+    def feeding(self, box: Box) -> list[Box]:
+        """Return the matches of this part whose winners come to a match."""
+        return [one for one in self.boxes if one.to == box.match and one.column < box.column]
 
 
-def bracket_panels(state: Evening) -> tuple[Panel, ...]:
-    """Return the sides of the bracket of a tournament, each with its matches.
+def bracket_panels(
+    state: Evening,
+    chances: Mapping[str, float] | None = None,
+    states: Mapping[str, str] | None = None,
+) -> tuple[Panel, ...]:
+    """Return the parts of the bracket of a tournament, each with its matches.
+
+    Parameters
+    ----------
+    state
+        the tournament.
+    chances
+        the first player's chance in matches that are played or ready.
+    states
+        states of matches that phones know better: 'sent', 'two'.
 
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result
     >>> from evenbreak.tournaments.evening.fold import evening
@@ -154,149 +154,189 @@ def bracket_panels(state: Evening) -> tuple[Panel, ...]:
     >>> begun = Opened(Plan("single", 5), tuple(Entrant(name, 80.0) for name in names))
     >>> happened = begun, Drawn(names, (0, 3, 1, 2)), Result("W1.1", ("Ann", "Di"), (5, 3), "Ann")
     >>> (panel,) = bracket_panels(evening([Event("2025-03-01T19:30:00", w) for w in happened]))
-    >>> [(box.match, box.height, [line.text for line in box.lines]) for box in panel.boxes[1:]]
-    [('W1.2', 0.75, ['Bo', 'Cy']), ('F', 0.5, ['Ann', 'winner of W1.2'])]
+    >>> [(box.number, [line.text for line in box.lines]) for box in panel.boxes[1:]]
+    [(2, ['Bo', 'Cy']), (3, ['Ann', 'winner of 2'])]
     """
-    bracket = state.bracket
-    sides: dict[str, list[Match]] = {}
-    of_sides = {match.side for match in bracket.matches}
-    for match in bracket.matches:
-        if NOBODY in state.standing.seats[match.name]:
-            continue
-        side = match.side
-        if side in ("final", "second final"):
-            side = next((main for main in _MAIN if main in of_sides), side)
-        sides.setdefault(side, []).append(match)
-    return tuple(_panel(state, side, matches) for side, matches in sides.items())
+    parts: dict[str, list[Match]] = {}
+    sides = {match.side for match in state.bracket.matches}
+    main = "knock-out" if sides & _THEN else "winners"
+    for match in state.bracket.matches:
+        if NOBODY not in state.standing.seats[match.name]:
+            final = match.side in (*_FINALS, "pod final")
+            parts.setdefault(main if final else match.side, []).append(match)
+    made = [_panel(state, kind, matches, sides) for kind, matches in parts.items()]
+    made.sort(key=lambda panel: panel.kind == "knock-out")  # the sides that lead to it come first
+    return tuple(
+        replace(
+            panel, boxes=tuple(_filled(state, b, chances or {}, states or {}) for b in panel.boxes)
+        )
+        for panel in made
+    )
 
 
-def _panel(state: Evening, side: str, matches: list[Match]) -> Panel:
-    columns = _columns(matches)
-    heights = _heights(state.bracket, side, matches, columns)
-    names = {match.name for match in matches}
+def _panel(state: Evening, kind: str, matches: list[Match], sides: set[str]) -> Panel:
+    """Return a part of the bracket, its matches still without players."""
     onward = {
         slot.match: match.name
-        for match in matches
+        for match in state.bracket.matches
         for slot in match.slots
-        if isinstance(slot, Source) and slot.outcome == "winner" and slot.match in names
+        if isinstance(slot, Source) and slot.outcome == "winner" and slot.via is None
     }
-    boxes = tuple(
-        _box(state, match, columns[match.name], heights[match.name], onward.get(match.name, ""))
-        for match in matches
-    )
-    last = max(columns.values())
-    headings = []
-    for k in range(last + 1):
-        here = [match for match in matches if columns[match.name] == k]
-        headings.append(_heading(here[0]) if here else "")
-    kind, _, letter = side.partition(" ")
-    title: str = _TITLES.get(side) or side[:1].upper() + side[1:]
-    if kind == "group":
-        title = say("Group {name}", name=letter)
-    if side == "winners" and not any(match.side == "losers" for match in state.bracket.matches):
-        title = ""
-    return Panel(title, tuple(headings), boxes)
-
-
-_FINALS = {
-    "final": say("Final"),
-    "second final": say("Second final"),
-    "third place": say("Third place"),
-}
-
-
-def _heading(match: Match) -> str:
-    return _FINALS.get(match.side) or say("Round {n}", n=match.round)
-
-
-def _columns(matches: list[Match]) -> dict[str, int]:
-    """Return the column of each match: rounds of a side, then the finals."""
-    rounds = max((m.round for m in matches if m.side not in ("final", "second final")), default=0)
-    columns = {}
+    if kind == "Chips" or state.plan.form == "king-of-the-hill":
+        rows = -(-len(matches) // _ACROSS)
+        boxes = [_empty(state, m, k // rows, "") for k, m in enumerate(matches)]
+        return Panel(
+            "list", _title(kind), tuple([Round("", "")] * (boxes[-1].column + 1)), tuple(boxes)
+        )
+    columns = _columns(state.bracket, matches, kind)
+    rounds = [Round("", "")] * (max(columns.values()) + 1)
+    boxes = []
     for match in matches:
-        shift = {"final": rounds, "second final": rounds + 1}.get(match.side, 0)
-        columns[match.name] = shift + (match.round - 1 if shift == 0 else 0)
+        column = columns[match.name]
+        title = _titles(match, kind, matches, sides, column)
+        own = ("losers" in sides and match.side == "final") or match.side in _FINALS[1:]
+        if not own or not rounds[column].title:
+            rounds[column] = title
+        boxes.append(
+            _empty(state, match, column, onward.get(match.name, ""), title.title if own else "")
+        )
+    order = {name: k for k, name in enumerate(_from_the_top(state.bracket, boxes))}
+    boxes.sort(key=lambda box: order[box.match])
+    return Panel(kind, _title(kind), tuple(rounds), tuple(boxes))
+
+
+def _columns(bracket: Bracket, matches: list[Match], kind: str) -> dict[str, int]:
+    """Return the column of each match: rounds without a match have none.
+
+    The final of two sides is above the last round of the losers, so that its line comes up.
+    """
+    first = min(match.round for match in matches if match.side not in ("pod final", *_FINALS[1:]))
+    times = {
+        match.name: {"pod final": first - 1, "second final": match.round + 1000}.get(
+            match.side, match.round
+        )
+        for match in matches
+    }
+    last = max((t for m in matches if m.side not in _FINALS for t in [times[m.name]]), default=0)
+    for match in matches:
+        if match.side in _FINALS:
+            times[match.name] = last + 1
+    place = {time: k for k, time in enumerate(sorted(set(times.values())))}
+    columns = {name: place[time] for name, time in times.items()}
+    if kind == "winners":
+        losers = len({match.round for match in bracket.matches if match.side == "losers"})
+        for match in matches:
+            if match.side in _FINALS:
+                columns[match.name] = max(columns[match.name], losers - 1)
     return columns
 
 
-def _heights(
-    bracket: Bracket, side: str, matches: list[Match], columns: dict[str, int]
-) -> dict[str, float]:
-    """Return the height of each match: by its place in the full bracket, where it has one."""
-    rounds = max((m.round for m in bracket.matches if m.side == "winners"), default=0)
-    lines = 2 ** (rounds + ("F" in bracket.by_name and side == "winners" and not _double(bracket)))
-    many = Counter(columns.values())
-    seen: Counter[int] = Counter()
-    found: dict[str, float] = {}
-    for match in matches:
-        column = columns[match.name]
-        parsed = _NAME.fullmatch(match.name)
-        count, place = many[column], seen[column]
-        if parsed and side == "winners" and match.side == "winners":
-            count, place = lines // 2**match.round, int(parsed[3]) - 1
-        elif parsed and side == "losers":
-            count = max(1, 2**rounds // 2 ** ((match.round + 1) // 2 + 1))
-            place = int(parsed[3]) - 1
-        seen[column] += 1
-        if place >= count:
-            count, place = many[column], seen[column] - 1
-        found[match.name] = (place + 0.5) / count
-    for column in set(columns.values()):
-        here = [match.name for match in matches if columns[match.name] == column]
-        if len({round(found[name], 6) for name in here}) < len(here):  # several brackets in one
-            here.sort(key=_number)
-            found |= {name: (k + 0.5) / len(here) for k, name in enumerate(here)}
-    return found
+def _from_the_top(bracket: Bracket, boxes: list[Box]) -> list[str]:
+    """Return matches so that those whose winners meet stand together, as slots have them."""
+    names = {box.match for box in boxes}
+    order: list[str] = []
+
+    def visit(name: str) -> None:
+        for slot in bracket.by_name[name].slots:
+            if isinstance(slot, Source) and slot.outcome == "winner" and slot.match in names:
+                visit(slot.match)
+        if name not in order:
+            order.append(name)
+
+    for box in boxes:
+        if box.to not in names:
+            visit(box.match)
+    return order
 
 
-def _number(match: str) -> int:
-    parsed = _NAME.fullmatch(match)
-    return int(parsed[3]) if parsed else 0
+def _titles(match: Match, kind: str, matches: list[Match], sides: set[str], column: int) -> Round:
+    """Return what the round of a match is called."""
+    if match.side == "final":
+        return Round(say("Final"), say("Final"))
+    if match.side == "second final":
+        return Round(say("If needed"), say("If needed"))
+    if match.side == "third place":
+        return Round(say("Third place"), say("Third place"))
+    if match.side == "pod final":
+        return Round(say("Pod finals"), say("Pods"))
+    if kind == "losers":
+        return Round(say("Losers {n}", n=column + 1), str(column + 1))
+    rounds = max(one.round for one in matches if one.side not in _FINALS[1:])
+    whole = kind == "knock-out" or (kind == "winners" and not sides & _THEN)
+    left = rounds - match.round if whole else -1
+    if left == 0 and kind == "winners":
+        return Round(say("Winners’ final"), say("W-final"))
+    if kind == "consolation" and match.round == rounds:
+        return Round(say("Final"), say("Final"))
+    if left == 1:
+        return Round(say("Semifinals"), say("Semis"))
+    if left == 2:
+        return Round(say("Quarterfinals"), say("Quarters"))
+    return Round(say("Round {n}", n=match.round), str(match.round))
 
 
-def _double(bracket: Bracket) -> bool:
-    return any(match.side == "losers" for match in bracket.matches)
+def _title(kind: str) -> str:
+    name, _, letter = kind.partition(" ")
+    if name == "group":
+        return say("Group {name}", name=letter)
+    titles = {
+        "winners": say("Winners"),
+        "losers": say("Losers"),
+        "consolation": say("Consolation"),
+        "knock-out": say("Knock-out"),
+        "round robin": say("Round robin"),
+        "Chips": say("Racks"),
+    }
+    return titles.get(kind) or kind[:1].upper() + kind[1:]
 
 
-def _box(state: Evening, match: Match, column: int, height: float, to: str) -> Box:
-    now, result = state.standing, state.counted.get(match.name)
-    seats = now.seats[match.name]
-    pair = [None if seat is None else state.order[seat] for seat in seats]
-    needs = None
+def _empty(state: Evening, match: Match, column: int, to: str, title: str = "") -> Box:
+    lines = Line("", known=False), Line("", known=False)
+    number, then = state.number_of(match.name), state.number_of(to) if to else 0
+    beside = {"second final": -1, "third place": 1}.get(match.side, 0)
+    return Box(match.name, number, column, lines, to, then, "waits", title, beside)
+
+
+def _filled(
+    state: Evening, box: Box, chances: Mapping[str, float], states: Mapping[str, str]
+) -> Box:
+    """Return a match with its players, scores and state."""
+    match, now = state.bracket.match(box.match), state.standing
+    result, live = state.counted.get(match.name), state.live.get(match.name)
+    pair = [None if seat is None else state.order[seat] for seat in now.seats[match.name]]
+    needs: tuple[int | None, int | None] = None, None
+    games: dict[str, int] = {}
     if result is None and None not in pair:
         needs = state.needed(match.name, (str(pair[0]), str(pair[1])))
-    live = state.live.get(match.name)
-    games = dict(zip(live.what.players, live.what.score, strict=True)) if live else {}
-    lines = []
-    for k, (name, seat) in enumerate(zip(pair, seats, strict=True)):
-        score = str(games[name]) if name in games else ""
-        if result is not None and name is not None and not result.forfeit:
-            score = str(result.games[name])
-        elif result is not None and result.forfeit and name != result.winner:
-            score = "forfeit"
-        lines.append(
-            Line(
-                name or _from(match.slots[k]),
-                name is not None,
-                None if seat is None else seat + 1,
-                score,
-                result is not None and result.winner == name,
-            )
-        )
+        games = dict(zip(live.what.players, live.what.score, strict=True)) if live else {}
+    elif result is not None and not result.forfeit:
+        games = dict(result.games)
     table = state.on_tables.get(match.name)
+    standing = "waits"
     if result is not None:
-        standing = "over"
+        standing = "forfeit" if result.forfeit else "done"
     elif table is not None:
-        standing = "playing"
-    else:
-        standing = "ready" if match.name in now.to_play else "waits"
-    number = None if table is None else table.call.table
-    return Box(match.name, column, height, (lines[0], lines[1]), to, standing, number, needs)
-
-
-def _from(slot: int | Source) -> str:
-    """Return where the player of an empty slot comes from."""
-    return source_words(slot) if isinstance(slot, Source) else ""
+        left = [
+            need - games.get(str(name), 0) for need, name in zip(needs, pair, strict=True) if need
+        ]
+        standing = "called" if not live else "hill" if left == [1, 1] else "playing"
+    elif match.name in now.to_play:
+        standing = "ready"
+    p = chances.get(match.name) if result is None else None
+    lines = []
+    for slot, name, need in zip(match.slots, pair, needs, strict=True):
+        if name is None:
+            text = source_words(slot, state.match_numbers) if isinstance(slot, Source) else ""
+            lines.append(Line("" if match.side == "second final" else text, known=False))
+            continue
+        score = str(games[name]) if name in games else ""
+        if result is not None and result.forfeit and name != result.winner:
+            score = "forfeit"
+        chance = p if p is None or name == pair[0] else 1.0 - p
+        lines.append(Line(name, True, score, bool(result and result.winner == name), need, chance))
+    label = "" if table is None else state.plan.table_name(table.call.table)
+    standing = states.get(match.name, standing)
+    return replace(box, lines=(lines[0], lines[1]), state=standing, table=label)
 
 
 def group_words(name: str) -> Sentence | str:
@@ -308,8 +348,8 @@ def group_words(name: str) -> Sentence | str:
     return say("best {rank}", rank=ordinal(int(name))) if name.isdigit() else name
 
 
-def source_words(slot: Source) -> Sentence | str:
-    """Return where a player comes from, such as 'winner of W1.2'."""
+def source_words(slot: Source, numbers: Mapping[str, int]) -> Sentence | str:
+    """Return where a player comes from, such as 'winner of 12'."""
     if isinstance(slot.outcome, int) and slot.match.isdigit():  # a runner-up
         if slot.outcome == 1:
             return group_words(slot.match)
@@ -317,32 +357,8 @@ def source_words(slot: Source) -> Sentence | str:
         return say("{nth} best {rank}", nth=ordinal(slot.outcome), rank=rank)
     if isinstance(slot.outcome, int):
         return say("number {n} of {group}", n=slot.outcome, group=slot.match)
+    if slot.match not in numbers:
+        return say("to be drawn")
     if slot.outcome == "winner":
-        return say("winner of {match}", match=slot.match)
-    return say("loser of {match}", match=slot.match)
-
-
-def short_names(names: Iterable[str]) -> dict[str, str]:
-    """Return the short form of each name that has one: first initial and last name.
-
-    A form that two players would share is nobody's.
-
-    >>> short_names(["Maximiliane Ndiaye-Roy", "Jean-Luc van Dam", "Ann Lee", "Al Lee", "Bo"])
-    {'Jean-Luc van Dam': 'J.-L. van Dam', 'Maximiliane Ndiaye-Roy': 'M. Ndiaye-Roy'}
-    """
-    distinct = set(names)
-    short = {name: _short(name) for name in sorted(distinct)}
-    taken = Counter(short.values())
-    return {
-        name: form
-        for name, form in short.items()
-        if len(form) < len(name) and taken[form] == 1 and form not in distinct
-    }
-
-
-def _short(name: str) -> str:
-    first, _, rest = name.partition(" ")
-    parts = [part for part in first.split("-") if part]
-    if not rest or not all(part[0].isalpha() for part in parts):
-        return name
-    return f"{'-'.join(f'{part[0]}.' for part in parts)} {rest}"
+        return say("winner of {match}", match=numbers[slot.match])
+    return say("loser of {match}", match=numbers[slot.match])

@@ -269,7 +269,9 @@ def _moves(state: Evening, match: str, player: str) -> Sentence:
             if other == NOBODY:
                 continue
             rival = (
-                met_words(state.bracket, one.slots[1 - k]) if other is None else state.order[other]
+                met_words(state.bracket, one.slots[1 - k], state.match_numbers)
+                if other is None
+                else state.order[other]
             )
             return say(
                 "{player} goes to {match} and meets {opponent}.",

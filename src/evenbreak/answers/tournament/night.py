@@ -388,7 +388,7 @@ def bracket_table(state: Evening) -> Table:
         seats = state.standing.seats[match.name]
         if NOBODY in seats:
             continue
-        names = pair_words(state.standing, match.name)
+        names = pair_words(state.standing, match.name, state.match_numbers)
         result = state.counted.get(match.name)
         score = winner = None
         if result is not None:

@@ -10,12 +10,16 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.wording import count_of
-from evenbreak.answers.tournament.tournament import pair_words
+from evenbreak.answers.tournament.tournament import pair_words, races_words
+from evenbreak.errors import InputError
 from evenbreak.files.store.tournament import TITLES, event_rows
+from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.moves import known_match
 from evenbreak.tournaments.evening.outlook import played_matches
+from evenbreak.words import Sentence, say
 
 
 def printed_answer(state: Evening, written: str) -> Answer:
@@ -37,13 +41,13 @@ def printed_answer(state: Evening, written: str) -> Answer:
 
 
 class First(NamedTuple):
-    """A player's first match: its name, who plays it, and the table if it has been called."""
+    """A player's first match: its number, who plays it, and the table if it has been called."""
 
     seed: int
     name: str
-    match: str | None
+    match: int | None
     pair: tuple[str, ...]
-    table: int | None
+    table: str
 
 
 def first_matches(state: Evening) -> list[First]:
@@ -63,9 +67,11 @@ def first_matches(state: Evening) -> list[First]:
     found = []
     for seed, name in enumerate(state.order, start=1):
         where = first.get(name)
-        pair = () if where is None else pair_words(now, where)
+        pair = () if where is None else pair_words(now, where, state.match_numbers)
         called = None if where is None else state.on_tables.get(where)
-        found.append(First(seed, name, where, pair, called.call.table if called else None))
+        number = None if where is None else state.number_of(where)
+        table = state.plan.table_name(called.call.table) if called else ""
+        found.append(First(seed, name, number, pair, table))
     return found
 
 
@@ -75,24 +81,24 @@ class Card:
 
     Parameters
     ----------
-    match
-        the match.
+    number
+        that of the match.
     where
         the part of the bracket, such as 'winners' side, round 2'.
     names, needs
         the players, and the games that each needs.
     table
-        the table; None if it has not been called.
+        the name of the table; '' if it has not been called.
     onward
-        where winner and loser go, a line each.
+        where winner and loser go.
     """
 
-    match: str
-    where: str
+    number: int
+    where: Sentence | str
     names: tuple[str, str]
     needs: tuple[int, int]
-    table: int | None
-    onward: tuple[str, ...]
+    table: str
+    onward: Sentence | str
 
 
 def score_cards(state: Evening, match: str | None = None) -> list[Card]:
@@ -109,15 +115,14 @@ def score_cards(state: Evening, match: str | None = None) -> list[Card]:
     >>> begun = Opened(Plan("single", 5), tuple(Entrant(name, 80.0) for name in names))
     >>> happened = begun, Drawn(names, (0, None, 1, 2))
     >>> (card,) = score_cards(evening([Event("2025-03-01T19:30:00", what) for what in happened]))
-    >>> card.match, card.names, card.needs, card.onward
-    ('W1.2', ('Bo', 'Cy'), (5, 5), ('The winner plays F.',))
+    >>> card.number, card.names, card.needs, card.onward
+    (1, ('Bo', 'Cy'), (5, 5), 'Winner to match 2, loser out.')
     """
-    found = state.bracket.match(match).name if match is not None else None
+    found = known_match(state, match) if match is not None else None
     if found is not None and found not in state.standing.to_play:
-        from evenbreak.errors import InputError
-
         raise InputError(
-            "match {found} cannot be played now; its card can be printed when it can", found=found
+            "{match} cannot be played now; its card can be printed when it can",
+            match=state.match_words(found),
         )
     names = [found] if found is not None else list(state.standing.to_play)
     return [_card(state, name) for name in names]
@@ -125,20 +130,64 @@ def score_cards(state: Evening, match: str | None = None) -> list[Card]:
 
 def _card(state: Evening, name: str) -> Card:
     match, pair = state.bracket.match(name), state.pair(name)
-    onward = []
-    for target, slots in state.bracket.graph.adj[name].items():
-        onward += [f"The {outcome} plays {target}." for outcome in slots if outcome != "ranks"]
-    side = {"winners": "winners' side", "losers": "losers' side"}.get(match.side, match.side)
-    where = side if match.side in ("final", "second final") else f"{side}, round {match.round}"
+    side = {
+        "winners": say("winners’ side, round {n}", n=match.round),
+        "losers": say("losers’ side, round {n}", n=match.round),
+        "final": say("final"),
+        "second final": say("second final"),
+        "third place": say("third place"),
+    }.get(match.side) or say("{part}, round {n}", part=match.side, n=match.round)
     table = state.on_tables.get(name)
     return Card(
-        name,
-        where,
+        state.number_of(name),
+        side,
         pair,
         state.needed(name, pair),
-        None if table is None else table.call.table,
-        tuple(sorted(onward, reverse=True)),
+        "" if table is None else state.plan.table_name(table.call.table),
+        onward_words(state, name),
     )
+
+
+def paper_words(state: Evening, live: str = "") -> tuple[str, str, str | None]:
+    """Return what stands around a bracket on paper: what is played, when it was printed, who won.
+
+    Parameters
+    ----------
+    state
+        the tournament.
+    live
+        the address of its page; '' for none.
+    """
+    form = str(state.bracket.format)
+    many = f"{len(state.order)} players, {form}. {races_words(state.races)}"
+    played = f"After {len(state.counted)} matches." if state.counted else ""
+    pen = "A small /4 is the games that player needs; write the score over it."
+    finals = [m for m in state.bracket.matches if m.side in ("final", "second final")]
+    over = not state.standing.to_play and finals
+    won = [state.counted[m.name].winner for m in finals if over and m.name in state.counted]
+    return many, "  ".join(filter(None, (played, pen, live))), won[-1] if won else ""
+
+
+def onward_words(state: Evening, name: str) -> Sentence | str:
+    """Return where winner and loser of a match go, such as 'Winner to match 33'."""
+    match = state.bracket.match(name)
+    to = {
+        slot.outcome: state.number_of(one.name)
+        for one in reversed(state.bracket.matches)
+        for slot in one.slots
+        if isinstance(slot, Source) and slot.match == name
+    }
+    won, lost = to.get("winner"), to.get("loser")
+    if match.side in ("final", "second final"):
+        again = say("If the winner of the losers’ side wins: match {n}.", n=won) if won else ""
+        return again if match.side == "final" else ""
+    if won and lost:
+        return say("Winner to match {won}, loser to match {lost}.", won=won, lost=lost)
+    if won:
+        return say("Winner to match {won}, loser out.", won=won)
+    if lost:
+        return say("Winner goes on, loser to match {lost}.", lost=lost)
+    return ""
 
 
 def tournament_matches_answer(state: Evening, event: str) -> Answer:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.tournaments.brackets.bracket import Bracket, Place, Slot
+from evenbreak.tournaments.brackets.numbering import match_numbers
 from evenbreak.tournaments.brackets.standing import Standing
 from evenbreak.tournaments.evening.plan import TO_DRAW
 from evenbreak.tournaments.evening.skills import skills_before
@@ -161,13 +163,24 @@ def _games(race: Race) -> int | str:
     return race
 
 
-def slot_words(bracket: Bracket, slot: Slot) -> str:
+Numbers: TypeAlias = Mapping[str, int]
+"""The number of each match, by name."""
+
+
+def slot_words(bracket: Bracket, slot: Slot, numbers: Numbers | None = None) -> str:
     """Return who is in a slot of a match: a name, or where the player comes from.
+
+    Parameters
+    ----------
+    bracket, slot
+        the bracket, and a slot of one of its matches.
+    numbers
+        the numbers of the matches, of a tournament under way; None: those of the bracket.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> bracket = double_elimination(["Ann", "Bo", "Cy"])
     >>> [slot_words(bracket, slot) for slot in bracket.match("W2.1").slots]
-    ['Ann', 'winner of W1.2']
+    ['Ann', 'winner of 1']
     """
     if isinstance(slot, int):
         return bracket.players[slot]
@@ -175,20 +188,20 @@ def slot_words(bracket: Bracket, slot: Slot) -> str:
         return say("a qualifier to be drawn")
     if _of_swiss(bracket, slot):
         return say("to be drawn")
-    return source_words(slot)
+    return source_words(slot, match_numbers(bracket) if numbers is None else numbers)
 
 
-def met_words(bracket: Bracket, slot: Slot) -> str:
+def met_words(bracket: Bracket, slot: Slot, numbers: Numbers) -> str:
     """Return whom a player meets who meets whoever is in a slot of a match."""
     if isinstance(slot, int) or slot.match == TO_DRAW or _of_swiss(bracket, slot):
-        return slot_words(bracket, slot)
+        return slot_words(bracket, slot, numbers)
     if isinstance(slot.outcome, int) and slot.match.isdigit():
-        return say("the {runner_up}", runner_up=source_words(slot))
+        return say("the {runner_up}", runner_up=source_words(slot, {}))
     if isinstance(slot.outcome, int):
         return say("the number {n} of {group}", n=slot.outcome, group=slot.match)
     if slot.outcome == "winner":
-        return say("the winner of {match}", match=slot.match)
-    return say("the loser of {match}", match=slot.match)
+        return say("the winner of match {n}", n=numbers[slot.match])
+    return say("the loser of match {n}", n=numbers[slot.match])
 
 
 def against(pair: Sequence[str]) -> Sentence:
@@ -221,10 +234,10 @@ def _of_swiss(bracket: Bracket, slot: Slot) -> bool:
     return bracket.by_name[slot.match].side == "Swiss"
 
 
-def pair_words(now: Standing, match: str) -> tuple[str, str]:
+def pair_words(now: Standing, match: str, numbers: Numbers | None = None) -> tuple[str, str]:
     """Return who plays a match, as `slot_words` does, with the players who are known by now."""
     one, other = (
-        slot_words(now.bracket, slot)
+        slot_words(now.bracket, slot, numbers)
         if seat is None or _of_swiss(now.bracket, slot)
         else now.bracket.players[seat]
         for slot, seat in zip(now.bracket.match(match).slots, now.seats[match], strict=True)

@@ -110,7 +110,14 @@ def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
     for name, stake in decided.items():
         first, second = found.if_won(name) if found else (np.nan, np.nan)
         later = None if np.isnan(first - second) else first - second
-        rows.append([name, pair_words(outlook.state.standing, name), stake.title, later])
+        rows.append(
+            [
+                name,
+                pair_words(outlook.state.standing, name, outlook.state.match_numbers),
+                stake.title,
+                later,
+            ]
+        )
         if stake.prize is not None:
             rows[-1].append(stake.prize)
     columns = columns_of("match pair title_at_stake minutes_if_a_wins")

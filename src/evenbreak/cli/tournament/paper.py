@@ -148,22 +148,27 @@ def _title(asked: Show | Print) -> str:
 def _drawing(state: Evening, asked: Show | Print, kind: str) -> bytes:
     """Return the bracket of a tournament, drawn as .svg, .png, .pdf or .html."""
     from evenbreak.answers.tournament.bracket_view import bracket_panels
-    from evenbreak.answers.tournament.tournament import races_words
+    from evenbreak.answers.tournament.printed import paper_words
 
-    panels, name = bracket_panels(state), _title(asked)
-    heading = [name, f"{state.bracket.format}. {races_words(state.races)}"]
+    panels = bracket_panels(state)
+    about, foot, champion = paper_words(state)
     if kind == ".html":
         from evenbreak.sheets.bracket_page import bracket_html
 
-        return bracket_html(panels, heading)
-    from evenbreak.sheets.bracket_drawing import bracket_figure, bracket_pdf
+        return bracket_html(panels, [_title(asked), about])
+    if kind == ".svg":
+        from evenbreak.sheets.bracket_page import bracket_picture
+
+        return bracket_picture(panels)
+    from evenbreak.sheets.bracket_paper import Sheet, bracket_figure, bracket_pdf
     from evenbreak.sheets.pdf_page import usual_paper
 
+    sheet = Sheet(_title(asked), about, foot if kind == ".pdf" else "", champion)
     if kind == ".pdf":
-        return bracket_pdf(panels, heading, name, paper=asked.paper or usual_paper())
+        return bracket_pdf(panels, sheet, paper=asked.paper or usual_paper())
     from evenbreak.plots.picture import image_bytes
 
-    return image_bytes(bracket_figure(panels, heading), "svg" if kind == ".svg" else "png")
+    return image_bytes(bracket_figure(panels, sheet), "png")
 
 
 def _draw_list(state: Evening, asked: Print) -> bytes:
@@ -175,7 +180,7 @@ def _draw_list(state: Evening, asked: Print) -> bytes:
     players = []
     for one in first_matches(state):
         other = next((player for player in one.pair if player != one.name), "")
-        players.append(FirstMatch(one.name, one.seed, one.match or "", other, one.table))
+        players.append(FirstMatch(one.name, one.seed, one.match or 0, other, one.table))
     form = state.bracket.format
     about = f"{form[0].upper()}{form[1:]}. {races_words(state.races)}"
     return draw_list_pdf(players, _title(asked), about, paper=asked.paper or usual_paper())

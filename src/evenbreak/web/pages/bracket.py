@@ -3,52 +3,117 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
+from typing import NamedTuple
 
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.tournament.bracket_view import bracket_panels
+from evenbreak.answers.tournament.bracket_view import Box, Panel, bracket_panels
 from evenbreak.answers.tournament.night import swiss_table
-from evenbreak.answers.tournament.printed import score_cards
-from evenbreak.answers.tournament.tournament import races_words
+from evenbreak.answers.tournament.printed import onward_words, paper_words, score_cards
+from evenbreak.answers.tournament.time import time_of_day
+from evenbreak.sheets.bracket_page import bracket_both
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.guard import RefusalError
-from evenbreak.web.page import answer_shown, page, site_of
+from evenbreak.web.night import Known
+from evenbreak.web.page import answer_shown, language, page, page_face, site_of
+from evenbreak.web.sessions import is_director
+from evenbreak.web.site import night_of
+from evenbreak.words import Sentence, in_face
+
+
+class Chosen(NamedTuple):
+    """A match that was tapped: what people call it, its round, where its players go, its start."""
+
+    box: Box
+    words: Sentence | str
+    round: str
+    onward: Sequence[str]
+    starts: str
 
 
 async def bracket(request: Request) -> Response:
-    """Show the bracket."""
+    """Show the bracket, and the match that was tapped."""
     state = await _drawn(request)
-    standings = (
-        [answer_shown(request, Answer("", [one])) for one in swiss_table(state)]
-        if state.plan.form == "swiss"
-        else []
-    )
+    known = await night_of(request).outlook()
+    panels = bracket_panels(state, known.chances if known and known.of is state else {})
+    asked = request.query_params.get("match", "")
+    chosen = _chosen(state, panels, asked, known) if asked else None
+    face = page_face(language(request))
+    event = request.query_params.get("event", "")
+
+    def words(text: str) -> str:
+        return str(in_face(text, face))
+
+    def link(box: Box) -> str:
+        return f"/bracket?{f'event={event}&' if event.isdigit() else ''}match={box.number}"
+
+    standings = swiss_table(state) if state.plan.form == "swiss" else []
     return page(
-        request, "bracket.html", live=True, panels=bracket_panels(state), standings=standings
+        request,
+        "bracket.html",
+        live=True,
+        drawn=bracket_both(
+            panels, words=words, link=link, chosen=chosen.box.match if chosen else ""
+        ),
+        chosen=chosen,
+        played=len(state.counted),
+        matches=sum(box.beside >= 0 or box.state != "waits" for p in panels for box in p.boxes),
+        clock=night_of(request).clock()[11:16],
+        standings=[answer_shown(request, Answer("", [one])) for one in standings],
     )
+
+
+def _chosen(
+    state: Evening, panels: Sequence[Panel], asked: str, known: Known | None
+) -> Chosen | None:
+    """Return the match that was tapped; None if there is none of that number any more."""
+    for panel in panels:
+        for box in panel.boxes:
+            if str(box.number) != asked:
+                continue
+            starts = ""
+            if known and known.of is state and box.state == "ready":
+                at = [
+                    known.next_starts[one.text][1]
+                    for one in box.lines
+                    if one.text in known.next_starts
+                ]
+                starts = time_of_day(known.start + max(at)) if at else ""
+            title = box.title or panel.rounds[box.column].title
+            onward = [text for text in (onward_words(state, box.match),) if text]
+            return Chosen(box, state.match_words(box.match), title, onward, starts)
+    return None
 
 
 async def bracket_on_paper(request: Request) -> Response:
     """Return the bracket as a PDF."""
-    from evenbreak.sheets.bracket_drawing import bracket_pdf
-    from evenbreak.sheets.pdf_page import usual_paper
+    from evenbreak.sheets.bracket_paper import Sheet, bracket_pdf
 
     state = await _drawn(request)
-    name = site_of(request).path.stem
-    heading = [name, races_words(state.races)]
-    make = partial(bracket_pdf, bracket_panels(state), heading, name, paper=usual_paper())
-    return await _pdf(request, "bracket.pdf", state, make)
+    live = f"{site_of(request).address}/bracket"
+    about, foot, champion = paper_words(state, live)
+    sheet = Sheet(state.plan.name or site_of(request).path.stem, about, foot, champion, live)
+    paper = _paper(request)
+    make = partial(bracket_pdf, bracket_panels(state), sheet, paper=paper)
+    return await _pdf(request, f"bracket-{paper}.pdf", state, make)
+
+
+def _paper(request: Request) -> str:
+    """Return the paper that is asked for, else that of this computer's place."""
+    from evenbreak.sheets.pdf_page import PAPERS, usual_paper
+
+    asked = request.query_params.get("paper", "")
+    return asked if asked in PAPERS else usual_paper()
 
 
 async def cards_on_paper(request: Request) -> Response:
     """Return the score cards as a PDF."""
     from evenbreak.sheets.paper_pages import score_cards_pdf
-    from evenbreak.sheets.pdf_page import usual_paper
 
     state = await _drawn(request)
     cards = score_cards(state, None)
@@ -56,13 +121,21 @@ async def cards_on_paper(request: Request) -> Response:
         raise RefusalError(
             "No match is left to play, so there is no score card to print.", status=404
         )
-    name = site_of(request).path.stem
-    make = partial(score_cards_pdf, cards, name, per_page=4, paper=usual_paper())
-    return await _pdf(request, "cards.pdf", state, make)
+    name = state.plan.name or site_of(request).path.stem
+    paper, claims = _paper(request), is_director(request)  # a code is its player's secret
+    make = partial(
+        score_cards_pdf,
+        cards,
+        name,
+        paper=paper,
+        codes=site_of(request).player_codes() if claims else {},
+        address=f"{site_of(request).address}/c/",
+    )
+    return await _pdf(request, f"cards-{paper}{'-codes' if claims else ''}.pdf", state, make)
 
 
 async def _drawn(request: Request) -> Evening:
-    night = site_of(request).night
+    night = night_of(request)
     if not night.exists:
         raise RefusalError("No tournament is running yet.", status=404)
     state = await asyncio.to_thread(night.state)
