@@ -10,8 +10,8 @@ from click.testing import CliRunner
 from starlette.datastructures import ImmutableMultiDict
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.checks import made
 from evenbreak.cli.kit.asked import command_of
+from evenbreak.evenings.log import read_json
 from evenbreak.fields.kinds import Whole
 from evenbreak.fields.question import Field, declared, schema_of
 from evenbreak.questions.tournament import NewTournament
@@ -74,5 +74,5 @@ def test_it_is_a_field_of_the_form() -> None:
 def test_the_schema_and_the_plan_have_it() -> None:
     schema = schema_of(Asked)["properties"]["timeouts"]
     assert (schema["maximum"], schema["default"]) == (5, 1)
-    plan = replace(made(Planned, {"form": "double", "race": 5}), timeouts=2)
+    plan = replace(read_json(Planned, '{"form": "double", "race": 5}'), timeouts=2)
     assert json.loads(json.dumps(plan.__dict__, default=str))["timeouts"] == 2

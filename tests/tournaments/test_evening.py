@@ -16,7 +16,7 @@ from evenbreak.tournaments.chips.play import tables_in_use
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import (
-    NAMES,
+    KINDS,
     Drawn,
     Entrant,
     Event,
@@ -25,8 +25,6 @@ from evenbreak.tournaments.evening.events import (
     Result,
     Undone,
     What,
-    as_dict,
-    event_of,
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.settling import break_ties, stand
@@ -202,7 +200,7 @@ class Night(RuleBasedStateMachine):
     def replayed_events_give_the_state(self) -> None:
         if self.states:
             plain = [
-                Event(one.at, event_of(NAMES[type(one.what)], as_dict(one.what)))
+                Event(one.at, KINDS.read(KINDS.name(one.what), KINDS.text(one.what)))
                 for one in self.events
             ]
             assert facts(evening(plain)) == facts(self.state)

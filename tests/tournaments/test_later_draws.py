@@ -13,6 +13,7 @@ from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import (
+    KINDS,
     Drawn,
     Entrant,
     Event,
@@ -21,8 +22,6 @@ from evenbreak.tournaments.evening.events import (
     Plan,
     Result,
     Undone,
-    as_dict,
-    event_of,
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.later_draws import can_draw, stage_to_draw
@@ -186,5 +185,5 @@ def test_nobody_is_called_to_two_tables() -> None:
 
 def test_events_are_plain_data() -> None:
     drawn = LaterDraw("R1", ("Ann", "Bo", "Cy", None))
-    assert event_of("later draw", as_dict(drawn)) == drawn
+    assert KINDS.read("later draw", KINDS.text(drawn)) == drawn
     assert isinstance(Night(Plan("single", 3), 4).events[1].what, Drawn)

@@ -68,7 +68,7 @@ from evenbreak.files.store.tournament import read_tournament
 path = sys.argv[1]
 read_tournament(path)
 with opened(path) as base:
-    base.execute("SELECT * FROM event").fetchall()
+    base.execute("SELECT * FROM entry").fetchall()
     print("open", flush=True)
     sys.stdin.read()
 """

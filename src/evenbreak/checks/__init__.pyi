@@ -1,5 +1,3 @@
-from .annotated import Between as Between
-from .annotated import made as made
 from .arrays import column as column
 from .arrays import floats as floats
 from .arrays import names as names

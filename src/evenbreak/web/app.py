@@ -25,7 +25,7 @@ from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route
 
 from evenbreak.errors import EvenbreakError
-from evenbreak.files.store.tournament import TakenBeforeError
+from evenbreak.files.store.log import TakenBeforeError
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import Guard, RefusalError
 from evenbreak.web.page import begun_at, done, refused, script_hash, site_of, style

@@ -15,7 +15,8 @@ from evenbreak.errors import EvenbreakError
 from evenbreak.files.demo import write_demo_evening
 from evenbreak.files.league.league_file import LeagueFile
 from evenbreak.files.store.desk import back_up
-from evenbreak.files.store.evening_file import TOURNAMENT, holds
+from evenbreak.files.store.evening_file import holds
+from evenbreak.files.store.formats import TOURNAMENT
 from evenbreak.files.store.team_night import read_team_events
 from evenbreak.files.store.tournament import read_tournament
 from evenbreak.questions.start import Serve

@@ -21,7 +21,8 @@ from evenbreak.answers.tournament.night import begun_at, next_calls, night_answe
 from evenbreak.errors import EvenbreakError, InputError
 from evenbreak.files.store.desk import TABLE as PHONES
 from evenbreak.files.store.desk import keep_prizes, kept_prizes
-from evenbreak.files.store.evening_file import TEAM_NIGHT, TOURNAMENT, has_table, holds
+from evenbreak.files.store.evening_file import holds
+from evenbreak.files.store.formats import TOURNAMENT, has_table, size_of
 from evenbreak.files.store.tournament import read_events, tournament_of
 from evenbreak.tournaments.evening.events import Event, Late, Opened
 from evenbreak.tournaments.evening.fold import Evening
@@ -243,12 +244,9 @@ def version_of(path: Path) -> int:
     except sqlite3.Error:
         return 0
     try:
-        there = [table for table in (TOURNAMENT, TEAM_NIGHT) if has_table(base, table)]
-        asked = [f"SELECT COALESCE(MAX(number), 0) FROM {table}" for table in there]  # noqa: S608
-        events = sum(int(base.execute(one).fetchone()[0]) for one in asked)
         last = f"SELECT COALESCE(MAX(number), 0) FROM {PHONES}"  # noqa: S608
         sent = int(base.execute(last).fetchone()[0]) if has_table(base, PHONES) else 0
-        return (events << 20) + sent
+        return (size_of(base) << 20) + sent
     except sqlite3.Error:
         return 0
     finally:

@@ -52,7 +52,7 @@ def test_a_number_that_cannot_be_true_is_refused_with_its_place(tmp_path: Path) 
     cup.write_text(json.dumps(data))
     said = run("import", cup, "--race", 5, "--out", out)
     assert said.exit_code == 3
-    assert "cup.json: W1.1: score 1 is 10001; give a whole number from 0 to 10,000" in said.stderr
+    assert "cup.json: W1.1: score 1 is 10001; give a whole number up to 10000" in said.stderr
     assert [one.name for one in tmp_path.iterdir()] == ["cup.json"]
 
 

@@ -101,7 +101,7 @@ def test_a_disk_that_fills_up_loses_nothing_acknowledged(folder: Path) -> None:
     taken, said = len(read_events(path)), ""
     with closing(sqlite3.connect(path, isolation_level=None)) as reader:
         reader.execute("BEGIN")
-        reader.execute("SELECT * FROM event").fetchall()  # so that the log can only grow
+        reader.execute("SELECT * FROM entry").fetchall()  # so that the log can only grow
         with full_disk(60_000):
             while not said and taken < 200:
                 try:

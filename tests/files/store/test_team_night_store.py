@@ -6,7 +6,8 @@ import threading
 import pytest
 
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.store.evening_file import TEAM_NIGHT, TOURNAMENT, holds
+from evenbreak.files.store.evening_file import holds
+from evenbreak.files.store.formats import TEAM_NIGHT, TOURNAMENT
 from evenbreak.files.store.team_night import add_team_events, read_team_events
 from evenbreak.files.store.tournament import new_tournament, read_tournament
 from evenbreak.teams.evening.events import Begun, PutUp

@@ -10,7 +10,7 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.level_chart import LEVEL_CHARTS, level_chart
 from evenbreak.handicaps.charts.level_skills import level_skills
 from evenbreak.teams.evening.events import (
-    NAMES,
+    KINDS,
     Begun,
     Event,
     HandedIn,
@@ -20,8 +20,6 @@ from evenbreak.teams.evening.events import (
     PutUp,
     Result,
     Undone,
-    as_dict,
-    event_of,
     meeting_of,
 )
 from evenbreak.teams.evening.fold import EVERYBODY, team_evening
@@ -109,14 +107,14 @@ def test_a_sealed_line_up_is_left_out_until_both_are_in():
     ],
 )
 def test_events_survive_as_plain_data(what):
-    assert event_of(NAMES[type(what)], json.loads(json.dumps(as_dict(what)))) == what
+    assert KINDS.read(KINDS.name(what), KINDS.text(what)) == what
 
 
 def test_what_is_no_event_is_refused():
     with pytest.raises(InputError, match="number is missing"):
-        event_of("put up", {"team": 1})
-    with pytest.raises(InputError, match="not an entry of a team night"):
-        event_of("put down", {"team": 1})
+        KINDS.read("put up", '{"team": 1}')
+    with pytest.raises(InputError, match="not a kind of entry"):
+        KINDS.read("put down", '{"team": 1}')
 
 
 def by_levels(chart: str) -> NightPlan:
@@ -124,8 +122,9 @@ def by_levels(chart: str) -> NightPlan:
     kept = LevelsTonight.of(level_skills(chart))
     weights = (float(level_chart(chart).levels[0]),) * 4
     teams = tuple(replace(team, weights=weights[: len(team.players)]) for team in (RACKS, CUES))
-    held = json.dumps(as_dict(Begun(plan(chart=chart, by_level=True, levels=kept))))
-    read = event_of("begun", json.loads(held, parse_constant=pytest.fail))  # NaN is no JSON
+    held = KINDS.text(Begun(plan(chart=chart, by_level=True, levels=kept)))
+    json.loads(held, parse_constant=pytest.fail)  # NaN is no JSON
+    read = KINDS.read("begun", held)
     assert isinstance(read, Begun)
     return replace(read.plan, teams=teams)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -26,7 +27,7 @@ from evenbreak.answers.tournament.tournament import against
 from evenbreak.errors import InputError
 from evenbreak.matches.pace import Turnover
 from evenbreak.tournaments.clock.finish import bands_of
-from evenbreak.tournaments.evening.events import Result, as_dict, score_words
+from evenbreak.tournaments.evening.events import Result, score_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.words import Sentence, joined, ordinal, say, say_count
@@ -135,7 +136,7 @@ def odds_data(night: Outlook) -> dict[str, Any]:
         ],
         "odds_exact": night.odds.exact,
         "ratings_averaged": night.odds is not night.as_if_sure,
-        "set_aside": [as_dict(one.result) for one in night.state.aside],
+        "set_aside": [asdict(one.result) for one in night.state.aside],
     }
 
 

@@ -24,7 +24,7 @@ from evenbreak.files.tables.rows import content_of
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.drafts import Draft
 from evenbreak.tournaments.evening.events import (
-    NAMES,
+    KINDS,
     Called,
     Drawn,
     Entrant,
@@ -34,8 +34,6 @@ from evenbreak.tournaments.evening.events import (
     Result,
     Scored,
     What,
-    as_dict,
-    event_of,
 )
 from evenbreak.tournaments.evening.fold import evening
 from evenbreak.tournaments.evening.plan import bracket_of
@@ -287,7 +285,7 @@ def _check(events: Sequence[Event]) -> None:
     """Check that all numbers can be true, and that the results fit together, match by match."""
     for event in events:
         try:
-            event_of(NAMES[type(event.what)], as_dict(event.what))
+            KINDS.read(KINDS.name(event.what), KINDS.text(event.what))
         except InputError as error:
             match = getattr(event.what, "match", say("tournament"))
             raise InputError("{match}: {why}", match=match, why=error.sentence) from None

@@ -14,9 +14,10 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 
-from evenbreak.checks import made
 from evenbreak.errors import DataError
-from evenbreak.files.store.evening_file import changing, copied, damaged, has_table, named, opened
+from evenbreak.evenings.log import read_json
+from evenbreak.files.store.evening_file import changing, copied, damaged, named, opened
+from evenbreak.files.store.formats import has_table
 from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.words import say
 
@@ -257,5 +258,6 @@ def _read(base: sqlite3.Connection, path: str | Path, match: str | None) -> list
         for row in base.execute(asked).fetchall() if has_table(base, table) else ():
             with named(path, say("what the phones entered")):
                 values = dict(zip(names.replace("game", "match").split(", "), row, strict=True))
-                entries.append(made(Entry, {**values, "score": json.loads(values["score"])}))
+                values["score"] = json.loads(values["score"])
+                entries.append(read_json(Entry, json.dumps(values)))
     return [entry for entry in entries if match in (None, entry.match)]

@@ -9,28 +9,23 @@ that this process has on it, and another program may then remove the log that is
 
 from __future__ import annotations
 
-import json
 import logging
 import os
 import secrets
 import sqlite3
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
-from datetime import datetime
 from itertools import count
 from pathlib import Path
 from typing import Any, TypeVar
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.store.folder import sync
+from evenbreak.files.store.formats import FORMAT, bring_up_to_date, source
 from evenbreak.words import Command, say
-
-TOURNAMENT, TEAM_NIGHT = "event", "team_event"
-"""The tables of what happened in a tournament, and on a team night."""
 
 _LOG = logging.getLogger(__name__)
 _MARK = 0x45564252  # application_id: an evening of this program
-_FORMAT = 2  # user_version: how its events are written; 1 in version 0.2.0
 _WAIT = 30.0  # seconds for another program to finish its move
 WHY = {  # by the code of SQLite's error
     sqlite3.SQLITE_NOTADB: say("{name} is not the file of a tournament"),
@@ -82,7 +77,7 @@ def changing(path: str | Path) -> Iterator[sqlite3.Connection]:
         if it is not one, or cannot be read or written.
     """
     with _checked(Path(path), reading=False) as base:
-        if _version(base) < _FORMAT:
+        if _version(base) < FORMAT:
             _update(base, Path(path))
         with _at_once(base):
             yield base
@@ -135,24 +130,19 @@ def copied(path: str | Path, label: str) -> Path:
     return name
 
 
-def has_table(base: sqlite3.Connection, table: str) -> bool:
-    """Return whether a file has a table."""
-    asked = "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?"
-    return base.execute(asked, (table,)).fetchone() is not None
-
-
 def is_there(path: str | Path) -> bool:
     """Return whether there is a file with something in it."""
     place = Path(path)
     return place.exists() and place.stat().st_size > 0
 
 
-def holds(path: str | Path, table: str) -> bool:
-    """Return whether there is a file of an evening with a table."""
+def holds(path: str | Path, strand: str) -> bool:
+    """Return whether there is a file of an evening with entries in a strand."""
     if not is_there(path):
         return False
     with opened(path) as base:
-        return has_table(base, table)
+        asked = f"SELECT 1 FROM {source(base)} WHERE strand = ? LIMIT 1"  # noqa: S608
+        return base.execute(asked, (strand,)).fetchone() is not None
 
 
 def is_database(path: str | Path) -> bool:
@@ -239,13 +229,13 @@ def _check(base: sqlite3.Connection, place: Path) -> None:
     mark, version = _number(base, "application_id"), _version(base)
     if mark != _MARK:
         raise refused(place, "{name} is not the file of a tournament")
-    if version > _FORMAT:
+    if version > FORMAT:
         raise refused(
             place,
             "{name} was written by a newer version of evenbreak, in format {version}, and this one "
             "knows formats up to {newest}; update evenbreak",
             version=version,
-            newest=_FORMAT,
+            newest=FORMAT,
         )
     if version < 1:
         why = say("no version of evenbreak has written a format {version}", version=version)
@@ -256,10 +246,10 @@ def _update(base: sqlite3.Connection, place: Path) -> None:
     """Copy a file in an earlier format, and bring it into the present one."""
     with _at_once(base):
         version = _version(base)  # another program may have done it meanwhile
-        if version == _FORMAT:
+        if version == FORMAT:
             return
         copy = copied(place, f"format-{version}")
-        base.execute(f"PRAGMA user_version = {_FORMAT}")
+        bring_up_to_date(base)
     _LOG.warning(
         "%s was written by an earlier version of evenbreak; a copy for that version is %s",
         place.name,
@@ -273,7 +263,7 @@ def _write_first(base: sqlite3.Connection, write: Callable[[sqlite3.Connection],
     with _at_once(base):
         if _is_empty(base):
             base.execute(f"PRAGMA application_id = {_MARK}")
-            base.execute(f"PRAGMA user_version = {_FORMAT}")
+            base.execute(f"PRAGMA user_version = {FORMAT}")
         return write(base)
 
 
@@ -320,7 +310,7 @@ def _placed(part: Path, place: Path) -> bool:
     return True
 
 
-_FAULTS = (
+FAULTS = (
     ArithmeticError,
     AssertionError,
     AttributeError,
@@ -331,9 +321,6 @@ _FAULTS = (
 )
 """What the rules raise where they are given what nobody could have entered."""
 
-State = TypeVar("State")
-Entry = TypeVar("Entry")
-
 
 def refused(path: str | Path, template: str, /, **values: Any) -> DataError:
     """Return the error that refuses the file of an evening; it is called {name} in the template."""
@@ -343,15 +330,6 @@ def refused(path: str | Path, template: str, /, **values: Any) -> DataError:
 def damaged(path: str | Path, why: str) -> DataError:
     """Return the error of a file that cannot have been written so."""
     return refused(path, DAMAGED.template, error=why)
-
-
-def entry(number: object, kind: object) -> str:
-    """Return what an entry of the file is called.
-
-    >>> entry(3, "late")
-    'entry 3 (late)'
-    """
-    return say("entry {number} ({kind})", number=number, kind=str(kind))
 
 
 @contextmanager
@@ -369,7 +347,7 @@ def named(path: str | Path, what: str) -> Iterator[None]:
         yield
     except DataError:
         raise
-    except _FAULTS as error:
+    except FAULTS as error:
         raise refused(
             path,
             "{name}, {what}: {why}. Go on with a copy of the file, such as one ending in "
@@ -379,55 +357,3 @@ def named(path: str | Path, what: str) -> Iterator[None]:
             if isinstance(error, InputError)
             else say("does not fit the entries before it"),
         ) from error
-
-
-def happened(at: Any, kind: Any, what: Any, event_of: Callable[[str, Any], Entry]) -> Entry:
-    """Return what happened, from the columns of an entry.
-
-    Raises
-    ------
-    InputError
-        if a column is not what it should be.
-    """
-    for name, column in (("at", at), ("kind", kind), ("what", what)):
-        if not isinstance(column, str):
-            raise InputError("{column} is not text", column=name)
-    try:
-        moment = datetime.fromisoformat(at)
-    except ValueError:
-        moment = datetime.max
-    if moment.tzinfo or not 1970 <= moment.year < 3000:
-        raise InputError("at is {time!r}; give a time such as 2025-03-01T19:30:00", time=at[:40])
-    try:
-        data = json.loads(what)
-    except (ValueError, RecursionError):
-        raise InputError("what is damaged JSON") from None
-    return event_of(kind, data)
-
-
-def folded(
-    path: str | Path,
-    events: Sequence[Any],
-    fold: Callable[[Sequence[Any]], State],
-    names: Mapping[type, str],
-) -> State:
-    """Return the state after the events of a file, or name the first that cannot have happened.
-
-    Parameters
-    ----------
-    path
-        the file.
-    events
-        in their order; `what` happened in each.
-    fold
-        returns the state after some of them.
-    names
-        of the kinds of what happens.
-    """
-    try:
-        return fold(events)
-    except _FAULTS:
-        for count, event in enumerate(events, 1):
-            with named(path, entry(count, names[type(event.what)])):
-                fold(events[:count])
-        raise

@@ -6,36 +6,15 @@ second time adds nothing.
 
 from __future__ import annotations
 
-import json
 import sqlite3
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from evenbreak.errors import InputError
-from evenbreak.files.store.evening_file import (
-    TEAM_NIGHT,
-    begin,
-    entry,
-    folded,
-    happened,
-    has_table,
-    is_there,
-    named,
-    opened,
-)
-from evenbreak.teams.evening.events import NAMES, Event, What, as_dict, event_of
+from evenbreak.files.store.evening_file import begin, is_there, opened
+from evenbreak.files.store.formats import TEAM_NIGHT
+from evenbreak.files.store.log import Rules, add, entries, was_taken
+from evenbreak.teams.evening.events import KINDS, Event, What
 from evenbreak.teams.evening.fold import TeamEvening, team_evening
-
-_TABLE = f"""
-CREATE TABLE IF NOT EXISTS {TEAM_NIGHT} (
-    number INTEGER PRIMARY KEY,
-    at TEXT NOT NULL,
-    kind TEXT NOT NULL,
-    what TEXT NOT NULL,
-    author TEXT NOT NULL,
-    form TEXT UNIQUE
-)
-"""
 
 Decide = Callable[[list[Event], TeamEvening | None], Sequence[What]]
 """From all events so far and the state after them to what happens now."""
@@ -52,7 +31,7 @@ def read_team_events(path: str | Path) -> list[Event]:
     if not is_there(path):
         return []
     with opened(path) as base:
-        return _events(base, path)
+        return entries(base, path, TEAM_NIGHT, _RULES)
 
 
 def add_team_events(
@@ -94,44 +73,16 @@ def add_team_events(
     """
 
     def write(base: sqlite3.Connection) -> tuple[TeamEvening | None, bool]:
-        base.execute(_TABLE)
-        earlier = _events(base, path)
-        before = team_night_of(path, earlier)
-        again = f"SELECT 1 FROM {TEAM_NIGHT} WHERE form = ?"  # noqa: S608 (the name of a table)
-        if form and base.execute(again, (form,)).fetchone():
+        earlier = entries(base, path, TEAM_NIGHT, _RULES)
+        before = _RULES.state(path, earlier)
+        if was_taken(base, TEAM_NIGHT, form):
             return before, False
         added = [Event(at, what, by) for what in decide(earlier, before)]
-        after = team_night_of(path, [*earlier, *added])
-        base.executemany(
-            f"INSERT INTO {TEAM_NIGHT} VALUES (?, ?, ?, ?, ?, ?)",  # noqa: S608
-            [
-                (
-                    number,
-                    event.at,
-                    NAMES[type(event.what)],
-                    json.dumps(as_dict(event.what)),
-                    event.by,
-                    form if form and number == len(earlier) + 1 else None,
-                )
-                for number, event in enumerate(added, len(earlier) + 1)
-            ],
-        )
+        after = _RULES.state(path, [*earlier, *added])
+        add(base, TEAM_NIGHT, _RULES, added, count=len(earlier), form=form)
         return after, bool(added)
 
     return begin(path, write)
-
-
-def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
-    if not has_table(base, TEAM_NIGHT):
-        return []
-    asked = f"SELECT number, at, kind, what, author FROM {TEAM_NIGHT} ORDER BY number"  # noqa: S608
-    events = []
-    for number, at, kind, what, by in base.execute(asked).fetchall():
-        with named(path, entry(number, kind)):
-            if not isinstance(by, str):
-                raise InputError("{column} is not text", column="author")
-            events.append(Event(at, happened(at, kind, what, event_of), by))
-    return events
 
 
 def team_night_of(path: str | Path, events: Sequence[Event]) -> TeamEvening | None:
@@ -142,7 +93,7 @@ def team_night_of(path: str | Path, events: Sequence[Event]) -> TeamEvening | No
     DataError
         if it cannot; it names the entry that does not fit.
     """
-    return folded(path, events, _shown, NAMES)
+    return _RULES.state(path, events)
 
 
 def _shown(events: Sequence[Event]) -> TeamEvening | None:
@@ -153,3 +104,6 @@ def _shown(events: Sequence[Event]) -> TeamEvening | None:
             if line.named:
                 state.needs(line)
     return state
+
+
+_RULES: Rules[Event, TeamEvening | None] = Rules(KINDS, Event, _shown)

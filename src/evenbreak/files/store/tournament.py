@@ -7,51 +7,23 @@ other waits. The events can also be a CSV file, from which the state follows as 
 from __future__ import annotations
 
 import csv
-import json
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.store.desk import TABLE as PHONES
-from evenbreak.files.store.evening_file import (
-    TOURNAMENT,
-    begin,
-    changing,
-    damaged,
-    entry,
-    folded,
-    happened,
-    has_table,
-    named,
-    opened,
-    refused,
-)
+from evenbreak.files.store.evening_file import begin, changing, opened, refused
+from evenbreak.files.store.formats import ENTRIES, TEAM_NIGHT, TOURNAMENT, bring_up_to_date
+from evenbreak.files.store.log import Rules, TakenBeforeError, add, entries, was_taken
 from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import text_of
 from evenbreak.tournaments.clock.event_pace import EarlierNight
 from evenbreak.tournaments.evening.earlier import nights_until
-from evenbreak.tournaments.evening.events import NAMES, Event, as_dict, event_of
+from evenbreak.tournaments.evening.events import KINDS, Event
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.words import Command, say
-
-_TABLE = """
-CREATE TABLE event (
-    number INTEGER PRIMARY KEY,
-    at TEXT NOT NULL,
-    kind TEXT NOT NULL,
-    what TEXT NOT NULL
-)
-"""
-_ONCE = "CREATE TABLE IF NOT EXISTS once (form TEXT PRIMARY KEY, number INTEGER NOT NULL)"
-"""The forms that were taken, each with the number of the last event after it."""
-
-
-class TakenBeforeError(InputError):
-    """A form that comes in again, whatever it added the first time."""
 
 
 def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: int = 0) -> Evening:
@@ -86,12 +58,13 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
     state = _shown(evening(events))
 
     def write(base: sqlite3.Connection) -> None:
-        if _count(base) != in_place_of:
+        if len(entries(base, path, TOURNAMENT, _RULES)) != in_place_of:
             raise refused(path, "{name} is there already; give the new tournament another name")
-        for table in (TOURNAMENT, "author", "proposal", PHONES, "prize", "once"):
+        for table in ("proposal", PHONES, "prize"):
             base.execute(f"DROP TABLE IF EXISTS {table}")
-        base.execute(_TABLE)
-        _add(base, events)
+        bring_up_to_date(base)
+        base.execute(f"DELETE FROM {ENTRIES} WHERE strand != ?", (TEAM_NIGHT,))  # noqa: S608
+        add(base, TOURNAMENT, _RULES, events)
 
     begin(path, write)
     return state
@@ -186,17 +159,15 @@ def add_events(
         if the file is not that of a tournament, or cannot be read or written.
     """
     with changing(path) as base:
-        if form:
-            _refuse_taken(base, form)
+        if was_taken(base, TOURNAMENT, form):
+            raise TakenBeforeError("that was entered before; nothing was entered a second time")
         earlier = _events(base, path)
         before = tournament_of(path, earlier)
         added = [replace(event, by=by) for event in decide(before)]
         after = _shown(evening([*earlier, *added]))
         if check:
             check(before, after)
-        _add(base, added, len(earlier))
-        if form:
-            base.execute("INSERT INTO once VALUES (?, ?)", (form, len(earlier) + len(added)))
+        add(base, TOURNAMENT, _RULES, added, count=len(earlier), form=form)
     return before, after
 
 
@@ -209,32 +180,9 @@ def _shown(state: Evening) -> Evening:
     return state
 
 
-def _count(base: sqlite3.Connection) -> int:
-    """Return how many events a file has."""
-    if not has_table(base, TOURNAMENT):
-        return 0
-    return int(base.execute("SELECT COUNT(*) FROM event").fetchone()[0])
-
-
-def _refuse_taken(base: sqlite3.Connection, form: str) -> None:
-    base.execute(_ONCE)
-    if base.execute("SELECT 1 FROM once WHERE form = ?", (form,)).fetchone():
-        raise TakenBeforeError("that was entered before; nothing was entered a second time")
-
-
-def _add(base: sqlite3.Connection, events: Sequence[Event], count: int = 0) -> None:
-    """Write events after others, and who entered them; one that could not be read is refused."""
-    rows = event_rows(events, count + 1)
-    for _, at, kind, what, by in rows:
-        _event(at, kind, what, by)
-    base.executemany("INSERT INTO event VALUES (?, ?, ?, ?)", [row[:4] for row in rows])
-    if signed := [(row[0], row[4]) for row in rows if row[4]]:
-        base.execute("CREATE TABLE IF NOT EXISTS author (number INTEGER PRIMARY KEY, name TEXT)")
-        base.executemany("INSERT INTO author VALUES (?, ?)", signed)
-
-
 def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
-    if not has_table(base, TOURNAMENT):
+    events = entries(base, path, TOURNAMENT, _RULES)
+    if not events:
         raise refused(
             path,
             "{name} holds a team night and no tournament; open it with {serve}, or start a "
@@ -242,22 +190,7 @@ def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
             serve=Command("serve"),
             new=Command("tournament new"),
         )
-    rows = base.execute("SELECT number, at, kind, what FROM event ORDER BY number").fetchall()
-    signed = has_table(base, "author")
-    by = dict(base.execute("SELECT number, name FROM author").fetchall() if signed else ())
-    events = []
-    for number, at, kind, what in rows:
-        with named(path, entry(number, kind)):
-            events.append(_event(at, kind, what, str(by.get(number, ""))))
-    if not events:
-        raise damaged(path, say("its tournament is gone"))
     return events
-
-
-@lru_cache(maxsize=4096)
-def _event(at: Any, kind: Any, what: Any, by: str) -> Event:
-    """Return the event in a row; a page reads all rows again after each new one."""
-    return Event(at, happened(at, kind, what, event_of), by)
 
 
 def tournament_of(path: str | Path, events: Sequence[Event]) -> Evening:
@@ -268,7 +201,10 @@ def tournament_of(path: str | Path, events: Sequence[Event]) -> Evening:
     DataError
         if it cannot; it names the entry that does not fit.
     """
-    return folded(path, events, lambda some: _shown(evening(some)), NAMES)
+    return _RULES.state(path, events)
+
+
+_RULES: Rules[Event, Evening] = Rules(KINDS, Event, lambda events: _shown(evening(events)))
 
 
 TITLES = ("number", "at", "kind", "what", "by")
@@ -277,10 +213,7 @@ _BEGINNING = ",".join(TITLES[:4])  # of the lists of 0.2.0 too, which have no au
 
 def event_rows(events: Sequence[Event], first: int = 1) -> list[tuple[int, str, str, str, str]]:
     """Return the rows below `TITLES`; `what` holds the details as JSON."""
-    return [
-        (number, event.at, NAMES[type(event.what)], json.dumps(as_dict(event.what)), event.by)
-        for number, event in enumerate(events, first)
-    ]
+    return _RULES.rows(events, first)
 
 
 def is_event_list(path: str | Path) -> bool:
@@ -306,7 +239,7 @@ def read_event_list(path: str | Path) -> list[Event]:
     for line, row in enumerate(reader, 2):
         try:
             _, at, kind, what, by = row if len(row) == len(TITLES) else (*row, "")
-            events.append(Event(at, happened(at, kind, what, event_of), by))
+            events.append(_RULES.read(at, kind, what, by))
         except (InputError, ValueError) as error:
             why = error.sentence if isinstance(error, InputError) else str(error)
             problem = say("is not an event of a tournament: {why}", why=why)

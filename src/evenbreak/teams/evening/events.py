@@ -1,19 +1,23 @@
 """What is played on a team night, and what happens on it: events, which are only ever added.
 
-An event is a frozen value; `as_dict` and `event_of` turn it into plain data and back.
+An event is a frozen value; `KINDS` turns it into JSON and back.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Annotated, Any, Protocol, TypeAlias, get_args
 
 import numpy as np
+from msgspec import Meta
 
-from evenbreak.checks import Between, column, made, one_of, whole
+from evenbreak.checks import column, one_of, whole
 from evenbreak.errors import InputError
+from evenbreak.evenings import log
+from evenbreak.evenings.log import Kinds
+from evenbreak.evenings.log import Undone as Undone
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.charts.level_chart import (
     LEVEL_CHARTS,
@@ -35,6 +39,9 @@ from evenbreak.teams.set_laws import count_by
 from evenbreak.teams.solve import refuse_large
 from evenbreak.teams.squad import Squad, caps_of
 
+Points: TypeAlias = Annotated[float, Meta(ge=-1e9, le=1e9)]
+Whole: TypeAlias = Annotated[int, Meta(ge=-(10**9), le=10**9)]
+
 
 @dataclass(frozen=True)
 class TeamSheet:
@@ -55,9 +62,9 @@ class TeamSheet:
 
     name: str
     players: tuple[str, ...]
-    ratings: tuple[Annotated[float, Between(-1_000_000, 1_000_000)], ...]
-    errors: tuple[Annotated[float, Between(0, 1_000_000)], ...]
-    weights: tuple[float, ...]
+    ratings: tuple[Annotated[float, Meta(ge=-1_000_000, le=1_000_000)], ...]
+    errors: tuple[Annotated[float, Meta(ge=0, le=1_000_000)], ...]
+    weights: tuple[Points, ...]
 
     @property
     def roster(self) -> Roster:
@@ -65,7 +72,7 @@ class TeamSheet:
         return Roster(self.players, self.ratings, self.errors, level=self.weights)
 
 
-Unknown: TypeAlias = float | None
+Unknown: TypeAlias = Points | None
 """A standard error; None where nothing says how large it is."""
 
 
@@ -79,13 +86,13 @@ class LevelsTonight:
         as of `LevelSkills`.
     """
 
-    gaps: tuple[tuple[float, ...], ...]
+    gaps: tuple[tuple[Points, ...], ...]
     errors: tuple[tuple[Unknown, ...], ...]
-    points: tuple[float, ...]
+    points: tuple[Points, ...]
     standard_error: tuple[Unknown, ...]
-    spread: Annotated[float, Between(0, 1_000_000)]
+    spread: Annotated[float, Meta(ge=0, le=1_000_000)]
     source: str
-    matches: Annotated[int, Between(0, 1_000_000)] = 0
+    matches: Annotated[int, Meta(ge=0, le=1_000_000)] = 0
 
     @classmethod
     def of(cls, skills: LevelSkills) -> LevelsTonight:
@@ -179,20 +186,20 @@ class NightPlan:
     """
 
     teams: tuple[TeamSheet, TeamSheet]
-    sets: Annotated[int, Between(1, 100)]
-    race: Annotated[int, Between(0, 1_000)] = 0
+    sets: Annotated[int, Meta(ge=1, le=100)]
+    race: Annotated[int, Meta(ge=0, le=1_000)] = 0
     handicapped: bool = False
     chart: str = ""
     order: str = "alternate"
     count: str = "sets"
-    doubles: tuple[int, ...] = ()
-    cap: float | None = None
-    at_most: tuple[int, float] | None = None
-    times: Annotated[int, Between(1, 100)] = 1
+    doubles: tuple[Whole, ...] = ()
+    cap: Points | None = None
+    at_most: tuple[Whole, Points] | None = None
+    times: Annotated[int, Meta(ge=1, le=100)] = 1
     scale: str = "fargo"
-    match_form: Annotated[float, Between(0, MOST_FORM)] = 0.0
+    match_form: Annotated[float, Meta(ge=0, le=MOST_FORM)] = 0.0
     discipline: str = "8-ball"
-    tables: Annotated[int, Between(1, 100)] = 1
+    tables: Annotated[int, Meta(ge=1, le=100)] = 1
     by_level: bool = False
     levels: LevelsTonight | None = None
 
@@ -342,9 +349,9 @@ def _race(plan: NightPlan) -> SetRace:
 Pick: TypeAlias = tuple[str, ...]
 """Who plays a set: one player, or the pair of a doubles set."""
 
-Team: TypeAlias = Annotated[int, Between(0, 1)]
-Number: TypeAlias = Annotated[int, Between(1, 100)]
-Games: TypeAlias = Annotated[int, Between(0, 10_000)]
+Team: TypeAlias = Annotated[int, Meta(ge=0, le=1)]
+Number: TypeAlias = Annotated[int, Meta(ge=1, le=100)]
+Games: TypeAlias = Annotated[int, Meta(ge=0, le=10_000)]
 
 Score: TypeAlias = tuple[Games, Games]
 """The games of team A and team B."""
@@ -391,52 +398,22 @@ class Result:
     score: Score
 
 
-@dataclass(frozen=True)
-class Undone:
-    """The last event that has not been undone yet is undone."""
-
-
 What: TypeAlias = Begun | PutUp | HandedIn | Proposed | Result | Undone
-KINDS: dict[str, type[What]] = {
-    "begun": Begun,
-    "put up": PutUp,
-    "handed in": HandedIn,
-    "proposed": Proposed,
-    "result": Result,
-    "undone": Undone,
-}
-NAMES = {kind: name for name, kind in KINDS.items()}
+KINDS: Kinds[What] = Kinds(
+    {
+        "begun": Begun,
+        "put up": PutUp,
+        "handed in": HandedIn,
+        "proposed": Proposed,
+        "result": Result,
+        "undone": Undone,
+    }
+)
+"""What can happen, each kind by the name under which it is kept."""
 
 
 @dataclass(frozen=True)
-class Event:
-    """Something that happened, when (such as 2025-03-01T19:30:00), and who entered it."""
+class Event(log.Event):
+    """Something that happened on a team night."""
 
-    at: str
     what: What
-    by: str = ""
-
-
-def as_dict(what: What) -> dict[str, Any]:
-    """Return what happened as plain data.
-
-    >>> as_dict(PutUp(0, 2, ("Ann",)))
-    {'team': 0, 'number': 2, 'pick': ('Ann',)}
-    """
-    return asdict(what)
-
-
-def event_of(kind: str, data: Any) -> What:
-    """Return what happened from plain data.
-
-    Raises
-    ------
-    InputError
-        if it is no event; the message names the field.
-
-    >>> event_of("handed in", {"team": 1, "picks": [["Cy"], ["Di"]]})
-    HandedIn(team=1, picks=(('Cy',), ('Di',)))
-    """
-    if kind not in KINDS:
-        raise InputError("{kind!r} is not an entry of a team night", kind=kind[:40])
-    return made(KINDS[kind], data)

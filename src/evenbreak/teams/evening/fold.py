@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from evenbreak.evenings.log import Log
 from evenbreak.teams.evening.events import (
     Begun,
     Event,
@@ -16,7 +17,6 @@ from evenbreak.teams.evening.events import (
     PutUp,
     Result,
     Score,
-    Undone,
     What,
     meeting_of,
 )
@@ -213,12 +213,10 @@ def team_evening(events: Iterable[Event]) -> TeamEvening | None:
     >>> state.score, state.due, state.used(1)
     ((1, 0), (1,), ('Cy',))
     """
-    kept: list[tuple[int, Event]] = []
+    log: Log[Event] = Log()
     for number, event in enumerate(events, 1):
-        if isinstance(event.what, Undone):
-            kept = kept[:-1]
-        else:
-            kept.append((number, event))
+        log.take(number, event)
+    kept = list(log.kept.items())
     begun = [k for k, (_, event) in enumerate(kept) if isinstance(event.what, Begun)]
     if not begun:
         return None

@@ -9,16 +9,17 @@ from itertools import pairwise
 from typing import Annotated, NamedTuple
 
 import numpy as np
+from msgspec import Meta
 from numpy.typing import ArrayLike, NDArray
 
-from evenbreak.checks import Between, floats, whole
+from evenbreak.checks import floats, whole
 from evenbreak.errors import InputError
 
 
 class ChipRow(NamedTuple):
     """The chips of players rated `rating_from` or more; -inf for the weakest players' row."""
 
-    rating_from: Annotated[float, Between(-math.inf, 1_000_000)]
+    rating_from: Annotated[float, Meta(le=1_000_000)]
     chips: int
 
 

@@ -14,7 +14,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, NamedTuple
 
-from evenbreak.checks import Between, kind_of, positive
+from msgspec import Meta
+
+from evenbreak.checks import kind_of, positive
 from evenbreak.matches.pace import Pace, pace_of
 
 _EVENTS = {"8-ball": (0.97, 0.12), "9-ball": (0.97, 0.12), "10-ball": (0.895, 0.09)}
@@ -45,7 +47,7 @@ class EarlierNight:
 
     at: str
     discipline: str
-    ratio: Annotated[float, Between(1.0 / SLOWEST, SLOWEST)]
+    ratio: Annotated[float, Meta(ge=1.0 / SLOWEST, le=SLOWEST)]
 
 
 def nights_of(discipline: str, earlier: Iterable[EarlierNight]) -> list[EarlierNight]:

@@ -1,16 +1,20 @@
 """What happens on the evening of a tournament: events, which are only ever added.
 
-An event is a frozen value; `as_dict` and `event_of` turn it into plain data and back.
+An event is a frozen value; `KINDS` turns it into JSON and back.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, TypeAlias
 
-from evenbreak.checks import Between, made
-from evenbreak.errors import InputError
+from msgspec import Meta
+
+from evenbreak.evenings import log
+from evenbreak.evenings.log import Kinds
+from evenbreak.evenings.log import Redone as Redone
+from evenbreak.evenings.log import Undone as Undone
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.matches.form import MOST_FORM
 from evenbreak.ratings.scale import DEFAULT_SCALE
@@ -27,10 +31,10 @@ from evenbreak.tournaments.evening.format import (
 )
 from evenbreak.words import Sentence, say
 
-Games: TypeAlias = Annotated[int, Between(0, 10_000)]
-Seat: TypeAlias = Annotated[int, Between(0, 255)]
-Points: TypeAlias = Annotated[float, Between(-1_000_000, 1_000_000)]
-Error: TypeAlias = Annotated[float, Between(0, 1_000_000)]
+Games: TypeAlias = Annotated[int, Meta(ge=0, le=10_000)]
+Seat: TypeAlias = Annotated[int, Meta(ge=0, le=255)]
+Points: TypeAlias = Annotated[float, Meta(ge=-1_000_000, le=1_000_000)]
+Error: TypeAlias = Annotated[float, Meta(ge=0, le=1_000_000)]
 
 
 @dataclass(frozen=True)
@@ -92,7 +96,7 @@ class Plan(Format, Occasion):
     by_match: Mapping[str, Race] = field(default_factory=dict, hash=False)
     chips: ChipChart | None = field(default=None, hash=False)
     earlier: tuple[EarlierNight, ...] = ()
-    match_form: Annotated[float, Between(0, MOST_FORM)] = 0.0
+    match_form: Annotated[float, Meta(ge=0, le=MOST_FORM)] = 0.0
 
     def newcomer(self, name: str) -> Entrant:
         """Return a player of whom no rating is known."""
@@ -337,20 +341,6 @@ class Changed:
     slower: Slower | None = None
 
 
-@dataclass(frozen=True)
-class Undone:
-    """An event is undone: that of a number, or else the last one that has not been undone yet."""
-
-    entry: Annotated[int, Between(2, 1_000_000_000)] | None = None
-
-
-@dataclass(frozen=True)
-class Redone:
-    """An entry that was undone counts again."""
-
-    entry: Annotated[int, Between(2, 1_000_000_000)]
-
-
 What: TypeAlias = (
     Opened
     | Drawn
@@ -374,72 +364,39 @@ What: TypeAlias = (
     | Undone
     | Redone
 )
-KINDS: dict[str, type[What]] = {
-    "opened": Opened,
-    "drawn": Drawn,
-    "late": Late,
-    "edited": Edited,
-    "renamed": Renamed,
-    "substituted": Substituted,
-    "swapped": Swapped,
-    "checked in": CheckedIn,
-    "registered": Registered,
-    "declined": Declined,
-    "dropped": Dropped,
-    "called": Called,
-    "called back": CalledBack,
-    "waits": Waits,
-    "scored": Scored,
-    "result": Result,
-    "ranked": Ranked,
-    "later draw": LaterDraw,
-    "changed": Changed,
-    "undone": Undone,
-    "redone": Redone,
-}
-NAMES = {kind: name for name, kind in KINDS.items()}
+KINDS: Kinds[What] = Kinds(
+    {
+        "opened": Opened,
+        "drawn": Drawn,
+        "late": Late,
+        "edited": Edited,
+        "renamed": Renamed,
+        "substituted": Substituted,
+        "swapped": Swapped,
+        "checked in": CheckedIn,
+        "registered": Registered,
+        "declined": Declined,
+        "dropped": Dropped,
+        "called": Called,
+        "called back": CalledBack,
+        "waits": Waits,
+        "scored": Scored,
+        "result": Result,
+        "ranked": Ranked,
+        "later draw": LaterDraw,
+        "changed": Changed,
+        "undone": Undone,
+        "redone": Redone,
+    }
+)
+"""What can happen, each kind by the name under which it is kept."""
 
 
 @dataclass(frozen=True)
-class Event:
-    """Something that happened, when (local time, such as 2025-03-01T19:30:00), and who entered it.
+class Event(log.Event):
+    """Something that happened in a tournament."""
 
-    Commands leave out who did; they are the director's, as is the page of the desk.
-    """
-
-    at: str
     what: What
-    by: str = ""
-
-    @property
-    def by_phones(self) -> bool:
-        """Whether players entered it on their phones."""
-        return self.by.startswith("phone")
-
-
-def as_dict(what: What) -> dict[str, Any]:
-    """Return what happened as plain data.
-
-    >>> as_dict(Called("W1.1", 2, ("Ann", "Bo")))
-    {'match': 'W1.1', 'table': 2, 'players': ('Ann', 'Bo')}
-    """
-    return asdict(what)
-
-
-def event_of(kind: str, data: Any) -> What:
-    """Return what happened from plain data.
-
-    Raises
-    ------
-    InputError
-        if it is no event; the message names the field.
-
-    >>> event_of("dropped", {"name": "Bo"})
-    Dropped(name='Bo')
-    """
-    if kind not in KINDS:
-        raise InputError("{kind!r} is not an entry of a tournament", kind=kind[:40])
-    return made(KINDS[kind], data)
 
 
 def score_words(found: Result) -> Sentence:

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.errors import InputError
+from evenbreak.evenings.log import TakenBack
 from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.tournaments.brackets.bracket import Bracket, Group
 from evenbreak.tournaments.brackets.groups import final_of_groups
@@ -36,7 +37,7 @@ from evenbreak.tournaments.evening.events import (
     Scored,
     Waits,
 )
-from evenbreak.tournaments.evening.history import TakenBack, read
+from evenbreak.tournaments.evening.history import read
 from evenbreak.tournaments.evening.matches import (
     LiveScore,
     Matches,
@@ -124,7 +125,7 @@ class Evening:
     paid: frozenset[str] = frozenset()
     registered: Mapping[str, float | None] = field(default_factory=dict)
     waits: Mapping[Pairing, Waits] = field(default_factory=dict)
-    undone: Mapping[int, TakenBack] = field(default_factory=dict)
+    undone: Mapping[int, TakenBack[Event]] = field(default_factory=dict)
     elsewhere: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
 
     @property

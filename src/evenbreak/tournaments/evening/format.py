@@ -5,16 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
-from evenbreak.checks import Between
+from msgspec import Meta
+
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, Flag, Whole
 from evenbreak.fields.question import Field
 from evenbreak.words import say
 
-Race: TypeAlias = Annotated[int, Between(1, 1_000)]
-Table: TypeAlias = Annotated[int, Between(1, 1_000)]
-Slower: TypeAlias = Annotated[float, Between(0.5, 2)]
-Few: TypeAlias = Annotated[int, Between(1, 256)]
+Race: TypeAlias = Annotated[int, Meta(ge=1, le=1_000)]
+Table: TypeAlias = Annotated[int, Meta(ge=1, le=1_000)]
+Slower: TypeAlias = Annotated[float, Meta(ge=0.5, le=2)]
+Few: TypeAlias = Annotated[int, Meta(ge=1, le=256)]
 
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 MOST_PLAYERS, MOST_TABLES, LONGEST_RACE = 256, 1000, 100

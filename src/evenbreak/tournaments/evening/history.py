@@ -8,19 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
-from evenbreak.errors import InputError
+from evenbreak.evenings.log import Log, TakenBack
 from evenbreak.tournaments.evening.events import (
     Edited,
     Event,
     Late,
     LaterDraw,
     Opened,
-    Redone,
     Renamed,
     Substituted,
-    Undone,
     What,
 )
 
@@ -32,13 +30,6 @@ _NAMED = {"name", "names", "order", "players", "winner", "one", "other", "absent
 
 
 _NAMING = Opened | Late | Substituted | Renamed | Edited
-
-
-class TakenBack(NamedTuple):
-    """An entry that is undone, and the number of that which undid it."""
-
-    event: Event
-    by: int
 
 
 class ReadRename(Renamed):
@@ -62,7 +53,7 @@ class History:
     """
 
     kept: Mapping[int, Event]
-    undone: Mapping[int, TakenBack]
+    undone: Mapping[int, TakenBack[Event]]
     entries: Mapping[str, Entered]
     former: Mapping[str, str]
 
@@ -75,32 +66,19 @@ def read(events: Sequence[Event]) -> History:
     InputError
         if something is undone that is not there, or done again that was not undone.
     """
-    kept: dict[int, Event] = {}
-    undone: dict[int, TakenBack] = {}
+    log: Log[Event] = Log(fixed=1)
     renames = any(isinstance(event.what, Renamed) for event in events)
     called: dict[int, Mapping[str, Entered]] = {}  # by what names, when each entry was made
     names: dict[str, Entered] = {}
     for number, event in enumerate(events, 1):
-        what = event.what
-        if isinstance(what, Undone):
-            entry = max(kept, default=1) if what.entry is None else what.entry
-            if entry == 1 or entry not in kept:
-                raise InputError("there is nothing to undo")
-            undone[entry] = TakenBack(kept.pop(entry), number)
-        elif isinstance(what, Redone):
-            entry = what.entry
-            if entry not in undone:
-                raise InputError("entry {entry} is not undone", entry=entry)
-            kept[entry] = undone.pop(entry).event
-            kept = dict(sorted(kept.items()))
-        else:
-            kept[number] = event
-            before, names = names, _names_after(names, number, what)
+        entry = log.take(number, event)
+        if entry is None:
+            before, names = names, _names_after(names, number, event.what)
             if renames:
                 called[number] = {**before, **names}
-            continue
-        if isinstance(events[entry - 1].what, _NAMING):
-            names = _names(kept)
+        elif isinstance(events[entry - 1].what, _NAMING):
+            names = _names(log.kept)
+    kept, undone = log.kept, log.undone
     former: dict[str, str] = {}
     if renames:
         now = {who: name for name, who in names.items()}

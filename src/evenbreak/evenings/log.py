@@ -1,0 +1,239 @@
+"""What happens on a night: entries that are only ever added, undone and entered again by number.
+
+Each rule set has its own kinds of entries: frozen dataclasses, which are kept as JSON.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import reprlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated, Any, Generic, NamedTuple, TypeAlias, TypeVar
+
+import msgspec
+
+from evenbreak.errors import InputError
+from evenbreak.words import Parameter
+
+Number: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=1_000_000_000)]
+What = TypeVar("What")
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened, when (local time, such as 2025-03-01T19:30:00), and who entered it.
+
+    Commands leave out who did; they are the director's, as is the page of the desk.
+    """
+
+    at: str
+    what: Any
+    by: str = ""
+
+    @property
+    def by_phones(self) -> bool:
+        """Whether players entered it on their phones."""
+        return self.by.startswith("phone")
+
+
+Entered = TypeVar("Entered", bound=Event)
+
+
+@dataclass(frozen=True)
+class Undone:
+    """An entry is undone: that of a number, or else the last one that has not been undone yet."""
+
+    entry: Number | None = None
+
+
+@dataclass(frozen=True)
+class Redone:
+    """An entry that was undone counts again."""
+
+    entry: Number
+
+
+class TakenBack(NamedTuple, Generic[Entered]):
+    """An entry that is undone, and the number of that which undid it."""
+
+    event: Entered
+    by: int
+
+
+class Log(Generic[Entered]):
+    """Entries in their order, of which some are undone.
+
+    Parameters
+    ----------
+    fixed
+        how many entries at the beginning cannot be undone.
+
+    >>> log = Log()
+    >>> for number, what in enumerate(["a", "b", Undone(), Undone(1), Redone(2)], 1):
+    ...     _ = log.take(number, Event("19:30", what))
+    >>> [event.what for event in log.kept.values()], list(log.undone)
+    (['b'], [1])
+    """
+
+    def __init__(self, fixed: int = 0) -> None:
+        self.fixed = fixed
+        self.kept: dict[int, Entered] = {}
+        self.undone: dict[int, TakenBack[Entered]] = {}
+
+    def take(self, number: int, event: Entered) -> int | None:
+        """Take an entry; return the number of the one that it undoes or enters again, if it does.
+
+        Raises
+        ------
+        InputError
+            if something is undone that is not there, or done again that was not undone.
+        """
+        match event.what:
+            case Undone(entry=entry):
+                entry = max(self.kept, default=0) if entry is None else entry
+                if entry <= self.fixed or entry not in self.kept:
+                    raise InputError("there is nothing to undo")
+                self.undone[entry] = TakenBack(self.kept.pop(entry), number)
+            case Redone(entry=entry):
+                if entry not in self.undone:
+                    raise InputError("entry {entry} is not undone", entry=entry)
+                self.kept[entry] = self.undone.pop(entry).event
+                self.kept = dict(sorted(self.kept.items()))
+            case _:
+                self.kept[number] = event
+                return None
+        return entry
+
+
+class Kinds(Generic[What]):
+    """The kinds of entries of a rule set by the names under which they are kept.
+
+    >>> kinds = Kinds({"undone": Undone, "redone": Redone})
+    >>> kinds.text(Redone(3)), kinds.read("redone", '{"entry": 3}')
+    ('{"entry": 3}', Redone(entry=3))
+    >>> kinds.read("redone", '{"entry": "three"}')
+    Traceback (most recent call last):
+    ...
+    evenbreak.errors.InputError: entry is 'three'; give a whole number
+    """
+
+    def __init__(self, kinds: Mapping[str, type[What]]) -> None:
+        self.kinds = dict(kinds)
+
+    @cached_property
+    def names(self) -> dict[type[What], str]:
+        """The name of each kind."""
+        return {kind: name for name, kind in self.kinds.items()}
+
+    def name(self, what: What) -> str:
+        """Return the name of the kind of an entry."""
+        return self.names[type(what)]
+
+    def text(self, what: What) -> str:
+        """Return what happened as JSON."""
+        return json.dumps(msgspec.to_builtins(what))
+
+    def read(self, kind: str, text: str) -> What:
+        """Return what happened from the name of its kind and its JSON.
+
+        Raises
+        ------
+        InputError
+            if it is no such entry; the message names the field.
+        """
+        if kind not in self.kinds:
+            raise InputError("{kind!r} is not a kind of entry", kind=kind[:40])
+        return read_json(self.kinds[kind], text)
+
+
+def read_json(kind: type[What], text: str) -> What:
+    """Return a value of a class from its JSON.
+
+    Raises
+    ------
+    InputError
+        if a field is missing, unknown, not of its kind, or outside its limits.
+    """
+    try:
+        data = json.loads(text, parse_constant=_lowest)
+        json.dumps(data, ensure_ascii=False).encode()  # no half of a letter is in it
+    except (ValueError, RecursionError):
+        raise InputError("what is damaged JSON") from None
+    try:
+        found = msgspec.convert(data, kind)
+    except msgspec.ValidationError as error:
+        if isinstance(error.__cause__, InputError):  # of the class itself
+            raise error.__cause__ from None
+        raise _refusal(str(error), data) from None
+    if unknown := _unknown(data, msgspec.to_builtins(found)):
+        raise InputError("{unknown} is not known; leave it out", unknown=reprlib.repr(unknown))
+    return found
+
+
+def _lowest(text: str) -> float:
+    """Return the one number that JSON has no letters for: where the first of some ranges begins."""
+    if text != "-Infinity":
+        raise ValueError(text)
+    return -math.inf
+
+
+def _unknown(data: Any, read: Any) -> str | None:
+    """Return the first name in data that nothing was read from."""
+    if isinstance(data, dict) and isinstance(read, dict):
+        each = [key if key not in read else _unknown(one, read[key]) for key, one in data.items()]
+    elif isinstance(data, list) and isinstance(read, list | tuple):
+        each = [_unknown(*pair) for pair in zip(data, read, strict=False)]
+    else:
+        return None
+    return next(filter(None, each), None)
+
+
+_PATH = re.compile(r"\.(\w+)|\[(\d+|\.\.\.)\]")
+_MISSING = re.compile(r"Object missing required field `(\w+)`")
+
+
+_WORDS = {
+    "`int`": "a whole number",
+    "`float`": "a number",
+    "`str`": "text",
+    "`bool`": "true or false",
+    "`array`": "a list",
+    "`object`": "names and values",
+    " <= ": " up to ",
+    " >= ": " from ",
+    "Expected": "give",
+}
+
+
+def _wanted(why: str) -> str:
+    """Return what would be right, from the words in which msgspec says so."""
+    said = why.partition(", got")[0]
+    for theirs, ours in _WORDS.items():
+        said = said.replace(theirs, ours)
+    return said.replace("`", "")
+
+
+def _refusal(why: str, value: Any) -> InputError:
+    """Return the error of a value that was refused, from the reason and the path to it."""
+    wanted, _, path = why.partition(" - at `$")
+    names: list[str] = []
+    for name, place in _PATH.findall(path):
+        if place.isdigit():
+            names.append(str(int(place) + 1))
+            value = value[int(place)]
+        elif name:
+            names.append(name)
+            value = value.get(name) if isinstance(value, dict) else value
+    if missing := _MISSING.match(wanted):
+        names.append(missing[1])
+        return InputError("{missing} is missing; add it", missing=Parameter(" ".join(names)))
+    return InputError(
+        "{what} is {shown}; {wanted}",
+        what=Parameter(" ".join(names) or "it"),
+        shown=reprlib.repr(value),
+        wanted=_wanted(wanted),
+    )

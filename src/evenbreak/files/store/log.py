@@ -1,0 +1,168 @@
+"""The log of a night in its file: entries in strands, each only ever added to.
+
+A form that comes in a second time adds nothing: its number is kept with the first entry that it
+made.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, Generic, TypeAlias, TypeVar
+
+from evenbreak.errors import InputError
+from evenbreak.evenings.log import Event, Kinds
+from evenbreak.files.store.evening_file import FAULTS, named
+from evenbreak.files.store.formats import ENTRIES, bring_up_to_date, source
+from evenbreak.words import say
+
+Entered = TypeVar("Entered", bound=Event)
+State = TypeVar("State")
+
+
+Row: TypeAlias = tuple[int, str, str, str, str]
+"""The number, time, kind, details and author of an entry."""
+
+
+class TakenBeforeError(InputError):
+    """A form that comes in again, whatever it added the first time."""
+
+
+@dataclass(frozen=True)
+class Rules(Generic[Entered, State]):
+    """How the entries of a strand are read, and the state that they make.
+
+    Parameters
+    ----------
+    kinds
+        the kinds of entries.
+    event
+        makes an entry of when, what, and by whom.
+    fold
+        returns the state after entries; it raises an error if it cannot be shown.
+    """
+
+    kinds: Kinds[Any]
+    event: Callable[[str, Any, str], Entered]
+    fold: Callable[[Sequence[Entered]], State]
+
+    def state(self, path: str | Path, events: Sequence[Entered]) -> State:
+        """Return the state after the entries of a file, or name the first that cannot be.
+
+        Raises
+        ------
+        DataError
+            if there is no such state; it names the entry that does not fit.
+        """
+        try:
+            return self.fold(events)
+        except FAULTS:
+            for count, event in enumerate(events, 1):
+                with named(path, entry_words(count, self.kinds.name(event.what))):
+                    self.fold(events[:count])
+            raise
+
+    def rows(self, events: Sequence[Entered], first: int = 1) -> list[Row]:
+        """Return entries as they are kept.
+
+        Raises
+        ------
+        InputError
+            if one could not be read again.
+        """
+        rows = [
+            (k, one.at, self.kinds.name(one.what), self.kinds.text(one.what), one.by)
+            for k, one in enumerate(events, first)
+        ]
+        for _, *row in rows:
+            self.read(*row)
+        return rows
+
+    def read(self, at: Any, kind: Any, what: Any, author: Any) -> Entered:
+        """Return an entry from its columns.
+
+        Raises
+        ------
+        InputError
+            if a column is not what it should be.
+        """
+        return self.event(at, _what(self.kinds, at, kind, what, author), author)
+
+
+def entry_words(number: object, kind: object) -> str:
+    """Return what an entry of the file is called.
+
+    >>> entry_words(3, "late")
+    'entry 3 (late)'
+    """
+    return say("entry {number} ({kind})", number=number, kind=str(kind))
+
+
+@lru_cache(maxsize=8192)
+def _what(kinds: Kinds[Any], at: Any, kind: Any, what: Any, author: Any) -> Any:
+    """Return what happened; a page reads all entries again after each new one."""
+    for name, column in (("at", at), ("kind", kind), ("what", what), ("author", author)):
+        if not isinstance(column, str):
+            raise InputError("{column} is not text", column=name)
+    try:
+        moment = datetime.fromisoformat(at)
+    except ValueError:
+        moment = datetime.max
+    if moment.tzinfo or not 1970 <= moment.year < 3000:
+        raise InputError("at is {time!r}; give a time such as 2025-03-01T19:30:00", time=at[:40])
+    return kinds.read(kind, what)
+
+
+def entries(
+    base: sqlite3.Connection, path: str | Path, strand: str, rules: Rules[Entered, State]
+) -> list[Entered]:
+    """Return the entries of a strand in their order.
+
+    Raises
+    ------
+    DataError
+        if one is damaged.
+    """
+    asked = f"SELECT number, at, kind, what, author FROM {source(base)} "  # noqa: S608
+    found = []
+    for number, *row in base.execute(f"{asked} WHERE strand = ? ORDER BY number", (strand,)):
+        with named(path, entry_words(number, row[1])):
+            found.append(rules.read(*row))
+    return found
+
+
+def was_taken(base: sqlite3.Connection, strand: str, form: str | None) -> bool:
+    """Return whether a form has added something to a strand."""
+    asked = f"SELECT 1 FROM {source(base)} WHERE strand = ? AND form = ?"  # noqa: S608
+    return bool(form) and base.execute(asked, (strand, form)).fetchone() is not None
+
+
+def add(
+    base: sqlite3.Connection,
+    strand: str,
+    rules: Rules[Entered, State],
+    events: Sequence[Entered],
+    *,
+    count: int = 0,
+    form: str | None = None,
+) -> None:
+    """Add entries to a strand that has some already, from a form."""
+    if source(base) != ENTRIES:
+        bring_up_to_date(base)
+    base.executemany(
+        f"INSERT INTO {ENTRIES} VALUES (?, ?, ?, ?, ?, ?, ?)",  # noqa: S608
+        [
+            (strand, *row, form if row[0] == count + 1 else None)
+            for row in rules.rows(events, count + 1)
+        ],
+    )
+
+
+def tournaments(base: sqlite3.Connection) -> list[int]:
+    """Return the numbers of the tournaments in a file."""
+    asked = f"SELECT DISTINCT strand FROM {source(base)}"  # noqa: S608
+    return sorted(int(strand) for (strand,) in base.execute(asked) if str(strand).isdigit())
