@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import math
+from fractions import Fraction
+
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.tournaments import (
@@ -16,6 +21,8 @@ from evenbreak.tournaments import (
     payout_table,
     title_odds,
 )
+from evenbreak.tournaments.money.payouts import PrizeMoney, shared_prize
+from tiers import examples
 from tournaments.fields import by_seed
 
 FAIR = {"Ann": 0.5, "Bo": 0.3, "Cy": 0.2}
@@ -109,3 +116,48 @@ def test_what_a_lot_is_worth_at_a_bid() -> None:
 def test_what_cannot_be_sold_is_refused(asked, named: str) -> None:
     with pytest.raises(InputError, match=named):
         asked()
+
+
+MONEY = st.decimals(0, 10_000, places=2).map(float)
+
+
+@settings(max_examples=examples(200))
+@given(
+    st.integers(1, 120),
+    MONEY,
+    MONEY,
+    st.integers(0, 99),
+    st.lists(st.integers(1, 100), min_size=1, max_size=8).filter(lambda one: sum(one) <= 100),
+    st.sampled_from([0.0, 0.25, 1.0, 5.0, 10.0]),
+    st.data(),
+)
+def test_prizes_are_exact_and_never_more_than_the_pot(
+    entrants: int,
+    fee: float,
+    added: float,
+    house: int,
+    percents: list[int],
+    unit: float,
+    data: st.DataObject,
+) -> None:
+    """In hundredths, by whole numbers: an oracle without a rounding error."""
+    payers = data.draw(st.integers(0, entrants))
+    money = PrizeMoney(fee, added, house / 100, "/".join(map(str, percents)), unit)
+    amounts = money.amounts(entrants, payers)
+    exact = Fraction(round(fee * 100) * payers + round(added * 100)) * (100 - house) / 100
+    step = max(1, round(unit * 100))
+    cents = [round(one * 100) for one in amounts]
+    assert all(one % step == 0 for one in cents)
+    assert [abs(c / 100 - a) for c, a in zip(cents, amounts, strict=True)] == [0.0] * len(cents)
+    assert sum(cents) <= exact * sum(percents) / 100 <= exact
+    for one, percent in list(zip(cents, percents, strict=True))[1:]:
+        assert one == math.floor(math.floor(exact) * percent / 100) // step * step
+    left = round(money.left(entrants, payers) * 100)
+    assert 0 <= left < step
+    assert sum(cents) + left == math.floor(math.floor(exact) * sum(percents) / 100)
+    assert cents == sorted(cents, reverse=True) or percents != sorted(percents, reverse=True)
+    first = data.draw(st.integers(1, 9))
+    last = data.draw(st.integers(first, 9))
+    each = round(shared_prize(amounts, first, last, unit) * 100)
+    assert each % step == 0
+    assert each * (last - first + 1) <= sum(cents[first - 1 : last])

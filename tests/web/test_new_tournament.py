@@ -2,14 +2,17 @@
 
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from evenbreak.files.store.desk import kept_prizes
 from evenbreak.files.store.tournament import add_events, new_tournament, read_tournament
 from evenbreak.tournaments.evening.earlier import night_played
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.plan import FORMATS
+from evenbreak.tournaments.money.payouts import PrizeMoney
 from rows import each_of
 from tournament_nights import timed_night
 from web.conftest import PLAYERS, Hall, begun
@@ -67,7 +70,7 @@ def test_a_second_tap_on_begin_leads_to_the_same_tournament(tmp_path: Path) -> N
         director = Phone(site, director=True)
         for _ in range(2):
             shown = director.send("/new", **ASKED)
-            assert (shown.status, shown.url.endswith("/desk")) == (200, True)
+            assert (shown.status, shown.url.endswith("/desk/check-in")) == (200, True)
         assert len(read_tournament(site.path).events) == 1
 
 
@@ -81,6 +84,45 @@ def test_what_is_said_fits_into_a_cookie_in_every_script(
         names = "\n".join(letter * 150 for letter in "жшщю")
         assert director.send("/new", **ASKED | {"entrants": names}).status == 200
         assert max((len(one.value) for one in sizes), default=0) < 3800
+
+
+def test_doubtful_lines_are_asked_about_and_taken_as_answered(tmp_path: Path) -> None:
+    pasted = "Players:\n1. Ann Lee 612\n2. Bo 500, paid\n3. Ann Lee\n4. Cy 480  Di 470\n5. Ed 312 x"
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        shown = director.send("/new", **ASKED | {"entrants": pasted, "tables": "1, TV"})
+        assert shown.status == 200
+        assert not site.path.exists()
+        fields = Fields(shown.text).usual
+        assert fields["name-2"] == "Ann Lee"
+        assert fields["line-4"] == ""  # the second Ann Lee is left out
+        answers = {**fields, "line-6": "other", "other-6": "Ed Fox 470", "rating-2": "620"}
+        wrong = director.send("/new", **answers | {"other-6": "what 1,234 is"})
+        assert "Line 6: write a name" in wrong.words
+        assert "Ed 312 x" in wrong.words
+        assert director.send("/new", **answers).url.endswith("/desk/check-in")
+        state = read_tournament(site.path)
+    rated = {name: one.rating for name, one in state.entrants.items()}
+    assert rated == {"Ann Lee": 620, "Bo": 500, "Cy": 480, "Di": 470, "Ed Fox": 470}
+    assert state.plan.labels == ("1", "TV")
+
+
+def test_next_week_has_the_same_people_and_options(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        plan = {"name": "Tuesday", "tables": "5-6, TV", "losers_race": 2, "slower": "1.3"}
+        money = {"fee": 20, "house": 10, "unit": 5, "payout": "70/30"}
+        assert director.send("/new", **ASKED | plan | money).status == 200
+        before = read_tournament(site.path)
+        site.clock = lambda: "2031-03-08T19:30:00"
+        fields = Fields(director.open("/next").text).usual
+        fields["in_place_of"] = again(director)["in_place_of"]
+        assert director.send("/new", **fields).status == 200
+        after = read_tournament(site.path)
+        assert after.plan == replace(before.plan, date="2031-03-08")
+        assert after.entrants == before.entrants
+        kept = kept_prizes(site.path)
+        assert kept == PrizeMoney(20.0, 0.0, 0.1, "70/30", 5.0)
 
 
 def test_players_come_in_a_file(tmp_path: Path) -> None:
@@ -141,10 +183,13 @@ def nothing_begun(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
         ({"races": "npl_8", "losers_race": 2}, "sets all races"),
         ({"races": "nobody's"}, "must be one of"),
         ({"race": ""}, "The race is blank"),
-        ({"tables": "nan"}, "you entered 'nan'"),
+        ({"tables": "nan"}, "write how many tables"),
         ({"entrants": "Ann,612"}, "2 to 256"),
-        ({"entrants": "Ann,612\nann,600"}, "Line 2"),
-        ({"entrants": "Ann,612\nBo,high"}, "Line 2"),
+        ({"entrants": "player,rating\nAnn,612\nann,600"}, "Line 3"),
+        ({"entrants": "player,rating\nAnn,612\nBo,high"}, "Line 3"),
+        ({"house": "100"}, "99%"),
+        ({"tables": "1-3, 2"}, "tables are called 2"),
+        ({"fee": "20", "payout": "80/30"}, "100 at most"),
         ({"entrants": "Ann,612\nBYE 2"}, "not a player"),
         ({"entrants": " \n "}, "Enter at least one player"),
     ],

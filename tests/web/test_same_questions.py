@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -37,7 +38,7 @@ class Fields(HTMLParser):
         super().__init__()
         self.usual: dict[str, str] = {}
         self.choices: dict[str, list[str]] = {}
-        self._select = ""
+        self._select = self._area = ""
         self.feed(text)
 
     def handle_starttag(self, tag: str, pairs: list[tuple[str, str | None]]) -> None:
@@ -48,10 +49,23 @@ class Fields(HTMLParser):
             self.choices.setdefault(self._select, []).append(given["value"])
             if "selected" in given or self._select not in self.usual:
                 self.usual[self._select] = given["value"]
+        elif tag == "textarea":
+            self._area, self.usual[given["name"]] = given["name"], ""
+        elif tag == "input" and given.get("type") == "radio":
+            if "checked" in given:
+                self.usual[given["name"]] = given["value"]
         elif tag == "input" and given.get("type") == "checkbox":
             self.usual[given["name"]] = given["value"] if "checked" in given else ""
         elif tag == "input":
             self.usual[given.get("name", "")] = given.get("value", "")
+
+    def handle_data(self, text: str) -> None:
+        if self._area:
+            self.usual[self._area] += text
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag == "textarea":
+            self._area = ""
 
 
 @pytest.fixture(scope="module")
@@ -196,6 +210,6 @@ def test_a_list_means_the_same_on_the_page_and_on_the_terminal(tmp_path: Path, t
         return
     assert (typed.exit_code, shown.status) == (0, 200), (typed.output, shown.words)
     nights = [read_tournament(tmp_path / f"{face}.db") for face in ("typed", "page")]
-    assert nights[0].plan == nights[1].plan
+    assert nights[0].plan == replace(nights[1].plan, date="")  # the page notes it
     assert nights[0].entrants == nights[1].entrants
     assert nights[0].plan.scale == LISTS[text]

@@ -224,6 +224,13 @@ class PayOut(TimedUnderWay):
             usual="70/30 for fewer than 8 players, else 40/30/20/10",
         ),
     ] = None
+    unit: Annotated[
+        float,
+        Field(
+            MONEY,
+            "Round prizes down to multiples of this, such as 5; the first place gets what is left.",
+        ),
+    ] = 0.0
     keep: Annotated[
         bool,
         Field(

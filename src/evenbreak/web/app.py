@@ -31,6 +31,7 @@ from evenbreak.web.guard import Guard, RefusalError
 from evenbreak.web.page import begun_at, done, refused, script_hash, site_of, style
 from evenbreak.web.pages import (
     bracket,
+    check_in,
     desk,
     desk_extras,
     entry,
@@ -82,6 +83,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
                 *moves.ROUTES,
                 *desk_extras.ROUTES,
                 *entry.ROUTES,
+                *check_in.ROUTES,
                 *team.ROUTES,
             ]
         ),

@@ -33,7 +33,7 @@ Read = TypeVar("Read")
 _MOST_FIELDS, _MOST_FILES = 1000, 2
 _WORKBOOK = b"PK\x03\x04"
 _MOST_UNPACKED = 50 << 20
-_LONGEST_LIST = 200_000
+LONGEST_LIST = 200_000
 LONGEST = 200
 """Characters of a field, if nothing else is said."""
 
@@ -329,7 +329,7 @@ def rating_doubts(state: Evening) -> list[str]:
     return far_doubts(state.scale, ratings, [one.name for one in entrants])
 
 
-def list_of(form: Form, text: str, file: str, *, longest: int = _LONGEST_LIST) -> bytes:
+def list_of(form: Form, text: str, file: str, *, longest: int = LONGEST_LIST) -> bytes:
     """Return the file that came in a field of a form, or else the text of another field."""
     return form.content(file) or form.text(text, longest=longest).encode()
 

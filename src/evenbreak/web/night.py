@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from evenbreak.answers.tournament.night import begun_at, next_calls, night_answer
+from evenbreak.answers.tournament.prizes import payers_of
 from evenbreak.errors import EvenbreakError, InputError
 from evenbreak.files.store.desk import TABLE as PHONES
 from evenbreak.files.store.desk import keep_prizes, kept_prizes
@@ -146,7 +147,9 @@ class Night:
         if time.monotonic() - self._money_at > _MONEY_STALE:
             self._know(kept_prizes(self.path))
         try:
-            return self._money.amounts(len(self.state().entrants)) if self._money else []
+            state = self.state()
+            known = self._money
+            return known.amounts(len(state.entrants), payers_of(state)) if known else []
         except InputError:
             return []
 

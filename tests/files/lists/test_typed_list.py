@@ -1,4 +1,4 @@
-"""Lists as people paste them: each line is read right, or doubted or refused, never misread."""
+"""Lists as people paste them: each line is read right, or asked about, never misread."""
 
 import itertools
 import math
@@ -7,10 +7,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from evenbreak.errors import DataError
 from evenbreak.files.lists.entrants import read_entrants
+from evenbreak.files.lists.pasted import Typed, readings
 from evenbreak.files.lists.roster import RosterFile
+from tiers import examples
 from tries import tries
 
 TRIES = tries("pasted lists", 60)
@@ -62,11 +66,20 @@ FRONTS = (
 )
 TRAILS = ("", ",", ";", "\t", " ,", ";;", "\t\t", ", ")
 BULLETS = ("", "- ", "• ", "* ", "🎱 ", "  ", "– ")
+ODD_MAKES = (
+    "{n} {r} pts",
+    "{r} {n}",
+    "{n}: Fargo {r}",
+    "{n} (Fargo {r})",
+    "{n} / {r}",
+    "{r} - {n}",
+    "{n} ... {r}",
+    "{n} Fargo: {r}",
+)
 SLIPS = (
     "{n} {r} +/- 20",
     "{n} {r} ± 20",
     "{n} {r}±20",
-    "{n} {r} pts",
     "{n}, Downtown, {r}",
     "{n}\tDowntown\t{r}",
     "{n} {r} Downtown",
@@ -74,11 +87,6 @@ SLIPS = (
     "{n} -{r}",
     "{n}, {r}, 5",
     "{n} 1,{r}",
-    "{r} {n}",
-    "{n}: Fargo {r}",
-    "{n} (Fargo {r})",
-    "{n} / {r}",
-    "{r} - {n}",
     "{n} {r}/5",
     "{n},{r},Downtown",
 )
@@ -124,17 +132,14 @@ def test_a_list_of_one_form_is_read_as_it_was_meant(tmp_path: Path, seed: int) -
         + trail
         for k, (n, r, gone) in enumerate(zip(who, how, unrated, strict=True))
     ]
-    if any("," in name for name in who) and (unrated.any() or form == "{n},{r}"):
-        return  # refused: Ann could be a club
+    if any("," in name for name in who) and (unrated.any() or form in ("{n},{r}", "{n}, {r}")):
+        return  # asked about: Ann could be a club
     file = read(tmp_path / "list.txt", "\n".join(lines))
     assert file is not None, lines
     assert list(file.roster.players) == who
     wanted = [math.nan if gone else r for r, gone in zip(how, unrated, strict=True)]
     assert file.roster.rating.tolist() == pytest.approx(wanted, nan_ok=True)
-    if form in BLANKS:  # a blank alone leaves a doubt
-        assert file.warnings
-    elif not any("," in name for name in who):
-        assert not file.warnings
+    assert not file.warnings
 
 
 @pytest.mark.parametrize("seed", range(TRIES))
@@ -164,6 +169,71 @@ def test_a_line_of_a_mixed_list_is_read_right_or_doubted(tmp_path: Path, seed: i
     assert right or file.warnings, (lines, file.roster.players, file.roster.rating)
 
 
+PEOPLE = st.lists(
+    st.tuples(
+        st.sampled_from(
+            [
+                *(f"{a} {b}" for a, b in itertools.product(FIRST, LAST)),
+                "Bob “The Hammer” Kowalski",
+                "Rosa Delgado-Ibáñez",
+                "Player 2",
+                "Player 3",
+                "محمد علي",
+                "Nguyễn Văn An",
+            ]
+        ),
+        st.one_of(st.none(), st.integers(200, 800)),
+    ),
+    min_size=2,
+    max_size=9,
+    unique_by=lambda one: one[0],
+)
+TITLES = st.sampled_from([[], ["Players:"], ["Tonight's list"], ["Spieler:"], ["", "----"]])
+
+
+@settings(max_examples=examples(60))
+@given(PEOPLE, st.data())
+def test_a_list_of_any_make_is_read_back_or_asked_about(
+    people: list[tuple[str, int | None]], data: st.DataObject
+) -> None:
+    """Each line in a make of its own: read as meant, or what is meant is among the choices."""
+    lines = [*data.draw(TITLES)]
+    one_front = data.draw(st.sampled_from([*FRONTS, "[ ] ", "• ", "🎱 ", "> "]))
+    for k, (name, rating) in enumerate(people, 1):
+        makes = [*NO_DOUBT, *BLANKS, *ODD_MAKES] if rating else ["{n}", "{n} (unrated)", "{n},"]
+        text = data.draw(st.sampled_from(makes)).format(n=name, r=rating)
+        if data.draw(st.booleans()):
+            wide = {ord(str(d)): chr(0xFF10 + d) for d in range(10)}
+            text = text.translate(wide)
+        lines.append(one_front.format(k=k) + text + data.draw(st.sampled_from(TRAILS)))
+        lines += data.draw(st.sampled_from([[], [""], ["   "]]))
+    read = [one for one in readings(lines) if one.players or one.doubt]
+    wanted = [
+        (Typed(name, (str(rating),)),) if rating else (Typed(name),) for name, rating in people
+    ]
+    assert len(read) == len(wanted)
+    for one, meant in zip(read, wanted, strict=True):
+        assert one.players == meant or (one.doubt and meant in one.choices), (lines, one)
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("Ann Lee 555-123-4567", (Typed("Ann Lee"),)),
+        ("Ann Lee <ann@lee.example>", (Typed("Ann Lee"),)),
+        ("Ann Lee, 612, paid", (Typed("Ann Lee", ("612",)),)),
+        ("Ann Lee 612 $20", (Typed("Ann Lee", ("612",)),)),
+        ("Ann Lee 612   Bo Diaz 540", (Typed("Ann Lee", ("612",)), Typed("Bo Diaz", ("540",)))),
+        ("Ann, Bo, Cy", (Typed("Ann"), Typed("Bo"), Typed("Cy"))),
+    ],
+)
+def test_what_is_likeliest_comes_first(text: str, meant: tuple[Typed, ...]) -> None:
+    (one, _) = readings([text, "Di Ray, 480"])
+    assert one.doubt
+    assert one.choices[0] == one.players == meant
+    assert one.choices[-1] == ()  # nobody
+
+
 @pytest.mark.parametrize("form", SLIPS)
 def test_a_slip_among_clear_lines_is_never_silent(tmp_path: Path, form: str) -> None:
     for at in range(3):
@@ -187,6 +257,11 @@ def test_a_slip_among_clear_lines_is_never_silent(tmp_path: Path, form: str) -> 
         ("Player 1,612\nPlayer 2,540\n", ("Player 1", "Player 2"), [612, 540]),
         ("1\tAnn\t612\n2\tBo\t540\n", ("Ann", "Bo"), [612, 540]),
         ("Ann Lee 612\n4\tBo Diaz\t455\t\n", ("Ann Lee", "Bo Diaz"), [612, 455]),
+        ("612 Ann\n540 Bo\n", ("Ann", "Bo"), [612, 540]),
+        ("2. Ann\n1. Bo\n", ("Ann", "Bo"), [np.nan, np.nan]),
+        ("Player 7\nAnn Lee 612\n", ("Player 7", "Ann Lee"), [np.nan, 612]),
+        ("Ann SL 5\nBo (SL4)\n", ("Ann", "Bo"), [5, 4]),
+        ("[x] Ann (unrated)\n[ ] Bo ６１２\n", ("Ann", "Bo"), [np.nan, 612]),
         ("Ida Quist 512,\nAnn Lee 612\n", ("Ida Quist", "Ann Lee"), [512, 612]),
     ],
 )
@@ -200,7 +275,7 @@ def test_lists_as_they_are_pasted(tmp_path, text, players, ratings):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("Player 7\nAnn Lee\n", "'Player 7' is taken as a name"),
+        ("Players:\nAnn\nBo\n", "'Players:' is left out as a heading"),
         ("Ann Lee,0\nBo,612\n", "'Ann Lee' has the rating 0; leave it out if it means none"),
         ("Ann Lee,-30\nBo,612\n", "'Ann Lee' has the rating -30"),
         ("3) Ann\n5) Bo\n", "the number 3 in front of 'Ann' is left out"),
@@ -215,9 +290,8 @@ def test_what_could_mean_something_else_is_said(tmp_path, text, said):
 @pytest.mark.parametrize(
     "text",
     [
-        "612 Ann\n540 Bo\n",
-        "612 - Ann\n540 - Bo\n",
-        "2. Ann\n1. Bo\n",
+        "Ann 5 612\nBo 4 540\n",
+        "Ann Lee 612\nAnn Lee 540\nBo 500\n",
         "Ann 1,612\nBo 1,540\n",
         "Ann Lee 612 Downtown\nBo,540\n",
         "Ann Lee\tDowntown\t612\n",
@@ -231,7 +305,7 @@ def test_what_could_mean_two_things_is_refused(tmp_path, text):
 def test_a_message_shows_a_tab_as_a_blank(tmp_path: Path) -> None:
     path = tmp_path / "list.txt"
     path.write_text("Ann Lee\tDowntown\t612\n", encoding="utf-8")
-    with pytest.raises(DataError, match="'Ann Lee Downtown' is not a name and a rating"):
+    with pytest.raises(DataError, match="'Ann Lee Downtown 612': this may be more"):
         read_entrants(path)
 
 

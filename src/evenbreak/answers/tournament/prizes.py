@@ -13,15 +13,14 @@ from evenbreak.errors import InputError
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.money.calcutta import calcutta, fair_shares, lot_worth
-from evenbreak.tournaments.money.payouts import Payouts
+from evenbreak.tournaments.money.payouts import Payouts, PrizeMoney
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.words import Sentence, joined, say, say_count
 
 
 def tournament_prizes_answer(
     state: Evening,
-    payouts: Payouts,
-    pot: float,
+    money: PrizeMoney,
     odds: PlaceOdds | None,
     *,
     source: str = "",
@@ -32,10 +31,8 @@ def tournament_prizes_answer(
     ----------
     state
         the tournament.
-    payouts
-        the shares of the places.
-    pot
-        the prize money.
+    money
+        the prize money; the pot is that of the players who have paid, where that is noted.
     odds
         of the places, from here on; None before the draw.
     source
@@ -43,14 +40,15 @@ def tournament_prizes_answer(
 
     >>> from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
     >>> from evenbreak.tournaments.evening.fold import evening
-    >>> from evenbreak.tournaments.money.payouts import payout_table
     >>> begun = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
     >>> state = evening([Event("2025-03-01T19:30:00", begun)])
-    >>> print(tournament_prizes_answer(state, payout_table("70/30"), 200.0, None).sentences[0])
+    >>> print(tournament_prizes_answer(state, PrizeMoney(added=200.0), None).sentences[0])
     200.00 is paid to 2 places of 2 players: 140.00 for the winner.
     """
     entrants = len(state.entrants)
-    amounts = payouts.amounts(entrants, pot)
+    payers = payers_of(state)
+    pot, payouts = money.pot(payers), money.payouts(entrants)
+    amounts = money.amounts(entrants, payers)
     paid = sum(amounts)
     if len(amounts) > entrants:
         raise InputError(
@@ -64,10 +62,12 @@ def tournament_prizes_answer(
         [[k, amount / pot if pot else 0.0, amount] for k, amount in enumerate(amounts, start=1)],
     )
     parts: list[Part] = [
-        _paid_words(amounts, entrants, pot),
+        _paid_words(amounts, entrants, pot, money.left(entrants, payers)),
         Quantities(quantities_of({"pot": pot, "paid": paid})),
         places,
     ]
+    if payers < entrants and money.fee:
+        parts.insert(1, say("{n} of {players} players have paid.", n=payers, players=entrants))
     csv = places
     if odds is not None:
         csv = _expected(odds, amounts)
@@ -80,7 +80,7 @@ def tournament_prizes_answer(
     return Answer(source or say("Prizes"), [*parts, how], csv=csv)
 
 
-def _paid_words(amounts: Sequence[float], entrants: int, pot: float) -> Sentence:
+def _paid_words(amounts: Sequence[float], entrants: int, pot: float, left: float) -> Sentence:
     paid = sum(amounts)
     text = say_count(
         "{paid:.2f} is paid to {n} place of {players} players: {winner:.2f} for the winner.",
@@ -90,10 +90,18 @@ def _paid_words(amounts: Sequence[float], entrants: int, pot: float) -> Sentence
         players=entrants,
         winner=amounts[0],
     )
-    if pot - paid < 0.005:
-        return text
-    left = say("The other {left:.2f} of {pot:.2f} is the house's.", left=pot - paid, pot=pot)
-    return joined([text, left])
+    parts = [text]
+    house = pot - paid - left
+    if house >= 0.005:
+        parts.append(say("The other {left:.2f} of {pot:.2f} is the house's.", left=house, pot=pot))
+    if left >= 0.005:
+        parts.append(say("Rounding leaves {left:.2f} over.", left=left))
+    return joined(parts)
+
+
+def payers_of(state: Evening) -> int:
+    """Return how many players the pot is from: those who have paid, if anybody is noted to."""
+    return len(state.paid) or len(state.entrants)
 
 
 def _expected(odds: PlaceOdds, amounts: Sequence[float]) -> Table:

@@ -97,7 +97,11 @@ def _time_under_way(asked: TournamentTime) -> Answer:
 @command_of(PayOut, "prizes")
 def prizes(asked: PayOut) -> Answer:
     """Find what each place is paid."""
-    from evenbreak.answers.tournament.prizes import calcutta_answer, tournament_prizes_answer
+    from evenbreak.answers.tournament.prizes import (
+        calcutta_answer,
+        payers_of,
+        tournament_prizes_answer,
+    )
     from evenbreak.files.store.desk import keep_prizes, kept_prizes
     from evenbreak.files.store.tournament import read_tournament
 
@@ -112,12 +116,16 @@ def prizes(asked: PayOut) -> Answer:
         return calcutta_answer(odds, table, bids, house=house, source=name)
     kept = kept_prizes(file)
     if kept and not has_money:
-        money = replace(kept, house=house or kept.house, payout=money.payout or kept.payout)
-    pot = money.pot(entrants)
-    if not pot:
+        money = replace(
+            kept,
+            house=house or kept.house,
+            payout=money.payout or kept.payout,
+            unit=asked.unit or kept.unit,
+        )
+    if not money.pot(payers_of(state)):
         asked.refuse("there is no prize money; give {fee} or {added}")
     now = outlook_of(file, moment(asked.at, file)).odds if state.drawn else None
-    answer = tournament_prizes_answer(state, money.payouts(entrants), pot, now, source=name)
+    answer = tournament_prizes_answer(state, money, now, source=name)
     if asked.keep:
         keep_prizes(file, money)
     return answer
@@ -130,7 +138,7 @@ def _money(asked: PayOut) -> PrizeMoney:
     if text not in PAYOUTS:
         text = "/".join(part.strip().removesuffix("%") for part in text.split(","))
     try:
-        return PrizeMoney(asked.fee, asked.added, asked.house, text)
+        return PrizeMoney(asked.fee, asked.added, asked.house, text, asked.unit)
     except InputError as error:
         asked.refuse("{payout}: {why}", why=error.sentence)
 

@@ -25,7 +25,7 @@ _SECRETS = "CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT
 _PRIZES = """
 CREATE TABLE IF NOT EXISTS prize (
     one INTEGER PRIMARY KEY CHECK (one = 1), fee REAL NOT NULL, added REAL NOT NULL,
-    house REAL NOT NULL, payout TEXT NOT NULL
+    house REAL NOT NULL, payout TEXT NOT NULL, unit REAL NOT NULL DEFAULT 0
 )
 """
 
@@ -79,8 +79,14 @@ def keep_prizes(path: str | Path, money: PrizeMoney) -> None:
     """Keep the prize money of a tournament, instead of what was kept before."""
     with changing(path) as base:
         base.execute(_PRIZES)
-        row = 1, money.fee, money.added, money.house, money.payout
-        base.execute("INSERT OR REPLACE INTO prize VALUES (?, ?, ?, ?, ?)", row)
+        if "unit" not in _columns(base):  # of an earlier version
+            base.execute("ALTER TABLE prize ADD COLUMN unit REAL NOT NULL DEFAULT 0")
+        row = 1, money.fee, money.added, money.house, money.payout, money.unit
+        base.execute("INSERT OR REPLACE INTO prize VALUES (?, ?, ?, ?, ?, ?)", row)
+
+
+def _columns(base: sqlite3.Connection) -> list[str]:
+    return [str(row[1]) for row in base.execute("PRAGMA table_info(prize)")]
 
 
 def kept_prizes(path: str | Path) -> PrizeMoney | None:
@@ -88,7 +94,8 @@ def kept_prizes(path: str | Path) -> PrizeMoney | None:
     with opened(path) as base:
         if not has_table(base, "prize"):
             return None
-        row = base.execute("SELECT fee, added, house, payout FROM prize").fetchone()
+        unit = "unit" if "unit" in _columns(base) else "0.0"
+        row = base.execute(f"SELECT fee, added, house, payout, {unit} FROM prize").fetchone()  # noqa: S608
     with named(path, say("its prizes")):
         return PrizeMoney(*row) if row else None
 

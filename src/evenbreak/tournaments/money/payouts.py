@@ -181,26 +181,30 @@ class PrizeMoney:
     payout
         the name of a payout table, or what the places get in per cent, such as 50/30/20; '' for
         70/30 if fewer than 8 players enter, else 40/30/20/10.
+    unit
+        prizes are whole multiples of it, such as 5; 0: exact to the hundredth.
 
     Raises
     ------
     InputError
         if a parameter has a value that it cannot have.
 
-    >>> money = PrizeMoney(fee=20.0, added=100.0, payout="50/30/20")
-    >>> money.pot(8), money.amounts(8)
-    (260.0, [130.0, 78.0, 52.0])
+    >>> money = PrizeMoney(fee=20.0, added=100.0, payout="50/30/20", unit=5.0)
+    >>> money.pot(8), money.amounts(8), money.left(8)
+    (260.0, [135.0, 75.0, 50.0], 0.0)
     """
 
     fee: float = 0.0
     added: float = 0.0
     house: float = 0.0
     payout: str = ""
+    unit: float = 0.0
 
     def __post_init__(self) -> None:
         number(self.fee, "fee", low=0.0)
         number(self.added, "added", low=0.0)
         number(self.house, "house", low=0.0, high=0.99)
+        number(self.unit, "unit", low=0.0)
         self.payouts(8)
 
     def pot(self, entrants: int) -> float:
@@ -211,9 +215,52 @@ class PrizeMoney:
         """Return the shares of the places."""
         return _payouts(self.payout or ("70/30" if entrants < 8 else "40/30/20/10"))
 
-    def amounts(self, entrants: int) -> list[float]:
-        """Return the money for first place, second, ..."""
-        return self.payouts(entrants).amounts(entrants, self.pot(entrants))
+    def amounts(self, entrants: int, payers: int | None = None) -> list[float]:
+        """Return the money for first place, second, ...
+
+        Each is rounded down, to the hundredth or to a multiple of `unit`; what that leaves goes
+        to the first place, as far as it makes a whole unit. They never sum to more than the pot.
+
+        Parameters
+        ----------
+        entrants
+            how many play, which says how many places are paid.
+        payers
+            how many have paid the fee; None: all who play.
+        """
+        pot = _hundredths(self.pot(entrants if payers is None else payers))
+        step = max(1, round(self.unit * 100))
+        shares = self.payouts(entrants).shares(entrants)
+        paid = [_hundredths(share * pot / 100.0) // step * step for share in shares]
+        paid[0] += (self._for_places(pot, shares) - sum(paid)) // step * step
+        return [one / 100.0 for one in paid]
+
+    def left(self, entrants: int, payers: int | None = None) -> float:
+        """Return what rounding leaves over of the money for the places."""
+        pot = _hundredths(self.pot(entrants if payers is None else payers))
+        money = self._for_places(pot, self.payouts(entrants).shares(entrants))
+        return (money - _hundredths(sum(self.amounts(entrants, payers)))) / 100.0
+
+    @staticmethod
+    def _for_places(pot: int, shares: Sequence[float]) -> int:
+        """Return what the places get together, in hundredths."""
+        return min(pot, _hundredths(sum(shares) * pot / 100.0))
+
+
+def _hundredths(money: float) -> int:
+    """Return an amount in whole hundredths, rounded down, but for an error of arithmetic."""
+    return int(money * 100.0 + 1e-6)
+
+
+def shared_prize(amounts: Sequence[float], first: int, last: int, unit: float = 0.0) -> float:
+    """Return what each of the players gets who share the places `first` to `last`.
+
+    >>> shared_prize([50.0, 30.0, 15.0, 10.0], 3, 4, 5.0), shared_prize([50.0], 5, 6)
+    (10.0, 0.0)
+    """
+    step = max(1, round(unit * 100))
+    shared = sum(_hundredths(one) for one in amounts[first - 1 : last])
+    return shared // (last - first + 1) // step * step / 100.0
 
 
 def _payouts(text: str) -> Payouts:

@@ -1,10 +1,12 @@
-"""Who plays: a tournament begun from typed, pasted or uploaded entrants, and late entries."""
+"""A tournament begun: from a list that is asked about where it is doubtful, or like the last."""
 
 from __future__ import annotations
 
 import asyncio
+import re
+from collections.abc import Collection
 from dataclasses import replace
-from datetime import datetime
+from datetime import date, datetime
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,7 +22,7 @@ from evenbreak.fields.question import declared
 from evenbreak.files.charts import find_chart
 from evenbreak.files.lists.entrants import read_entrants
 from evenbreak.files.lists.roster import refuse_to_read
-from evenbreak.files.store.desk import back_up
+from evenbreak.files.store.desk import back_up, kept_prizes
 from evenbreak.files.store.tournament import (
     earlier_nights,
     new_tournament,
@@ -32,15 +34,19 @@ from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import NAMES, Scale
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS
 from evenbreak.tournaments.clock.event_pace import EarlierNight
+from evenbreak.tournaments.evening.edition import next_edition, table_names, tables_text
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan
-from evenbreak.tournaments.evening.format import LONGEST_RACE, MOST_TABLES, Format
+from evenbreak.tournaments.evening.format import LONGEST_RACE, Format
+from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.plan import FORMATS, opened
+from evenbreak.tournaments.money.payouts import PAYOUTS
 from evenbreak.web.defaults import of_league
 from evenbreak.web.forms import (
     CHOOSE_IT,
     EVEN,
     FAIR,
     RACES,
+    Fields,
     Form,
     asked_in,
     fields_named,
@@ -54,9 +60,13 @@ from evenbreak.web.forms import (
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
 from evenbreak.web.page import asked_again, done, page, site_of
+from evenbreak.web.pages.players import UNITS, money_fields, money_of
+from evenbreak.web.pasted import Known, ListError, entered_list, lines_of
 from evenbreak.web.sessions import DIRECTORS_PAGE, check_director
 from evenbreak.web.site import Site
 from evenbreak.words import say
+
+CHECK_IN = "/desk/check-in"
 
 NOT_WITH_FORMAT = {
     "losers_race": say("This format has no losers' side. Leave its race blank."),
@@ -74,22 +84,61 @@ NOT_WITH_FORMAT = {
 """Why a field must be left blank in a format that does not have it."""
 
 
+PACES = (
+    ("0.8", say("a fifth less than usual")),
+    ("1", say("as long as usual")),
+    ("1.15", say("a little longer")),
+    ("1.3", say("a third longer")),
+    ("1.6", say("much longer")),
+)
+"""How long matches take in the house, with the words of each."""
+
+
 async def ask(request: Request) -> Response:
-    """Show the form that begins a tournament."""
+    """Show the form that begins a tournament; it begins with what was chosen the last time."""
     check_director(request)
     return page(request, "new.html", entered={}, why="", **await _choices(site_of(request)))
 
 
+async def again(request: Request) -> Response:
+    """Show the form filled in for the next edition: same people, same options."""
+    check_director(request)
+    choices = await _choices(site_of(request))
+    if choices["there"] is None:
+        raise RefusalError("No tournament is running yet.", status=404)
+    state = await asyncio.to_thread(site_of(request).night.state)
+    _, entrants = next_edition(state)
+    plan, known = state.plan, choices["of_league"]
+    new = plan.newcomer("")
+    lines = [
+        one.name if replace(one, name="") == new else f"{one.name}, {one.rating:.10g}"
+        for one in entrants
+    ]
+    entered = {**known, "entrants": "\n".join(lines), "pace": "yes" if plan.earlier else ""}
+    entered["scale"] = plan.scale if plan.scale in NAMES else ""
+    entered |= {"third_place": "yes"} if plan.third_place else {}
+    return page(request, "new.html", entered=entered, why="", **choices)
+
+
 async def _choices(site: Site) -> dict[str, Any]:
     """Return what there is to choose from, and the tournament that there is already."""
+    there = await asyncio.to_thread(_there, site)
+    state = await asyncio.to_thread(site.night.state) if there else None
+    kept = await asyncio.to_thread(kept_prizes, site.path) if there else None
+    league = of_league(NewTournament, site.rules, charts=CHARTS)
     return {
-        "there": await asyncio.to_thread(_there, site),
+        "there": there,
+        "today": site.clock()[:10],
+        "paces": PACES,
+        "money": money_fields(kept),
+        "units": UNITS,
+        "payouts": list(PAYOUTS),
         "fields": {one.name: one for one in form_fields(declared(NewTournament))},
         "parts": form_fields(declared(Format)),
         "formats": FORMATS,
         "races": RACES,
         "charts": CHARTS,
-        "of_league": of_league(NewTournament, site.rules, charts=CHARTS),
+        "of_league": _remembered(state.plan) | league if state else league,
         "scales": NAMES,
         "chip_charts": CHIP_CHARTS,
         "league": site.league.sheet,
@@ -97,20 +146,84 @@ async def _choices(site: Site) -> dict[str, Any]:
     }
 
 
+def _remembered(plan: Plan) -> dict[str, str]:
+    """Return the fields of the form as they were for a plan."""
+    if plan.form not in FORMATS:
+        return {}
+    races = FAIR if plan.handicapped else EVEN
+    found = {
+        one.name: str(value).lower() if isinstance(value, bool) else str(value)
+        for one in declared(Format)
+        if (value := getattr(plan, one.name)) not in (None, False)
+    }
+    return found | {
+        "name": plan.name,
+        "format": plan.form,
+        "races": plan.chart.name if plan.chart and plan.chart.name in CHARTS else races,
+        "race": str(plan.race),
+        "tables": tables_text(plan),
+        "discipline": plan.discipline,
+        "seeding": plan.seeding,
+        "slower": f"{plan.slower:g}",
+        "chips": plan.chips.name if plan.chips else "",
+    }
+
+
 async def begin(request: Request) -> Response:
-    """Begin a tournament; a form that is refused comes back as it was filled in."""
+    """Begin a tournament; a form that is refused comes back as it was filled in.
+
+    A list that can mean more than one thing is asked about first, line by line.
+    """
     form, site = await form_of(request), site_of(request)
     check_director(request)
+    content = list_of(form, "entrants", "file")
     try:
-        event, warnings = await asyncio.to_thread(_begun, form, site)
+        if not content.strip():
+            raise RefusalError("Enter at least one player.")
+        content, listed = await asyncio.to_thread(entered_list, content, form, _league(form, site))
+        if form.text("checked"):  # what was answered is not to be asked again
+            form = _with_list(form, content, listed)
+        money = money_of(form)
+        event, warnings = await asyncio.to_thread(_begun, form, site, content, listed)
         if await asyncio.to_thread(_is_there, site, event):  # the same tap again
-            return done(request, "/desk")
+            return done(request, CHECK_IN)
         before = await asyncio.to_thread(_put_aside, form, site)
+    except ListError as asked:
+        return _ask_about(request, form, asked)
     except (RefusalError, EvenbreakError) as error:
+        if form.text("checked"):
+            return _ask_about(request, form, ListError(*lines_of(content)), error)
         return asked_again(request, "new.html", form, error, **await _choices(site))
     await asyncio.to_thread(new_tournament, site.path, [event], in_place_of=before)
+    if money is not None:
+        await asyncio.to_thread(site.night.keep_prizes, money)
     site.keep_secrets()
-    return done(request, "/desk", *warnings)
+    return done(request, CHECK_IN, *warnings)
+
+
+def _league(form: Form, site: Site) -> Known | None:
+    """Return how players are found in the league, if its ratings are to be used."""
+    return site.league.known if form.text("league") and site.league.sheet else None
+
+
+def _with_list(form: Form, content: bytes, listed: Collection[str]) -> Form:
+    """Return a form with a list that has been asked about in place of the answers."""
+    rest = [one for one in form.fields.multi_items() if one[0] not in ("entrants", "checked")]
+    own = [("stated", name) for name in sorted(listed)]
+    return Form(Fields([*rest, ("entrants", content.decode()), *own]))
+
+
+def _ask_about(
+    request: Request, form: Form, asked: ListError, why: Exception | None = None
+) -> Response:
+    own = ("csrf", "once", "begun", "entrants", "checked", "stated", "event", "file")
+    answers = re.compile("(line|other|name|rating)-[0-9]+")
+    fields = [(name, text) for name, text in form.fields.multi_items() if isinstance(text, str)]
+    kept = [one for one in fields if one[0] not in own and not answers.fullmatch(one[0])]
+    kept += [("entrants", asked.content), *(("stated", name) for name in sorted(asked.stated))]
+    if why is not None:
+        return asked_again(request, "check_list.html", form, why, lines=asked.lines, kept=kept)
+    return page(request, "check_list.html", lines=asked.lines, kept=kept, entered={}, why="")
 
 
 class There(NamedTuple):
@@ -119,6 +232,7 @@ class There(NamedTuple):
     events: int
     begun: str
     players: int
+    over: bool
 
     @property
     def name(self) -> str:
@@ -130,8 +244,9 @@ def _there(site: Site) -> There | None:
     """Return the tournament that is there already."""
     if not site.night.exists:
         return None
-    found = read_events(site.path)
-    return There(len(found), found[0].at, len(site.night.state().entrants))
+    found, state = read_events(site.path), site.night.state()
+    over = state.drawn and not state.standing.to_play and not can_draw(state)
+    return There(len(found), found[0].at, len(state.entrants), over)
 
 
 def _is_there(site: Site, event: Event) -> bool:
@@ -154,26 +269,26 @@ def _put_aside(form: Form, site: Site) -> int:
     return there.events
 
 
-def _begun(form: Form, site: Site) -> tuple[Event, list[str]]:
+def _begun(
+    form: Form, site: Site, content: bytes, listed: Collection[str]
+) -> tuple[Event, list[str]]:
     """Return what a form begins, what its list makes doubtful, and what sets the pace."""
-    content = list_of(form, "entrants", "file")
-    if not content.strip():
-        raise RefusalError("Enter at least one player.")
+    league = site.league if form.text("league") else None
     file = read_upload(content, read_entrants)
     stated = scale_in(form)
     if file.levels and stated is None:
         raise RefusalError(
             "The list has skill levels, not ratings. Replace them with ratings, or leave them out."
         )
-    scale = file.scale or file.scale_by(stated, CHOOSE_IT)
-    league = site.league if form.text("league") else None
+    named = replace(file, source=say("the list"))
+    scale = file.scale or named.scale_by(stated, CHOOSE_IT)
     if league is not None and league.sheet is not None:
         scale = league.sheet.ratings.scale
         refuse_to_read(file, scale, say("the league"), say("put all ratings on one scale"))
     read = file.roster
     filled = read.with_starters(scale.centre, scale.points_per_doubling, scale)
     earlier = earlier_nights([site.path.parent] if form.text("pace") else [])
-    plan, rows = _plan(form, scale, earlier), _entrants(filled, league)
+    plan, rows = _plan(form, scale, earlier), _entrants(filled, league, listed)
     known_form = 0.0 if league is None or league.sheet is None else league.sheet.ratings.match_form
     plan = replace(plan, match_form=file.form or known_form)
     known = league is not None
@@ -220,8 +335,9 @@ def _plan(form: Form, scale: Scale, earlier: tuple[EarlierNight, ...]) -> Plan:
         race_to=length if races == FAIR else None,
         chart=races if races in CHARTS else None,
         chips=form.one_of("chips", tuple(CHIP_CHARTS)) if kind == "chips" else None,
-        tables=form.whole("tables", 1, MOST_TABLES),
+        tables=1,
     )
+    tables, labels = table_names(form.text("tables") or "4")
     return Plan(
         asked.form,
         length or 1,
@@ -232,11 +348,23 @@ def _plan(form: Form, scale: Scale, earlier: tuple[EarlierNight, ...]) -> Plan:
         scale=scale.text,
         starter=scale.centre,
         starter_error=scale.points_per_doubling,
-        tables=asked.tables,
+        name=" ".join(form.text("name", longest=60).split()),
+        date=_date(form),
+        tables=tables,
+        labels=labels,
+        slower=float(form.one_of("slower", ("", *dict(PACES))) or 1.0),
         discipline=asked.discipline,
         chips=None if asked.chips is None else CHIP_CHARTS[asked.chips],
         earlier=earlier,
     )
+
+
+def _date(form: Form) -> str:
+    text = form.text("date", longest=20)
+    try:
+        return date.fromisoformat(text).isoformat() if text else ""
+    except ValueError:
+        raise RefusalError("{value!r} is not a date, such as 2025-03-01.", value=text) from None
 
 
 def _refuse_of_other_formats(form: Form, kind: str) -> None:
@@ -253,15 +381,21 @@ def _chart(name: str) -> Chart:
     return found
 
 
-def _entrants(filled: Roster, league: League | None) -> tuple[Entrant, ...]:
-    """Return the entrants, those of the league with its ratings."""
+def _entrants(
+    filled: Roster, league: League | None, listed: Collection[str]
+) -> tuple[Entrant, ...]:
+    """Return the entrants, those of the league with its ratings, unless the list's count."""
     errors = np.nan_to_num(filled.standard_error)
     columns = filled.rating.tolist(), errors.tolist(), filled.provisional.tolist()
     rows = zip(filled.players, *columns, strict=True)
-    return tuple(Entrant(*((league.known(one[0]) if league else None) or one)) for one in rows)
+    return tuple(
+        Entrant(*((league.known(one[0]) if league and one[0] not in listed else None) or one))
+        for one in rows
+    )
 
 
 ROUTES = [
     Route("/new", ask, methods=["GET"]),
     Route("/new", begin, methods=["POST"]),
+    Route("/next", again, methods=["GET"]),
 ]

@@ -1,60 +1,98 @@
-"""The players: ratings, chances, when each plays next; and what the places are paid."""
+"""The players, for everyone and for the director; and what the places are paid."""
 
 from __future__ import annotations
 
 import asyncio
 import re
+from dataclasses import replace
+from typing import Any
 
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.tournament.prizes import tournament_prizes_answer
+from evenbreak.answers.tournament.prizes import payers_of, tournament_prizes_answer
 from evenbreak.errors import InputError
 from evenbreak.files.store.desk import kept_prizes
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import PAYOUTS, PrizeMoney
 from evenbreak.web.evening_view import player_views
 from evenbreak.web.forms import Form, form_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import answer_shown, done, page, reason, site_of
-from evenbreak.web.sessions import check_director
+from evenbreak.web.sessions import check_director, is_director
+from evenbreak.web.site import night_of
 from evenbreak.words import Parameter, say
 
 _MONEY = re.compile(r"[0-9]{1,7}(\.[0-9]{1,2})?", re.ASCII)
 
+UNITS = (
+    ("0", say("cents, as they come out")),
+    ("1", say("whole units")),
+    ("5", say("fives")),
+    ("10", say("tens")),
+)
+"""What prizes can be rounded to, with the words of each."""
+
 
 async def players(request: Request) -> Response:
-    """Show the players, the highest rating first."""
-    night = site_of(request).night
+    """Show the players, the highest rating first; to the director with what can be changed."""
+    night = night_of(request)
     if not night.exists:
         raise RefusalError("No tournament is running yet.", status=404)
     known = await night.outlook()
-    state = night.state()
-    return page(request, "players.html", live=True, players=player_views(state, known))
+    state = await asyncio.to_thread(night.state)
+    director = is_director(request)
+    begun = _begun(state)
+    posts = {route.path for route in request.app.routes}
+    return page(
+        request,
+        "players.html",
+        live=not director,
+        state=state,
+        players=player_views(state, known),
+        begun_to_play=begun,
+        movable=[name for name in state.order if name not in begun] if state.drawn else [],
+        codes=site_of(request).player_codes() if director else {},
+        can_release="/desk/release" in posts,
+    )
+
+
+def _begun(state: Evening) -> set[str]:
+    """Return who has played, or plays."""
+    if not state.drawn:
+        return set()
+    found = {name for one in state.on_tables.values() for name in one.call.players}
+    for name, result in state.counted.items():
+        if name in state.records:
+            found.update(result.players)
+    return found
 
 
 async def prizes(request: Request) -> Response:
     """Show what each place is paid, and what each player may expect."""
-    site = site_of(request)
-    if not site.night.exists:
+    night = night_of(request)
+    if not night.exists:
         raise RefusalError("No tournament is running yet.", status=404)
-    kept = await asyncio.to_thread(kept_prizes, site.path) or PrizeMoney()
-    asked = _asked(Form(request.query_params)) if "fee" in request.query_params else kept
-    state = await asyncio.to_thread(site.night.state)
-    entrants, shown, why = len(state.entrants), "", ""
-    if pot := asked.pot(entrants):
-        known = await site.night.outlook()
+    kept = await asyncio.to_thread(kept_prizes, night.path) or PrizeMoney()
+    query = Form(request.query_params)
+    asked = money_of(query) or kept if "fee" in request.query_params else kept
+    state = await asyncio.to_thread(night.state)
+    shown, why = "", ""
+    if asked.pot(payers_of(state)):
+        known = await night.outlook()
         odds = known.odds if known and known.of is state else None
         try:
-            answer = tournament_prizes_answer(state, asked.payouts(entrants), pot, odds)
-            shown = answer_shown(request, answer)
+            answer = tournament_prizes_answer(state, asked, odds)
+            shown = answer_shown(request, replace(answer, heading=say("What each place gets")))
         except InputError as error:  # a table that does not pay so many; another can be asked for
             why = reason(request, error)
     return page(
         request,
         "prizes.html",
-        asked=asked,
-        usual=asked.payouts(entrants).name,
+        money=money_fields(asked),
+        entered={},
+        units=UNITS,
         payouts=list(PAYOUTS),
         answer=shown,
         why=why,
@@ -64,11 +102,12 @@ async def prizes(request: Request) -> Response:
 
 async def keep(request: Request) -> Response:
     """Keep the prizes with the tournament."""
-    form, site = await form_of(request), site_of(request)
+    form, night = await form_of(request), night_of(request)
     check_director(request)
-    money = _asked(form)
-    money.amounts(len((await asyncio.to_thread(site.night.state)).entrants))
-    await asyncio.to_thread(site.night.keep_prizes, money)
+    money = money_of(form) or PrizeMoney()
+    state = await asyncio.to_thread(night.state)
+    money.amounts(len(state.entrants), payers_of(state))
+    await asyncio.to_thread(night.keep_prizes, money)
     return done(
         request,
         "/prizes",
@@ -76,17 +115,37 @@ async def keep(request: Request) -> Response:
     )
 
 
-def _asked(form: Form) -> PrizeMoney:
-    fee, added = (_money(form, name) for name in ("fee", "added"))
+def money_fields(money: PrizeMoney | None) -> dict[str, str]:
+    """Return the fields of a form about prize money as they are filled in."""
+    known = money or PrizeMoney()
+    fields: dict[str, Any] = {
+        "fee": known.fee,
+        "added": known.added,
+        "house": known.house * 100.0,
+        "unit": known.unit,
+    }
+    shown = {
+        name: f"{value:.10g}" if value or name == "unit" else "" for name, value in fields.items()
+    }
+    return shown | {"payout": known.payout}
+
+
+def money_of(form: Form) -> PrizeMoney | None:
+    """Return the prize money in a form; None: there is none."""
+    fee, added, unit = (_money(form, name) for name in ("fee", "added", "unit"))
+    house = _money(form, "house") / 100.0
     payout = form.text("payout", longest=60)
+    if house > 0.99:
+        raise RefusalError("The house can keep 99% at most.")
     try:
-        return PrizeMoney(fee, added, payout=payout.lower().replace(",", "."))
+        money = PrizeMoney(fee, added, house, payout.lower().replace(",", "."), unit)
     except InputError:
         raise RefusalError(
             "{value!r}: choose a table from the list, or write the percentage for each "
             "place, such as 50/30/20, adding up to 100 at most.",
             value=payout,
         ) from None
+    return money if fee or added else None
 
 
 def _money(form: Form, name: str) -> float:
