@@ -7,6 +7,7 @@ page waits for them for a moment only, and shows what is known until then.
 from __future__ import annotations
 
 import asyncio
+import gc
 import logging
 import math
 import sqlite3
@@ -190,6 +191,7 @@ class Night:
         except Exception as error:  # the pages go on without: the director has to mend it there
             _LOG.exception("the odds could not be worked out", exc_info=error)
             found = Known(state, 0.0, problem=problem_of(error))
+        gc.collect()  # what was worked out for earlier states refers to itself, tens of megabytes
         clock = asyncio.get_running_loop().time()
         self.known = replace(found, at=clock)
 

@@ -42,7 +42,6 @@ _LANGUAGE = "language"
 _SAID = "said"
 _CSRF, _ONCE = (f"mark-{secrets.token_hex(12)}" for _ in range(2))
 """What stands in a rendered page for the marks of its reader's forms."""
-_MOST_RENDERED = 200
 _MOST_SAID = 1500  # letters as JSON writes them: a cookie holds 4 KB
 
 FIELDS = {
@@ -192,11 +191,11 @@ def page(
     said = request.session.pop(_SAID, [])
     site = site_of(request)
     own = {_CSRF: form_token(request), _ONCE: secrets.token_urlsafe(9)}
-    kinds = [one if isinstance(one, str) else id(one) for one in of]
     asked = f"{request.url.path}?{request.url.query}"
-    key = (template, asked, code, is_director(request), live, quick, site.clock()[:16], *kinds)
-    if of and not said and (kept := site.rendered.get(key)):
-        return HTMLResponse(_with(kept[0], own), status_code=status)
+    key = (template, asked, code, is_director(request), live, quick, site.clock()[:16])
+    rendered = site.rendered_of(of) if of and not said else {}
+    if key in rendered:
+        return HTMLResponse(_with(rendered[key], own), status_code=status)
 
     def capital(text: str) -> str:
         return _without_folder(request, capital_in_face(text, face))
@@ -233,10 +232,7 @@ def page(
             **values,
         )
     )
-    if of and not said:
-        site.rendered[key] = shown, of  # which keeps the objects, so that no other has their place
-        while len(site.rendered) > _MOST_RENDERED:
-            site.rendered.pop(next(iter(site.rendered)))
+    rendered[key] = shown
     return HTMLResponse(_with(shown, own), status_code=status)
 
 

@@ -13,6 +13,7 @@ import socket
 import sys
 import time
 from collections.abc import Callable, Collection
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import uvicorn
@@ -32,6 +33,7 @@ _WANTED = 4096  # descriptors
 _FILES = 48  # descriptors that the database, uploads and the program itself may need at once
 _TURNS = 5  # of the event loop, until a refused connection is closed
 _SECONDS = 60.0
+_READERS = 2  # threads for what is read and written: more hold one another up, and memory
 _QUEUE = 1024  # connections that wait to be let in
 _IDLE = 200  # tenths of a second
 
@@ -81,7 +83,9 @@ class _Server(uvicorn.Server):
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Start to listen."""
-        asyncio.get_running_loop().set_exception_handler(in_few_lines())
+        loop = asyncio.get_running_loop()
+        loop.set_exception_handler(in_few_lines())
+        loop.set_default_executor(ThreadPoolExecutor(_READERS))
         await super().startup(sockets)
         for listening in (one for server in self.servers for one in server.sockets):
             with listening.dup() as same:  # many may wait, though few are let in at a turn

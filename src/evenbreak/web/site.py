@@ -27,6 +27,7 @@ from evenbreak.web.sessions import Tries
 from evenbreak.web.team_night import TeamNights
 
 _ENDED = "ended"
+_MOST_RENDERED = 5  # kinds of pages besides, each for whoever reads it
 
 
 @dataclass(eq=False)
@@ -66,7 +67,7 @@ class Site:
         self.teams = TeamNights(self.path, self.night.beside)
         self.league = League(self.path)
         self.made = Made()
-        self.rendered: dict[tuple[object, ...], tuple[str, Sequence[object]]] = {}
+        self._rendered: list[tuple[Sequence[object], dict[tuple[object, ...], str]]] = []
         self._first = {
             "pin": new_pin(),
             **{name: _mark() for name in ("cookie", "director", "match")},
@@ -85,6 +86,16 @@ class Site:
         """Whoever plays tonight or is in the league: what no sentence is read for."""
         sheet = self.league.sheet
         return {*self.night.names, *self.teams.names, *(sheet.ratings.players if sheet else ())}
+
+    def rendered_of(self, what: Sequence[object]) -> dict[tuple[object, ...], str]:
+        """Return the pages that were rendered of these: the same objects, or equal texts."""
+        for of, pages in self._rendered:
+            if len(of) == len(what) and all(
+                a is b or (isinstance(a, str) and a == b) for a, b in zip(of, what, strict=True)
+            ):
+                return pages
+        self._rendered = [(what, {}), *self._rendered[:_MOST_RENDERED]]
+        return self._rendered[0][1]
 
     def keep_secrets(self) -> None:
         """Keep the secrets in the file, if it is there, so that phones go on after a restart.
