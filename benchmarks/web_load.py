@@ -72,18 +72,18 @@ async def watch(port: int, until: float, times: list[float]) -> None:
     await stream
 
 
-async def report(port: int, until: float, times: list[float], token: str, pair: tuple) -> None:
+async def report(port: int, until: float, times: list[float], match: str, code: str) -> None:
     line, luck = Line(port), random.Random()
-    _, got = await line.ask(f"/m/{token}")
-    csrf = re.search(r'name="csrf" value="([^"]+)"', got)[1]
+    await line.ask(f"/c/{code}")
     a = b = 0
     while time.perf_counter() < until:
         await asyncio.sleep(luck.uniform(0.5, 1.5))
+        _, got = await line.ask("/me?play=1")
+        fields = dict(re.findall(r'name="(\w+)" value="([^"]*)"', got.split('class="halves"')[1]))
         a, b = (a + 1, b) if luck.random() < 0.5 else (a, b + 1)
         if max(a, b) == RACE:
             a = b = 0
-        fields = {"csrf": csrf, "player_a": pair[0], "player_b": pair[1], "a": a, "b": b}
-        took, got = await line.ask(f"/m/{token}/score", fields)
+        took, got = await line.ask("/me/score", {**fields, "match": match, "a": a, "b": b})
         assert " 303 " in got[:20], got[:300]
         times.append(took)
 
@@ -96,7 +96,7 @@ async def room(site: Site, port: int, seconds: float) -> tuple[list[float], list
     names = list(state.standing.to_play)[:REPORT]
     watching = [watch(port, until, seen) for _ in range(WATCH)]
     reporting = [
-        report(port, until, sent, site.match_token(name), state.pair(name)) for name in names
+        report(port, until, sent, name, site.player_code(state.pair(name)[0])) for name in names
     ]
     await asyncio.gather(*watching, *reporting)
     return seen, sent

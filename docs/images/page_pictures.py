@@ -162,10 +162,11 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
     kept(shot(desk, first="h1", last="main"), folder / "tonight.png")
 
     player = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
-    player.goto(f"{site.address}/m/{site.match_token('W1.4')}")
+    player.goto(f"{site.address}/c/{site.player_code('Tomasz Wierzba')}")
+    press(player, player.get_by_role("button", name="I'm coming"))
     for name in ("Tomasz Wierzba", "Tomasz Wierzba", "Priya Vandermeer"):
         press(player, player.get_by_role("button", name=f"Game for {name}"))
-    kept(shot(player, first="h1", last="main form[action$=me]"), folder / "match.png")
+    kept(shot(player, first="h1", last="main .mine > *:last-child"), folder / "match.png")
 
     clock.at = "20:15"
     desk.goto(f"{site.address}/desk")
@@ -193,10 +194,10 @@ def front_page(browser: Any, path: Path, clock: Clock, file: Path) -> None:
         settled(wall, site, "/screen")
         phone = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
         first = min(state.on_tables, key=lambda match: state.on_tables[match].call.table)
-        phone.goto(f"{site.address}/m/{site.match_token(first)}")
+        phone.goto(f"{site.address}/c/{site.player_code(state.pair(first)[0])}")
         pictures = (
             shot(wall, last="h2:has-text('Who will win') + *"),
-            shot(phone, first="h1", last="h2:has-text('The chances') + p + p"),
+            shot(phone, first="h1", last="main .odds"),
         )
     both = browser.new_page()
     both.set_content(BOTH.format(*(base64.b64encode(one).decode() for one in pictures)))

@@ -76,8 +76,16 @@ class Browser:
 
     def send(self, path: str, **fields: object) -> Got:
         """Send a form of this browser."""
-        seen = seen_at(self.room.site, path)
+        seen = seen_at(self.room.site, path, fields)
         return self.ask("POST", path, {**self.hidden(), **seen, **fields})
+
+    def claims(self, name: str) -> Got:
+        """Say that this is a player's phone."""
+        return self.send("/me/claim", name=name)
+
+    def taps(self, match: str, a: int, b: int, **more: object) -> Got:
+        """Tap the score of a match on the player's own page."""
+        return self.send("/me/score", match=match, a=a, b=b, **more)
 
     def hidden(self) -> dict[str, str]:
         """Return what every form of a page that is opened now carries unseen."""

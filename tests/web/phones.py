@@ -91,7 +91,16 @@ class Phone:
 
     def send(self, path: str, **fields: object) -> Shown:
         """Send a form of this phone."""
-        return self.send_raw(path, {**self.hidden(), **seen_at(self.site, path), **fields})
+        seen = seen_at(self.site, path, fields)
+        return self.send_raw(path, {**self.hidden(), **seen, **fields})
+
+    def claims(self, name: str) -> Shown:
+        """Say that this is a player's phone."""
+        return self.send("/me/claim", name=name)
+
+    def taps(self, match: str, a: int, b: int, **more: object) -> Shown:
+        """Tap the score of a match on the player's own page."""
+        return self.send("/me/score", match=match, a=a, b=b, **more)
 
     def send_raw(self, path: str, fields: Mapping[str, object], **headers: str) -> Shown:
         """Send just these fields."""
@@ -127,17 +136,15 @@ def carried(site: Site, token: str) -> dict[str, str]:
     return {"csrf": token, "once": secrets.token_urlsafe(9), "begun": site.night.begun_at}
 
 
-def seen_at(site: Site, path: str) -> dict[str, str]:
-    """Return the score that the page of a match shows now, which its forms carry."""
-    found = re.fullmatch("/m/([^/]+)/score", path)
-    if not found or not site.night.exists:
+def seen_at(site: Site, path: str, fields: Mapping[str, object]) -> dict[str, object]:
+    """Return what the form of a tap carries: the players of the match, and the score it shows."""
+    if not re.fullmatch("/(me|table/[^/]+)/score", path) or not site.night.exists:
         return {}
-    state = site.night.state()
-    name = site.match_of(found[1], list(state.bracket.by_name)) if state.drawn else None
-    if name is None or name not in state.standing.to_play:
+    state, match = site.night.state(), str(fields.get("match", ""))
+    if not state.drawn or match not in state.standing.to_play:
         return {}
-    a, b = match_view(state, name).score or (0, 0)
-    return {"seen": f"{a}:{b}"}
+    (one, other), (a, b) = state.pair(match), match_view(state, match).score or (0, 0)
+    return {"player_a": one, "player_b": other, "seen": f"{a}:{b}"}
 
 
 def _part(edge: str, named: str, content: bytes) -> bytes:

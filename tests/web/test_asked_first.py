@@ -17,8 +17,9 @@ TAPS = 5
 
 def tap(hall: Hall, phone: Phone, match: str, a: int, b: int) -> Shown:
     """Tap the score of a match in play on a player's phone."""
-    pair, token = hall.state.pair(match), hall.site.match_token(match)
-    return phone.send(f"/m/{token}/score", a=a, b=b, player_a=pair[0], player_b=pair[1])
+    if "Who are you?" in phone.open("/me").words:
+        phone.open(f"/c/{hall.site.player_code(hall.state.pair(match)[0])}")
+    return phone.taps(match, a, b)
 
 
 @pytest.fixture
@@ -143,25 +144,18 @@ def test_a_correction_before_the_draw_keeps_the_seeds(hall: Hall) -> None:
 
 
 @pytest.mark.slow
-def test_a_phone_is_told_when_others_play_the_match_that_it_opened(busy: Hall) -> None:
-    match, at = "W2.2", f"/m/{busy.site.match_token('W2.2')}"
+def test_a_phone_follows_its_player_when_others_play_the_match_now(busy: Hall) -> None:
     gone = busy.state.counted["W1.3"].winner
-    phones = {name: Phone(busy.site) for name in (*busy.state.pair(match), "a guest")}
-    for phone in phones.values():
-        assert "Game for" in phone.open(at).words
+    before = busy.state.pair("W2.2")
+    phones = {name: Phone(busy.site) for name in before}
     for name, phone in phones.items():
-        if name != "a guest":
-            phone.send(f"{at}/me", me=busy.state.pair(match).index(name))
+        phone.open(f"/c/{busy.site.player_code(name)}")
+        assert "Tap for a game" in phone.open("/me").words
+    stale = {"player_a": before[0], "player_b": before[1], "seen": "2:0"}
     busy.director.send("/desk/correct", **WRONG, sure="yes")
-    now = " and ".join(busy.state.pair(match))
-    assert gone not in now
-    for name, phone in phones.items():
-        for _ in range(2):
-            words = phone.open(at).words
-            assert (f"{now} are in {match} now" in words) == (name not in now)
-            assert ("Game for" in words) == (name in now)
-    assert "Game for" in Phone(busy.site).open(at).words
-    fresh = next(k for k, name in enumerate(busy.state.pair(match)) if name not in phones)
-    assert "Game for" in phones["a guest"].send(f"{at}/me", me=fresh).words
+    assert gone not in busy.state.pair("W2.2")
+    for phone in phones.values():
+        assert phone.taps("W2.2", 2, 1, **stale).status == 409
+    assert "losers' round 1" in phones[gone].open("/me").words.casefold()
     busy.director.send("/desk/correct", **{**WRONG, "a": 3, "b": 1})
-    assert "Game for" in phones[gone].open(at).words
+    assert "Tap for a game" in phones[gone].open("/me").words

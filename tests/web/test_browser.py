@@ -63,8 +63,7 @@ def test_axe_objects_to_nothing(
     browser: Any, event: Hall, width: int, scheme: str, paths: tuple[str, ...]
 ) -> None:
     page = opened(browser, event.site, width=width, color_scheme=scheme)
-    token = event.site.match_token("W1.3")
-    for path in (*paths, f"/m/{token}"):
+    for path in (*paths, "/table/2"):
         page.goto(event.site.address + path, wait_until="domcontentloaded")
         assert objections(page) == [], path
     page.context.close()
@@ -72,7 +71,7 @@ def test_axe_objects_to_nothing(
 
 def test_nothing_scrolls_sideways_on_the_smallest_phone(browser: Any, event: Hall) -> None:
     page = opened(browser, event.site, width=320)
-    for path in (*PAGES, *MORE_PAGES, *DESK_PAGES, f"/m/{event.site.match_token('W1.3')}"):
+    for path in (*PAGES, *MORE_PAGES, *DESK_PAGES, "/table/2", "/me"):
         page.goto(event.site.address + path)
         assert page.evaluate("document.documentElement.scrollWidth") <= 320, path
     page.context.close()
@@ -167,13 +166,13 @@ def test_a_form_shows_and_sends_what_its_format_has(browser: Any, tmp_path: Path
 
 
 def test_without_scripts_a_phone_scores_and_the_director_confirms(browser: Any, hall: Hall) -> None:
-    token = hall.site.match_token("W1.1")
     players = browser.new_context(java_script_enabled=False).new_page()
-    players.goto(f"{hall.site.address}/m/{token}")
+    players.goto(f"{hall.site.address}/me")
     one, _ = hall.state.pair("W1.1")
-    players.click(".choices button:first-child")
+    players.get_by_role("button", name=one, exact=True).click()
+    players.click("text=We're playing already")
     for _ in range(3):
-        players.click(f"text=Game for {one}")
+        players.get_by_role("button", name=f"Game for {one}, who").click()
     assert "counts once" in players.inner_text("main")
     page = opened(browser, hall.site, java_script_enabled=False)
     page.goto(f"{hall.site.address}/desk")

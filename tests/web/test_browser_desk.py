@@ -47,10 +47,8 @@ def field(page: Any, match: str) -> Any:
 def test_a_stray_digit_does_not_freeze_the_desk(desk: Any, playing: Hall) -> None:
     field(desk, "W1.2").press_sequentially("7")
     phone = Phone(playing.site)
-    pair, token = playing.state.pair("W1.1"), playing.site.match_token("W1.1")
-    phone.send(f"/m/{token}/me", me=0)
-    said = {"player_a": pair[0], "player_b": pair[1], "a": 3, "b": 1}
-    assert phone.send(f"/m/{token}/score", **said).status == 200
+    phone.claims(playing.state.pair("W1.1")[0])
+    assert phone.taps("W1.1", 3, 1).status == 200
     desk.wait_for_selector(PROPOSED, timeout=5000)
     assert field(desk, "W1.2").input_value() == "7"
     assert desk.evaluate("document.activeElement.name") == "a"

@@ -108,14 +108,15 @@ class Director:
 
     def lets_players_score(self, match: str, score: Score, *, differ: bool) -> None:
         state = read_tournament(self.site.path)
-        pair, to = state.pair(match), f"{self.site.address}/m/{self.site.match_token(match)}"
+        pair = state.pair(match)
         for k, mine in enumerate((score, score[::-1] if differ else score)):
             context = self.browser.new_context(
                 viewport={"width": 390, "height": 844}, java_script_enabled=self.scripts
             )
             page = context.new_page()
-            page.goto(to)
-            clicks(page, page.locator(".choices button").nth(k))
+            page.goto(f"{self.site.address}/c/{self.site.player_code(pair[k])}")
+            if (coming := page.get_by_role("button", name="I'm coming")).count():
+                clicks(page, coming)
             taps(page, mine, pair)
             context.close()
         # Both browsers have the address of this computer: the director confirms what they agree on.

@@ -59,9 +59,9 @@ def six(tmp_path: Path) -> Iterator[Hall]:
 
 def pages_of(hall: Hall, phone: Phone) -> Iterator[Shown]:
     """Yield all pages that have forms; a sure page comes of a question."""
-    token = hall.site.match_token(next(iter(hall.state.standing.to_play)))
+    phone.claims(hall.state.pair(next(iter(hall.state.standing.to_play)))[0])
     paths = ("/desk", "/new", "/pin", "/prizes?fee=10", "/league", "/team", "/team/new")
-    for path in (*paths, f"/m/{token}", "/"):
+    for path in (*paths, "/me?play=1", "/"):
         yield phone.open(path)
     yield phone.send("/desk/drop", player="Bo")
 
@@ -77,8 +77,8 @@ def test_every_form_of_every_page_carries_a_number(six: Hall) -> None:
         for action, fields in Forms(shown.text).found:
             assert fields["once"], (shown.url, action)
             assert fields["begun"] == six.site.night.begun_at, (shown.url, action)
-            seen.add(re.sub(r"/m/[^/]+", "/m/{token}", action))
-    assert {"/desk/drop", "/new", "/prizes", "/league", "/m/{token}/score"} <= seen
+            seen.add(action)
+    assert {"/desk/drop", "/new", "/prizes", "/league", "/me/score"} <= seen
 
 
 def test_no_template_makes_a_form_of_its_own() -> None:
@@ -86,7 +86,7 @@ def test_no_template_makes_a_form_of_its_own() -> None:
         for form in re.findall(
             r'<form method="post".*?</form>', path.read_text("utf-8"), re.DOTALL
         ):
-            numbered = re.search(r"\{\{ (hidden\(\)|sent_by\(|of_match\()", form)
+            numbered = re.search(r"\{\{ (hidden\(\)|sent_by\(|of_mine\()", form)
             assert numbered or path.name == "sure.html", (path.name, form[:80])
 
 
@@ -199,8 +199,8 @@ def test_a_page_of_an_earlier_tournament_changes_nothing_in_the_next(six: Hall) 
         shown = six.director.send_raw(action, fields)
         assert shown.status == 409, (action, shown.words)
         assert "Another tournament was started in the meantime" in shown.words
-        seen.add(re.sub(r"/m/[^/]+", "/m/{token}", action))
-    assert {"/desk/result", "/desk/undo", "/desk/drop", "/new", "/m/{token}/score"} <= seen
+        seen.add(action)
+    assert {"/desk/result", "/desk/undo", "/desk/drop", "/new", "/me/score"} <= seen
     assert (read_events(six.site.path), six.site.pin) == (before, secret)
 
 

@@ -30,15 +30,14 @@ Decide = Callable[[Evening], object]
 
 def scored_by_phones(hall: Hall, match: str, score: tuple[int, int]) -> list[Phone]:
     """Let both players of a match tap its games and enter the result; return their phones."""
-    pair, token = hall.state.pair(match), hall.site.match_token(match)
     phones = two_phones(hall.site)
-    asked = dict(zip(("player_a", "player_b"), pair, strict=True))
-    for k, phone in enumerate(phones):
-        assert phone.send(f"/m/{token}/me", me=k).status == 200
+    for name, phone in zip(hall.state.pair(match), phones, strict=True):
+        hall.director.send("/desk/release", player=name)
+        assert phone.claims(name).status == 200
     for a, b in [(min(score[0], k), 0) for k in range(1, score[0])]:
-        assert phones[0].send(f"/m/{token}/score", a=a, b=b, **asked).status == 200
+        assert phones[0].taps(match, a, b).status == 200
     for phone in phones:
-        assert phone.send(f"/m/{token}/score", a=score[0], b=score[1], **asked).status == 200
+        assert phone.taps(match, *score).status == 200
     return phones
 
 
@@ -82,14 +81,14 @@ def test_an_evening_ends_as_by_commands(hall: Hall, tmp_path: Path) -> None:
 
 
 def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
-    pair, token = hall.state.pair("W1.1"), hall.site.match_token("W1.1")
+    pair = hall.state.pair("W1.1")
     one, other = two_phones(hall.site)
-    asked = dict(zip(("player_a", "player_b"), pair, strict=True))
-    assert "whose phone" in one.send(f"/m/{token}/score", a=3, b=1, **asked).words
-    one.send(f"/m/{token}/me", me=0)
-    other.send(f"/m/{token}/me", me=1)
-    assert "counts once" in one.send(f"/m/{token}/score", a=3, b=1, **asked).words
-    assert "a different result" in other.send(f"/m/{token}/score", a=1, b=3, **asked).words
+    assert one.taps("W1.1", 3, 1).status == 403
+    one.claims(pair[0])
+    other.claims(pair[1])
+    assert "counts once" in one.taps("W1.1", 3, 1).words
+    assert "Two scores" in other.taps("W1.1", 1, 3).words
+    assert "Two scores" in one.open("/me").words
     assert "W1.1" not in hall.state.counted
     assert [one.kind for one in phone_entries(hall.site.path)].count("proposed") == 2
     assert hall.director.open("/desk").words.count(" reports ") == 2
@@ -103,39 +102,37 @@ def test_an_undone_result_is_not_confirmed_by_what_was_sent_before(hall: Hall) -
     assert "W1.1" in hall.state.counted
     hall.director.send("/desk/undo", entry=hall.state.numbers[-1])
     assert " reports " not in hall.director.open("/desk").words
-    token, asked = hall.site.match_token("W1.1"), players_of(hall, "W1.1")
-    assert "counts once" in phone.send(f"/m/{token}/score", a=3, b=1, **asked).words
+    assert "counts once" in phone.taps("W1.1", 3, 1).words
     assert "W1.1" not in hall.state.counted
 
 
 def test_what_was_sent_against_somebody_else_differs_from_nothing(hall: Hall) -> None:
     for match in ("W1.1", "W1.2"):
         hall.director.send("/desk/result", match=match, a=3, b=0)
-    token, phones = hall.site.match_token("W2.1"), two_phones(hall.site)
-    phones[0].send(f"/m/{token}/me", me=0)
-    phones[0].send(f"/m/{token}/score", a=3, b=1, **players_of(hall, "W2.1"))
+    phones = two_phones(hall.site)
+    phones[0].claims(hall.state.pair("W2.1")[0])
+    phones[0].taps("W2.1", 3, 1)
     hall.director.send("/desk/correct", match="W1.2", a=1, b=3)
-    phones[1].send(f"/m/{token}/me", me=1)
-    shown = phones[1].send(f"/m/{token}/score", a=0, b=3, **players_of(hall, "W2.1"))
+    phones[1].claims(hall.state.pair("W2.1")[1])
+    shown = phones[1].taps("W2.1", 0, 3)
     assert shown.status == 200
-    assert "a different result" not in shown.words
+    assert "Two scores" not in shown.words
 
 
 @pytest.mark.slow
 def test_both_phones_at_the_same_moment_agree(hall: Hall) -> None:
     matches, codes = [f"W1.{k}" for k in range(1, 6)], []
     for match in matches:
-        token, asked = hall.site.match_token(match), players_of(hall, match)
         phones = two_phones(hall.site)
-        for k, phone in enumerate(phones):
-            phone.send(f"/m/{token}/me", me=k)
+        for name, phone in zip(hall.state.pair(match), phones, strict=True):
+            phone.claims(name)
         together = threading.Barrier(2)
 
-        def enter(phone: Phone, to: str, sent: dict, at: threading.Barrier) -> None:
+        def enter(phone: Phone, match: str, at: threading.Barrier) -> None:
             at.wait()
-            codes.append(phone.send(to, **sent).status)
+            codes.append(phone.taps(match, 3, 1).status)
 
-        said = f"/m/{token}/score", {"a": 3, "b": 1, **asked}, together
+        said = match, together
         threads = [threading.Thread(target=enter, args=(phone, *said)) for phone in phones]
         for thread in threads:
             thread.start()
@@ -145,23 +142,15 @@ def test_both_phones_at_the_same_moment_agree(hall: Hall) -> None:
     assert set(hall.state.counted) == set(matches)
 
 
-def players_of(hall: Hall, match: str) -> dict[str, str]:
-    """Return the fields that say whose games a form counts."""
-    return dict(zip(("player_a", "player_b"), hall.state.pair(match), strict=True))
-
-
 def test_the_director_sees_that_a_match_is_played_without_a_call(hall: Hall) -> None:
-    token, asked = hall.site.match_token("W1.1"), players_of(hall, "W1.1")
     phone = Phone(hall.site)
-    phone.send(f"/m/{token}/me", me=0)
-    assert phone.send(f"/m/{token}/score", a=2, b=1, **asked).status == 200
+    phone.claims(hall.state.pair("W1.1")[0])
+    assert phone.taps("W1.1", 2, 1).status == 200
     assert "Already playing, not called yet: 2:1" in hall.director.open("/desk").words
 
 
 def test_phones_of_a_match_that_others_play_now_are_refused(hall: Hall) -> None:
-    token = hall.site.match_token("W1.1")
-    shown = hall.guest.send(f"/m/{token}/score", a=1, b=0, player_a="Ann", player_b="Bo")
-    assert shown.status == 409
+    assert hall.guest.taps("W1.1", 1, 0, player_a="Ann", player_b="Bo").status == 409
 
 
 @pytest.mark.slow

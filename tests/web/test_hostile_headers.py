@@ -18,7 +18,7 @@ TRIES = tries("heads of requests", 100)
 
 PATHS = [
     *("/", "/players", "/bracket", "/screen", "/fair", "/prizes", "/league", "/team", "/pin"),
-    *("/evenbreak.css", "/desk", "/desk/history", "/desk/codes", "/new", "/m/x", "/nothing"),
+    *("/evenbreak.css", "/desk", "/desk/history", "/desk/codes", "/new", "/c/x", "/nothing"),
     *("/bracket.pdf", "/results.csv", "/%zz", "/\xff", "//x", "/?a=%ff&a=\x7f", "*", "/events/x"),
 ]
 FORMS = [

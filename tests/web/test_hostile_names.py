@@ -114,7 +114,8 @@ def shown(director: Browser, luck: random.Random) -> Iterator[tuple[str, str]]:
     for match in rest:
         director.send("/desk/call", match=match, table=2)
     director.send("/language", language=luck.choice(("en", "de")), back="/")
-    links = [f"/m/{director.room.site.match_token(name)}" for name in (first, *rest)]
+    director.claims(night.state().pair(first)[0])
+    links = ["/me", "/me?play=1", "/table/1", "/table/2", "/desk/codes"]
     for page in (*PAGES, *links):
         yield page, director.open(page).text
     director.send("/desk/result", match=first, a=3, b=1)

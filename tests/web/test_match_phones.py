@@ -1,10 +1,13 @@
-"""Who may score for whom: one phone, however it is opened, never scores for both sides."""
+"""Whose phone is whose, and who may answer for whom: one phone never answers for both sides."""
 
 import random
 
 import pytest
 
-from evenbreak.files.store.tournament import read_tournament
+from evenbreak.files.store.desk import alone, disputes, phone_entries
+from evenbreak.files.store.tournament import add_events, read_tournament
+from evenbreak.tournaments.evening.events import Event, Renamed
+from evenbreak.web.codes import LETTERS
 from tries import tries
 from web.conftest import Hall, begun
 from web.phones import Phone, Shown, running, two_phones
@@ -13,25 +16,25 @@ SEEDS = tries("taps of one address", 4)
 
 
 class Player:
-    """A browser at an address that scores a match for one side."""
+    """A browser at an address that says it is one of the players of a match."""
 
     def __init__(self, hall: Hall, address: str, match: str = "W1.1") -> None:
         self.phone = Phone(hall.site, address=address)
-        self.to = f"/m/{hall.site.match_token(match)}"
-        self.pair = dict(zip(("player_a", "player_b"), hall.state.pair(match), strict=True))
+        self.match, self.pair = match, hall.state.pair(match)
 
     def claims(self, side: int) -> Shown:
-        return self.phone.send(f"{self.to}/me", me=side)
+        return self.phone.claims(self.pair[side])
 
-    def sends(self, a: int, b: int, **more: object) -> Shown:
-        return self.phone.send(f"{self.to}/score", a=a, b=b, **self.pair, **more)
+    def sends(self, a: int, b: int) -> Shown:
+        return self.phone.taps(self.match, a, b)
 
 
 def test_two_phones_at_different_addresses_agree(hall: Hall) -> None:
     one, other = Player(hall, "127.0.0.2"), Player(hall, "127.0.0.3")
     assert (one.claims(0).status, other.claims(1).status) == (200, 200)
     assert "counts once" in one.sends(3, 1).words
-    assert "Both of you agree" in other.sends(3, 1).words
+    assert f"{one.pair[0]} says you lost 1-3" in other.phone.open("/me").words
+    assert "You both agree" in other.sends(3, 1).words
     assert hall.state.counted["W1.1"].score == (3, 1)
 
 
@@ -46,51 +49,87 @@ def test_one_phone_cannot_confirm_itself(hall: Hall, *, private_tab: bool) -> No
     shown = other.sends(3, 0)
     assert "W1.1" not in hall.state.counted
     # A private tab can't be told from a second phone behind one address: the director looks.
-    assert ("ask the director to confirm" in shown.words) is private_tab
-    desk = hall.director.open("/desk").words
-    assert ("One person may have entered both" in desk) is private_tab
+    assert ("Ask the director to confirm it" in shown.words) is private_tab
+    (said,) = alone(hall.state, hall.site.night.phones())
+    assert len(said.scores) == (2 if private_tab else 1)
     assert hall.director.send("/desk/result", match="W1.1", a=3, b=0).status == 200
 
 
-def test_a_side_belongs_to_the_first_phone_that_claims_it(hall: Hall) -> None:
+def test_a_name_belongs_to_the_first_phone_that_claims_it_all_evening(hall: Hall) -> None:
     owner, thief = Player(hall, "127.0.0.2"), Player(hall, "127.0.0.3")
     owner.claims(0)
     owner.sends(3, 1)
-    for refused in (thief.claims(0), thief.sends(1, 3, me=0)):
-        assert refused.status == 409
-        assert "ask the director" in refused.words
-    one, two = hall.state.pair("W1.1")
-    assert f"reports {one} 3, {two} 1" in hall.director.open("/desk").words
+    assert thief.claims(0).status == 409
+    assert thief.sends(1, 3).status == 403
+    ours = hall.site.night.phones().sides("W1.1", owner.pair)
+    assert ours.scores == {owner.pair[0]: (3, 1)}
     other = Player(hall, "127.0.0.4")
     other.claims(1)
-    assert "Both of you agree" in other.sends(3, 1).words
+    assert "You both agree" in other.sends(3, 1).words
+    hall.director.send("/desk/result", match="W1.2", a=3, b=0)
+    assert thief.claims(0).status == 409  # in the next match too
+    assert "Winners' round 2" in owner.phone.open("/me").words
 
 
-def test_the_director_alone_releases_a_side(hall: Hall) -> None:
+def test_the_director_or_the_code_takes_a_name_from_a_thief(hall: Hall) -> None:
     thief, owner = Player(hall, "127.0.0.2"), Player(hall, "127.0.0.3")
+    name = owner.pair[0]
     thief.claims(0)
     thief.sends(0, 3)
     assert owner.claims(0).status == 409
-    assert owner.phone.send(f"{owner.to}/release", me=0).status == 403
-    assert "Release" not in owner.phone.open(owner.to).words
-    assert "Release" in hall.director.open(owner.to).words
-    assert hall.director.send(f"{owner.to}/release", me=0).status == 200
-    assert " reports " not in hall.director.open("/desk").words  # what the thief sent is void
-    assert owner.claims(0).status == 200
+    assert owner.phone.send("/desk/release", player=name).status == 403
+    assert hall.director.send("/desk/release", player=name).status == 200
+    assert alone(hall.state, hall.site.night.phones()) == []  # what the thief sent is void
+    assert thief.claims(0).status == 200
+    code = hall.site.player_code(name)
+    assert name in owner.phone.open(f"/c/{code.lower()}").words
+    assert thief.sends(0, 3).status == 403
     assert thief.claims(0).status == 409
     history = hall.director.open("/desk/history").words
-    for line in ("released", "sent", "127.0.0.2", "127.0.0.3"):
+    for line in (f"This phone is {name}'s", "sent", "127.0.0.2", "127.0.0.3"):
         assert line in history
+
+
+def test_two_scores_are_one_case_for_the_director_until_one_gives_way(hall: Hall) -> None:
+    players = [Player(hall, "127.0.0.2"), Player(hall, "127.0.0.3")]
+    for side, (one, score) in enumerate(zip(players, ((3, 1), (2, 3)), strict=True)):
+        one.claims(side)
+        one.sends(*score)
+    (said,) = disputes(hall.state, hall.site.night.phones())
+    assert list(said.scores.values()) == [(3, 1), (2, 3)]
+    for one in players:
+        assert "Two scores" in one.phone.open("/me").words
+    assert "says you won 3-1" not in players[0].phone.send("/me/withdraw", match="W1.1").words
+    players[0].sends(2, 3)
+    assert hall.state.counted["W1.1"].score == (2, 3)
+    kinds = [one.kind for one in phone_entries(hall.site.path)]
+    assert kinds == [*("claimed", "proposed") * 2, "withdrawn", "proposed", "entered"]
+
+
+def test_a_guessed_code_is_refused_and_guessing_is_slow(hall: Hall) -> None:
+    luck, guesser = random.Random(0), Phone(hall.site, address="127.0.0.7")
+    codes = set(hall.site.player_codes().values())
+    assert len(codes) == 16
+    statuses = []
+    for _ in range(14):
+        guess = "".join(luck.choices(LETTERS, k=5))
+        assert guess not in codes
+        statuses.append(guesser.open(f"/c/{guess}").status)
+    assert statuses == [404] * 10 + [429] * 4
+    assert guesser.open(f"/c/{codes.pop()}").status == 429
+    assert phone_entries(hall.site.path) == []
+    assert "tells you" not in Phone(hall.site, address="127.0.0.8").open(f"/c/{codes.pop()}").words
 
 
 def test_a_phone_that_waits_in_a_match_that_nobody_is_in_any_more_is_told_so(hall: Hall) -> None:
     for match in ("W1.1", "W1.2"):
         hall.director.send("/desk/result", match=match, a=3, b=0)
     one = Player(hall, "127.0.0.2", "W2.1")
+    one.claims(0)
     assert hall.director.send("/desk/undo", entry=hall.state.numbers[-1]).status == 200
-    for shown in (one.claims(0), one.sends(1, 0), hall.director.send(f"{one.to}/release", me=0)):
-        assert shown.status == 409
-        assert "W2.1 is not being played now" in shown.words
+    shown = one.sends(1, 0)
+    assert shown.status == 409
+    assert "is not being played now" in shown.words
 
 
 @pytest.mark.slow
@@ -100,10 +139,20 @@ def test_claims_and_proposals_outlast_a_restart_and_hold_for_every_server(hall: 
     owner.sends(3, 1)
     with running(hall.site.path) as again:
         thief, other = two_phones(again)
-        assert thief.send(f"{owner.to}/me", me=0).status == 409
-        assert other.send(f"{owner.to}/me", me=1).status == 200
-        shown = other.send(f"{owner.to}/score", a=3, b=1, **owner.pair)
-        assert "Both of you agree" in shown.words
+        assert thief.claims(owner.pair[0]).status == 409
+        assert other.claims(owner.pair[1]).status == 200
+        assert "You both agree" in other.taps("W1.1", 3, 1).words
+
+
+def test_a_new_name_keeps_phone_and_code(hall: Hall) -> None:
+    owner = Player(hall, "127.0.0.2")
+    owner.claims(0)
+    owner.sends(3, 1)
+    code = hall.site.player_code(owner.pair[0])
+    renamed = Event("2025-03-01T20:00:00", Renamed(owner.pair[0], "Someone Else"))
+    add_events(hall.site.path, lambda _: [renamed])
+    assert hall.site.player_code("Someone Else") == code
+    assert "counts once" in owner.phone.open("/me").words
 
 
 @pytest.mark.slow
@@ -118,10 +167,41 @@ def test_no_order_of_claims_and_scores_lets_one_address_decide(hall: Hall) -> No
                 [
                     lambda tab=tab, side=side: tab.claims(side),
                     lambda tab=tab: tab.sends(3, 1),
-                    lambda tab=tab, side=side: tab.sends(3, 1, me=side),
+                    lambda tab=tab: tab.phone.send("/me/leave"),
                 ]
             )()
         assert hall.state.counted == {}, seed
+
+
+def test_a_table_s_tablet_taps_for_both_and_can_be_taken_back(hall: Hall) -> None:
+    tablet = Phone(hall.site, director=True, address="127.0.0.5")
+    match, tap = "W1.1", {"match": "W1.1", "a": 1, "b": 0}
+    hall.director.send("/desk/call", match=match, table=4)
+    assert hall.guest.send("/table/4/score", **tap).status == 403
+    assert tablet.send("/table/4/tablet", give="yes").status == 200
+    assert tablet.open("/desk").status == 403  # it is no director's any more
+    assert "Start" in tablet.open("/table/4").words
+    for score in ((1, 0), (1, 1), (2, 1)):
+        assert tablet.send("/table/4/score", match=match, a=score[0], b=score[1]).status == 200
+    assert tablet.send("/table/4/score", match="W1.2", a=1, b=0).status == 409
+    shown = tablet.send("/table/4/score", match=match, a=3, b=1)
+    assert "Just finished" in shown.words
+    assert hall.state.counted[match].score == (3, 1)
+    assert hall.state.events[-1].by_phones
+    assert "The director knows" in tablet.send("/table/4/wrong", match=match).words
+    assert hall.director.send("/table/4/tablet", give="no").status == 200
+    hall.director.send("/desk/call", match="W1.2", table=4)
+    assert tablet.send("/table/4/score", match="W1.2", a=1, b=0).status == 403
+
+
+def test_a_table_s_page_leads_its_players_to_their_own(hall: Hall) -> None:
+    hall.director.send("/desk/call", match="W1.1", table=2)
+    one = Player(hall, "127.0.0.2")
+    assert "Who are you?" in one.phone.open("/table/2").words
+    shown = one.claims(0)
+    assert "You're up" in shown.words
+    assert one.phone.open("/table/2").url.endswith("/me")
+    assert one.phone.open("/table/9").status == 400
 
 
 @pytest.mark.slow
@@ -133,5 +213,6 @@ def test_many_matches_of_honest_phones_are_entered_without_the_director(tmp_path
         for k, match in enumerate(list(hall.state.standing.to_play)):
             for side in (0, 1):
                 player = Player(hall, f"127.0.1.{2 * k + side + 1}", match)
-                player.sends(3, 2, me=side)
+                player.claims(side)
+                player.sends(3, 2)
         assert len(read_tournament(site.path).counted) == 4

@@ -217,7 +217,7 @@ def test_doubtful_ratings_are_said(tmp_path: Path) -> None:
 
 
 def test_another_tournament_takes_the_place_of_the_first(hall: Hall, tmp_path: Path) -> None:
-    token = hall.site.match_token("W1.1")
+    code = hall.site.player_code("Player 1")
     hall.director.send("/desk/result", match="W1.1", a=3, b=1)
     hall.guest.open("/")
     shown = hall.director.send("/new", **ASKED)
@@ -236,8 +236,8 @@ def test_another_tournament_takes_the_place_of_the_first(hall: Hall, tmp_path: P
     words = hall.guest.open("/").words
     assert "Player 1" not in words
     assert "Ann" in words
-    assert hall.guest.open(f"/m/{token}").status == 404
-    assert "Ann" in hall.guest.open(f"/m/{hall.site.match_token('W1.1')}").words
+    assert hall.guest.open(f"/c/{code}").status == 404
+    assert "Ann" in hall.guest.open(f"/c/{hall.site.player_code('Ann')}").words
 
 
 def test_the_desk_changes_tables_and_races(hall: Hall) -> None:

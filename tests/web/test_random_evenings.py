@@ -102,7 +102,11 @@ class Played:
         if state.drawn and state.standing.to_play and self.luck.random() < 0.35:
             match = self.luck.choice(list(state.standing.to_play)[:3])
             browser = self.luck.choice(self.phones)
-            return browser, browser.open(f"/m/{self.room.site.match_token(match)}")
+            if self.luck.random() < 0.4:
+                browser.open(
+                    f"/c/{self.room.site.player_code(self.luck.choice(state.pair(match)))}"
+                )
+            return browser, browser.open("/me?play=1")
         return self.director, self.director.open("/desk")
 
     def chosen(self, shown: list[Form]) -> Form:
@@ -117,7 +121,7 @@ class Played:
         got = browser.ask("POST", form.action, fields)
         after = self.state
         said = f"{self.about}: {form.action} {fields[2:]} -> {got.status} {got.words[-300:]}"
-        assert got.status in (200, 303, 400, 403, 409, 429), said
+        assert got.status in (200, 303, 400, 403, 404, 409, 429), said
         if got.status != 303:
             assert len(read_events(self.path)) == count, said
         question = next((one for one in forms_of(got) if one.action == form.action), None)

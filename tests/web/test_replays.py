@@ -40,16 +40,14 @@ class Hall:
         (began,) = re.findall(r'name="night" value="(\d+)"', self.director.open("/team").text)[:1]
         self.night = int(began)
         self.pair = site.night.state().pair("W1.1")
+        self.tablet = Browser(self.room, director=True)
         self.captains = [Browser(self.room, address=f"10.0.1.{k}") for k in (1, 2)]
         for side, browser in enumerate(self.captains):
             pin = site.captain_pin(self.night, side)
             assert browser.send("/team/pin", pin=pin).status == 303
         self.players = [Browser(self.room, address=f"10.0.2.{k}") for k in (1, 2)]
         for side, browser in enumerate(self.players):
-            assert browser.send(self.match("W1.1", "/me"), me=side).status == 303
-
-    def match(self, name: str, what: str) -> str:
-        return f"/m/{self.room.site.match_token(name)}{what}"
+            assert browser.claims(self.pair[side]).status == 303
 
     def entries(self) -> tuple[int, int, int]:
         """Return how many entries there are: of the tournament, the team night, the phones."""
@@ -63,7 +61,8 @@ class Hall:
         night: dict[str, Any] = {"night": self.night, "number": 1}
         three = {"match": "W1.3"}
         picks = {f"pick{k}": k - 1 for k in (1, 2, 3)}
-        tap = {"player_a": self.pair[0], "player_b": self.pair[1]}
+        tap = {"match": "W1.1", "player_a": self.pair[0], "player_b": self.pair[1], "seen": "0:0"}
+        tablet = self.tablet
         return {
             name: (browser, path, fields)
             for name, browser, path, fields in [
@@ -102,10 +101,18 @@ class Hall:
                 ("put", director, "/team/put", {**night, "by": "director", "team": 0, "pick": 0}),
                 ("propose", self.captains[0], "/team/result", {**night, "by": 0, "a": 5, "b": 3}),
                 ("set", director, "/team/result", {**night, "by": "director", "a": 5, "b": 3}),
-                ("tap", self.players[0], self.match("W1.1", "/score"), {**tap, "a": 1, "b": 0}),
-                ("full", self.players[0], self.match("W1.1", "/score"), {**tap, "a": 3, "b": 1}),
-                ("agree", self.players[1], self.match("W1.1", "/score"), {**tap, "a": 3, "b": 1}),
-                ("release", director, self.match("W1.1", "/release"), {"me": 0}),
+                ("tap", self.players[0], "/me/score", {**tap, "a": 1, "b": 0}),
+                ("full", self.players[0], "/me/score", {**tap, "a": 3, "b": 1}),
+                ("agree", self.players[1], "/me/score", {**tap, "a": 3, "b": 1}),
+                ("take back", self.players[1], "/me/withdraw", {"match": "W1.1"}),
+                ("coming", self.players[1], "/me/coming", {"match": "W1.1", "minutes": 5}),
+                ("claim", self.players[0], "/me/claim", {"name": self.pair[0]}),
+                ("code", self.players[0], "/me/code", {"code": site.player_code(self.pair[0])}),
+                ("leave", self.players[0], "/me/leave", {}),
+                ("release", director, "/desk/release", {"player": self.pair[0]}),
+                ("tablet", tablet, "/table/1/tablet", {"give": "yes"}),
+                ("at a table", tablet, "/table/1/score", {**tap, "a": 1, "b": 0}),
+                ("wrong", tablet, "/table/1/wrong", {"match": "W1.3"}),
             ]
         }  # fmt: skip
 
@@ -131,7 +138,7 @@ def test_every_route_that_adds_an_entry_is_tried(hall: Hall) -> None:
         for one in make_app(hall.room.site).routes
         if "POST" in (getattr(one, "methods", None) or ())
     }
-    tried = {re.sub(r"/m/[^/]+", "/m/{token}", path) for _, path, _ in hall.forms().values()}
+    tried = {re.sub("/table/1", "/table/{table}", path) for _, path, _ in hall.forms().values()}
     assert tried == posts - NOT_HERE
 
 

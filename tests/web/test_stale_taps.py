@@ -8,12 +8,13 @@ from pathlib import Path
 import pytest
 from starlette.requests import Request
 
-from evenbreak.files.store.desk import CLAIMED, Entry, enter, phone_entries
+from evenbreak.files.store.desk import RELEASED, Entry, enter, phone_entries
 from evenbreak.files.store.tournament import add_events, read_tournament
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.web.pages import match
+from evenbreak.web import taps
+from evenbreak.web.forms import Form
 from evenbreak.web.site import Site
 from tries import tries
 from web.asked import Browser, Room
@@ -26,19 +27,27 @@ EVENINGS = tries("taps of stale phones", 4)
 
 
 class Table:
-    """A long match with the phones of its players, the director and somebody who looks on."""
+    """A long match with the phones of its players, and the tablet of its table."""
 
     def __init__(self, path: Path) -> None:
         self.room = Room(Site(path, hosts=frozenset({"localhost"})))
         self.director = Browser(self.room, director=True)
         assert self.director.send("/new", **NEW).status == 303
         assert self.director.send("/desk/draw").status == 303
-        self.at = f"/m/{self.room.site.match_token('F')}"
+        assert self.director.send("/desk/call", match="F", table=1).status == 303
+        self.tablet = Browser(self.room, director=True)
+        assert self.tablet.send("/table/1/tablet", give="yes").status == 303
         self.players = [Browser(self.room, address=f"10.0.0.{k}") for k in (1, 2)]
+        for name, player in zip(("Ann", "Bo"), self.players, strict=True):
+            assert player.claims(name).status == 303
+
+    def at(self, browser: Browser) -> str:
+        return "/table/1/score" if browser is self.tablet else "/me/score"
 
     def forms(self, browser: Browser) -> list[dict[str, str]]:
         """Return the forms of a phone's page: each adds a game or takes one back."""
-        text = browser.open(self.at).text
+        page = "/table/1?play=F" if browser is self.tablet else "/me?play=1"
+        text = browser.open(page).text
         forms = re.findall(r'<form[^>]* action="[^"]*/score".*?</form>', text, re.DOTALL)
         return [dict(re.findall(r'name="([^"]+)" value="([^"]*)"', form)) for form in forms]
 
@@ -59,7 +68,7 @@ def table(tmp_path: Path) -> Iterator[Table]:
 @pytest.mark.parametrize("seed", range(EVENINGS))
 def test_the_score_is_the_games_that_were_acknowledged(table: Table, seed: int) -> None:
     luck = random.Random(seed)
-    browsers = [*table.players, table.director]
+    browsers = [*table.players, table.tablet]
     opened = {browser: table.forms(browser) for browser in browsers}
     refused, games = 0, (0, 0)
     for number in range(40):
@@ -68,7 +77,7 @@ def test_the_score_is_the_games_that_were_acknowledged(table: Table, seed: int) 
             opened[browser] = table.forms(browser)
         form = luck.choice(opened[browser]) | {"once": f"tap {number}"}
         before = table.score
-        got = browser.ask("POST", f"{table.at}/score", form)
+        got = browser.ask("POST", table.at(browser), form)
         asked = int(form["a"]), int(form["b"])
         seen = tuple(map(int, form["seen"].split(":")))
         if got.status == 303:  # one game more or less than it showed
@@ -78,70 +87,53 @@ def test_the_score_is_the_games_that_were_acknowledged(table: Table, seed: int) 
         else:
             assert got.status == 409
             assert "Check it, then tap" in got.words
-            assert "Game for" in got.words  # the page as it is now
+            assert "Tap for a game" in got.words  # the page as it is now
             assert (table.score, seen == before) == (before, False)
             refused += 1
         assert table.score == games
     assert refused
 
 
-def test_who_looks_on_scores_only_until_both_players_have_their_phones(table: Table) -> None:
+def test_who_looks_on_scores_nothing(table: Table) -> None:
     guest = Browser(table.room, address="10.0.0.9")
-    form = table.forms(guest)[0]
-    assert guest.ask("POST", f"{table.at}/score", form).status == 303
-    for k, player in enumerate(table.players):
-        assert player.send(f"{table.at}/me", me=k).status == 303
-    late = table.forms(table.players[0])[0]
-    assert table.forms(guest) == []
-    assert guest.ask("POST", f"{table.at}/score", late | {"csrf": guest.token()}).status == 403
+    form = table.forms(table.players[0])[0]
+    for path in ("/me/score", "/table/1/score"):
+        assert guest.ask("POST", path, form | {"csrf": guest.token()}).status == 403
+    assert table.score == (0, 0)
+    other = table.players[1]
+    assert other.ask("POST", "/me/score", form | {"csrf": other.token()}).status == 303
     assert table.score == (1, 0)
-    assert table.players[1].ask(
-        "POST", f"{table.at}/score", late | {"csrf": table.players[1].token()}
-    ).status == 303  # fmt: skip
-    assert table.score == (2, 0)
 
 
 def test_a_result_counts_from_the_score_that_its_page_showed(table: Table) -> None:
-    pair = {"player_a": "Ann", "player_b": "Bo"}
-    for k, player in enumerate(table.players):
-        player.send(f"{table.at}/me", me=k)
-    stale = {**table.players[0].hidden(), **pair, "seen": "0:0", "a": 50, "b": 0}
-    table.players[1].send(f"{table.at}/score", a=0, b=1, **pair)
-    assert table.players[0].ask("POST", f"{table.at}/score", stale).status == 409
-    assert phone_entries(table.room.site.path, "F")[2:] == []
-
-
-def test_a_refused_result_claims_no_side_and_leads_to_the_page_as_it_is(table: Table) -> None:
-    pair = {"player_a": "Ann", "player_b": "Bo"}
     one, other = table.players
-    one.send(f"{table.at}/score", a=1, b=0, **pair)
-    assert other.send(f"{table.at}/score", a=50, b=0, me=1, seen="0:0", **pair).status == 409
-    assert phone_entries(table.room.site.path) == []
-    assert "Game for Ann" in other.open(f"{table.at}/score").words  # where a browser looks again
+    before = len(phone_entries(table.room.site.path))
+    other.taps("F", 0, 1)
+    assert one.taps("F", 50, 0, seen="0:0").status == 409
+    assert len(phone_entries(table.room.site.path)) == before
+    assert "Tap for a game" in one.open("/me/score").words  # where a browser looks again
 
 
-@pytest.mark.parametrize("field", ["seen", "sides"])
+@pytest.mark.parametrize("field", ["seen", "phone"])
 def test_what_happens_while_a_tap_comes_in_counts(
     table: Table, field: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Between reading a tap and entering it, somebody scores, or the last side is claimed."""
-    guest = Browser(table.room, address="10.0.0.9")
-    form = table.forms(guest)[0]
-    read = match._match
+    """Between reading a tap and entering it, somebody scores, or the phone is released."""
+    player, path = table.players[0], table.room.site.path
+    form = table.forms(player)[0]
+    read = taps.tap_in
 
-    async def late(request: Request) -> tuple[str, Evening]:
-        found = await read(request)
-        monkeypatch.setattr(match, "_match", read)
+    def late(request: Request, sent: Form, state: Evening) -> taps.Tap:
+        found = read(request, sent, state)
         if field == "seen":
-            scored = moves.score(found[1], "F", (0, 1))
-            add_events(table.room.site.path, lambda _: [Event("2025-03-01T20:00:00", scored)])
+            scored = moves.score(state, "F", (0, 1))
+            add_events(path, lambda _: [Event("2025-03-01T20:00:00", scored)])
         else:
-            for who, player, at in (("Ann", "x", "10.0.0.1"), ("Bo", "y", "10.0.0.2")):
-                entry = Entry("2025-03-01T20:00:00", "F", CLAIMED, who, phone=player, address=at)
-                enter(table.room.site.path, "F", ("Ann", "Bo"), lambda _, entry=entry: entry)
+            gone = Entry("2025-03-01T20:00:00", "", RELEASED, "Ann")
+            enter(path, state, lambda _: gone)
         return found
 
-    monkeypatch.setattr(match, "_match", late)
-    got = guest.ask("POST", f"{table.at}/score", form)
+    monkeypatch.setattr(taps, "tap_in", late)
+    got = player.ask("POST", "/me/score", form)
     assert got.status == (409 if field == "seen" else 403)
     assert table.score == ((0, 1) if field == "seen" else (0, 0))

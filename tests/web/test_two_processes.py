@@ -237,14 +237,13 @@ def test_the_file_is_opened_through_sqlite_alone(tmp_path: Path) -> None:
 
 def by_phones(sites: list[Site], match: str, kept: list[str]) -> None:
     """Let the two players of a match tap and propose, each at a server of their own."""
-    state, token = read_tournament(sites[0].path), sites[0].match_token(match)
-    pair = dict(zip(("player_a", "player_b"), state.pair(match), strict=True))
+    pair = read_tournament(sites[0].path).pair(match)
     number = int(match.rpartition(".")[2])
     for side, site in enumerate(sites):
         phone = Phone(site, address=f"127.0.{side + 2}.{number}")
+        assert phone.claims(pair[side]).status == 200
         for score in ((1, 0), (1, 1), (5, 2)):
-            fields = {**pair, "a": score[0], "b": score[1], "me": side}
-            shown = phone.send(f"/m/{token}/score", **fields)
+            shown = phone.taps(match, *score)
             assert shown.status == 200, shown.words
             kept.append(f"{match} {side} {score}")
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import base64
+import json
 import re
 import sqlite3
 from collections.abc import Iterator
@@ -12,12 +14,13 @@ from typing import Any
 
 import pytest
 
+from evenbreak.web.app import cookie_name
 from evenbreak.web.site import Site
 from web.asked import Browser, Got, Room, copy_of, session
 from web.phones import seen_at
 
 EVERYBODY = "everybody"
-LINK = "who has the link"
+PLAYERS_OF_IT = "player, opponent"
 CAPTAINS = "captain A, captain B, director"
 DIRECTOR = "director"
 NOBODY = ""
@@ -30,12 +33,13 @@ MAY = {
             *("GET /league/ratings.csv", "GET /league/matchups.csv", "GET /league/sheet.pdf"),
             *("GET /league/sheet.html", "GET /league/sheet.xlsx", "GET /screen", "GET /fair"),
             *("GET /pin", "GET /evenbreak.css", "GET /events", "GET /team"),
-            "POST /language",
+            *("GET /me", "GET /me/score", "GET /c/{code}", "POST /me/claim", "POST /me/code"),
+            *("GET /table/{table}", "GET /table/{table}/score", "POST /language"),
         ],
         EVERYBODY,
     ),
-    **dict.fromkeys(["GET /m/{token}", "GET /m/{token}/score", "POST /m/{token}/me"], LINK),
-    "POST /m/{token}/score": "player, opponent, director",
+    **dict.fromkeys(["POST /me/score", "POST /me/coming", "POST /me/withdraw"], PLAYERS_OF_IT),
+    **dict.fromkeys(["POST /table/{table}/score", "POST /table/{table}/wrong"], "tablet"),
     **dict.fromkeys(["POST /team/put", "POST /team/hand", "POST /team/result"], CAPTAINS),
     **dict.fromkeys(
         [
@@ -60,13 +64,18 @@ MAY = {
             ),
             *("POST /desk/change", "POST /desk/tiebreak", "POST /desk/undo", "POST /desk/stand"),
             *("POST /desk/uncall", "POST /desk/late", "POST /desk/save", "POST /prizes"),
-            *("POST /league", "POST /league/tonight", "POST /m/{token}/release"),
+            *(
+                "POST /league",
+                "POST /league/tonight",
+                "POST /desk/release",
+                "POST /table/{table}/tablet",
+            ),
             *("POST /team/undo", "POST /team/new", "POST /desk/pin", "POST /new"),
         ],
         DIRECTOR,
     ),
     **dict.fromkeys(["POST /pin", "POST /team/pin"], NOBODY),  # without the PIN
-    **dict.fromkeys(["POST /team/leave", "POST /leave"], EVERYBODY),
+    **dict.fromkeys(["POST /team/leave", "POST /leave", "POST /me/leave"], EVERYBODY),
 }
 """Who passes at each route; all others are refused, and change nothing."""
 
@@ -104,9 +113,9 @@ class Rooms:
             self.room.loop.run_until_complete(asyncio.sleep(0.02))
             first.open("/league")
         assert site.league.sheet is not None, site.league.problem
-        self.match = site.match_token("W1.1")
+        self.pair = site.night.state().pair("W1.1")
         who = {name: Browser(self.room, address=f"10.0.0.{k}") for k, name in enumerate(
-            ["guest", "with the link", "player", "opponent", "captain A", "captain B"], 1
+            ["guest", "player", "opponent", "captain A", "captain B"], 1
         )}  # fmt: skip
         (began,) = re.findall(r'name="night" value="(\d+)"', first.open("/team").text)[:1]
         self.began = int(began)
@@ -114,7 +123,10 @@ class Rooms:
             pin = site.captain_pin(self.began, side)
             assert who[name].send("/team/pin", pin=pin).status == 303
         for side, name in enumerate(("player", "opponent")):
-            assert who[name].send(f"/m/{self.match}/me", me=side).status == 303
+            assert who[name].claims(self.pair[side]).status == 303
+        assert first.send("/desk/call", match="W1.1", table=2).status == 303
+        who["tablet"] = Browser(self.room, address="10.0.0.9", director=True)
+        assert who["tablet"].send("/table/2/tablet", give="yes").status == 303
         old = Browser(self.room, director=True)
         assert first.told("/desk/pin").status == 200
         leaves = Browser(self.room, director=True)
@@ -138,6 +150,8 @@ class Rooms:
     def fields(self, route: str, role: str) -> dict[str, Any]:
         """Return what would be taken of a director, or of a captain."""
         state = self.night.state()
+        tap = {"match": "W1.1", "a": 1, "b": 0}
+        tap |= seen_at(self.site, "/me/score", tap)
         by: dict[str, Any] = {"night": self.began, "number": 1, "by": "director", "team": 0}
         if role in ("captain A", "captain B"):
             by["by"] = "AB".index(role[-1])
@@ -170,20 +184,32 @@ class Rooms:
             "/pin": {"pin": "000000"},
             "/team/pin": {"pin": "000000"},
             "/language": {"language": "en", "back": "/"},
-            "/m/{token}/me": {"me": 0 if role == "player" else 1},
-            "/m/{token}/release": {"me": 0},
-            "/m/{token}/score": {"a": 1, "b": 0, "player_a": state.pair("W1.1")[0],
-                                 "player_b": state.pair("W1.1")[1],
-                                 **seen_at(self.site, f"/m/{self.match}/score")},
+            "/me/claim": {"name": self.named(role)},
+            "/me/code": {"code": self.site.player_code(self.named(role))},
+            "/me/coming": {"match": "W1.1"},
+            "/me/withdraw": {"match": "W1.1"},
+            "/me/score": tap,
+            "/table/{table}/score": tap,
+            "/table/{table}/wrong": {"match": "W1.4"},
+            "/table/{table}/tablet": {"give": "no"},
+            "/desk/release": {"player": "Gus"},
             "/team/put": by | {"pick": "0"},
             "/team/hand": by | {f"pick{k}": str(k - 1) for k in range(1, 4)},
             "/team/result": by | {"a": 5, "b": 3},
             "/team/undo": {"seen": 1},
         }.get(route, {})  # fmt: skip
 
+    def named(self, role: str) -> str:
+        """Return whose phone somebody says that they have."""
+        return dict(zip(("player", "opponent"), self.pair, strict=True)).get(role, "Gus")
+
+    def path(self, route: str, role: str) -> str:
+        """Return an address of a route."""
+        code = self.site.player_code(self.named(role))
+        return route.replace("{code}", code).replace("{table}", "2")
+
     def tries(self, method: str, route: str, role: str) -> Got:
-        token = "x" * 20 if role == "guest" else self.match
-        path = route.replace("{token}", token)
+        path = self.path(route, role)
         host = "evil.example" if role == "another host" else "localhost"
         browser = self.who[role]
         if route == "/league/player":
@@ -214,7 +240,7 @@ def passes(asked: str, role: str, who: str) -> bool:
         return asked.startswith("GET ") and passes(asked, "director", who)
     if role == "another host" or (role == "a forged session" and asked.startswith("POST ")):
         return False
-    return who == EVERYBODY or (who == LINK and role != "guest") or role in who.split(", ")
+    return who == EVERYBODY or role in who.split(", ")
 
 
 def routes(room: Room) -> dict[str, set[str]]:
@@ -246,28 +272,34 @@ def test_a_form_in_an_address_changes_nothing(rooms: Rooms) -> None:
         method, route = asked.split()
         if method == "POST":
             fields = {key: str(value) for key, value in rooms.fields(route, "director").items()}
-            path = route.replace("{token}", rooms.match)
+            path = rooms.path(route, "director")
             director.open(path, csrf=director.token(), **fields)
             director.ask("HEAD", f"{path}?csrf={director.token()}&match=W1.1&a=3&b=1")
     assert held(rooms.site.path) == before
+
+
+def browser_phone(rooms: Rooms, browser: Browser) -> str:
+    """Return what the session of a browser is known by."""
+    data = browser.cookies.get(cookie_name(rooms.site), "").split(".")[0]
+    return str(json.loads(base64.b64decode(data + "==") or "{}").get("phone", ""))
 
 
 PAGES = ("/", "/players", "/bracket", "/screen", "/team", "/pin", "/prizes", "/league", "/fair")
 
 
 def test_no_page_tells_a_secret_to_who_may_not_know_it(rooms: Rooms) -> None:
-    site, state = rooms.site, rooms.night.state()
+    site = rooms.site
     pins = [site.captain_pin(rooms.began, side) for side in (0, 1)]
-    tokens = site.match_tokens(state.bracket.by_name)
     for role, browser in rooms.who.items():
         if role in ("director", "another host", "a wrong token"):
             continue
-        for page in (*PAGES, "/desk", "/desk/codes", "/team/history", f"/m/{rooms.match}"):
+        for page in (*PAGES, "/desk", "/desk/codes", "/team/history", "/me", "/table/2"):
             text = browser.open(page).text
             for secret in (site.pin, *pins, site.cookie_key, site.director_mark):
                 assert secret not in text, (role, page)
-            for match, token in tokens.items():
-                assert token not in text or (match, page[:3]) == ("W1.1", "/m/"), (role, page)
+            mine = rooms.night.phones().of(browser_phone(rooms, browser))
+            for name, code in site.player_codes().items():
+                assert code not in text or (name, page) == (mine, "/me"), (role, page)
 
 
 def test_what_a_captain_hands_in_unseen_shows_nowhere_else(rooms: Rooms) -> None:

@@ -38,9 +38,10 @@ from evenbreak.web.pages import (
     fair,
     home,
     league,
-    match,
+    me,
     moves,
     players,
+    table,
     team,
 )
 from evenbreak.web.pages.home import Watch
@@ -52,7 +53,7 @@ _LOG = logging.getLogger(__name__)
 _COOKIE_DAYS = 3
 _DOUBLE_TAP = 10.0  # seconds
 _MOST = 1000  # forms whose answers are remembered
-OF_THE_SESSION = ("/pin", "/leave", "/language", "/m/{token}/me")
+OF_THE_SESSION = ("/pin", "/leave", "/language")
 _HTTP = {
     400: say("The form could not be read. Open the page again."),
     404: say("There is no such page."),
@@ -78,7 +79,8 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
                 *bracket.ROUTES,
                 *players.ROUTES,
                 *league.ROUTES,
-                *match.ROUTES,
+                *me.ROUTES,
+                *table.ROUTES,
                 *desk.ROUTES,
                 *moves.ROUTES,
                 *desk_extras.ROUTES,

@@ -9,27 +9,12 @@ from __future__ import annotations
 import hashlib
 import hmac
 
-from evenbreak.tournaments.evening.events import Edited, Late, Opened
 from evenbreak.tournaments.evening.fold import Evening
 
 LETTERS = "CDFGHJKMNPQRTVWXY3469"
 """No letter that looks like another or like a digit, and no vowel: a code is no word."""
 
 LENGTH = 5
-
-
-def entries_of(state: Evening) -> dict[str, str]:
-    """Return by which entry each player came, such as '1.3': the third of the first event."""
-    found: dict[str, str] = {}
-    for number, event in zip(state.numbers, state.events, strict=True):
-        match event.what:
-            case Opened(entrants=entrants):
-                found |= {one.name: f"{number}.{k}" for k, one in enumerate(entrants, 1)}
-            case Late(entrant=entrant):
-                found[entrant.name] = f"{number}.1"
-            case Edited(name=name, entrant=entrant) if name in found:
-                found[entrant.name] = found.pop(name)
-    return found
 
 
 def codes_of(state: Evening, key: str) -> dict[str, str]:
@@ -42,10 +27,10 @@ def codes_of(state: Evening, key: str) -> dict[str, str]:
     key
         the secret from which codes are drawn.
 
-    >>> from evenbreak.tournaments.evening.events import Entrant, Event, Plan
+    >>> from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, Renamed
     >>> from evenbreak.tournaments.evening.fold import evening
     >>> both = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
-    >>> renamed = Edited("Ann", Entrant("Anne", 80.0))
+    >>> renamed = Renamed("Ann", "Anne")
     >>> one, other = (
     ...     evening([Event("2025-03-01T19:30:00", what) for what in happened])
     ...     for happened in ([both], [both, renamed])
@@ -55,9 +40,9 @@ def codes_of(state: Evening, key: str) -> dict[str, str]:
     """
     begun = state.events[0].at
     found: dict[str, str] = {}
-    for name, entry in entries_of(state).items():
+    for name, (number, place) in state.entries.items():
         again = 0
-        while (code := _code(key, f"{begun} {entry} {again}")) in found:
+        while (code := _code(key, f"{begun} {number}.{place} {again}")) in found:
             again += 1
         found[code] = name
     return {name: code for code, name in found.items() if name in state.entrants}

@@ -11,6 +11,7 @@ import numpy as np
 
 from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.answers.tournament.tournament import races_words
+from evenbreak.tournaments.brackets.bracket import Place
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.moves import free_tables
@@ -228,7 +229,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
     listed = (known.data.get("odds") or known.data.get("players", [])) if known else []
     titles = {one["name"]: one["p_title"] for one in listed}
     calls = {name: at for at, name in known.calls} if known and known.of is state else {}
-    places = _decided(known.odds) if known and known.odds and known.of is state else {}
+    places = decided_places(known.odds) if known and known.odds and known.of is state else {}
     playing: dict[str, str] = {}
     if state.drawn:
         playing = {name: match for match in state.standing.to_play for name in state.pair(match)}
@@ -249,7 +250,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
                 entrant.standard_error,
                 name in provisional,
                 title,
-                places.get(name, ""),
+                str(places.get(name, "")),
                 match,
                 other,
                 table,
@@ -260,9 +261,9 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
     return sorted(views, key=lambda one: (one.provisional, -one.rating))
 
 
-def _decided(odds: PlaceOdds) -> dict[str, str]:
+def decided_places(odds: PlaceOdds) -> dict[str, Place]:
     """Return the places that are decided, by player."""
     seats, places = np.nonzero(odds.p_place > 1.0 - 1e-12)
     names = odds.bracket.players
     both = zip(seats.tolist(), places.tolist(), strict=True)
-    return {names[seat]: str(odds.bracket.places[place]) for seat, place in both}
+    return {names[seat]: odds.bracket.places[place] for seat, place in both}

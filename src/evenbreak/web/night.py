@@ -22,7 +22,7 @@ from evenbreak.answers.tournament.night import begun_at, next_calls, night_answe
 from evenbreak.answers.tournament.prizes import payers_of
 from evenbreak.errors import EvenbreakError, InputError
 from evenbreak.files.store.desk import TABLE as PHONES
-from evenbreak.files.store.desk import keep_prizes, kept_prizes
+from evenbreak.files.store.desk import Phones, keep_prizes, kept_prizes, phone_entries, phones_in
 from evenbreak.files.store.evening_file import holds
 from evenbreak.files.store.formats import TOURNAMENT, has_table, size_of
 from evenbreak.files.store.tournament import read_events, tournament_of
@@ -67,6 +67,8 @@ class Known:
         start; only of players who may still play.
     chances
         the first player's of each match that is played or ready.
+    starts
+        the same of each match that has not begun, given that it is played.
     problem
         why nothing of all this could be worked out; '' if it was.
     """
@@ -79,6 +81,7 @@ class Known:
     odds: PlaceOdds | None = None
     next_starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
     chances: Mapping[str, float] = field(default_factory=dict)
+    starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
     problem: str = ""
 
 
@@ -98,6 +101,7 @@ class Night:
         self.clock = clock
         self.known: Known | None = None
         self._read: tuple[tuple[int, int, int], list[Event], Evening] | None = None
+        self._phones: tuple[tuple[int, int, int], Evening, Phones] | None = None
         self._money: PrizeMoney | None = None
         self._money_at = -math.inf
         self._begun = False
@@ -124,6 +128,14 @@ class Night:
             state = read[2] if read and same else tournament_of(self.path, events)
             # Another thread may keep what it read before; what is returned is what was read here.
             read = self._read = mark, events, state
+        return read[2]
+
+    def phones(self) -> Phones:
+        """Return whose phones are whose, and what they propose."""
+        mark, state, read = mark_of(self.path), self.state(), self._phones
+        if read is None or read[0] != mark or read[1] is not state:
+            phones = phones_in(phone_entries(self.path), state)
+            read = self._phones = mark, state, phones
         return read[2]
 
     @property
@@ -184,7 +196,9 @@ class Night:
             calls = next_calls(night) if to_play else []
             starts = _next_starts(night) if to_play else {}
             chances = match_chances(night)
-            return Known(state, 0.0, data, calls, begun_at(night), night.odds, starts, chances)
+            later = _starts(night) if to_play else {}
+            begun = begun_at(night)
+            return Known(state, 0.0, data, calls, begun, night.odds, starts, chances, later)
 
         try:
             found = await self.beside.run(work)
@@ -222,6 +236,15 @@ def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
         if name not in busy and start.p_played > 0.0:
             starts[name] = start.p10, start.p50, start.p90
     return starts
+
+
+def _starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
+    """Return when each match begins that has not begun."""
+    if night.state.plan.form == "chips":
+        return {}
+    found = night.as_things_are
+    starts = {name: found.start(name) for name in found.names if name not in night.state.on_tables}
+    return {name: (at.p10, at.p50, at.p90) for name, at in starts.items() if at.p_played > 0.0}
 
 
 def mark_of(path: Path) -> tuple[int, int, int]:

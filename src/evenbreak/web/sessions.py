@@ -22,7 +22,7 @@ _SECONDS = 60.0
 _MOST_ADDRESSES = 1000
 
 DIRECTORS_PAGE = "director's page"
-_PHONES, _CAPTAIN = "phones: ", "captain of "
+_PHONES, _CAPTAIN, _TABLET = "phones: ", "captain of ", "phone of table "
 _BETWEEN = " and "
 
 
@@ -154,6 +154,11 @@ def phones_of(players: Sequence[str]) -> str:
     return ("phone: " if len(players) == 1 else _PHONES) + _BETWEEN.join(players)
 
 
+def tablet_of(table: str) -> str:
+    """Return the tablet of a table, as it is kept: it is the players' too."""
+    return _TABLET + table
+
+
 def captain_of_team(team: str) -> str:
     """Return the captain of a team, as it is kept."""
     return _CAPTAIN + team
@@ -171,6 +176,8 @@ def author_words(kept: str) -> str:
         return say("a terminal")
     if kept == DIRECTORS_PAGE:
         return say("director's page")
+    if kept.startswith(_TABLET):
+        return say("tablet of table {table}", table=kept.removeprefix(_TABLET))
     if kept.startswith("phone: "):
         return say("phone: {player}", player=kept.removeprefix("phone: "))
     if kept.startswith(_PHONES):

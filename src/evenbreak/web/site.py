@@ -6,7 +6,7 @@ import hashlib
 import hmac
 import itertools
 import secrets
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -48,8 +48,9 @@ class Site:
         of the house, such as #7a1f5c; None: the usual one.
     clock
         returns what time it is, such as 2025-03-01T19:30:00.
-    tries, all_tries, taps
-        wrong PINs from each address and from all, and taps in each match, in the last minute.
+    tries, all_tries, codes, all_codes, taps
+        wrong PINs from each address and from all, wrong codes of players likewise, and taps in each
+        match, in the last minute.
     """
 
     path: Path
@@ -60,6 +61,8 @@ class Site:
     clock: Callable[[], str] = now
     tries: Tries = field(default_factory=lambda: Tries(5))
     all_tries: Tries = field(default_factory=lambda: Tries(30))
+    codes: Tries = field(default_factory=lambda: Tries(10))
+    all_codes: Tries = field(default_factory=lambda: Tries(60))
     taps: Tries = field(default_factory=lambda: Tries(240))
 
     def __post_init__(self) -> None:
@@ -171,15 +174,6 @@ class Site:
         """Return what the session of a captain holds; with `again`, what their PIN is made of."""
         return self._token(f"captain {night} {team} {again}")
 
-    def match_token(self, match: str) -> str:
-        """Return the token by which a match of this tournament is scored."""
-        return self.match_tokens([match])[match]
-
-    def match_tokens(self, matches: Iterable[str]) -> dict[str, str]:
-        """Return the token of each match."""
-        begun, key = self.night.begun_at, self._secret("match")
-        return {match: _token(key, f"{begun} {match}") for match in matches}
-
     def player_codes(self) -> dict[str, str]:
         """Return the code of each player of the tournament; `/c/CODE` claims their phone."""
         state = self.night.state()
@@ -193,13 +187,6 @@ class Site:
 
     def _token(self, what: str) -> str:
         return _token(self._secret("match"), what)
-
-    def match_of(self, token: str, matches: Iterable[str]) -> str | None:
-        """Return the match that a token is for."""
-        for name, its in self.match_tokens(matches).items():
-            if hmac.compare_digest(its.encode(), token.encode()):
-                return name
-        return None
 
 
 def night_of(request: Request) -> Night:

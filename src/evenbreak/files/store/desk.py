@@ -1,7 +1,7 @@
 """What the file of an evening holds besides its events: secrets, prizes, what phones did.
 
-Of what phones did entries are only ever added: who claimed which side, who proposed which result.
-Who holds a side, and what is proposed now, are a fold of them.
+Of what phones did entries are only ever added: who claimed which player, who proposed which result.
+Who has whose phone, and what is proposed now, are a fold of them.
 """
 
 from __future__ import annotations
@@ -10,14 +10,16 @@ import json
 import secrets
 import sqlite3
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
+from typing import NamedTuple
 
 from evenbreak.errors import DataError
 from evenbreak.evenings.log import read_json
 from evenbreak.files.store.evening_file import changing, copied, damaged, named, opened
 from evenbreak.files.store.formats import has_table
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.words import say
 
@@ -108,7 +110,9 @@ def back_up(path: str | Path, now: datetime) -> Path:
     return copied(path, f"{now:%Y%m%d-%H%M%S}")
 
 
-CLAIMED, RELEASED, PROPOSED, ENTERED = "claimed", "released", "proposed", "entered"
+CLAIMED, RELEASED, COMING = "claimed", "released", "coming"
+PROPOSED, WITHDRAWN, ENTERED, OBJECTED = "proposed", "withdrawn", "entered", "objected"
+TABLET, NO_TABLET = "tablet", "no tablet"
 TABLE = "phone"
 
 _TABLE = f"""
@@ -121,21 +125,24 @@ CREATE TABLE IF NOT EXISTS {TABLE} (
 
 @dataclass(frozen=True)
 class Entry:
-    """Something that a phone did in a match.
+    """Something that a phone did, or that the director did about one.
 
     Parameters
     ----------
     at
         when, such as 2025-03-01T19:30:00.
     match
-        its name.
+        its name; '' for what is about no match.
     kind
-        claimed: the phone said that it is this player's; released: the director set the side free;
-        proposed: the player sent a result; entered: what was proposed is the result now.
+        claimed: the phone is this player's from now on; released: the player has none;
+        coming: the player is on the way to the table, in `score['minutes']`;
+        proposed: the player sent a result; withdrawn: and took it back; entered: what was proposed
+        is the result now; objected: a table says that its last result is wrong;
+        tablet: the phone belongs to the table that `player` names; no tablet: it no longer does.
     player
-        whose side it is; '' for `entered`.
+        who did it, or whom it is about; the number of a table for what a tablet did.
     score
-        the games of each player by name, of a proposal.
+        the games of each player by name, of a proposal or of the result that is objected to.
     phone, address
         the session, and where it came from.
     """
@@ -149,111 +156,214 @@ class Entry:
     address: str = ""
 
 
-class Sides:
-    """Who holds the sides of a match, and what they propose.
+class Phones:
+    """Whose phones are whose, which tablets belong to tables, and what is proposed.
 
-    >>> ann = Entry("19:30", "F", CLAIMED, "Ann", phone="x", address="10.0.0.7")
-    >>> bo = Entry("19:31", "F", CLAIMED, "Bo", phone="y", address="10.0.0.8")
-    >>> sides = Sides([ann, bo])
-    >>> sides.of("x"), sides.apart
+    A phone has one player. Whoever claims another one gives up the first, and with it what they
+    proposed: nobody answers for both. So does a player's proposal go with the phone it came from.
+
+    >>> ann = Entry("19:30", "", CLAIMED, "Ann", phone="x", address="10.0.0.7")
+    >>> bo = Entry("19:31", "", CLAIMED, "Bo", phone="y", address="10.0.0.8")
+    >>> phones = Phones([ann, bo])
+    >>> phones.of("x"), phones.sides("F", ("Ann", "Bo")).apart
     ('Ann', True)
-    >>> Sides([ann, bo, Entry("19:32", "F", RELEASED, "Ann")]).of("x")
+    >>> Phones([ann, bo, Entry("19:32", "", CLAIMED, "Bo", phone="x")]).of("y")
     ''
     """
 
-    def __init__(self, entries: Iterable[Entry]) -> None:
+    def __init__(self, entries: Iterable[Entry] = ()) -> None:
         self.claims: dict[str, Entry] = {}
-        self.proposed: dict[str, Entry] = {}
+        self.coming: dict[str, Entry] = {}
+        self.objections: dict[str, Entry] = {}
+        self.tablets: dict[str, Entry] = {}
+        self._proposed: dict[str, dict[str, Entry]] = {}
         for entry in entries:
-            self._add(entry)
+            self.add(entry)
 
-    def _add(self, entry: Entry) -> None:
+    def add(self, entry: Entry) -> None:
+        """Add the next entry."""
         match entry.kind:
-            case "claimed":  # a phone holds one side; what it proposed for the other is void
-                self._free(self.of(entry.phone))
+            case "claimed":
+                before = self.claims.get(entry.player)
+                if before is None or before.phone != entry.phone:
+                    self._free(entry.player)
+                    self._free(self.of(entry.phone))
                 self.claims[entry.player] = entry
             case "released":
                 self._free(entry.player)
+            case "coming":
+                self.coming[entry.player] = entry
             case "proposed":
-                self.proposed[entry.player] = entry
+                self._proposed.setdefault(entry.match, {})[entry.player] = entry
+            case "withdrawn":
+                self._proposed.get(entry.match, {}).pop(entry.player, None)
+            case "objected":
+                self.objections[entry.match] = entry
+            case "tablet":
+                self.tablets[entry.phone] = entry
+            case "no tablet":
+                self.tablets.pop(entry.phone, None)
             case _:
-                self.proposed.clear()
+                self._proposed.pop(entry.match, None)
 
     def _free(self, player: str) -> None:
         self.claims.pop(player, None)
-        self.proposed.pop(player, None)
+        for proposed in self._proposed.values():
+            proposed.pop(player, None)
 
     def of(self, phone: str) -> str:
-        """Return whose side a phone holds; '' if none."""
+        """Return whose phone it is; '' if nobody's."""
         return next((who for who, claim in self.claims.items() if claim.phone == phone), "")
+
+    def table_of(self, phone: str) -> int:
+        """Return the table that a tablet belongs to; 0 if it is none."""
+        return int(self.tablets[phone].player) if phone in self.tablets else 0
+
+    def tablets_of(self, table: int) -> list[str]:
+        """Return the tablets of a table."""
+        return [phone for phone, one in self.tablets.items() if one.player == str(table)]
+
+    def sides(self, match: str, pair: tuple[str, str]) -> Sides:
+        """Return what the players of a match propose, without others who were in it before."""
+        proposed = self._proposed.get(match, {})
+        there = {name: proposed[name] for name in pair if name in proposed}
+        now = {name: one for name, one in there.items() if set(one.score) == set(pair)}
+        claims = {name: self.claims[name] for name in pair if name in self.claims}
+        return Sides(match, pair, claims, now)
+
+
+@dataclass(frozen=True)
+class Sides:
+    """What the two players of a match propose.
+
+    Parameters
+    ----------
+    match, pair
+        the match and who play it.
+    claims
+        the phones of those who have one.
+    proposed
+        what they propose.
+    """
+
+    match: str
+    pair: tuple[str, str]
+    claims: Mapping[str, Entry]
+    proposed: Mapping[str, Entry]
+
+    @property
+    def scores(self) -> dict[str, tuple[int, int]]:
+        """What each of them says, the games of the first player first."""
+        one, other = self.pair
+        return {who: (its.score[one], its.score[other]) for who, its in self.proposed.items()}
 
     @property
     def agree(self) -> bool:
         """Whether both players propose one result."""
-        scores = [dict(entry.score) for entry in self.proposed.values()]
-        return len(scores) == 2 and scores[0] == scores[1]
+        return len(self.proposed) == 2 and len(set(self.scores.values())) == 1
 
     @property
     def apart(self) -> bool:
-        """Whether the two sides are held by different phones at different addresses."""
+        """Whether the two players have different phones at different addresses."""
         used: list[set[str]] = [
-            {entry.address for entry in (claim, self.proposed.get(who)) if entry}
+            {one.address for one in (claim, self.proposed.get(who)) if one}
             for who, claim in self.claims.items()
         ]
         return len(used) == 2 and not used[0] & used[1]
 
 
-def enter(
-    path: str | Path, match: str, pair: Iterable[str], decide: Callable[[Sides], Entry | None]
-) -> Sides:
-    """Add what a phone does to the log, and return the sides of its match after that.
+class Said(NamedTuple):
+    """What the players of a match say of its result, for the director to decide.
+
+    Parameters
+    ----------
+    match, pair
+        the match and its players.
+    scores
+        what each of them says, the games of the first player of the pair first.
+    """
+
+    match: str
+    pair: tuple[str, str]
+    scores: dict[str, tuple[int, int]]
+
+
+def disputes(state: Evening, phones: Phones) -> list[Said]:
+    """Return the matches of which the two players propose different results."""
+    return [one for one in _said(state, phones) if len(set(one.scores.values())) == 2]
+
+
+def alone(state: Evening, phones: Phones) -> list[Said]:
+    """Return the matches of which one person alone proposes a result.
+
+    Only one of the players has sent it, or both have, from one phone or one address.
+    """
+    return [one for one in _said(state, phones) if len(set(one.scores.values())) == 1]
+
+
+def objected(state: Evening, phones: Phones) -> list[str]:
+    """Return the matches whose result, as it is, is wrong by what was tapped at their table."""
+    found = []
+    for match, entry in phones.objections.items():
+        result = state.counted.get(match) if state.drawn else None
+        if result is not None and result.games == dict(entry.score):
+            found.append(match)
+    return found
+
+
+def _said(state: Evening, phones: Phones) -> list[Said]:
+    if not state.drawn:
+        return []
+    sides = [phones.sides(name, state.pair(name)) for name in state.standing.to_play]
+    return [Said(one.match, one.pair, one.scores) for one in sides if one.proposed]
+
+
+def phones_in(entries: Iterable[Entry], state: Evening) -> Phones:
+    """Return what is known of the phones, each player called what they are called now."""
+
+    def now(entry: Entry) -> Entry:
+        score = {state.former.get(who, who): games for who, games in entry.score.items()}
+        return replace(entry, player=state.former.get(entry.player, entry.player), score=score)
+
+    return Phones(map(now, entries) if state.former else entries)
+
+
+def enter(path: str | Path, state: Evening, decide: Callable[[Phones], Entry | None]) -> Phones:
+    """Add what a phone does to the log, and return what is known of the phones after that.
 
     Parameters
     ----------
     path
         the file of the tournament.
-    match
-        its name.
-    pair
-        who play it now.
+    state
+        its state, which knows what the players are called now.
     decide
-        returns the entry, given the sides as they are; None: nothing is new. Nobody else can add
+        returns the entry, given the phones as they are; None: nothing is new. Nobody else can add
         any in the meantime.
     """
     with changing(path) as base:
-        entries = _read(base, path, match)
-        sides = sides_between(entries, pair)
-        entry = decide(sides)
+        phones = phones_in(_read(base, path), state)
+        entry = decide(phones)
         if entry is None:
-            return sides
+            return phones
         base.execute(_TABLE)
         values = entry.at, entry.match, entry.kind, entry.player, json.dumps(dict(entry.score))
         base.execute(
             f"INSERT INTO {TABLE} VALUES (NULL, ?, ?, ?, ?, ?, ?, ?)",  # noqa: S608
             (*values, entry.phone, entry.address),
         )
-        return sides_between([*entries, entry], pair)
+        phones.add(entry)
+        return phones
 
 
-def phone_entries(path: str | Path, match: str | None = None) -> list[Entry]:
-    """Return what phones did in a match, or in all, in the order in which it came in."""
+def phone_entries(path: str | Path) -> list[Entry]:
+    """Return what phones did, in the order in which it came in."""
     with opened(path) as base:
-        return _read(base, path, match)
+        return _read(base, path)
 
 
-def sides_between(entries: Iterable[Entry], pair: Iterable[str]) -> Sides:
-    """Return the sides of a match, without what others did who were in it before."""
-    players = set(pair)
-    return Sides(
-        entry
-        for entry in entries
-        if (not entry.player or entry.player in players)
-        and (entry.kind != PROPOSED or set(entry.score) == players)
-    )
-
-
-def _read(base: sqlite3.Connection, path: str | Path, match: str | None) -> list[Entry]:
-    """Return the entries of a match, or of all, those that 0.2.0 kept first."""
+def _read(base: sqlite3.Connection, path: str | Path) -> list[Entry]:
+    """Return all entries, those that 0.2.0 kept first."""
     names = "at, game, kind, player, score, phone, address"
     kept = {
         "proposal": "SELECT at, game, 'proposed', player, score, phone, '' FROM proposal "
@@ -267,4 +377,4 @@ def _read(base: sqlite3.Connection, path: str | Path, match: str | None) -> list
                 values = dict(zip(names.replace("game", "match").split(", "), row, strict=True))
                 values["score"] = json.loads(values["score"])
                 entries.append(read_json(Entry, json.dumps(values)))
-    return [entry for entry in entries if match in (None, entry.match)]
+    return entries

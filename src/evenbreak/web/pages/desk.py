@@ -14,7 +14,6 @@ from evenbreak.answers.tournament.moves import (
     event_words,
 )
 from evenbreak.answers.tournament.night import bracket_table
-from evenbreak.files.store.desk import phone_entries, sides_between
 from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
@@ -56,12 +55,9 @@ async def desk(request: Request) -> Response:
     if state.drawn:
         entered = [one.what.match for one in state.events if isinstance(one.what, Result)]
         shown["decided"] = [one for one in dict.fromkeys(entered[::-1]) if one in state.counted]
-        sent = await asyncio.to_thread(phone_entries, site.path)
-        shown["sides"] = {
-            name: sides_between((one for one in sent if one.match == name), state.pair(name))
-            for name in dict.fromkeys(one.match for one in sent)
-            if name in state.standing.to_play
-        }
+        phones = await asyncio.to_thread(site.night.phones)
+        sides = (phones.sides(name, state.pair(name)) for name in state.standing.to_play)
+        shown["sides"] = {one.match: one for one in sides if one.proposed}
         shown["tied"] = [group_words(name) for name in tied_groups(state)]
         shown["drawable"] = can_draw(state)
         shown["rows"] = bracket_table(state).rows

@@ -6,7 +6,6 @@ import asyncio
 from dataclasses import replace
 from datetime import datetime
 
-import segno
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
@@ -22,7 +21,7 @@ from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import answer_shown, done, page, site_of
-from evenbreak.web.pages.match import phone_label, phone_words
+from evenbreak.web.pages.me import phone_label, phone_words
 from evenbreak.web.sessions import DIRECTOR, author_words, check_director, let_in
 from evenbreak.words import say
 
@@ -87,7 +86,7 @@ async def history(request: Request) -> Response:
     ]
     gone = set(state.undone)
     rows += [
-        (one.at, "", phone_words(one), phone_label(one))
+        (one.at, "", phone_words(one, state), phone_label(one))
         for one in await asyncio.to_thread(phone_entries, path)
         if one.kind != ENTERED  # it is among the events
     ]
@@ -98,33 +97,9 @@ async def history(request: Request) -> Response:
     return page(request, "history.html", rows=shown, gone=gone)
 
 
-async def codes(request: Request) -> Response:
-    """Show the QR codes: of the page, and of each match that can be played."""
-    check_director(request)
-    site = site_of(request)
-    to = {"": site.address}
-    if site.night.exists:
-        state = await asyncio.to_thread(site.night.state)
-        ready = state.standing.to_play if state.drawn else ()
-        for name, token in site.match_tokens(ready).items():
-            words = f"{name}: {' – '.join(state.pair(name))}"
-            to[words] = f"{site.address}/m/{token}"
-
-    def work() -> list[tuple[str, str, str]]:
-        return [(words, address, _code(address)) for words, address in to.items()]
-
-    return page(request, "codes.html", codes=await asyncio.to_thread(work))
-
-
-def _code(text: str) -> str:
-    svg: str = segno.make(text, error="m").svg_inline(scale=4, border=2, dark="#000", light="#fff")
-    return svg
-
-
 ROUTES = [
     Route("/desk/time", time),
     Route("/desk/history", history),
-    Route("/desk/codes", codes),
     Route("/desk/save", save, methods=["POST"]),
     Route("/desk/pin", change_pin, methods=["POST"]),
 ]

@@ -1,0 +1,370 @@
+"""A player's night as their own page shows it: what comes next, why, and the way so far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from evenbreak.answers.tournament.bracket_view import source_words
+from evenbreak.answers.tournament.time import time_of_day
+from evenbreak.files.store.desk import Phones, Sides
+from evenbreak.tournaments.brackets.bracket import Match, Source
+from evenbreak.tournaments.brackets.standing import NOBODY
+from evenbreak.tournaments.evening.events import Scored
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.odds.races import race_chance
+from evenbreak.web.evening_view import decided_places, provisional_in
+from evenbreak.web.night import Known
+from evenbreak.words import Sentence, say, say_count
+
+_MOST_STEPS = 12
+_TENTH = 1.2816  # standard deviations to the 10th and the 90th of 100
+
+_ROUNDS = {
+    "final": say("Final"),
+    "second final": say("Second final"),
+    "third place": say("Third place"),
+}
+
+
+class Step(NamedTuple):
+    """A match on a player's way.
+
+    Parameters
+    ----------
+    kind
+        'done' for one that was won, 'forfeit' for one that was lost, 'playing' for the next one.
+    other
+        the opponent, or where they come from.
+    score
+        such as 5-4, the player's own games first; or when it starts.
+    """
+
+    kind: str
+    other: Sentence | str
+    score: Sentence | str
+
+
+class After(NamedTuple):
+    """Where a player goes from a match.
+
+    Parameters
+    ----------
+    where
+        the next match in words.
+    at
+        when it starts, such as 21:40; '' if that is not known.
+    other
+        the opponent, or where they come from.
+    """
+
+    where: Sentence | str
+    at: str
+    other: Sentence | str
+
+
+@dataclass(frozen=True)
+class MyMatch:
+    """The match that a player plays, or plays next.
+
+    Parameters
+    ----------
+    name, number, round
+        the match, as files call it and as people do.
+    seat
+        0 if the player is the first of its two, or 1.
+    pair
+        its players; None: the opponent is not known yet.
+    other
+        the opponent, or where they come from.
+    needs, score
+        the games that each needs and has won, the first player's first.
+    table
+        where it is played; None: it has not been called.
+    since
+        when it was called, such as 19:40.
+    called
+        the table to which it is called next; None: none.
+    starts
+        when it starts: early, in the middle and late; None: that is not known.
+    middle
+        where the middle of these times is between the other two, in percent.
+    last
+        whose game can be taken back: 0 or 1; both where it is not known who won the last one.
+    """
+
+    name: str
+    number: Sentence | str
+    round: Sentence | str
+    seat: int
+    pair: tuple[str, str] | None
+    other: Sentence | str
+    needs: tuple[int, int] = (0, 0)
+    score: tuple[int, int] = (0, 0)
+    table: int | None = None
+    since: str = ""
+    called: int | None = None
+    starts: tuple[str, ...] | None = None
+    middle: float = 50.0
+    last: tuple[int, ...] = ()
+
+    @property
+    def hill(self) -> bool:
+        """Whether both players need one more game of several."""
+        left = [need - won for need, won in zip(self.needs, self.score, strict=True)]
+        return left == [1, 1] and max(self.needs) > 1
+
+    @property
+    def seen(self) -> str:
+        """The score that the page shows, by which a tap is known to be up to date."""
+        return "{}:{}".format(*self.score)
+
+
+def match_of(state: Evening, name: str, known: Known | None) -> MyMatch | None:
+    """Return the match that a player plays or plays next; None: there is none to be seen yet."""
+    if not state.drawn or name not in state.order:
+        return None
+    seat = state.order.index(name)
+    ready = [one for one in state.standing.to_play if name in state.pair(one)]
+    calls = {match: table for table, match in known.calls} if known and known.of is state else {}
+    ready.sort(key=lambda one: (one not in state.on_tables, one not in calls))
+    waits = [
+        one.name
+        for one in state.bracket.matches
+        if one.name not in state.standing.winners
+        and seat in (seats := state.standing.seats[one.name])
+        and NOBODY not in seats
+    ]
+    found = next(iter([*ready, *waits]), None)
+    return None if found is None else shown_match(state, found, name, known)
+
+
+def shown_match(state: Evening, match: str, name: str, known: Known | None) -> MyMatch:
+    """Return a match as one of its players sees it."""
+    seats = state.standing.seats[match]
+    mine = seats.index(state.order.index(name))
+    slot = state.bracket.match(match).slots[1 - mine]
+    starts, middle = _times(known, match)
+    words: Sentence | str = (
+        source_words(slot, state.match_numbers) if isinstance(slot, Source) else ""
+    )
+    found = MyMatch(
+        match,
+        state.match_words(match),
+        round_words(state.bracket.match(match)),
+        mine,
+        None,
+        words,
+        starts=starts,
+        middle=middle,
+    )
+    if None in seats:
+        return found
+    return replace(found, **_under_way(state, match, mine, known))
+
+
+def match_at(state: Evening, match: str) -> MyMatch:
+    """Return a match that can be played as its table sees it."""
+    return shown_match(state, match, state.pair(match)[0], None)
+
+
+def _under_way(state: Evening, match: str, mine: int, known: Known | None) -> dict[str, Any]:
+    """Return what there is to see of a match whose players are known."""
+    pair = state.pair(match)
+    score, on = (0, 0), state.on_tables.get(match)
+    if live := state.live.get(match):
+        games = dict(zip(live.what.players, live.what.score, strict=True))
+        score = games[pair[0]], games[pair[1]]
+    calls = {one: table for table, one in known.calls} if known and known.of is state else {}
+    return {
+        "pair": pair,
+        "other": pair[1 - mine],
+        "needs": state.needed(match, pair),
+        "score": score,
+        "table": on.call.table if on else None,
+        "since": on.at if on else "",
+        "called": calls.get(match),
+        "last": _last_games(state, match, pair),
+    }
+
+
+def _last_games(state: Evening, match: str, pair: tuple[str, str]) -> tuple[int, ...]:
+    """Return who won the last game of a match in play; both if that is not known."""
+    scores: list[dict[str, int]] = []
+    for event in state.events:
+        what = event.what
+        if isinstance(what, Scored) and what.match == match and set(what.players) == set(pair):
+            scores.append(dict(zip(what.players, what.score, strict=True)))
+    now, before = ([dict.fromkeys(pair, 0)] * 2 + scores)[:-3:-1]
+    added = [now[name] - before[name] for name in pair]
+    won = tuple(k for k, name in enumerate(pair) if now[name])
+    return (added.index(1),) if sorted(added) == [0, 1] else won
+
+
+def step_of(state: Evening, me: str, mine: MyMatch | None, phones: Phones) -> str:
+    """Return which of its faces a player's page has now."""
+    if mine is None:
+        return "before" if not state.drawn else "rests"
+    if mine.pair is None or mine.name not in state.standing.to_play:
+        return "waits"
+    sides = phones.sides(mine.name, mine.pair)
+    if len(sides.proposed) == 2 and not sides.agree:
+        return "two"
+    if me in sides.proposed:
+        return "alone" if sides.agree else "sent"
+    if any(mine.score) or sides.proposed or (mine.table and _goes(state, me, mine, phones)):
+        return "playing"
+    return "up" if mine.table else "waits"
+
+
+def _goes(state: Evening, me: str, mine: MyMatch, phones: Phones) -> bool:
+    """Return whether a player who has been called is on the way, or at the table already."""
+    note = phones.coming.get(me)
+    said = note is not None and note.match == mine.name and note.at >= mine.since
+    return state.plan.form == "chips" or (said and not minutes_of(phones, me, mine))
+
+
+def minutes_of(phones: Phones, me: str, mine: MyMatch) -> int:
+    """Return how many minutes a player who has been called has asked for."""
+    note = phones.coming.get(me)
+    if note is None or note.match != mine.name or note.at < mine.since:
+        return 0
+    return note.score.get("minutes", 0)
+
+
+def chances(state: Evening, mine: MyMatch) -> tuple[float, float, tuple[float, float] | None]:
+    """Return the player's chance of the match now, and after a lost game.
+
+    And the band in which it lies in eight of ten cases, if a rating of the two rests on little.
+    """
+    pair = mine.pair or ("", "")
+    me, other = pair[mine.seat], pair[1 - mine.seat]
+    needs, won = ((both[mine.seat], both[1 - mine.seat]) for both in (mine.needs, mine.score))
+    one, two = state.entrants[me], state.entrants[other]
+
+    def win(off: float, score: tuple[int, int]) -> float:
+        if score[1] >= needs[1]:
+            return 0.0
+        gap = state.scale.log_odds(one.rating - two.rating + off)
+        return float(race_chance(np.asarray(gap), needs, state.plan.match_form, score))
+
+    band = None
+    if {me, other} & set(provisional_in(state)):
+        off = _TENTH * float(np.hypot(one.standard_error, two.standard_error))
+        band = win(-off, won), win(off, won)
+    return win(0.0, won), win(0.0, (won[0], won[1] + 1)), band
+
+
+def why_words(state: Evening, mine: MyMatch) -> Sentence | str:
+    """Return why a match is raced to what it is, such as '498 against 622: 2 games' start'."""
+    if state.plan.form == "chips" or mine.pair is None:
+        return ""
+    ours, theirs = mine.pair[mine.seat], mine.pair[1 - mine.seat]
+    ratings = [f"{round(state.entrants[name].rating, 1):g}" for name in (ours, theirs)]
+    start = abs(mine.needs[0] - mine.needs[1])
+    if not start:
+        return say("{mine} against {theirs}: even race", mine=ratings[0], theirs=ratings[1])
+    return say_count(
+        "{mine} against {theirs}: a start of one game",
+        "{mine} against {theirs}: a start of {n} games",
+        start,
+        mine=ratings[0],
+        theirs=ratings[1],
+    )
+
+
+def way_of(state: Evening, me: str, mine: MyMatch | None) -> list[Step]:
+    """Return the matches that a player has played, in that order, and the next one."""
+    at = {name: played[-1].at for name, played in state.records.items()}
+    steps = []
+    for result in sorted(state.counted.values(), key=lambda one: at.get(one.match, "")):
+        if me not in result.players:
+            continue
+        other = next(one for one in result.players if one != me)
+        score: Sentence | str = f"{result.games[me]}-{result.games[other]}"
+        if result.forfeit:
+            score = say("forfeit")
+        steps.append(Step("done" if result.winner == me else "forfeit", other, score))
+    if mine is not None:
+        steps.append(Step("playing", mine.other, mine.starts[1] if mine.starts else ""))
+    return steps[-_MOST_STEPS:]
+
+
+def after(state: Evening, mine: MyMatch, outcome: str, known: Known | None) -> After | None:
+    """Return where a player goes who wins or loses a match; None: nowhere, or it is not known."""
+    match, via = mine.name, mine.seat + 1
+    while True:
+        onward = [
+            (one, k)
+            for one in state.whole.matches
+            for k, slot in enumerate(one.slots)
+            if isinstance(slot, Source)
+            and (slot.match, slot.outcome) == (match, outcome)
+            and slot.via in (None, via)
+        ]
+        if not onward:
+            return None
+        there, k = onward[0]
+        seat = state.standing.seats.get(there.name, (None, None))[1 - k]
+        if seat != NOBODY:
+            break
+        match, outcome, via = there.name, "winner", k + 1
+    slot = there.slots[1 - k]
+    other: Sentence | str = ""
+    if seat is not None:
+        other = state.order[seat]
+    elif isinstance(slot, Source) and slot.match != mine.name:
+        other = source_words(slot, state.match_numbers)
+    where = _ROUNDS.get(there.side) or state.match_words(there.name)
+    times, _ = _times(known, there.name)
+    return After(where, times[1] if times else "", other)
+
+
+def place_of(
+    state: Evening, me: str, known: Known | None, prizes: list[float]
+) -> tuple[str, float | None]:
+    """Return where a player finished, and their share of the prizes; '' while that is open."""
+    if known is None or known.of is not state or known.odds is None:
+        return "", None
+    place = decided_places(known.odds).get(me)
+    if place is None:
+        return "", None
+    paid = [*prizes, *[0.0] * place.last][place.first - 1 : place.last]
+    return str(place), None if place.event else sum(paid) / len(paid)
+
+
+def round_words(match: Match) -> Sentence | str:
+    """Return the round of a match, such as "losers' round 3"."""
+    if match.side in _ROUNDS:
+        return _ROUNDS[match.side]
+    if match.side == "losers":
+        return say("Losers' round {n}", n=match.round)
+    if match.side == "winners":
+        return say("Winners' round {n}", n=match.round)
+    return say("Round {n}", n=match.round)
+
+
+def first_name(name: str, other: str) -> str:
+    """Return a player's first name, or the whole name where the other has the same.
+
+    >>> first_name("Ann Lee", "Bo Ray"), first_name("Ann Lee", "Ann Ray")
+    ('Ann', 'Ann Lee')
+    """
+    first = name.split(" ")[0]
+    return name if first == other.split(" ")[0] else first
+
+
+def sides_of(mine: MyMatch, phones: Phones) -> Sides | None:
+    """Return what both players of a match propose; None: they are not known yet."""
+    return phones.sides(mine.name, mine.pair) if mine.pair else None
+
+
+def _times(known: Known | None, match: str) -> tuple[tuple[str, ...] | None, float]:
+    """Return when a match starts: early, in the middle and late; and the middle in percent."""
+    if known is None or match not in known.starts:
+        return None, 50.0
+    early, middle, late = known.starts[match]
+    at = tuple(time_of_day(known.start + one) for one in (early, middle, late))
+    return at, 100.0 * (middle - early) / (late - early) if late > early else 50.0

@@ -1,0 +1,160 @@
+"""A tap of the score, from a player's phone or from a table's tablet, and what it enters.
+
+A form counts from the score that its page showed: where somebody has scored since, it is refused,
+so that a phone that was out of reach takes no game away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from starlette.requests import Request
+
+from evenbreak.files.store.desk import ENTERED, PROPOSED, Entry, Phones, enter
+from evenbreak.files.store.tournament import add_events, read_tournament
+from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.events import Event
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.evening_view import match_view
+from evenbreak.web.forms import Form
+from evenbreak.web.guard import MovedOnError, RefusalError
+from evenbreak.web.page import site_of
+from evenbreak.web.sessions import address_of, phone_of, phones_of
+from evenbreak.words import Sentence, say
+
+
+@dataclass(frozen=True)
+class Tap:
+    """A tap, as the form of a page has it.
+
+    Parameters
+    ----------
+    match, pair
+        the match and who was in it.
+    score
+        what it is to be, the first player's games first.
+    seen
+        what it was on the page.
+    key
+        what the form is known by.
+    """
+
+    match: str
+    pair: tuple[str, str]
+    score: tuple[int, int]
+    seen: str
+    key: str
+
+    @property
+    def games(self) -> dict[str, int]:
+        """The games of each player."""
+        return dict(zip(self.pair, self.score, strict=True))
+
+    def ends(self, state: Evening) -> bool:
+        """Return whether the match is over with it."""
+        needs = state.needed(self.match, self.pair)
+        return any(won == need for won, need in zip(self.score, needs, strict=True))
+
+
+def tap_in(request: Request, form: Form, state: Evening) -> Tap:
+    """Return the tap in a form; refuse one of a match that is over, or that others play now."""
+    site, match = site_of(request), form.text("match")
+    if site.taps.full(match):
+        raise RefusalError("Too many taps. Wait a moment.", status=429)
+    site.taps.count(match)
+    pair = form.text("player_a"), form.text("player_b")
+    _check_pair(state, match, pair)
+    needs = state.needed(match, pair)
+    score = form.whole("a", 0, needs[0]), form.whole("b", 0, needs[1])
+    return Tap(match, pair, score, form.text("seen"), form.key(request.url.path))
+
+
+def score(request: Request, tap: Tap, by: str, check: Callable[[Evening], None]) -> None:
+    """Enter the score of a match in play."""
+
+    def decide(now: Evening) -> list[Event]:
+        _check(now, tap)
+        check(now)
+        if "{}:{}".format(*tap.score) == tap.seen:
+            return []
+        return [Event(site_of(request).clock(), moves.score(now, tap.match, tap.score))]
+
+    add_events(site_of(request).path, decide, by=by, form=tap.key)
+
+
+def result(request: Request, tap: Tap, by: str, check: Callable[[Evening], None]) -> None:
+    """Enter a result that is tapped for both players, by whom they all trust."""
+
+    def decide(now: Evening) -> list[Event]:
+        _check(now, tap)
+        check(now)
+        return [Event(site_of(request).clock(), moves.result(now, tap.match, tap.score))]
+
+    add_events(site_of(request).path, decide, by=by, form=tap.key)
+
+
+def propose(request: Request, tap: Tap, me: str) -> str:
+    """Keep a proposed result, and enter it if the opponent proposed the same from elsewhere."""
+    site = site_of(request)
+    phone, address, state = phone_of(request), address_of(request), site.night.state()
+    moves.result(state, tap.match, tap.score)  # refuses what cannot be a result
+
+    def decide(phones: Phones) -> Entry | None:
+        _check(read_tournament(site.path), tap)
+        if phones.of(phone) != me:
+            raise RefusalError(
+                "{name}'s phone is another one now. Open your page again.", status=409, name=me
+            )
+        entry = Entry(site.clock(), tap.match, PROPOSED, me, tap.games, phone, address)
+        last = phones.sides(tap.match, tap.pair).proposed.get(me)
+        return None if last and replace(last, at=entry.at) == entry else entry
+
+    sides = enter(site.path, state, decide).sides(tap.match, tap.pair)
+    if not (sides.agree and sides.apart):
+        return ""  # the page says for whom it waits
+
+    def settle(now: Evening) -> list[Event]:
+        if _entered(now, tap):  # the other phone was faster
+            return []
+        return [Event(site.clock(), moves.result(now, tap.match, tap.score))]
+
+    add_events(site.path, settle, by=phones_of(tap.pair))
+    enter(site.path, state, lambda _: Entry(site.clock(), tap.match, ENTERED))
+    return say("You both agree: the result is in.")
+
+
+def _check(now: Evening, tap: Tap) -> None:
+    """Refuse a form that was made before the score that there is now.
+
+    It is asked while nobody else can enter anything.
+    """
+    _check_pair(now, tap.match, tap.pair)
+    a, b = match_view(now, tap.match).score or (0, 0)
+    there = f"{a}-{b}"
+    if tap.seen != f"{a}:{b}":
+        raise MovedOnError(
+            "The score of {match} is {score} now. Check it, then tap again if a game is missing.",
+            status=409,
+            match=now.match_words(tap.match),
+            score=there,
+        )
+
+
+def _check_pair(state: Evening, match: str, pair: tuple[str, str]) -> None:
+    """Refuse a form of a match that is over, or that others play now."""
+    if not state.drawn or match not in state.standing.to_play:
+        words: Sentence | str = state.match_words(match) if state.drawn else match
+        raise MovedOnError("{match} is not being played now.", status=409, match=words)
+    if state.pair(match) != pair:
+        raise MovedOnError(
+            "Other players are in {match} now. What was played is kept.",
+            status=409,
+            match=state.match_words(match),
+        )
+
+
+def _entered(state: Evening, tap: Tap) -> bool:
+    """Return whether a match has this result."""
+    there = state.counted.get(tap.match)
+    return there is not None and not there.forfeit and there.games == tap.games
