@@ -193,7 +193,7 @@ class Night(RuleBasedStateMachine):
     @precondition(lambda self: len(self.states) > 1)
     @rule()
     def undo(self) -> None:
-        self.events.append(Event(AT, undo(self.state)))
+        self.events += [Event(AT, what) for what in undo(self.state)]
         self.states.pop()
 
     @invariant()

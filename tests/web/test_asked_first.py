@@ -135,7 +135,7 @@ def test_a_match_is_called_back_on_the_desk(busy: Hall) -> None:
 
 
 def test_a_correction_before_the_draw_keeps_the_seeds(hall: Hall) -> None:
-    hall.director.send("/desk/undo", entry=2)
+    hall.director.send("/desk/undo", entry=2, sure="yes")
     shown = hall.director.send("/desk/edit", player="Player 1", name="Player One")
     assert shown.status == 200
     shown = hall.director.send("/desk/edit", player="Player 2", name="", rating="655")

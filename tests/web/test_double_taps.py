@@ -227,7 +227,7 @@ def test_a_name_from_a_form_is_nobody_elses_that_begins_like_it(six: Hall) -> No
     with running(six.site.path.with_name("other.db")) as site:
         director = Phone(site, director=True)
         begun(director, NAMES[:3])
-        director.send("/desk/undo", entry=2)
+        director.send("/desk/undo", entry=2, sure="yes")
         for name in ("Ann", "Ann"):
             director.send("/desk/drop", player=name, sure="yes")
         assert list(read_tournament(site.path).entrants) == ["Ann Smith", "Bo"]

@@ -261,7 +261,7 @@ def test_the_desk_says_what_would_end_it_sooner(hall: Hall) -> None:
 
 def test_odds_are_those_of_the_moment_after_an_undo(hall: Hall) -> None:
     hall.director.send("/desk/result", match="W1.1", a=3, b=1)
-    hall.director.send("/desk/undo", entry=hall.state.numbers[-1])
+    hall.director.send("/desk/undo", entry=hall.state.numbers[-1], sure="yes")
     for _ in range(200):
         words = hall.guest.open("/prizes", fee="20", payout="40/30/20/10").words
         if "Expected" in words or "expect" in words:
@@ -281,7 +281,7 @@ def test_a_late_player_is_read_like_one_of_the_list(hall: Hall) -> None:
             shown = hall.director.send("/desk/late", **{"player": "Zoe", field: value})
             assert shown.status == 400, (value, shown.words)
     assert len(hall.state.events) == before
-    hall.director.send("/desk/undo", entry=before)
+    hall.director.send("/desk/undo", entry=before, sure="yes")
     shown = hall.director.send("/desk/late", player="Bo\u202e  Diaz", rating=9000)
     assert "Bo Diaz" in hall.state.entrants
     assert "from the median" in shown.words

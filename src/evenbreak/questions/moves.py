@@ -86,7 +86,7 @@ class Entry(TimedUnderWay):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MakeDraw(TimedUnderWay):
+class MakeDraw(Entry):
     """Make the draw, in the way that {seeding} of evenbreak tournament new said.
 
     Later it draws what comes next: the next round of a Swiss once a round is over, or, with

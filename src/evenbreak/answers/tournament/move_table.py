@@ -219,7 +219,7 @@ def _said(_: Evening, after: Evening, __: object) -> list[Sentence]:
 
 def _redone_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
     events = dict(zip(after.numbers, after.events, strict=True))
-    (back,) = events.keys() - set(before.numbers)
+    back = max(events.keys() - set(before.numbers))
     said = say("Entered again: {entry}.", entry=event_words(events[back].what, after))
     return [said, *reopened(before, after)]
 
@@ -245,7 +245,7 @@ MOVES: dict[str, Move[Evening, What]] = {
     "correct": Move(Correct, _correct, _last_words),
     "stand": Move(Stand, lambda state, asked, _: settling.stand(state, asked.match), _stand_words),
     "change": Move(Change, _change, _change_words),
-    "undo": Move(Undo, lambda state, asked, _: [undoing.undo(state, asked.entry)], _undo_words),
+    "undo": Move(Undo, lambda state, asked, _: undoing.undo(state, asked.entry), _undo_words),
     "late": Move(
         LetIn,
         _late,
@@ -265,7 +265,7 @@ MOVES: dict[str, Move[Evening, What]] = {
         _last_words,
         always_asks=True,
     ),
-    "redo": Move(Redo, lambda state, asked, _: [undoing.redo(state, asked.entry)], _redone_words),
+    "redo": Move(Redo, lambda state, asked, _: undoing.redo(state, asked.entry), _redone_words),
     "swap-tables": Move(
         SwapTables,
         lambda state, asked, _: tables.swap_tables(state, asked.one, asked.other),

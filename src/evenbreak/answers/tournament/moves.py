@@ -213,6 +213,16 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentenc
 def lost_words(before: Evening, after: Evening) -> list[Sentence]:
     """Return in words what an entry takes away besides that which it is about."""
     said = []
+    missing = [name for name in after.order if before.arrived and name not in before.arrived]
+    if missing and not before.drawn:
+        said.append(say("In the draw, but not here yet: {players}.", players=some_of(missing, 6)))
+    if before.drawn and not after.drawn:
+        said.append(say("The draw would be undone, and a new one may be different."))
+    said += [
+        say("The draw of round {n} would be undone.", n=stage[1:])
+        for stage in before.later.keys() - after.later.keys()
+        if after.drawn and stage != KNOCK_OUT
+    ]
     for one in losses(before, after):
         name = before.match_words(one.match)
         match = say("{pair} ({match})", match=name, pair=against(one.players))
@@ -225,23 +235,11 @@ def lost_words(before: Evening, after: Evening) -> list[Sentence]:
             said.append(say("{match} would end at {score}.", match=match, score=at))
         elif after.drawn and one.match in after.on_tables:
             now = against(after.pair(one.match))
-            said.append(
-                say(
-                    "{match} would become {pair} on table {table}.",
-                    match=match,
-                    pair=now,
-                    table=table,
-                )
-            )
+            where = {"match": match, "pair": now, "table": table}
+            said.append(say("{match} would become {pair} on table {table}.", **where))
         elif at:
-            said.append(
-                say(
-                    "{match} would leave table {table} at {score}.",
-                    match=match,
-                    table=table,
-                    score=at,
-                )
-            )
+            where = {"match": match, "table": table, "score": at}
+            said.append(say("{match} would leave table {table} at {score}.", **where))
         else:
             said.append(say("{match} would leave table {table}.", match=match, table=table))
     return said

@@ -271,6 +271,13 @@ class Evening:
         }
 
     @property
+    def free_tables(self) -> list[int]:
+        """The tables on which nobody plays, but for those that are given out by hand only."""
+        taken = {one.call.table for one in self.on_tables.values()}
+        taken |= {*self.elsewhere, *self.plan.reserved}
+        return [table for table in range(1, self.plan.tables + 1) if table not in taken]
+
+    @property
     def waiting_for(self) -> dict[str, Waits]:
         """Why matches wait that could be played."""
         return {

@@ -45,6 +45,7 @@ from evenbreak.tournaments.evening.known import (
     winner_of,
 )
 from evenbreak.tournaments.evening.later_draws import draw_later
+from evenbreak.tournaments.evening.plan import changed, refuse_tables
 from evenbreak.tournaments.evening.undoing import losses
 from evenbreak.words import Command, Parameter, listed, say
 
@@ -327,6 +328,11 @@ def call(state: Evening, match: str, table: int | None) -> Called:
             table=names(on.call.table),
         )
     if table is None and not (free := free_tables(state)):
+        if kept := [names(k) for k in state.plan.reserved if _on_table(state, k) is None]:
+            raise InputError(
+                "no table is free but those kept for calls by hand ({tables}); name one of them",
+                tables=", ".join(kept),
+            )
         raise InputError("no table is free (there are {tables})", tables=state.plan.tables)
     chosen = free[0] if table is None else table
     if not 1 <= chosen <= state.plan.tables:
@@ -337,9 +343,13 @@ def call(state: Evening, match: str, table: int | None) -> Called:
         )
     there = _on_table(state, chosen)
     if there is not None:
-        raise InputError(
+        why = say(
             "table {table} is taken by {match}", table=names(chosen), match=state.match_words(there)
         )
+        if on is None:
+            raise InputError(why)
+        trade = Command("tournament swap-tables", typed(state, name), typed(state, there))
+        raise InputError("{taken}; to let them trade tables: {trade}", taken=why, trade=trade)
     if chosen in state.elsewhere:
         raise InputError(
             "table {table} is taken by {players}",
@@ -409,6 +419,7 @@ def change(
         raise InputError(
             "there is no final; to change the races, set {race}", race=Parameter("race")
         )
+    refuse_tables(changed(state.plan, found, None, ()))
     return found
 
 
@@ -426,7 +437,10 @@ def edit(state: Evening, player: str, *, name: str = "", rating: float | None = 
     """Correct the name or the rating of a player, by their full name, before the draw."""
     before = state.entrants[entered(state, player)]
     if state.drawn:
-        raise InputError("the draw has been made, so names and ratings can no longer change")
+        raise InputError(
+            "the draw has been made, so ratings can no longer change; to change a name: {rename}",
+            rename=Command("tournament rename", player),
+        )
     rated = before if rating is None else Entrant(player, rating)
     after = replace(rated, name=name or player)
     if after == before:
@@ -438,10 +452,8 @@ def edit(state: Evening, player: str, *, name: str = "", rating: float | None = 
 
 
 def free_tables(state: Evening) -> list[int]:
-    """Return the tables on which nobody plays, those aside that are given out by hand only."""
-    taken = {one.call.table for one in state.on_tables.values()}
-    taken |= {*state.elsewhere, *state.plan.reserved}
-    return [table for table in range(1, state.plan.tables + 1) if table not in taken]
+    """Return the tables on which nobody plays, but for those that are given out by hand only."""
+    return state.free_tables
 
 
 def _rival(state: Evening, line: int) -> int:

@@ -304,7 +304,7 @@ class Outlook:
     def calls(self) -> list[Call]:
         """The matches that can be called, the best first; of a group round by round."""
         state = self.state
-        free = state.plan.tables - len(state.on_tables)
+        free = len(state.free_tables)
         found = [
             call
             for call in self._uncalled.calls(max(1, free))
@@ -318,12 +318,13 @@ class Outlook:
     def to_call(self) -> tuple[str, ...]:
         """The matches to call now, one for each free table as far as their players are free."""
         state = self.state
-        free = state.plan.tables - len(state.on_tables)
-        busy = {player for one in state.on_tables.values() for player in one.call.players}
+        free = len(state.free_tables)
+        playing = [one.call.players for one in state.on_tables.values()]
+        busy = {name for players in (*playing, *state.elsewhere.values()) for name in players}
         found: list[str] = []
         for call in self.calls:
             pair = set(state.pair(call.match))
-            if len(found) < free and not pair & busy:
+            if call.match not in state.waiting_for and len(found) < free and not pair & busy:
                 busy |= pair
                 found.append(call.match)
         return tuple(found)

@@ -95,6 +95,7 @@ def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
         )
     for name in names:
         refuse_bye(name)
+    refuse_tables(plan)
     if plan.chips is not None:
         plan.chips.chips([one.rating for one in entrants])  # refuses ratings below the chart
     elif plan.form == "swiss":
@@ -102,6 +103,21 @@ def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
     else:
         bracket_of(plan, names, None)
     return Opened(plan, tuple(entrants))
+
+
+def refuse_tables(plan: Plan) -> None:
+    """Refuse tables of which two have the same name, or which there are not."""
+    names = [plan.table_name(table).casefold() for table in range(1, plan.tables + 1)]
+    for name in names:
+        if not name.strip() or names.count(name) > 1:
+            raise InputError("two tables are called {table!r}; give each its own name", table=name)
+    for table in (*plan.reserved, *plan.streamed):
+        if table > plan.tables:
+            raise InputError(
+                "there is no table {table}; the tables are {tables}",
+                table=table,
+                tables=", ".join(plan.table_name(k) for k in range(1, plan.tables + 1)),
+            )
 
 
 def refuse_bye(name: str) -> None:
@@ -253,6 +269,9 @@ def changed(plan: Plan, change: Changed, bracket: Bracket | None, begun: Iterabl
     4
     """
     given = {name: value for name, value in asdict(change).items() if value is not None}
+    if change.tables is not None:  # of those that are closed, none is kept
+        for name, those in (("reserved", plan.reserved), ("streamed", plan.streamed)):
+            given.setdefault(name, tuple(table for table in those if table <= change.tables))
     if bracket is None or not set(given) & {"race", "losers_race", "final_race"}:
         return replace(plan, **given)
     races, by_match = races_of(plan), dict(plan.by_match)

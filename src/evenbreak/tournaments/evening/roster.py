@@ -21,14 +21,17 @@ from evenbreak.tournaments.evening.moves import late
 def rename(state: Evening, player: str, to: str) -> Renamed:
     """Give a player, by their full name, another name, at any time."""
     before = state.entrants[entered(state, player)]
-    if to == player:
-        raise InputError("{player} already has that name; enter another", player=player)
+    if to == player or not to.strip():
+        raise InputError("{player} keeps that name; enter another", player=player)
     check_entrant(state, Entrant(to, before.rating), besides=player)
     return Renamed(player, to)
 
 
 def substitute(state: Evening, player: str, entrant: Entrant) -> Substituted:
-    """Let somebody take the place of a player, by their full name, who has not played yet."""
+    """Let somebody take the place of a player, by their full name, who has not played yet.
+
+    A match of theirs that has been called stays on its table.
+    """
     name = entered(state, player)
     check_entrant(state, entrant)
     _refuse_begun(state, name)
@@ -36,23 +39,52 @@ def substitute(state: Evening, player: str, entrant: Entrant) -> Substituted:
 
 
 def swap(state: Evening, one: str, other: str) -> Swapped:
-    """Let two players, by their full names, trade places in the draw."""
+    """Let two players, by their full names, trade places in the draw.
+
+    In a Swiss they trade opponents in the round that is being played.
+    """
     if not state.drawn:
         raise InputError("there is no draw yet in which players could trade places")
-    for name in (one, other):
-        _refuse_begun(state, entered(state, name))
+    names = entered(state, one), entered(state, other)
     if one == other:
         raise InputError("name two players who are to trade places")
+    for name in names:
+        _refuse_begun(state, name, this_round=state.plan.form == "swiss")
+        for match, on in state.on_tables.items():
+            if name in on.call.players:
+                raise InputError(
+                    "{player} has been called to table {table}; take {match} off it first",
+                    player=name,
+                    table=state.plan.table_name(on.call.table),
+                    match=state.match_words(match),
+                )
     return Swapped(one, other)
 
 
-def _refuse_begun(state: Evening, player: str) -> None:
-    """Refuse what can only be done before a player's first match."""
+def _refuse_begun(state: Evening, player: str, *, this_round: bool = False) -> None:
+    """Refuse what can only be done before the first match of a player, or that of this round."""
     if not state.drawn:
         return
-    for name, result in state.counted.items():
-        if player in result.players and name in state.records:
-            raise InputError("{player} has already played", player=player)
+    if state.plan.form == "chips":
+        raise InputError(
+            "a chip tournament plays on in the order of its line; drop {player}, "
+            "and enter who comes in their place as a late player",
+            player=player,
+        )
+    now = f"R{len(state.later)}." if this_round else ""
+    for name, played in state.records.items():
+        sat = any({*one.result.players} == state.sitting(name) for one in played)
+        if sat and player in state.sitting(name) and name.startswith(now):
+            raise InputError(
+                "{player} has already played {match}",
+                player=player,
+                match=state.match_words(name),
+            )
+    for name, live in state.live.items():
+        if player in live.what.players and any(live.what.score):
+            raise InputError(
+                "{player} is playing {match}", player=player, match=state.match_words(name)
+            )
 
 
 def check_in(

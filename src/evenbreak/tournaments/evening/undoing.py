@@ -5,49 +5,30 @@ An entry takes away matches in play, and results that no longer count.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.evening.events import (
     Called,
     CalledBack,
+    CheckedIn,
+    Declined,
     Event,
     Redone,
+    Registered,
     Result,
     Scored,
+    Substituted,
     Undone,
     Waits,
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.matches import LiveScore, OnTable
 
-
-def undoable(state: Evening) -> dict[int, Event]:
-    """Return what can be taken back, by number: the director's last entry, and one of players.
-
-    Live scores of players are their own. A result that both players entered can be taken back as
-    long as the director has entered nothing since.
-    """
-    found: dict[int, Event] = {}
-    for number, event in zip(state.numbers[:0:-1], state.events[:0:-1], strict=True):
-        if not event.by_phones:
-            return found | {number: event}
-        if isinstance(event.what, Result) and not found:
-            found[number] = event
-    return found
-
-
-def undo(state: Evening, entry: int | None = None) -> Undone:
-    """Take back an entry; None: the last that the director made."""
-    can = undoable(state)
-    own = [number for number, event in can.items() if not event.by_phones]
-    if entry is None and not own:
-        raise InputError("there is nothing to undo")
-    if entry is not None and entry not in can:
-        raise InputError("entry {entry} is not the last one, so it can't be undone", entry=entry)
-    return Undone(own[0] if entry is None else entry)
+_LIGHT = Called | CalledBack | Scored | Waits | CheckedIn | Registered | Declined
+"""Entries that no result rests on."""
 
 
 def own_last(state: Evening, by: str = "") -> int | None:
@@ -64,25 +45,87 @@ def own_last(state: Evening, by: str = "") -> int | None:
     return None
 
 
+def undoable(state: Evening) -> dict[int, Event]:
+    """Return what can be taken back at once, by number: what the director did last, and players.
+
+    A result that both players entered can be taken back so until the director has entered
+    something since.
+    """
+    events = dict(zip(state.numbers, state.events, strict=True))
+    own = own_last(state)
+    found = {
+        number: event
+        for number, event in events.items()
+        if event.by_phones and isinstance(event.what, Result) and number > (own or 1)
+    }
+    last = {max(found): found[max(found)]} if found else {}
+    return last if own is None else last | {own: events[own]}
+
+
 def free_entries(state: Evening) -> set[int]:
     """Return the numbers of the entries that nothing follows from.
 
-    Undone, they leave every other result and match in play as it is.
+    Undone, they leave every other result and every match in play as it is. Scores that players tap
+    are not among them.
     """
-    found = set()
-    for k, number in enumerate(state.numbers[1:], 1):
-        event = state.events[k]
-        if event.by_phones and isinstance(event.what, Scored):
+    found, base = set(), evening(state.events)
+    events = dict(zip(base.numbers, base.events, strict=True))
+    for place, number in list(zip(base.numbers, state.numbers, strict=True))[1:]:
+        what = events[place].what
+        if isinstance(what, Scored) and events[place].by_phones:
             continue
-        try:
-            after = evening(event for n, event in enumerate(state.events) if n != k)
-        except InputError:
+        if isinstance(what, Called) and _act(events, place)[-1] != place:
             continue
-        if not losses(
-            state, replace(after, numbers=tuple(n for n in state.numbers if n != number))
-        ):
+        if (isinstance(what, _LIGHT) and len(_act(events, place)) == 1) or _is_free(base, place):
             found.add(number)
     return found
+
+
+def _is_free(state: Evening, entry: int) -> bool:
+    """Return whether an entry can be undone without loss."""
+    events = dict(zip(state.numbers, state.events, strict=True))
+    what, at = events[entry].what, state.events[-1].at
+    if isinstance(what, Result) and state.drawn and state.plan.form != "chips":
+        sources = {what.match, *(g.name for g in state.bracket.groups if what.match in g.matches)}
+        begun = {*state.records, *state.on_tables, *state.live}
+        follows = [
+            match.name
+            for match in state.bracket.matches
+            if any(isinstance(slot, Source) and slot.match in sources for slot in match.slots)
+        ]
+        if not begun & {*follows} and not (state.later and state.plan.form == "swiss"):
+            return True
+    try:
+        gone = [Event(at, Undone(number)) for number in reversed(_act(events, entry))]
+        after = evening([*state.events, *gone])
+        return not losses(state, after) and (after.drawn or not state.drawn)
+    except InputError:
+        return False
+
+
+def undo(state: Evening, entry: int | None = None) -> list[Undone]:
+    """Take back an entry; None: the last that the director made.
+
+    Calls that came with it, as when two matches trade tables, are taken back too.
+
+    Raises
+    ------
+    InputError
+        if something follows from it.
+    """
+    own = own_last(state)
+    chosen = own if entry is None else entry
+    if chosen is None:
+        raise InputError("there is nothing to undo")
+    if chosen not in undoable(state) and chosen not in free_entries(state):
+        if chosen in state.undone:
+            raise InputError("entry {entry} has already been undone", entry=chosen)
+        raise InputError(
+            "other entries follow from entry {entry}; undo those first, or correct it",
+            entry=chosen,
+        )
+    events = dict(zip(state.numbers, state.events, strict=True))
+    return [Undone(number) for number in reversed(_act(events, chosen))]
 
 
 def redoable(state: Evening) -> int | None:
@@ -90,16 +133,47 @@ def redoable(state: Evening) -> int | None:
     if not state.undone:
         return None
     entry, last = list(state.undone.items())[-1]
-    mine = [n for n, one in zip(state.numbers, state.events, strict=True) if not one.by_phones]
-    return entry if last.by > max(mine) else None
+    return entry if last.by > (own_last(state) or 1) else None
 
 
-def redo(state: Evening, entry: int | None = None) -> Redone:
-    """Let an entry that was undone count again; None: the last that was."""
+def redo(state: Evening, entry: int | None = None) -> list[Redone]:
+    """Let an entry that was undone count again, with what came with it; None: the last one."""
     last = redoable(state)
     if last is None or entry not in (None, last):
         raise InputError("there is nothing to redo")
-    return Redone(last)
+    events = dict(zip(state.numbers, state.events, strict=True))
+    events |= {number: one.event for number, one in state.undone.items()}
+    return [Redone(number) for number in _act(events, last) if number in state.undone]
+
+
+def _act(events: Mapping[int, Event], number: int) -> list[int]:
+    """Return an entry with the calls that came with it, or with which it came."""
+    first = last = number
+    while _came_with_next(events, first - 1):
+        first -= 1
+    while _came_with_next(events, last):
+        last += 1
+    return [*range(first, last + 1)]
+
+
+def _came_with_next(events: Mapping[int, Event], number: int) -> bool:
+    """Return whether an entry is a call that came with the next one: none could be made so alone.
+
+    It is to a table that was taken, or of players who were not in the match.
+    """
+    event, following = events.get(number), events.get(number + 1)
+    if event is None or following is None or not isinstance(call := event.what, Called):
+        return False
+    what = following.what
+    leads = isinstance(what, Called) or (isinstance(what, Result) and what.corrects)
+    if not leads or (event.at, event.by) != (following.at, following.by):
+        return False
+    try:
+        before = evening(events[n] for n in sorted(events) if n < number)
+        taken = {one.call.table for name, one in before.on_tables.items() if name != call.match}
+        return before.sitting(call.match) != frozenset(call.players) or call.table in taken
+    except InputError:  # of what is undone, something does not fit any more
+        return False
 
 
 class Loss(NamedTuple):
@@ -141,44 +215,62 @@ def matches_of(before: Evening, after: Evening) -> set[str]:
 
     Calls that come with a correction are of players who were not in the match before it.
     """
-    then, now = (dict(zip(s.numbers, s.events, strict=True)) for s in (before, after))
-    entries = [(then | now)[number].what for number in then.keys() ^ now.keys()]
     return {
         one.match
-        for one in entries
+        for one in _between(before, after)
         if isinstance(one, Result | CalledBack | Scored | Waits)
         or (isinstance(one, Called) and before.sitting(one.match) == frozenset(one.players))
     }
 
 
+def _between(before: Evening, after: Evening) -> list[object]:
+    """Return what was entered, or taken back."""
+    then, now = (dict(zip(s.numbers, s.events, strict=True)) for s in (before, after))
+    return [(then | now)[number].what for number in then.keys() ^ now.keys()]
+
+
+def _names_after(before: Evening, after: Evening) -> dict[str, str]:
+    """Return what players are called after a rename; a substitute sits where another sat."""
+    now = {who: name for name, who in after.entries.items()}
+    names = {name: now[who] for name, who in before.entries.items() if who in now}
+    for one in _between(before, after):
+        if isinstance(one, Substituted):
+            names |= {one.name: one.entrant.name, one.entrant.name: one.name}
+    return names
+
+
 def _no_longer_played(before: Evening, after: Evening, about: set[str]) -> Iterator[Loss]:
     there, on, live = (after.counted, after.on_tables, after.live) if after.drawn else ({}, {}, {})
+    names = _names_after(before, after)
     for name in dict.fromkeys([*before.on_tables, *before.live]):
         pair = before.pair(name)
-        ended = name in there and set(there[name].players) == set(pair)
+        now = {names.get(player, player) for player in pair}
+        ended = name in there and set(there[name].players) == now
         if (ended and not there[name].forfeit) or (name in about and not ended):
             continue
         table, score = None, None
-        if name in before.on_tables and not (ended or _plays(on.get(name), pair)):
+        if name in before.on_tables and not (ended or _plays(on.get(name), now)):
             table = before.on_tables[name].call.table
-        if name in before.live and not _plays(live.get(name), pair):
+        if name in before.live and not _plays(live.get(name), now):
             games = before.live[name].what
             score = games.score if games.players == pair else games.score[::-1]
         if table is not None or (score is not None and any(score)):
             yield Loss(name, pair, table, score)
 
 
-def _plays(there: OnTable | LiveScore | None, pair: tuple[str, str]) -> bool:
+def _plays(there: OnTable | LiveScore | None, pair: set[str]) -> bool:
     if there is None:
         return False
     what = there.call if isinstance(there, OnTable) else there.what
-    return set(what.players) == set(pair)
+    return set(what.players) == pair
 
 
 def _no_longer_counted(before: Evening, after: Evening, about: set[str]) -> Iterator[Loss]:
     there = after.counted if after.drawn else {}
+    names = _names_after(before, after)
     for name, result in before.counted.items():
         entered = any(one.result == result for one in before.records.get(name, ()))
-        stays = name in there and set(there[name].players) == set(result.players)
+        players = {names.get(player, player) for player in result.players}
+        stays = name in there and set(there[name].players) == players
         if entered and not stays and name not in about:
             yield Loss(name, result.players, result=result)

@@ -123,7 +123,7 @@ async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Res
 
     def check(before: Evening, after: Evening) -> None:
         meant = sure and named in ("", _name_of(before, after))
-        if (move.always_asks or losses(before, after)) and not meant:
+        if (move.always_asks or lost_words(before, after)) and not meant:
             raise _AskError(before, after)
 
     def said(before: Evening, after: Evening) -> list[str]:
