@@ -136,11 +136,8 @@ def half_played(path: Path, played: int = 17, day: str = "2026-11-24") -> Evenin
     for match, (less_a, less_b) in zip(on, ((1, 1), (3, 2), (2, 3)), strict=False):
         state = read_tournament(path)
         a, b = state.needed(match, state.pair(match))
-        do(
-            lambda state, match=match, score=(max(a - less_a, 0), max(b - less_b, 0)): moves.score(
-                state, match, score
-            )
-        )
+        score = max(a - less_a, 0), max(b - less_b, 0)
+        do(lambda state, match=match, score=score: moves.score(state, match, score))
     return read_tournament(path)
 
 
