@@ -254,7 +254,7 @@ def test_the_same_tap_twice_enters_once(hall: Hall) -> None:
     for _ in range(2):
         assert hall.director.send("/desk/result", match="W1.1", a=3, b=1).status == 200
     kinds = [type(one.what).__name__ for one in hall.state.events]
-    assert kinds == ["Opened", "Drawn", "Called", "Result"]
+    assert kinds == ["Opened", "Drawn", "Called", "Result", "Called"]
 
 
 def test_undo_is_refused_once_something_else_came_in(hall: Hall) -> None:

@@ -24,8 +24,11 @@ from web.test_who_may import NEW, TEAMS
 
 REPLAYS = tries("forms that come in again", 3)
 ANSWERS = (200, 303, 400, 403, 404, 409)
-NOT_HERE = {*OF_THE_SESSION, "/team/pin", "/team/leave", "/league", "/league/tonight", "/desk/save"}
-"""Routes that add no entry: those of a session, the league's, and a copy of the file."""
+NOT_HERE = {
+    *OF_THE_SESSION,
+    *("/team/pin", "/team/leave", "/league", "/league/tonight", "/desk/save", "/desk/calling"),
+}
+"""Routes that add no entry: those of a session, the league's, a copy of the file, a setting."""
 
 
 class Hall:

@@ -43,7 +43,16 @@ MAY = {
     **dict.fromkeys(["POST /team/put", "POST /team/hand", "POST /team/result"], CAPTAINS),
     **dict.fromkeys(
         [
-            *("GET /desk", "GET /desk/time", "GET /desk/history", "GET /desk/codes", "GET /new"),
+            *(
+                "GET /desk",
+                "GET /desk/more",
+                "POST /desk/read",
+                "POST /desk/calling",
+                "GET /desk/time",
+                "GET /desk/history",
+                "GET /desk/codes",
+                "GET /new",
+            ),
             *("GET /team/new", "GET /team/history", "POST /desk/draw", "POST /desk/call"),
             *(
                 "POST /desk/result",
@@ -315,7 +324,7 @@ def test_what_a_captain_hands_in_unseen_shows_nowhere_else(rooms: Rooms) -> None
             for page in ("/team", "/team/history")
         }
         # The number of entries may show, and when they came in.
-        own = r'name="(once|csrf|seen)" value="[^"]*"|\s*<tr>.*?</tr>|data-older'
+        own = r'name="(once|csrf|seen)" value="[^"]*"|\s*<li data-key.*?</li>|data-older'
         shown.append({at: re.sub(own, "", text, flags=re.DOTALL) for at, text in pages.items()})
     assert shown[1:] == shown[:-1]
 

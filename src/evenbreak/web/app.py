@@ -53,7 +53,7 @@ _LOG = logging.getLogger(__name__)
 _COOKIE_DAYS = 3
 _DOUBLE_TAP = 10.0  # seconds
 _MOST = 1000  # forms whose answers are remembered
-OF_THE_SESSION = ("/pin", "/leave", "/language")
+OF_THE_SESSION = ("/pin", "/leave", "/language", "/desk/read")
 _HTTP = {
     400: say("The form could not be read. Open the page again."),
     404: say("There is no such page."),
@@ -123,7 +123,7 @@ def cookie_name(site: Site) -> str:
 
 async def _style(request: Request) -> Response:
     kept = {"cache-control": "max-age=31536000, immutable"}  # another style has another address
-    text = style(site_of(request).color)
+    text = style(site_of(request).color, director="guest" not in request.query_params)
     return PlainTextResponse(text, media_type="text/css", headers=kept)
 
 

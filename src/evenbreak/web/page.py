@@ -102,20 +102,26 @@ def own_file(name: str) -> str:
 
 
 @cache
-def style(color: str | None = None) -> str:
-    """Return the style of all pages: what published sites have too, parts, and each screen."""
+def style(color: str | None = None, *, director: bool = True) -> str:
+    """Return the style of all pages: what published sites have too, parts, and each screen.
+
+    Guests do without that of the desk: their first page is to be there at once.
+    """
     common = files("evenbreak.site").joinpath("templates", "common.css")
     own = files("evenbreak.web").joinpath("templates", "css")
     drawn = files("evenbreak.sheets").joinpath("templates", "bracket.css")
     sheets = sorted((one for one in own.iterdir() if one.name.endswith(".css")), key=_style_order)
+    sheets = [one for one in sheets if director or one.name != "desk.css"]
     text = "".join(one.read_text(encoding="utf-8") for one in (common, *sheets, drawn))
     return text + (accent(color).style() if color else "")
 
 
 @cache
-def style_address(color: str | None) -> str:
+def style_address(color: str | None, *, director: bool = True) -> str:
     """Return where the style is: elsewhere after each change, so that phones may keep it."""
-    return f"/evenbreak.css?{hashlib.sha256(style(color).encode()).hexdigest()[:8]}"
+    text = style(color, director=director)
+    whose = "director" if director else "guest"
+    return f"/evenbreak.css?{whose}={hashlib.sha256(text.encode()).hexdigest()[:8]}"
 
 
 def _style_order(sheet: Traversable) -> tuple[bool, bool, str]:
@@ -216,7 +222,7 @@ def page(
             language=code,
             languages=languages(),
             here=request.url.path,
-            style=style_address(site.color),
+            style=style_address(site.color, director=is_director(request)),
             opens=partial(can_be_opened, request),
             return_to=_return_to(request),
             site=site,

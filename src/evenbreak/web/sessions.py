@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 
 from starlette.requests import Request
 
+from evenbreak.tournaments.evening.events import BY_ITSELF
 from evenbreak.web.guard import RefusalError
 from evenbreak.words import listed, say
 
@@ -174,6 +175,8 @@ def author_words(kept: str) -> str:
     """
     if not kept:
         return say("a terminal")
+    if kept == BY_ITSELF:
+        return say("by itself")
     if kept == DIRECTORS_PAGE:
         return say("director's page")
     if kept.startswith(_TABLET):

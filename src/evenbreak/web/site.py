@@ -17,7 +17,9 @@ from evenbreak.errors import DataError
 from evenbreak.files.league.league_file import LeagueFile
 from evenbreak.files.store.desk import change_secrets, kept_secrets, new_pin
 from evenbreak.files.store.evening_file import is_there
-from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.calling import calls_after
+from evenbreak.tournaments.evening.events import BY_ITSELF, Event
+from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.web.beside import Made
 from evenbreak.web.codes import codes_of
 from evenbreak.web.guard import RefusalError
@@ -26,7 +28,7 @@ from evenbreak.web.night import Night, mark_of, now
 from evenbreak.web.sessions import Tries
 from evenbreak.web.team_night import TeamNights
 
-_ENDED = "ended"
+_ENDED, _CALLS, _BY_HAND = "ended", "calls", "by hand"
 _MOST_RENDERED = 5  # kinds of pages besides, each for whoever reads it
 
 
@@ -74,6 +76,7 @@ class Site:
         self._first = {
             "pin": new_pin(),
             **{name: _mark() for name in ("cookie", "director", "match")},
+            _CALLS: "",
         }
         self._secrets = dict(self._first)
         self._read_at: tuple[int, int, int] | None = None
@@ -137,6 +140,27 @@ class Site:
             change_secrets(self.path, found)
         self._first |= found
         self._secrets |= found
+
+    @property
+    def calls_itself(self) -> bool:
+        """Whether a result calls the next match to the table that it frees."""
+        return self._secret(_CALLS) != _BY_HAND
+
+    def let_call(self, itself: bool) -> None:
+        """Keep whether a result calls the next match."""
+        found = {_CALLS: "" if itself else _BY_HAND}
+        self._first |= found
+        self._secrets |= found
+        if is_there(self.path):
+            change_secrets(self.path, found)
+
+    def with_calls(self, state: Evening, events: Sequence[Event]) -> list[Event]:
+        """Return a result with the calls that it makes by itself, unless they are made by hand."""
+        if not events or not self.calls_itself:
+            return list(events)
+        order = self.night.known.order if self.night.known else ()
+        found = calls_after(state, evening([*state.events, *events]), order)
+        return [*events, *(Event(events[0].at, one, BY_ITSELF) for one in found)]
 
     @property
     def pin(self) -> str:

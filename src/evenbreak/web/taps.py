@@ -89,7 +89,8 @@ def result(request: Request, tap: Tap, by: str, check: Callable[[Evening], None]
     def decide(now: Evening) -> list[Event]:
         _check(now, tap)
         check(now)
-        return [Event(site_of(request).clock(), moves.result(now, tap.match, tap.score))]
+        found = Event(site_of(request).clock(), moves.result(now, tap.match, tap.score))
+        return site_of(request).with_calls(now, [found])
 
     add_events(site_of(request).path, decide, by=by, form=tap.key)
 
@@ -117,7 +118,8 @@ def propose(request: Request, tap: Tap, me: str) -> str:
     def settle(now: Evening) -> list[Event]:
         if _entered(now, tap):  # the other phone was faster
             return []
-        return [Event(site.clock(), moves.result(now, tap.match, tap.score))]
+        found = Event(site.clock(), moves.result(now, tap.match, tap.score))
+        return site.with_calls(now, [found])
 
     add_events(site.path, settle, by=phones_of(tap.pair))
     enter(site.path, state, lambda _: Entry(site.clock(), tap.match, ENTERED))

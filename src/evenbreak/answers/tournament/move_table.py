@@ -57,7 +57,7 @@ from evenbreak.questions.moves import (
     Wait,
 )
 from evenbreak.tournaments.evening import moves, roster, settling, tables, undoing
-from evenbreak.tournaments.evening.events import Entrant, What
+from evenbreak.tournaments.evening.events import BY_ITSELF, Entrant, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.words import Command, Parameter, Sentence, say
@@ -152,9 +152,12 @@ def _change_words(_: Evening, after: Evening, __: Change) -> list[Sentence]:
 
 
 def _undo_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
-    events = dict(zip(before.numbers, before.events, strict=True))
-    gone = max(events.keys() - set(after.numbers))
-    return [undone_words(events[gone].what, after), *reopened(before, after)]
+    gone = [
+        event
+        for number, event in zip(before.numbers, before.events, strict=True)
+        if number not in after.numbers and event.by != BY_ITSELF
+    ]
+    return [undone_words(gone[-1].what, after), *reopened(before, after)]
 
 
 def name_in(text: str) -> str:

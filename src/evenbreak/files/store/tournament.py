@@ -144,7 +144,7 @@ def add_events(
         returns the events, given the state; nobody else can add any in the meantime. If it raises
         an error, nothing is added.
     by
-        who enters them; kept beside them.
+        who enters them, unless an event says so itself; kept beside them.
     form
         what the form is known by that they come from. If it was taken before, nothing is asked and
         nothing is added.
@@ -163,7 +163,7 @@ def add_events(
             raise TakenBeforeError("that was entered before; nothing was entered a second time")
         earlier = _events(base, path)
         before = tournament_of(path, earlier)
-        added = [replace(event, by=by) for event in decide(before)]
+        added = [replace(event, by=event.by or by) for event in decide(before)]
         after = _shown(evening([*earlier, *added]))
         if check:
             check(before, after)

@@ -37,6 +37,10 @@ Points: TypeAlias = Annotated[float, Meta(ge=-1_000_000, le=1_000_000)]
 Error: TypeAlias = Annotated[float, Meta(ge=0, le=1_000_000)]
 
 
+BY_ITSELF = "by itself"
+"""Who makes the calls that follow from a result, as it is kept with them."""
+
+
 @dataclass(frozen=True)
 class Plan(Format, Occasion):
     """What is played: the format, the races, the tables; and the occasion.

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.evening.events import (
+    BY_ITSELF,
     Called,
     CalledBack,
     CheckedIn,
@@ -40,7 +41,7 @@ def own_last(state: Evening, by: str = "") -> int | None:
     for number, event in zip(state.numbers[:0:-1], state.events[:0:-1], strict=True):
         if phone and event.by == by and not isinstance(event.what, Scored):
             return number
-        if not phone and not event.by_phones:
+        if not phone and not event.by_phones and event.by != BY_ITSELF:
             return number
     return None
 
@@ -72,7 +73,7 @@ def free_entries(state: Evening) -> set[int]:
     events = dict(zip(base.numbers, base.events, strict=True))
     for place, number in list(zip(base.numbers, state.numbers, strict=True))[1:]:
         what = events[place].what
-        if isinstance(what, Scored) and events[place].by_phones:
+        if events[place].by == BY_ITSELF or (isinstance(what, Scored) and events[place].by_phones):
             continue
         if isinstance(what, Called) and _act(events, place)[-1] != place:
             continue
@@ -96,7 +97,7 @@ def _is_free(state: Evening, entry: int) -> bool:
         if not begun & {*follows} and not (state.later and state.plan.form == "swiss"):
             return True
     try:
-        gone = [Event(at, Undone(number)) for number in reversed(_act(events, entry))]
+        gone = [Event(at, one) for one in _taken_back(state, events, entry)]
         after = evening([*state.events, *gone])
         return not losses(state, after) and (after.drawn or not state.drawn)
     except InputError:
@@ -125,7 +126,20 @@ def undo(state: Evening, entry: int | None = None) -> list[Undone]:
             entry=chosen,
         )
     events = dict(zip(state.numbers, state.events, strict=True))
-    return [Undone(number) for number in reversed(_act(events, chosen))]
+    return _taken_back(state, events, chosen)
+
+
+def _taken_back(state: Evening, events: Mapping[int, Event], entry: int) -> list[Undone]:
+    """Return what takes back an entry with what came with it, the last first.
+
+    A match that was called with a result and has begun since stays on its table.
+    """
+    begun = {*state.live, *state.counted} if state.drawn else set()
+    return [
+        Undone(number)
+        for number in reversed(_act(events, entry))
+        if events[number].by != BY_ITSELF or events[number].what.match not in begun  # type: ignore[union-attr]
+    ]
 
 
 def redoable(state: Evening) -> int | None:
@@ -157,11 +171,14 @@ def _act(events: Mapping[int, Event], number: int) -> list[int]:
 
 
 def _came_with_next(events: Mapping[int, Event], number: int) -> bool:
-    """Return whether an entry is a call that came with the next one: none could be made so alone.
+    """Return whether an entry came with the next one.
 
-    It is to a table that was taken, or of players who were not in the match.
+    It did if that one is a call that a result made by itself; or if it is a call that could not be
+    made alone: to a table that was taken, or of players who were not in the match.
     """
     event, following = events.get(number), events.get(number + 1)
+    if event is not None and following is not None and following.by == BY_ITSELF:
+        return True
     if event is None or following is None or not isinstance(call := event.what, Called):
         return False
     what = following.what

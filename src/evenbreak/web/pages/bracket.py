@@ -21,6 +21,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.night import Known
 from evenbreak.web.page import answer_shown, language, page, page_face, site_of
+from evenbreak.web.pages.desk import sheet_values
 from evenbreak.web.sessions import is_director
 from evenbreak.web.site import night_of
 from evenbreak.words import Sentence, in_face
@@ -65,6 +66,8 @@ async def bracket(request: Request) -> Response:
         matches=sum(box.beside >= 0 or box.state != "waits" for p in panels for box in p.boxes),
         clock=night_of(request).clock()[11:16],
         standings=[answer_shown(request, Answer("", [one])) for one in standings],
+        state=state,
+        **sheet_values(request, state),
     )
 
 

@@ -1,10 +1,12 @@
-"""What else a director looks up: when it ends, who entered what, the QR codes; and copies."""
+"""What else a director looks up or sets: the list of all that, the history, QR codes, copies."""
 
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime
+from pathlib import Path
 
 from starlette.requests import Request
 from starlette.responses import Response
@@ -16,14 +18,86 @@ from evenbreak.answers.tournament.night import played_words
 from evenbreak.answers.tournament.under_way import time_under_way
 from evenbreak.files.store.desk import ENTERED, back_up, phone_entries
 from evenbreak.files.store.tournament import read_events
-from evenbreak.tournaments.evening.fold import evening
+from evenbreak.tournaments.evening.events import Called, CalledBack, Plan, Scored
+from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.evening.plan import FORMATS, FORMATS_WITH
+from evenbreak.tournaments.evening.undoing import free_entries, redoable
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import answer_shown, done, page, site_of
 from evenbreak.web.pages.me import phone_label, phone_words
 from evenbreak.web.sessions import DIRECTOR, author_words, check_director, let_in
 from evenbreak.words import say
+
+RACES = {
+    "race": say("Race to"),
+    "losers_race": say("Race on the losers' side"),
+    "final_race": say("Race in the final"),
+}
+"""The races that can be changed."""
+
+
+async def more(request: Request) -> Response:
+    """Show what the desk itself does not: settings, lists, prints."""
+    check_director(request)
+    site = site_of(request)
+    if not site.night.exists:
+        raise RefusalError("No tournament is running yet.", status=404)
+    state = await asyncio.to_thread(site.night.state)
+    plan = state.plan
+    names = [plan.table_name(n) for n in range(1, plan.tables + 1)]
+    return page(
+        request,
+        "more.html",
+        state=state,
+        over=state.drawn and not state.standing.to_play and not can_draw(state),
+        still_in=[name for name in state.entrants if name not in state.dropped],
+        tables=tables_words(names),
+        reserved=tables_words([plan.table_name(n) for n in plan.reserved]),
+        streamed=tables_words([plan.table_name(n) for n in plan.streamed]),
+        races=_races(plan),
+        calls_itself=site.calls_itself,
+    )
+
+
+def tables_words(names: Sequence[str]) -> str:
+    """Return the names of tables as a list.
+
+    >>> tables_words(["1", "2", "3", "TV", "5"])
+    '1-3, TV, 5'
+    """
+    runs: list[list[str]] = []
+    for name in names:
+        last = runs[-1][-1] if runs else ""
+        if name.isdecimal() and last.isdecimal() and int(name) == int(last) + 1:
+            runs[-1].append(name)
+        else:
+            runs.append([name])
+    return ", ".join(f"{run[0]}-{run[-1]}" if len(run) > 1 else run[0] for run in runs)
+
+
+def _races(plan: Plan) -> dict[str, tuple[str, int]]:
+    """Return the races that can be changed, with what they are now."""
+    if plan.chart is not None or plan.form == "chips":
+        return {}
+    now = {"race": plan.race, "losers_race": plan.losers_race, "final_race": plan.final_race}
+    return {
+        name: (words, now[name] or plan.race)
+        for name, words in RACES.items()
+        if plan.form in FORMATS_WITH.get(name, FORMATS)
+    }
+
+
+async def calling(request: Request) -> Response:
+    """Keep whether a result calls the next match to the table that it frees."""
+    form = await form_of(request)
+    check_director(request)
+    itself = bool(form.text("itself"))
+    await asyncio.to_thread(site_of(request).let_call, itself)
+    said = say("A result now calls the next match.") if itself else say("You call each match.")
+    return done(request, "/desk/more", said)
 
 
 async def save(request: Request) -> Response:
@@ -32,7 +106,9 @@ async def save(request: Request) -> Response:
     check_director(request)
     copy = await asyncio.to_thread(back_up, site_of(request).path, datetime.now())
     return done(
-        request, "/desk", say("Saved as {name}, next to the tournament's file.", name=copy.name)
+        request,
+        "/desk/more",
+        say("Saved as {name}, next to the tournament's file.", name=copy.name),
     )
 
 
@@ -45,7 +121,7 @@ async def change_pin(request: Request) -> Response:
     let_in(request, DIRECTOR, site.director_mark)
     return done(
         request,
-        "/desk",
+        "/desk/more",
         say(
             "The director's PIN is now {pin}. Other phones have to enter it before they "
             "can change anything.",
@@ -73,31 +149,60 @@ async def time(request: Request) -> Response:
 
 
 async def history(request: Request) -> Response:
-    """Show who entered what, and when."""
+    """Show who entered what, and when; what nothing follows from can be taken back there."""
     check_director(request)
     path = site_of(request).path
     if not path.exists():
         raise RefusalError("No tournament is running yet.", status=404)
-    found = await asyncio.to_thread(read_events, path)
+    rows, again = await asyncio.to_thread(_entries, path)
+    return page(request, "history.html", rows=rows, again=again, undo=True)
+
+
+def _entries(path: Path) -> tuple[list[tuple[int, str, str, str, str]], set[int]]:
+    """Return the entries, the last first, and which can be done again.
+
+    Each is its number (0: of a phone), when, what, by whom, and 'free' if it can be taken back,
+    'gone' if it has been. Taps of the score are not among them.
+    """
+    found = read_events(path)
     state = evening(found)
-    rows: list[tuple[str, int | str, str, str]] = [
-        (one.at, k, what, author_words(one.by))
+    free = free_entries(state) - _old_calls(state)
+    rows: list[tuple[str, int, str, str, str]] = [
+        (
+            one.at,
+            k,
+            what,
+            author_words(one.by),
+            "free" if k in free else "gone" if k in state.undone else "",
+        )
         for k, (one, what) in enumerate(zip(found, history_words(found, state), strict=True), 1)
+        if not isinstance(one.what, Scored)
     ]
-    gone = set(state.undone)
     rows += [
-        (one.at, "", phone_words(one, state), phone_label(one))
-        for one in await asyncio.to_thread(phone_entries, path)
+        (one.at, 0, phone_words(one, state), phone_label(one), "")
+        for one in phone_entries(path)
         if one.kind != ENTERED  # it is among the events
     ]
     rows.sort(key=lambda row: row[0])
+    redo = redoable(state)
     shown = [
-        (number, f"{datetime.fromisoformat(at):%H:%M:%S}", *row) for at, number, *row in rows[::-1]
+        (number, f"{datetime.fromisoformat(at):%H:%M}", what, by, how)
+        for at, number, what, by, how in rows[::-1]
     ]
-    return page(request, "history.html", rows=shown, gone=gone)
+    return shown, set() if redo is None else {redo}
+
+
+def _old_calls(state: Evening) -> set[int]:
+    """Return the calls of matches that are over, or have been called again."""
+    calls = {n: e.what for n, e in zip(state.numbers, state.events, strict=True)}
+    called = [(n, one.match) for n, one in calls.items() if isinstance(one, Called | CalledBack)]
+    last = {match: n for n, match in called if match in state.standing.to_play}
+    return {n for n, _ in called} - set(last.values())
 
 
 ROUTES = [
+    Route("/desk/more", more),
+    Route("/desk/calling", calling, methods=["POST"]),
     Route("/desk/time", time),
     Route("/desk/history", history),
     Route("/desk/save", save, methods=["POST"]),

@@ -6,22 +6,26 @@ import asyncio
 import hashlib
 import secrets
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
+from evenbreak.answers.tournament.corrections import correction_choices
 from evenbreak.answers.tournament.move_table import MOVES
 from evenbreak.answers.tournament.moves import lost_words
 from evenbreak.evenings.move import AlreadyError, Move
 from evenbreak.fields.kinds import Text
 from evenbreak.fields.question import AskedError, Declared, declared
 from evenbreak.files.store.tournament import add_events
-from evenbreak.questions.moves import PLAYER
+from evenbreak.questions.moves import PLAYER, Correct
 from evenbreak.tournaments.evening.events import Event, What
 from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.moves import known_match
 from evenbreak.tournaments.evening.undoing import losses, matches_of
+from evenbreak.web.desk_view import corrected
 from evenbreak.web.forms import (
     Fields,
     Form,
@@ -41,6 +45,10 @@ OF_COMMANDS = ("file", "at", "yes", "seed")
 """The fields of a question that no form has."""
 _NAMES = (PLAYER, Text("NAME"))
 _DESK = "/desk"
+
+
+STAYS = [MOVES[name] for name in ("result", "correct", "call", "uncall", "wait", "forfeit", "drop")]
+"""The moves of which the desk itself says what they did, until that is read."""
 
 
 class _AskError(Exception):
@@ -110,6 +118,7 @@ async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Res
     asked, at = asked_in(move.question, form), site_of(request).clock()
     named, sure, key = form.text("named"), form.text("sure"), form.key(request.url.path)
     already: list[str] = []
+    stays = not form.text("back") and move in STAYS
 
     def decide(state: Evening) -> list[Event]:
         events: list[Event] = []
@@ -119,7 +128,8 @@ async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Res
                 events += [Event(at, what) for what in move.decide(now, one, at)]
             except AlreadyError as error:  # the same tap again
                 already.append(error.sentence)
-        return events
+        calls = move is MOVES["result"]
+        return site_of(request).with_calls(state, events) if calls else events
 
     def check(before: Evening, after: Evening) -> None:
         meant = sure and named in ("", _name_of(before, after))
@@ -129,7 +139,7 @@ async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Res
     def said(before: Evening, after: Evening) -> list[str]:
         if already:
             return already
-        words = [line for one in asked for line in move.said(before, after, one)]
+        words = [] if stays else [line for one in asked for line in move.said(before, after, one)]
         words += [line for one in asked for line in move.doubts(before, after, one)]
         return list(dict.fromkeys(words))
 
@@ -138,6 +148,9 @@ async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Res
             add_events, night.path, decide, by=DIRECTORS_PAGE, form=key, check=check
         )
     except _AskError as error:
+        if move is MOVES["correct"]:
+            return _ask_what(request, form, asked[0], error.before)
+        stays = False
         return _ask(request, form, said(error.before, error.after), error)
     return done(request, _back(request, form), *said(before, after))
 
@@ -150,14 +163,35 @@ def _back(request: Request, form: Form) -> str:
 
 
 def _ask(request: Request, form: Form, said: Sequence[str], asked: _AskError) -> Response:
-    """Ask whether it is meant, with the same number, so that two answers enter it once."""
-    fields = [(k, v) for k, v in form.fields.multi_items() if k not in ("csrf", "sure", "named")]
-    fields.append(("named", _name_of(asked.before, asked.after)))
+    """Ask whether it is meant."""
     lost = lost_words(asked.before, asked.after)
     lines = [in_words(request, one) for one in (*lost, *said)]
+    fields, back = _asked_about(form, asked.before, asked.after), _back(request, form)
+    return page(request, "sure.html", fields=fields, lines=lines, lost=lost, back=back)
+
+
+def _ask_what(request: Request, form: Form, asked: Correct, before: Evening) -> Response:
+    """Ask what happens to the matches that are played on a result that is corrected."""
+    at, stop = site_of(request).clock(), replace(asked, follow="stop")
+    whats = MOVES["correct"].decide(before, stop, at)
+    after = evening([*before.events, *(Event(at, what) for what in whats)])
+    match = known_match(before, asked.match, over=True)
     return page(
-        request, "sure.html", fields=fields, lines=lines, lost=lost, back=_back(request, form)
+        request,
+        "correct.html",
+        one=corrected(before, after, match),
+        plan=before.plan,
+        choices=correction_choices(before, after, match),
+        fields=_asked_about(form, before, after),
+        back=_back(request, form),
     )
+
+
+def _asked_about(form: Form, before: Evening, after: Evening) -> list[tuple[str, Any]]:
+    """Return the fields of a form that is asked about: its number too, so that it counts once."""
+    own = ("csrf", "sure", "named", "follow", "way")
+    fields = [(name, value) for name, value in form.fields.multi_items() if name not in own]
+    return [*fields, ("named", _name_of(before, after))]
 
 
 def _name_of(before: Evening, after: Evening) -> str:

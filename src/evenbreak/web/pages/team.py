@@ -129,10 +129,10 @@ async def history(request: Request) -> Response:
     now = await night_on(request)
     words = history_words(now.events, now.state)
     rows = [
-        (number, f"{datetime.fromisoformat(one.at):%H:%M:%S}", said, author_words(one.by))
+        (number, f"{datetime.fromisoformat(one.at):%H:%M}", said, author_words(one.by), "")
         for number, (one, said) in enumerate(zip(now.events, words, strict=True), 1)
     ]
-    return page(request, "history.html", rows=rows[::-1], gone=())
+    return page(request, "history.html", rows=rows[::-1], again=(), undo=False)
 
 
 async def ask(request: Request) -> Response:

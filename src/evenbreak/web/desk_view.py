@@ -1,0 +1,478 @@
+"""What the director sees: tables, disputes, calls, what was just entered, a match with its acts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from scipy.special import logit
+
+from evenbreak.answers.tournament.bracket_view import source_words
+from evenbreak.answers.tournament.moves import (
+    called_words,
+    event_words,
+    forfeited,
+    happened,
+    reopened,
+    shout,
+)
+from evenbreak.answers.tournament.tournament import place_words
+from evenbreak.files.store.desk import Sides
+from evenbreak.tournaments.brackets.bracket import Source
+from evenbreak.tournaments.brackets.standing import NOBODY
+from evenbreak.tournaments.evening.calling import ready_matches
+from evenbreak.tournaments.evening.events import (
+    BY_ITSELF,
+    Called,
+    CalledBack,
+    Dropped,
+    Event,
+    Result,
+    Waits,
+)
+from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.undoing import losses, undoable
+from evenbreak.tournaments.odds.races import race_chance
+from evenbreak.words import Sentence, listed, say
+
+
+class Side(NamedTuple):
+    """A player of a match.
+
+    Parameters
+    ----------
+    name, short
+        in full, and the first name where nobody else tonight has it.
+    won, needs
+        games won so far, and those needed.
+    behind, winner
+        whether they need more games than the other, or have lost; and whether they have won.
+    """
+
+    name: str
+    short: str
+    won: int
+    needs: int
+    behind: bool
+    winner: bool = False
+
+
+@dataclass(frozen=True)
+class DeskMatch:
+    """A match as the director sees it.
+
+    Parameters
+    ----------
+    name, number
+        in the file, and on paper.
+    part
+        the side of the bracket, or the round.
+    sides
+        its players; empty while one of them is not known.
+    places
+        the same in words, with where a player comes from who is not known yet.
+    state
+        waits, ready, called, playing, hill, sent, two, done or forfeit.
+    table
+        the one that it is on.
+    minutes
+        how long ago it was called.
+    sent
+        the games of each player that the phone of a player sent, by that player.
+    agreed
+        whether both sent the same, but perhaps from one phone.
+    """
+
+    name: str
+    number: int
+    part: Sentence | str
+    sides: tuple[Side, ...]
+    places: tuple[Sentence | str, ...]
+    state: str
+    table: int | None = None
+    minutes: int = 0
+    sent: Mapping[str, tuple[int, int]] | None = None
+    agreed: bool = False
+
+    @property
+    def one_rack(self) -> bool:
+        """Whether one game decides it."""
+        return bool(self.sides) and all(side.needs == 1 for side in self.sides)
+
+    @property
+    def scored(self) -> bool:
+        """Whether a game of it has been entered."""
+        return any(side.won for side in self.sides)
+
+
+def short_of(state: Evening, name: str) -> str:
+    """Return the first name of a player, or the whole where somebody else has it too."""
+    first = name.split()[0]
+    others = [one for one in state.entrants if one != name]
+    return name if any(one.split()[0].casefold() == first.casefold() for one in others) else first
+
+
+def desk_match(
+    state: Evening, name: str, now: str, sides: Mapping[str, Sides] | None = None
+) -> DeskMatch:
+    """Return a match as the director sees it.
+
+    Parameters
+    ----------
+    state
+        the evening.
+    name
+        of the match.
+    now
+        what time it is.
+    sides
+        what phones have sent, by match.
+    """
+    match = state.bracket.match(name)
+    seats = state.standing.seats[name]
+    places = tuple(
+        state.order[seat] if seat is not None and seat >= 0 else _from(state, slot)
+        for slot, seat in zip(match.slots, seats, strict=True)
+    )
+    if any(seat is None or seat == NOBODY for seat in seats):
+        return DeskMatch(name, state.number_of(name), part_words(state, name), (), places, "waits")
+    pair, result = state.pair(name), state.counted.get(name)
+    needs = state.needed(name, pair)
+    if result is not None:
+        won = tuple(result.games[one] for one in pair)
+    elif name in state.live:
+        by = dict(zip(state.live[name].what.players, state.live[name].what.score, strict=True))
+        won = tuple(by[one] for one in pair)
+    else:
+        won = (0, 0)
+    its = (sides or {}).get(name)
+    sent = None
+    if its is not None and result is None:
+        sent = its.scores
+    agreed = bool(its and its.agree)
+    on, minutes = state.on_tables.get(name), 0
+    if on is not None:
+        passed = datetime.fromisoformat(now) - datetime.fromisoformat(on.at)
+        minutes = max(0, int(passed.total_seconds() // 60))
+    hill = all(need - games == 1 for need, games in zip(needs, won, strict=True))
+    if result is not None:
+        what = "forfeit" if result.forfeit else "done"
+    elif sent:
+        what = "two" if len(sent) == 2 and not agreed else "sent"
+    elif on is None:
+        what = "ready"
+    elif hill and needs != (1, 1):
+        what = "hill"
+    else:
+        what = "playing" if any(won) or minutes >= 5 else "called"
+    found = tuple(
+        Side(
+            one,
+            short_of(state, one),
+            won[k],
+            needs[k],
+            any(won) and needs[k] - won[k] > needs[1 - k] - won[1 - k]
+            if result is None
+            else result.winner != one,
+            result is not None and result.winner == one,
+        )
+        for k, one in enumerate(pair)
+    )
+    table = on.call.table if on else None
+    return DeskMatch(
+        name,
+        state.number_of(name),
+        part_words(state, name),
+        found,
+        places,
+        what,
+        table,
+        minutes,
+        sent,
+        agreed,
+    )
+
+
+def _from(state: Evening, slot: int | Source) -> Sentence | str:
+    """Return where a player comes from who is not known yet, such as 'winner of 22'."""
+    if not isinstance(slot, Source):
+        return say("to be drawn")
+    return source_words(slot, state.match_numbers)
+
+
+_SIDES = {
+    "winners": say("winners' side"),
+    "losers": say("losers' side"),
+    "final": say("final"),
+    "second final": say("second final"),
+    "third place": say("third place"),
+    "consolation": say("consolation"),
+}
+
+
+def part_words(state: Evening, name: str) -> Sentence | str:
+    """Return where in the bracket a match is."""
+    match = state.bracket.match(name)
+    return _SIDES.get(match.side, say("round {n}", n=match.round))
+
+
+def progress(state: Evening) -> tuple[int, int]:
+    """Return how many matches are over, and how many there are."""
+    if not state.drawn:
+        return 0, 0
+    seats = state.standing.seats
+    left = [
+        name
+        for name in state.match_numbers
+        if not (name in seats and NOBODY in seats[name])
+        and not (name not in state.counted and name in state.standing.winners)
+    ]
+    spare = [
+        name
+        for name in left
+        if name in state.bracket.by_name
+        and state.bracket.match(name).side == "second final"
+        and None in seats[name]
+    ]
+    over = sum(1 for name in left if name in state.counted)
+    return over, len(left) - len(spare)
+
+
+class LastAct(NamedTuple):
+    """What was entered last: it stays on the desk until it is read.
+
+    Parameters
+    ----------
+    number, at
+        of the entry, and when it was made.
+    title, lines
+        what it was, and what follows from it.
+    shouts
+        what to call out: the matches that were called and have not begun.
+    undo
+        what is taken back; '' if something follows from it.
+    match
+        the number of its match; 0 if it is about none.
+    over
+        whether it is a result.
+    """
+
+    number: int
+    at: str
+    title: Sentence | str
+    lines: Sequence[Sentence | str]
+    shouts: Sequence[Sentence]
+    undo: Sentence | str
+    match: int = 0
+    over: bool = False
+
+
+def last_act(state: Evening, read: int) -> LastAct | None:
+    """Return what was entered last, if that is after what was read.
+
+    Parameters
+    ----------
+    state
+        the evening.
+    read
+        the number of the last entry that the director has read.
+    """
+    entries = list(zip(state.numbers, state.events, strict=True))
+    told = (one for one in entries[:0:-1] if one[1].by != BY_ITSELF)
+    last = next((one for one in told if not one[1].by_phones or _is_act(one[1])), None)
+    if last is None or not _is_act(last[1]) or entries[-1][0] <= read:
+        return None
+    number, event = last
+    shouts = [
+        shout(state, name)
+        for name in state.on_tables
+        if name not in state.live and _called_at(entries, name) > read
+    ]
+    title, lines = _told(state, number)
+    match, undo = getattr(event.what, "match", ""), ""
+    if number in undoable(state):
+        undo = undo_words(state, event)
+    return LastAct(
+        number,
+        time_words(event.at),
+        title,
+        lines,
+        shouts,
+        undo,
+        state.number_of(match) if match else 0,
+        isinstance(event.what, Result),
+    )
+
+
+def time_words(at: str) -> str:
+    """Return the time of day of an entry, such as 19:40."""
+    return f"{datetime.fromisoformat(at):%H:%M}"
+
+
+def _is_act(event: Event) -> bool:
+    """Return whether an entry stays on the desk until it is read: what is about matches."""
+    if event.by_phones:
+        return isinstance(event.what, Result)
+    return isinstance(event.what, Result | Called | CalledBack | Waits | Dropped)
+
+
+def _called_at(entries: Sequence[tuple[int, Event]], match: str) -> int:
+    return max((n for n, one in entries if getattr(one.what, "match", "") == match), default=0)
+
+
+@lru_cache(maxsize=4)
+def _told(state: Evening, number: int) -> tuple[Sentence | str, tuple[Sentence | str, ...]]:
+    """Return what an entry was, and what followed from it."""
+    k = state.numbers.index(number)
+    event = state.events[k]
+    before, after = evening(state.events[:k]), evening(state.events[: k + 1])
+    title = event_words(event.what, state)
+    if isinstance(event.what, Result) and not event.what.stands:
+        said = happened(before, after, event)
+        return (said[0] if said else title), tuple(said[1:])
+    if isinstance(event.what, CalledBack | Waits) and (said := called_words(before, after)):
+        return said[0], tuple(said[1:])
+    if isinstance(event.what, Dropped):
+        said = forfeited(before, after)
+        return (said[0] if said else title), tuple(said[1:])
+    return title, tuple(reopened(before, after))
+
+
+def undo_words(state: Evening, event: Event) -> Sentence:
+    """Return what is taken back, as its button says it."""
+    what = event.what
+    if isinstance(what, Result) and not what.forfeit:
+        won, lost = what.games[what.winner], what.games[what.loser]
+        names = {"a": short_of(state, what.winner), "b": short_of(state, what.loser)}
+        return say(
+            "Undo: {a} {won}-{lost} {b} ({match})",
+            **names,
+            won=won,
+            lost=lost,
+            match=state.match_words(what.match),
+        )
+    return say("Undo: {what}", what=event_words(what, state))
+
+
+class Late(NamedTuple):
+    """A match that is let wait, and who is missing."""
+
+    match: DeskMatch
+    absent: tuple[str, ...]
+    until: str
+    reason: str
+
+
+def waiting(state: Evening, now: str) -> tuple[list[Late], list[Late]]:
+    """Return the matches past their waiting time, and those that are still let wait."""
+    over: list[Late] = []
+    still: list[Late] = []
+    for name, waits in state.waiting_for.items():
+        one = Late(
+            desk_match(state, name, now),
+            waits.absent or waits.players,
+            time_words(waits.until) if waits.until else "",
+            waits.reason,
+        )
+        (over if waits.until and waits.until <= now else still).append(one)
+    return over, still
+
+
+def chance(state: Evening, one: DeskMatch) -> float:
+    """Return the chance of a match's first player, from its score on."""
+    ratings = [state.entrants[side.name].rating for side in one.sides]
+    p = float(state.scale.win_probability(ratings[0] - ratings[1]))
+    needs, won = (
+        (getattr(one.sides[0], what), getattr(one.sides[1], what)) for what in ("needs", "won")
+    )
+    return float(race_chance(np.asarray(logit(p)), needs, state.plan.match_form, won))
+
+
+def next_words(state: Evening, name: str) -> list[Sentence]:
+    """Return where the winner and the loser of a match go."""
+    found = []
+    played = state.bracket.match(name)
+    to = {
+        slot.outcome: other.name
+        for other in state.bracket.matches
+        for slot in other.slots
+        if isinstance(slot, Source) and slot.match == name
+    }
+    for outcome, words, place in (
+        ("winner", say("Winner"), played.winner_place),
+        ("loser", say("Loser"), played.loser_place),
+    ):
+        if outcome in to:
+            found.append(say("{who} to {match}.", who=words, match=state.match_words(to[outcome])))
+        elif place:
+            found.append(say("{who} finishes {place}.", who=words, place=place_words(place)))
+    return found
+
+
+def waits_words(state: Evening, one: DeskMatch) -> Sentence | str:
+    """Return which matches decide who plays a match."""
+    seats, slots = state.standing.seats[one.name], state.bracket.match(one.name).slots
+    numbers = [
+        str(state.number_of(slot.match))
+        for slot, seat in zip(slots, seats, strict=True)
+        if seat is None and isinstance(slot, Source) and state.number_of(slot.match)
+    ]
+    return say("waits for {matches}", matches=listed(numbers)) if numbers else ""
+
+
+def soon(state: Evening, now: str, order: Sequence[str], most: int = 6) -> list[DeskMatch]:
+    """Return the matches that come next: those ready, then those that wait for another one."""
+    ready = ready_matches(state, order)
+    open_ones = [
+        name
+        for name in sorted(state.bracket.by_name, key=state.number_of)
+        if name not in state.counted
+        and name not in state.on_tables
+        and name not in ready
+        and name not in state.waiting_for
+        and any(seat is not None and seat >= 0 for seat in state.standing.seats[name])
+        and NOBODY not in state.standing.seats[name]
+    ]
+    return [
+        desk_match(state, name, now) for name in [*ready, *open_ones[: max(0, most - len(ready))]]
+    ]
+
+
+class Lost(NamedTuple):
+    """A match that was played on a result that is corrected, with its score."""
+
+    number: int
+    table: int | None
+    players: tuple[str, str]
+    score: str
+    over: bool
+
+
+class Corrected(NamedTuple):
+    """A result that is corrected: who won before and wins now, each with the score."""
+
+    number: int
+    was: tuple[str, str]
+    now: tuple[str, str]
+    lost: Sequence[Lost]
+
+
+def corrected(before: Evening, after: Evening, match: str) -> Corrected:
+    """Return what is asked about when a result is corrected that others have played on."""
+
+    def scored(state: Evening) -> tuple[str, str]:
+        result = state.counted[match]
+        won, gone = result.games[result.winner], result.games[result.loser]
+        return result.winner, "" if result.forfeit else f"{won}-{gone}"
+
+    lost = []
+    for one in losses(before, after):
+        games = one.result.games if one.result else {}
+        score = [games[name] for name in one.players] if games else one.score or (0, 0)
+        number, over = before.number_of(one.match), one.result is not None
+        lost.append(Lost(number, one.table, one.players, "{}-{}".format(*score), over))
+    return Corrected(before.number_of(match), scored(before), scored(after), lost)
