@@ -63,7 +63,7 @@ def test_axe_objects_to_nothing(
     browser: Any, event: Hall, width: int, scheme: str, paths: tuple[str, ...]
 ) -> None:
     page = opened(browser, event.site, width=width, color_scheme=scheme)
-    for path in (*paths, "/table/2"):
+    for path in (*paths, "/table/2", f"/c/{event.site.player_code('Player 3')}"):
         page.goto(event.site.address + path, wait_until="domcontentloaded")
         assert objections(page) == [], path
     page.context.close()

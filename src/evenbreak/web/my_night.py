@@ -316,7 +316,7 @@ def after(state: Evening, mine: MyMatch, outcome: str, known: Known | None) -> A
     if seat is not None:
         other = state.order[seat]
     elif isinstance(slot, Source) and slot.match != mine.name:
-        other = source_words(slot, state.match_numbers)
+        other = _from_words(state, slot)
     where = _ROUNDS.get(there.side) or state.match_words(there.name)
     times, _ = _times(known, there.name)
     return After(where, times[1] if times else "", other)
@@ -344,6 +344,15 @@ def round_words(match: Match) -> Sentence | str:
     if match.side == "winners":
         return say("Winners' round {n}", n=match.round)
     return say("Round {n}", n=match.round)
+
+
+def _from_words(state: Evening, slot: Source) -> Sentence | str:
+    """Return where a player comes from, such as 'loser of match 17'."""
+    if slot.outcome == "winner":
+        return say("winner of {match}", match=state.match_words(slot.match))
+    if slot.outcome == "loser":
+        return say("loser of {match}", match=state.match_words(slot.match))
+    return source_words(slot, state.match_numbers)
 
 
 def first_name(name: str, other: str) -> str:

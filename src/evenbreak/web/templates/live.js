@@ -33,10 +33,8 @@
     if (held(old)) return;
     if (old.tagName === "FORM") {
       if (plain(old) === plain(fresh)) return;
-      const pressed = [...old.querySelectorAll("button")].indexOf(document.activeElement);
-      old.replaceWith(fresh);
-      if (pressed >= 0) fresh.querySelectorAll("button")[pressed]?.focus();
-      return;
+      // A button stays the same one, so that a tap on it is not lost; fields are made anew.
+      if (fields(old).some((field) => field.type !== "hidden")) { old.replaceWith(fresh); return; }
     }
     for (const { name: key } of [...old.attributes]) if (!fresh.hasAttribute(key) && key !== "open") old.removeAttribute(key);
     for (const { name: key, value } of fresh.attributes) if (old.getAttribute(key) !== value) old.setAttribute(key, value);
@@ -77,7 +75,7 @@
   const heard = () => { last = Date.now(); if (bar()) bar().hidden = true; };
   const silent = () => {
     if (Date.now() - last > 4000 && bar()) {
-      const at = new Date(last).toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" });
+      const at = new Date(last).toLocaleTimeString([], { hour: "2-digit", minute: "2-digit", hourCycle: "h23" });
       const words = bar().dataset.lost.replace("{at}", at) + (main().querySelector("form[data-kept]") || kept().length ? ` ${bar().dataset.taps}` : "");
       if (bar().textContent !== words) bar().textContent = words;
       bar().hidden = false;
@@ -107,7 +105,7 @@
 
   // A tap of the score is shown at once, and kept until the page's computer has it: once, by its number.
   const KEPT = "evenbreak taps";
-  let taps = [], tapped = 0;
+  let taps = [], tapped = {};
   const kept = () => { try { return JSON.parse(localStorage.getItem(KEPT)) || []; } catch { return taps; } };
   const keep = (now) => { taps = now; try { localStorage.setItem(KEPT, JSON.stringify(now)); } catch { /* in this page alone */ } };
   const score = (text) => text.split(":").map(Number);
@@ -156,9 +154,10 @@
     const form = event.target;
     if ("kept" in form.dataset) {
       event.preventDefault();
-      if (Date.now() - tapped < 600) return;
-      tapped = Date.now();
-      keep([...kept(), { to: form.getAttribute("action"), body: new URLSearchParams(new FormData(form)).toString() }]);
+      const where = form.getAttribute("action");
+      if (where === tapped.where && Date.now() - tapped.at < 600) return; // a double tap
+      tapped = { where, at: Date.now() };
+      keep([...kept(), { to: where, body: new URLSearchParams(new FormData(form)).toString() }]);
       ahead(form);
       send();
       return;
