@@ -156,7 +156,7 @@ class Print(UnderWay, OnPaper):
 
     examples = """\
   evenbreak tournament print cards
-  evenbreak tournament print cards --match W1.2 --per-page 1 --out final.pdf
+  evenbreak tournament print cards --match 12 --per-page 1 --out final.pdf
   evenbreak tournament print bracket --out wall.pdf
 """
     what: Annotated[

@@ -24,7 +24,12 @@ def file(run, tmp_path_factory):
 
 @pytest.mark.parametrize(
     ("name", "begins"),
-    [("b.svg", b"<?xml"), ("b.png", b"\x89PNG"), ("b.pdf", b"%PDF"), ("b.html", b"<!doctype")],
+    [
+        ("b.svg", b"<svg xmlns="),
+        ("b.png", b"\x89PNG"),
+        ("b.pdf", b"%PDF"),
+        ("b.html", b"<!doctype"),
+    ],
 )
 def test_show_draws_the_bracket(run, file, tmp_path, name, begins):
     place = tmp_path / name
@@ -42,7 +47,7 @@ def test_cards_are_printed_for_the_matches_that_can_be_played(run, file, tmp_pat
     assert place.read_bytes().startswith(b"%PDF")
     late = run("tournament", "print", "cards", "--match", "F", "--file", file)
     assert late.exit_code != 0
-    assert "F cannot be played now" in late.stderr
+    assert "match 4 cannot be played now" in late.stderr
 
 
 def test_prizes_may_be_kept_with_the_tournament(run, file, tmp_path):

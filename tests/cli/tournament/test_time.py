@@ -33,11 +33,11 @@ def test_the_finish_and_each_start(times):
     assert answer["finish_p10"] < answer["finish_p50"] < answer["finish_p90"]
     starts = {match["match"]: match for match in answer["matches"]}
     assert len(starts) == 15
-    assert starts["W1.1"]["start_p50"] == 0.0
-    assert starts["W1.1"]["player_1"] == "Ann"
-    assert starts["F"]["player_2"] == "winner of L4.1"
-    assert starts["F2"]["p_played"] == pytest.approx(0.5, abs=0.05)
-    assert starts["F"]["start_p90"] < answer["finish_p90"]
+    assert starts[1]["start_p50"] == 0.0
+    assert starts[1]["player_1"] == "Ann"
+    assert starts[14]["player_2"] == "winner of 13"
+    assert starts[15]["p_played"] == pytest.approx(0.5, abs=0.05)
+    assert starts[14]["start_p90"] < answer["finish_p90"]
 
 
 def test_tables_races_and_pace_matter(times):
@@ -57,7 +57,7 @@ def test_tables_races_and_pace_matter(times):
 def test_rounds_of_a_swiss_that_are_not_paired_yet(times):
     answer = times("--tables", "4", "--discipline", "9-ball", "--format", "swiss", "--rounds", "2")
     assert len(answer["matches"]) == 8
-    second = [match for match in answer["matches"] if match["match"].startswith("R2")]
+    second = [match for match in answer["matches"] if match["match"] > 4]
     assert {match["player_1"] for match in second} == {"to be drawn"}
     assert min(match["start_p10"] for match in second) > 10.0
 

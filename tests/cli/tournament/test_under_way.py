@@ -17,7 +17,7 @@ def night(run, tmp_path):
     file = str(tmp_path / "tonight.db")
 
     def ask(name, *words):
-        result = run("tournament", name, *words, "--file", file, "--json")
+        result = run("tournament", name, *map(str, words), "--file", file, "--json")
         assert result.exit_code == 0, result.stderr
         return json.loads(result.stdout)
 
@@ -52,7 +52,7 @@ def test_odds_and_time_follow_the_results(begun):
         listed = next(row for row in odds["players"] if row["name"] == one["name"])
         assert listed["p_title"] == pytest.approx(one["p_title"])
         assert listed["p_title_if_sure"] == pytest.approx(one["p_title_if_sure"])
-    assert {row["match"] for row in odds["at_stake"]} == {"W1.2"}
+    assert {row["match"] for row in odds["at_stake"]} == {2}
     times = begun("time", "--at", "19:30")
     assert times["finish_p50"] == pytest.approx(after["finish_p50"])
     moved = {row["change"]: row["minutes_later"] for row in times["what_if"]}
@@ -91,7 +91,7 @@ def test_a_match_stands_and_results_count_again(begun):
     assert asked.exit_code == 2
     assert "Ann beat Bo 3-1 (match 3) would no longer count. Give --yes" in asked.stderr
     wrong = begun("correct", "W1.1", "0:3", "--yes")
-    assert [one["match"] for one in wrong["set_aside"]] == ["W2.1"]
+    assert [one["match"] for one in wrong["set_aside"]] == [3]
     shown = begun.run("tournament", "stand", "W2.1", "--file", begun.file, "--text").stdout
     assert "Counts again" in shown
     assert not begun("next")["set_aside"]
@@ -187,7 +187,7 @@ def test_what_is_in_play_is_named_before_it_is_taken_away(begun):
     assert begun.run(*wrong, "--yes").exit_code == 0
     begun("correct", "W1.1", "3:0")
     on = {one["match"]: one["table"] for one in begun("next")["next"]}
-    assert on["W2.1"] == 2
+    assert on[3] == 2
     said = begun.run("tournament", "uncall", "W2.1", "--file", begun.file, "--text")
     assert "Off table 2: match 3; 2-1 is kept." in said.stdout
     assert begun.run("tournament", "uncall", "--file", begun.file).exit_code == 2

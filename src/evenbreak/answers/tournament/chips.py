@@ -48,15 +48,13 @@ def rack_words(result: Result) -> Sentence:
     """Return who won a rack.
 
     >>> rack_words(Result("R7", ("Ann", "Bo"), (0, 1), "Bo"))
-    'Bo beat Ann in R7'
+    'Bo beat Ann in rack 7'
     """
+    rack = say("rack {n}", n=int(result.match.removeprefix("R")))
     if result.forfeit:
-        return say("{result} in {match}", result=score_words(result), match=result.match)
+        return say("{result} in {match}", result=score_words(result), match=rack)
     return say(
-        "{winner} beat {loser} in {match}",
-        winner=result.winner,
-        loser=result.loser,
-        match=result.match,
+        "{winner} beat {loser} in {match}", winner=result.winner, loser=result.loser, match=rack
     )
 
 
@@ -136,7 +134,11 @@ def odds_data(night: Outlook) -> dict[str, Any]:
         ],
         "odds_exact": night.odds.exact,
         "ratings_averaged": night.odds is not night.as_if_sure,
-        "set_aside": [asdict(one.result) for one in night.state.aside],
+        "set_aside": [
+            asdict(one.result)
+            | {"match": night.state.number_of(one.result.match) or one.result.match}
+            for one in night.state.aside
+        ],
     }
 
 

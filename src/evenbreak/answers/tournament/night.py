@@ -113,7 +113,7 @@ def night_answer(
     >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
     >>> answer = night_answer(Outlook(state, "2025-03-01T19:30:00"))
     >>> print(answer.sentences[0])
-    Now play F, Ann against Bo, on table 1.
+    Now play match 1, Ann against Bo, on table 1.
     It ends at about 20:12; eight times out of ten between 19:57 and 20:36.
     """
     state = night.state
@@ -239,8 +239,9 @@ def _aside_words(state: Evening, result: Result) -> str:
     """Return what is to be done about a match that the wrong players have played."""
     name = result.match
     seats = state.standing.seats.get(name)
-    stand = Command("tournament stand", name)
-    play = say("Play {match} again, let it stand ({stand})", match=name, stand=stand)
+    stand = Command("tournament stand", str(state.number_of(name) or name))
+    words = state.match_words(name)
+    play = say("Play {match} again, let it stand ({stand})", match=words, stand=stand)
     if seats is None:  # its draw was undone
         now, play = say("the match is not drawn now"), say("Draw again")
     elif NOBODY in seats:
@@ -253,7 +254,7 @@ def _aside_words(state: Evening, result: Result) -> str:
         "{result} in {match}, but {now}, so that result is on hold. {settle} or undo the "
         "correction",
         result=score_words(result),
-        match=name,
+        match=words,
         now=now,
         settle=play,
     )
@@ -264,7 +265,7 @@ def waits_for(state: Evening, match: str) -> Sentence | str:
     seats = state.standing.seats[match]
     slots = state.bracket.match(match).slots
     sources = [
-        group_words(slot.match) if isinstance(slot.outcome, int) else slot.match
+        group_words(slot.match) if isinstance(slot.outcome, int) else state.match_words(slot.match)
         for slot, seat in zip(slots, seats, strict=True)
         if seat is None and isinstance(slot, Source)
     ]
@@ -292,24 +293,24 @@ def _next_words(state: Evening, tables: Sequence[tuple[int | None, str]]) -> str
     ready = [
         say(
             "{match}, {pair}, on table {table}",
-            match=name,
+            match=state.match_words(name),
             pair=against(state.pair(name)),
-            table=table,
+            table=state.plan.table_name(table),
         )
         for table, name in tables
         if table is not None and name not in state.on_tables
     ]
-    waiting = [name for table, name in tables if table is None]
+    waiting = [state.number_of(name) for table, name in tables if table is None]
     said = []
     if ready:
         said.append(say("Now play {matches}.", matches=joined(ready, "; ")))
     if waiting and len(waiting) <= _LISTED:
         said.append(
             say_count(
-                "{matches} waits for a table.",
-                "{matches} wait for a table.",
+                "Match {matches} waits for a table.",
+                "Matches {matches} wait for a table.",
                 len(waiting),
-                matches=listed(waiting),
+                matches=listed([str(number) for number in waiting]),
             )
         )
     elif waiting:
@@ -323,8 +324,8 @@ def _most_words(state: Evening, decided: Mapping[str, Stake]) -> str:
     """Return which match decides most."""
     name, stake = next(iter(decided.items()))
     return say(
-        "{match}, {pair}, matters most for the title: its result moves {share} of the odds.",
-        match=name,
+        "Match {n}, {pair}, matters most for the title: its result moves {share} of the odds.",
+        n=state.number_of(name),
         pair=against(state.pair(name)),
         share=percent(stake.title),
     )
@@ -339,7 +340,8 @@ def _next_table(
 ) -> Table:
     state = night.state
     later = {call.match: call.later for call in calls if np.isfinite(call.later)}
-    columns = columns_of("match pair race_pair score_pair table state_now")
+    show = {"table": state.plan.table_name}
+    columns = columns_of("match pair race_pair score_pair table state_now", show=show)
     rows: list[list[Any]] = []
     for table, name in tables:
         pair = state.pair(name)
@@ -349,7 +351,8 @@ def _next_table(
         else:
             words = say("call") if table else say("waits for a table")
         score = night.scores.get(name)
-        rows.append([name, pair, state.needed(name, pair), score, table, words])
+        number = state.number_of(name)
+        rows.append([number, pair, state.needed(name, pair), score, table, words])
         if calls:
             rows[-1].append(later.get(name))
         if decided:
@@ -382,9 +385,11 @@ def _places(state: Evening, p_place: Any, places: Sequence[Place]) -> Table:
 
 def bracket_table(state: Evening) -> Table:
     """Return all matches of the bracket, with players, scores and where the players come from."""
-    columns = columns_of("match pair score_pair winner table")
+    columns = columns_of(
+        "match pair score_pair winner table", show={"table": state.plan.table_name}
+    )
     rows = []
-    for match in state.bracket.matches:
+    for match in sorted(state.bracket.matches, key=lambda one: state.number_of(one.name)):
         seats = state.standing.seats[match.name]
         if NOBODY in seats:
             continue
@@ -399,7 +404,7 @@ def bracket_table(state: Evening) -> Table:
             score = None if result.forfeit else (games[names[0]], games[names[1]])
         on_table = state.on_tables.get(match.name)
         table = None if on_table is None else on_table.call.table
-        rows.append([match.name, names, score, winner, table])
+        rows.append([state.number_of(match.name), names, score, winner, table])
     return Table("matches", columns, rows)
 
 

@@ -32,7 +32,8 @@ def printed_answer(state: Evening, written: str) -> Answer:
     written
         what has been written to which file, as a sentence.
     """
-    columns = columns_of("seed name first_match between table")
+    show = {"table": state.plan.table_name}
+    columns = columns_of("seed name first_match between table", show=show)
     rows = [
         [one.seed, one.name, one.match, " - ".join(one.pair), one.table]
         for one in first_matches(state)
@@ -47,7 +48,7 @@ class First(NamedTuple):
     name: str
     match: int | None
     pair: tuple[str, ...]
-    table: str
+    table: int | None
 
 
 def first_matches(state: Evening) -> list[First]:
@@ -70,8 +71,7 @@ def first_matches(state: Evening) -> list[First]:
         pair = () if where is None else pair_words(now, where, state.match_numbers)
         called = None if where is None else state.on_tables.get(where)
         number = None if where is None else state.number_of(where)
-        table = state.plan.table_name(called.call.table) if called else ""
-        found.append(First(seed, name, number, pair, table))
+        found.append(First(seed, name, number, pair, called.call.table if called else None))
     return found
 
 
@@ -221,7 +221,7 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
             [
                 at[:10],
                 event,
-                result.match,
+                state.number_of(result.match) or result.match,
                 result.players,
                 score,
                 race,

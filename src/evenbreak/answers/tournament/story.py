@@ -94,7 +94,7 @@ def story_answer(state: Evening, story: Story) -> Answer:
     for k, step in enumerate(story.steps):
         result = step.result
         what = say("the draw") if result is None else won_words(result)
-        number = None if result is None else state.match_words(result.match)
+        number = None if result is None else state.number_of(result.match)
         moved = story.moved(k) if k else None
         rows.append([clock_words(step.at), number, what, step.chance, moved])
         odds += [[step.at, number, name, p] for name, p in step.title.items()]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
 from typing import Any
@@ -16,6 +16,7 @@ from evenbreak.answers.tournament.tournament import Tournament, pair_words
 from evenbreak.arrays import Floats
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.brackets.numbering import match_numbers
 from evenbreak.tournaments.clock.event_pace import EarlierNight, event_pace, nights_of, venue_ratio
 from evenbreak.tournaments.clock.finish import QUANTILES, Finish, bands_of, finish, minutes_later
 from evenbreak.tournaments.odds.races import Fairest, Race, Races
@@ -177,8 +178,22 @@ def _takes(found: Finish) -> str:
     )
 
 
-def starts_table(found: Finish, show: Callable[[float], str]) -> Table:
-    """Return when each match still to be played starts, soonest first."""
+def starts_table(
+    found: Finish, show: Callable[[float], str], numbers: Mapping[str, int] | None = None
+) -> Table:
+    """Return when each match still to be played starts, soonest first.
+
+    Parameters
+    ----------
+    found
+        the finish.
+    show
+        how a time is written.
+    numbers
+        the numbers of the matches, of a tournament under way.
+    """
+    if numbers is None:
+        numbers = match_numbers(found.standing.bracket)
     columns = columns_of(
         "match pair_12 start_p50 start_band p_played",
         show={
@@ -192,10 +207,10 @@ def starts_table(found: Finish, show: Callable[[float], str]) -> Table:
     )
     rows: list[list[Any]] = []
     for name in found.names:
-        players = pair_words(found.standing, name)
+        players = pair_words(found.standing, name, numbers)
         early, middle, late, played = found.start(name)
         if played:  # some of a consolation event never are
-            rows.append([name, players, middle, (early, late), played])
+            rows.append([numbers[name], players, middle, (early, late), played])
     rows.sort(key=lambda row: row[2])
     return Table("matches", columns, rows)
 

@@ -112,7 +112,7 @@ def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
         later = None if np.isnan(first - second) else first - second
         rows.append(
             [
-                name,
+                outlook.state.number_of(name),
                 pair_words(outlook.state.standing, name, outlook.state.match_numbers),
                 stake.title,
                 later,
@@ -170,7 +170,9 @@ def time_under_way(
         found = outlook.as_things_are
     begun = begun_at(outlook)
     quantities = finish_quantities(found.finishes)
-    table = starts_table(found, lambda minutes: time_of_day(begun + minutes))
+    table = starts_table(
+        found, lambda minutes: time_of_day(begun + minutes), outlook.state.match_numbers
+    )
     words = [ends_words(*(begun + at for at in found.bands)), savings_words(changes)]
     parts: list[Part] = [joined(filter(None, words), "\n"), quantities, table, changes]
     plan = state.plan

@@ -180,7 +180,8 @@ def _draw_list(state: Evening, asked: Print) -> bytes:
     players = []
     for one in first_matches(state):
         other = next((player for player in one.pair if player != one.name), "")
-        players.append(FirstMatch(one.name, one.seed, one.match or 0, other, one.table))
+        table = "" if one.table is None else state.plan.table_name(one.table)
+        players.append(FirstMatch(one.name, one.seed, one.match or 0, other, table))
     form = state.bracket.format
     about = f"{form[0].upper()}{form[1:]}. {races_words(state.races)}"
     return draw_list_pdf(players, _title(asked), about, paper=asked.paper or usual_paper())
