@@ -60,7 +60,7 @@ from evenbreak.tournaments.evening import moves, roster, settling, tables, undoi
 from evenbreak.tournaments.evening.events import BY_ITSELF, Entrant, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
-from evenbreak.words import Command, Parameter, Sentence, say
+from evenbreak.words import Command, Parameter, Sentence, say, say_count
 
 _GAMES = Parameter("games")
 
@@ -146,9 +146,23 @@ def _change(state: Evening, asked: Change, _: str) -> Sequence[What]:
     ]
 
 
-def _change_words(_: Evening, after: Evening, __: Change) -> list[Sentence]:
-    races = races_words(after.races)
-    return [say("{tables} tables. {races}.", tables=after.plan.tables, races=races)]
+def _change_words(before: Evening, after: Evening, _: Change) -> list[Sentence]:
+    then, now = before.plan, after.plan
+    names = [[plan.table_name(k) for k in range(1, plan.tables + 1)] for plan in (then, now)]
+    said = []
+    if names[0] != names[1]:
+        tables = ", ".join(names[1])
+        said.append(
+            say_count("1 table: {names}.", "{n} tables: {names}.", now.tables, names=tables)
+        )
+    if now.reserved != then.reserved:
+        tables = ", ".join(map(now.table_name, now.reserved)) or say("none")
+        said.append(say("Given out by hand only: {tables}.", tables=tables))
+    if before.races != after.races:
+        said.append(say("{races}.", races=races_words(after.races)))
+    if (then.name, then.date) != (now.name, now.date):
+        said.append(say("The event is called {name}.", name=" ".join((now.name, now.date)).strip()))
+    return [*(said or [say("Changed.")]), *(called_words(before, after) if after.drawn else [])]
 
 
 def _undo_words(before: Evening, after: Evening, _: object) -> list[Sentence]:

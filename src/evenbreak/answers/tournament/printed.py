@@ -217,6 +217,9 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
         needs = state.needed(result.match, result.players)
         ended = score is None or (score[0] == needs[0]) != (score[1] == needs[1])
         race = needs if ended else None  # a match that was imported may have had head starts
+        winner: str | None = result.loser if result.stands else result.winner
+        if result.ended and score and 2 * result.games[str(winner)] <= sum(score):
+            winner = None  # on time or by concession: the games count, as ratings go by them
         rows.append(
             [
                 at[:10],
@@ -225,7 +228,7 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
                 result.players,
                 score,
                 race,
-                result.loser if result.stands else result.winner,
+                winner,
                 result.forfeit,
             ]
         )

@@ -409,7 +409,7 @@ def score_words(found: Result) -> Sentence:
     >>> score_words(Result("W1.1", ("Ann", "Bo"), (5, 7), "Bo"))
     'Bo beat Ann 7-5'
     >>> score_words(Result("W1.1", ("Ann", "Bo"), (3, 2), "Ann", ended="time"))
-    'Ann beat Bo 3-2 when time was up'
+    'Ann beat Bo 3-2 on time'
     """
     names: dict[str, Any] = {"winner": found.winner, "loser": found.loser}
     if found.forfeit:
@@ -419,7 +419,7 @@ def score_words(found: Result) -> Sentence:
         return say("{result}, but {winner} has played on", result=score_words(beaten), **names)
     names |= {"won": found.games[found.winner], "lost": found.games[found.loser]}
     if found.ended == "time":
-        return say("{winner} beat {loser} {won}-{lost} when time was up", **names)
+        return say("{winner} beat {loser} {won}-{lost} on time", **names)
     if found.ended:
         return say("{loser} conceded to {winner} at {won}-{lost}", **names)
     return say("{winner} beat {loser} {won}-{lost}", **names)
