@@ -245,8 +245,8 @@ def test_prizes_that_the_director_keeps_are_seen_by_everybody(hall: Hall) -> Non
     assert "Save these prizes" in tried.words
     assert "Save these prizes" not in hall.guest.open("/prizes", fee="20").words
     assert "The prizes are saved" in hall.director.send("/prizes", **asked).words
-    for page in ("/", "/screen"):
-        assert "Prizes 1: 200 2: 120 3: 80" in hall.guest.open(page).words
+    assert "Prizes 200 · 120 · 80" in hall.guest.open("/").words
+    assert "Prizes 200 · 120 · 80" in hall.guest.open("/screen", only="tables").words
     assert "400.00 is paid to 3 places" in hall.guest.open("/prizes").words
     assert hall.director.send("/prizes", fee=5, payout="hoboken").status == 400
     assert "216.00 is paid" in hall.guest.open("/prizes", fee="13,50", payout="100").words

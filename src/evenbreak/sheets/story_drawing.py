@@ -10,6 +10,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from datetime import datetime, timedelta
+from functools import cache
+from importlib.resources import files
 from itertools import pairwise, product
 from typing import NamedTuple
 
@@ -25,19 +27,12 @@ LINES = 5
 
 _LETTER = 0.6  # the width of a letter at the most, on average, in sizes of type
 _SHORTEST = timedelta(minutes=10)  # of a night that was not typed in afterwards
-_COLORS = (
-    ("--accent", "#0a57c2"),
-    ("--call", "#8a4600"),
-    ("--stop", "#ad1457"),
-    ("--live", "#00694c"),
-    ("--ink-2", "#46515e"),
-)
 _SHAPES = (
     '<circle r="{r}"/>',
     '<path d="M-{r}-{r}h{d}v{d}h-{d}z"/>',
     '<path d="M0-{r}l{r} {d}h-{d}z"/>',
     '<path d="M0-{d}l{d} {d}l-{d} {d}l-{d}-{d}z" transform="scale(.7)"/>',
-    '<path d="M-{r}-{r}l{d} {d}m0-{d}l-{d} {d}" style="stroke-width:4"/>',
+    '<path class="cross" d="M-{r}-{r}l{d} {d}m0-{d}l-{d} {d}"/>',
 )
 
 
@@ -62,6 +57,7 @@ def story_svg(
     *,
     size: tuple[int, int] = (1200, 460),
     letters: float = 17.0,
+    alone: bool = True,
 ) -> str:
     """Return the title odds of a night as an SVG, which fills the box that it is put in.
 
@@ -75,18 +71,30 @@ def story_svg(
         its width and height, in units of the drawing.
     letters
         the size of its type, in the same units.
+    alone
+        whether it brings its colors with it (`story_style`), for a file or a page without them.
 
     >>> from evenbreak.tournaments.evening.story import Step
     >>> start = Step("2025-03-01T19:30:00", None, None, {"Ann": 0.5, "Bo": 0.5})
     >>> story_svg(Story((start, start._replace(at="2025-03-01T20:30:00")))).count("<polyline")
     2
     """
-    return _Drawing(story, face, size, letters).svg() if story.steps else ""
+    style = f"<style>{story_style()}</style>" if alone else ""
+    return _Drawing(story, face, size, letters, style).svg() if story.steps else ""
+
+
+@cache
+def story_style() -> str:
+    """Return the colors and lines of the drawing, for the style sheet of a page."""
+    sheet = files("evenbreak.sheets").joinpath("templates", "story.css")
+    return sheet.read_text(encoding="utf-8")
 
 
 class _Drawing:
-    def __init__(self, story: Story, face: Face, size: tuple[int, int], letters: float) -> None:
-        self.story, self.face, self.letters = story, face, letters
+    def __init__(
+        self, story: Story, face: Face, size: tuple[int, int], letters: float, style: str
+    ) -> None:
+        self.story, self.face, self.letters, self.style = story, face, letters, style
         self.width, self.height = size
         self.names = story.leaders
         last = story.steps[-1].title
@@ -113,21 +121,6 @@ class _Drawing:
         return self.bottom - p / self.most * (self.bottom - self.top)
 
     def svg(self) -> str:
-        colors = "".join(
-            f".s{k}{{--line:var({name},{color})}}" for k, (name, color) in enumerate(_COLORS)
-        )
-        style = (
-            f"{colors}.story text{{font:600 {self.letters}px system-ui,sans-serif;"
-            "fill:var(--ink-2,#46515e);font-variant-numeric:tabular-nums}"
-            ".story .grid{stroke:var(--rule,#dfe3e8)}.story polyline{fill:none;stroke-width:3;"
-            "stroke:var(--line,var(--rule,#dfe3e8));stroke-linejoin:round}"
-            ".story .gray polyline{stroke-width:1.5}"
-            ".story .end text{fill:var(--line);font-weight:700}"
-            ".story .end path,.story .end circle{fill:var(--line);stroke:var(--line)}"
-            ".story .lead{fill:none;stroke:var(--line);stroke-width:1.5}"
-            ".story .what{fill:var(--ink,#0e151d);font-weight:700}"
-            ".story .dot{fill:var(--ink,#0e151d)}.story .note line{stroke:var(--ink-2,#46515e)}"
-        )
         shown = self.names[:LINES]
         gray = "".join(self._line(name) for name in self.names[LINES:])
         lines = "".join(
@@ -135,8 +128,9 @@ class _Drawing:
         )
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" class="story" role="img" '
-            f'aria-label="{escape(self._label())}" viewBox="0 0 {self.width} {self.height}">'
-            f'<style>{style}</style>{self._axes()}<g class="gray">{gray}</g>{lines}'
+            f'aria-label="{escape(self._label())}" font-size="{self.letters}" '
+            f'viewBox="0 0 {self.width} {self.height}">'
+            f'{self.style}{self._axes()}<g class="gray">{gray}</g>{lines}'
             f"{self._ends(shown)}{self._notes(shown)}</svg>"
         )
 
@@ -269,9 +263,9 @@ class _Drawing:
             f'<g class="note"><line x1="{min(max(x, middle - half), middle + half):.1f}" '
             f'y1="{from_y:.1f}" x2="{x:.1f}" y2="{y:.1f}"/>'
             f'<circle class="dot" cx="{x:.1f}" cy="{y:.1f}" r="{0.3 * self.letters:.1f}"/>'
-            f'<text class="what" style="font-size:{size:.1f}px" text-anchor="middle" '
+            f'<text class="what" font-size="{size:.1f}" text-anchor="middle" '
             f'x="{middle:.1f}" y="{base:.1f}">{escape(what)}</text>'
-            f'<text style="font-size:{size:.1f}px" text-anchor="middle" x="{middle:.1f}" '
+            f'<text font-size="{size:.1f}" text-anchor="middle" x="{middle:.1f}" '
             f'y="{base + 1.2 * size:.1f}">{escape(why)}</text></g>'
         )
 

@@ -43,6 +43,7 @@ from evenbreak.web.pages import (
     players,
     table,
     team,
+    wall,
 )
 from evenbreak.web.pages.home import Watch
 from evenbreak.web.sessions import form_token
@@ -87,6 +88,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
                 *entry.ROUTES,
                 *check_in.ROUTES,
                 *team.ROUTES,
+                *wall.ROUTES,
             ]
         ),
         middleware=[
@@ -123,7 +125,8 @@ def cookie_name(site: Site) -> str:
 
 async def _style(request: Request) -> Response:
     kept = {"cache-control": "max-age=31536000, immutable"}  # another style has another address
-    text = style(site_of(request).color, director="guest" not in request.query_params)
+    whose = next((one for one in ("guest", "wall") if one in request.query_params), "director")
+    text = style(site_of(request).color, whose)
     return PlainTextResponse(text, media_type="text/css", headers=kept)
 
 

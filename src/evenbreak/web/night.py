@@ -15,6 +15,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ from evenbreak.files.store.tournament import read_events, tournament_of
 from evenbreak.tournaments.evening.events import Event, Late, Opened
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.evening.story import Story, story_of
 from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.beside import Beside
@@ -109,6 +111,8 @@ class Night:
         self._money_at = -math.inf
         self._begun = False
         self._work: asyncio.Task[None] | None = None
+        self._story: Story | None = None
+        self._telling: asyncio.Task[None] | None = None
         self.beside = Beside()
 
     @property
@@ -191,6 +195,27 @@ class Night:
         same_tournament = self.known and self.known.of.events[0] == state.events[0]
         return self.known if same_tournament else None
 
+    async def story(self) -> Story | None:
+        """Return the story of the night as far as it is worked out; None: of nothing yet."""
+        state = await asyncio.to_thread(self.state)
+        if not state.drawn:
+            return None
+        if self._telling is None or self._telling.done():
+            self._telling = asyncio.create_task(self._tell(state))
+        await asyncio.wait({self._telling}, timeout=_WAIT)
+        return self._story
+
+    async def _tell(self, state: Evening) -> None:
+        """Work the story out step by step, so that the odds of now are not kept waiting."""
+        try:
+            while self._read and self._read[2] is state:
+                earlier = self._story
+                self._story = await self.beside.run(partial(story_of, state, earlier, within=0.2))
+                if self._story.whole:
+                    break
+        except Exception as error:  # the wall goes on without
+            _LOG.exception("the story of the night could not be worked out", exc_info=error)
+
     async def _work_out(self, state: Evening) -> None:
         def work() -> Known:
             night = Outlook(state, self.clock())
@@ -225,8 +250,9 @@ def match_chances(night: Outlook) -> dict[str, float]:
     """Return the first player's chance in each match that can be played, from its score on."""
     if night.state.plan.form == "chips":
         return {}
+    win = night.chances(night.skills[0])
     seats = {name: night.state.standing.seats[name] for name in night.state.standing.to_play}
-    return {name: float(night.laws[name].win[pair]) for name, pair in seats.items()}
+    return {name: float(win[name][pair]) for name, pair in seats.items()}
 
 
 def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:

@@ -32,6 +32,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.wording import share, share_at_a_glance
 from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.files.catalogues import face_in, language_of, languages
+from evenbreak.sheets.story_drawing import story_style
 from evenbreak.site.look import accent
 from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.sessions import form_token, is_director
@@ -102,26 +103,29 @@ def own_file(name: str) -> str:
 
 
 @cache
-def style(color: str | None = None, *, director: bool = True) -> str:
+def style(color: str | None = None, whose: str = "director") -> str:
     """Return the style of all pages: what published sites have too, parts, and each screen.
 
-    Guests do without that of the desk: their first page is to be there at once.
+    Guests do without that of the desk: their first page is to be there at once. So does the wall
+    ("wall"), which alone has its own.
     """
     common = files("evenbreak.site").joinpath("templates", "common.css")
     own = files("evenbreak.web").joinpath("templates", "css")
     drawn = files("evenbreak.sheets").joinpath("templates", "bracket.css")
     sheets = sorted((one for one in own.iterdir() if one.name.endswith(".css")), key=_style_order)
-    sheets = [one for one in sheets if director or one.name != "desk.css"]
+    if whose == "wall":
+        sheets = [one for one in sheets if one.name in ("parts.css", "tonight.css", "wall.css")]
+    without = ("wall.css",) if whose == "director" else ("wall.css", "desk.css")
+    sheets = [one for one in sheets if whose == "wall" or one.name not in without]
     text = "".join(one.read_text(encoding="utf-8") for one in (common, *sheets, drawn))
+    text += story_style() if whose == "wall" else ""
     return text + (accent(color).style() if color else "")
 
 
 @cache
-def style_address(color: str | None, *, director: bool = True) -> str:
+def style_address(color: str | None, whose: str = "director") -> str:
     """Return where the style is: elsewhere after each change, so that phones may keep it."""
-    text = style(color, director=director)
-    whose = "director" if director else "guest"
-    return f"/evenbreak.css?{whose}={hashlib.sha256(text.encode()).hexdigest()[:8]}"
+    return f"/evenbreak.css?{whose}={hashlib.sha256(style(color, whose).encode()).hexdigest()[:8]}"
 
 
 def _style_order(sheet: Traversable) -> tuple[bool, bool, str]:
@@ -203,6 +207,9 @@ def page(
     if key in rendered:
         return HTMLResponse(_with(rendered[key], own), status_code=status)
 
+    whose = "director" if is_director(request) else "guest"
+    whose = "wall" if request.url.path == "/screen" else whose
+
     def capital(text: str) -> str:
         return _without_folder(request, capital_in_face(text, face))
 
@@ -222,7 +229,7 @@ def page(
             language=code,
             languages=languages(),
             here=request.url.path,
-            style=style_address(site.color, director=is_director(request)),
+            style=style_address(site.color, whose),
             opens=partial(can_be_opened, request),
             return_to=_return_to(request),
             site=site,

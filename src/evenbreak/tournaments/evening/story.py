@@ -64,7 +64,7 @@ class Story:
     folded
         the events up to each step, for a later story that goes on from here.
     whole
-        whether it is told up to now.
+        whether it is told from the draw on.
     """
 
     steps: tuple[Step, ...]
@@ -136,7 +136,8 @@ def story_of(
     earlier
         a story of the same night: what both have in common is not worked out again.
     within
-        after so many seconds no second step is begun; then the story is not `whole` yet.
+        after so many seconds no second step is begun; then the story is not `whole` yet, and
+        its beginning lacks: that is what takes longest.
 
     >>> from evenbreak.tournaments.evening.events import Entrant, Opened, Plan
     >>> both = Entrant("Ann", 80.0), Entrant("Bo", 80.0)
@@ -150,14 +151,15 @@ def story_of(
     folded, latest = _prefixes(state), time.monotonic() + within
     steps: list[Step] = []
     begun = False
-    for events in folded:
+    for events in reversed(folded):
         step = known.get(events)
         if step is None:
             if begun and time.monotonic() > latest:
                 break
             begun, step = True, _step(events)
         steps.append(step)
-    return Story(tuple(steps), tuple(folded[: len(steps)]), len(steps) == len(folded))
+    first = len(folded) - len(steps)
+    return Story(tuple(reversed(steps)), tuple(folded[first:]), not first)
 
 
 def _prefixes(state: Evening) -> list[tuple[Event, ...]]:

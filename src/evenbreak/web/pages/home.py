@@ -1,6 +1,6 @@
 """Tonight: what is on the tables, who plays next, the odds, the finish.
 
-The same on the wall, without controls; and the stream that tells pages when the tournament has
+The wall shows the same in large letters; and the stream that tells pages when the tournament has
 changed.
 """
 
@@ -14,12 +14,10 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response, StreamingResponse
 from starlette.routing import Route
 
-from evenbreak.teams.evening.fold import EVERYBODY
-from evenbreak.web.evening_view import view_of
 from evenbreak.web.forms import form_of
 from evenbreak.web.night import version_of
 from evenbreak.web.page import choose_language, done, page, site_of
-from evenbreak.web.pages.team import seen_values
+from evenbreak.web.pages.wall import view_for
 from evenbreak.web.sessions import DIRECTOR, address_of, check_tries, let_in, let_out, wrong_pin
 
 _LOOK = 0.7  # seconds between two looks at the file
@@ -33,12 +31,10 @@ async def tonight(request: Request) -> Response:
         if await site_of(request).teams.now() is not None:
             return RedirectResponse("/team", status_code=303)
         return page(request, "begin.html")
-    known = await night.outlook()
-    state = night.state()
-    view = view_of(state, known)
-    prizes = night.prizes()
-    of = (state, known, str(prizes))
-    return page(request, "tonight.html", live=True, of=of, view=view, prizes=prizes)
+    site = site_of(request)
+    wall, state = await view_for(request, night, site.clock())
+    of = (state, night.known or "", wall.marks)
+    return page(request, "tonight.html", live=True, of=of, wall=wall)
 
 
 async def ask_pin(request: Request) -> Response:
@@ -70,22 +66,6 @@ async def speak(request: Request) -> Response:
     choose_language(request, form.text("language"))
     back = form.text("back")
     return done(request, back if back.startswith("/") and not back.startswith("//") else "/")
-
-
-async def screen(request: Request) -> Response:
-    """Show what everybody in the room wants to see, in letters for eight metres."""
-    night = site_of(request).night
-    view, prizes = None, []
-    teams = None if night.exists else await site_of(request).teams.now()
-    if teams is not None:
-        shown = await seen_values(request, teams, EVERYBODY)
-        return page(request, "team_screen.html", live=True, **shown)
-    if night.exists:
-        known = await night.outlook()
-        state = night.state()
-        view = view_of(state, known)
-        prizes = night.prizes()
-    return page(request, "screen.html", live=True, view=view, prizes=prizes)
 
 
 class Watch:
@@ -149,6 +129,5 @@ ROUTES = [
     Route("/pin", enter_pin, methods=["POST"]),
     Route("/leave", leave, methods=["POST"]),
     Route("/language", speak, methods=["POST"]),
-    Route("/screen", screen),
     Route("/events", events),
 ]

@@ -200,7 +200,12 @@
   });
 
   // Odds and finish may still be worked out when a page is shown.
-  const again = () => { if (document.querySelector("[data-older]")) setTimeout(renew, 2000); };
+  let next = 0; // the wall shows another picture after a while
+  const again = () => {
+    const seconds = document.querySelector("[data-older]") ? 2 : document.querySelector("[data-again]")?.dataset.again;
+    clearTimeout(next);
+    if (seconds) next = setTimeout(renew, 1000 * seconds);
+  };
   const follow = () => {
     stream?.close();
     stream = new EventSource("/events");

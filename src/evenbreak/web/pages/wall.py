@@ -1,0 +1,151 @@
+"""The wall: what everybody in the room wants to see, in letters for eight meters.
+
+It shows the tables, the bracket and the story of the night in turn, of each event of the night, and
+the tables at once when a match is called; at the end the champion. Without a script it asks again
+at each turn. What keeps a screen awake needs https, so the computer's own settings have to.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import segno
+from markupsafe import Markup
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.answers.tournament.bracket_view import Panel, bracket_panels
+from evenbreak.answers.tournament.story import clock_words, remarks
+from evenbreak.files.store.desk import disputes
+from evenbreak.sheets.bracket_page import bracket_svg
+from evenbreak.sheets.story_drawing import story_svg
+from evenbreak.teams.evening.fold import EVERYBODY
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.story import Story
+from evenbreak.web.night import Night, mark_of
+from evenbreak.web.page import language, page, page_face, site_of
+from evenbreak.web.pages.team import seen_values
+from evenbreak.web.wall_view import WallView, just_called, pictures_of, turn_at, wall_view
+from evenbreak.words import in_face
+
+_WHOLE = 32  # players whose whole bracket can be read on the wall
+_ROOM, _HIGH = 114.0, 52.0  # the width of the bracket, and its height with the strip below
+PICTURES = ("tables", "bracket", "story", "end", "check-in")
+
+
+async def screen(request: Request) -> Response:
+    """Show the picture of the wall whose turn it is, or the one that is asked for."""
+    site = site_of(request)
+    if not site.night.exists:
+        teams = await site.teams.now()
+        if teams is None:
+            return page(request, "screen.html", live=True, picture="", code=code(site.address))
+        shown = await seen_values(request, teams, EVERYBODY)
+        clock = site.clock()[11:16]
+        return page(request, "team_screen.html", live=True, clock=clock, **shown)
+    now = site.clock()
+    only = request.query_params.get("only", "")
+    turns: list[tuple[Night, WallView, str]] = []
+    told: dict[int, Story | None] = {}
+    for night in site.nights:
+        view, _ = await view_for(request, night, now)
+        story = told[id(night)] = await night.story()
+        steps = len(story.steps) if story else 0
+        if just_called(view.state, now) and not only:
+            turns = [(night, view, "tables")]
+            break
+        pictures = pictures_of(view, told=steps)
+        turns += [(night, view, one) for one in ([only] if only in PICTURES else pictures)]
+    turn, left = turn_at(now)
+    night, view, picture = turns[turn % len(turns)]
+    shown = _picture(request, view, picture, told.get(id(night)), turn)
+    of = (view.state, night.known or "", told.get(id(night)) or "", picture, view.marks, str(turn))
+    return page(request, "screen.html", live=True, of=of, left=left, only=only, **shown)
+
+
+def _picture(
+    request: Request, view: WallView, picture: str, story: Story | None, turn: int
+) -> dict[str, Any]:
+    site, face = site_of(request), page_face(language(request))
+    values: dict[str, Any] = {"picture": picture, "wall": view, "code": code(site.address)}
+    values |= {"drawn": "", "remarks": [], "since": ""}
+    if picture == "bracket":
+        two = {one.match.name: "two" for one in view.tables if one.state == "two"}
+        panels = bracket_panels(view.state, view.chances, two)
+        rows = -(-len(view.tables) // 4)
+        room = _ROOM / (_HIGH - (8.0 * rows if rows < 3 else 0.0))
+
+        def words(text: str) -> str:
+            return str(in_face(text, face))
+
+        if len(view.state.order) > _WHOLE:
+            panels = (_open_part(panels, turn),)
+        values["drawn"] = bracket_svg(panels, words=words, within=room)
+    if story and picture in ("story", "end"):
+        size = (1140, 430) if picture == "story" else (880, 380)
+        values["drawn"] = Markup(story_svg(story, face, size=size, alone=False))  # noqa: S704 - escaped there
+        values["remarks"] = [
+            (one.kind, unbroken(in_face(one.what, face)), one.why) for one in remarks(story)
+        ]
+        values["since"] = clock_words(story.steps[0].at)
+    return values
+
+
+def _open_part(panels: Sequence[Panel], turn: int) -> Panel:
+    """Return a part of a bracket that is too large for the wall, from its first open round on."""
+    parts = [one for one in panels if any(box.state != "done" for box in one.boxes)]
+    part = (parts or panels)[turn // 2 % len(parts or panels)]
+    first = min(
+        (box.column for box in part.boxes if box.state not in ("done", "forfeit")), default=0
+    )
+    boxes = [replace(box, column=box.column - first) for box in part.boxes if box.column >= first]
+    return replace(part, rounds=part.rounds[first:], boxes=tuple(boxes))
+
+
+def unbroken(text: str) -> str:
+    r"""Return a text in which no line ends within a score.
+
+    >>> unbroken("Ann 5-4 Jean-Luc") == "Ann 5\u20114 Jean-Luc"
+    True
+    """
+    return re.sub(r"(?<=\d)-(?=\d)", "\u2011", text)
+
+
+async def view_for(request: Request, night: Night, now: str) -> tuple[WallView, Evening]:
+    """Return what everybody sees of an event of the night, and its state.
+
+    It is worked out once for all who ask, until something happens or the minute is over.
+    """
+    known = await night.outlook()
+    views, prizes = request.app.state.__dict__.setdefault("walls", {}), night.prizes()
+    key = (mark_of(night.path), now[:16], tuple(prizes))
+    kept = views.get(id(night))
+    if kept is None or kept[0] != key or kept[1] is not known:
+
+        def work() -> tuple[WallView, Evening]:
+            state = night.state()
+            found = {one.match for one in disputes(state, night.phones())} if state.drawn else set()
+            asked: Any = {"name": night.path.stem, "now": now, "prizes": prizes}
+            return wall_view(state, known, disputed=found, **asked), state
+
+        kept = views[id(night)] = key, known, await asyncio.to_thread(work)
+    found: tuple[WallView, Evening] = kept[2]
+    return found
+
+
+@cache
+def code(address: str) -> Markup:
+    """Return the QR code of an address, as a piece of a page."""
+    drawn = segno.make(address, error="m").svg_inline(
+        border=2, dark="#000", light="#fff", omitsize=True
+    )
+    return Markup(drawn)  # noqa: S704 - it holds no text
+
+
+ROUTES = [Route("/screen", screen)]

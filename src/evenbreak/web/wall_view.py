@@ -1,0 +1,267 @@
+"""What the wall and the page for everyone show of a night: tables, who is next, who wins it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from typing import NamedTuple
+
+from evenbreak.answers.tournament.time import time_of_day
+from evenbreak.tournaments.evening.events import Result
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.evening_view import EveningView, MatchView, view_of
+from evenbreak.web.night import Known
+from evenbreak.words import Sentence, say
+
+_WALKING = timedelta(minutes=5)  # since the call, that a match without a score counts as called
+_TURN = 15  # seconds that each picture of the wall is shown
+_JUST_CALLED = timedelta(seconds=25)
+
+
+class TableView(NamedTuple):
+    """A table and what is on it, or is to be called to it.
+
+    Parameters
+    ----------
+    name
+        what the house calls it.
+    state
+        playing, hill, called, two (the players disagree) or ready (it is to be called).
+    match, number
+        the match, and what people call it.
+    score
+        games won; none is shown while the players disagree.
+    chance
+        of the first player; None: not known.
+    """
+
+    name: str
+    state: str
+    match: MatchView
+    number: Sentence | str
+    score: tuple[int, int] | None
+    chance: float | None
+
+
+class NextView(NamedTuple):
+    """A match that waits for a table, and about when it starts; '' if that is not known."""
+
+    match: MatchView
+    number: int
+    starts: str
+
+
+class Favorite(NamedTuple):
+    """A player's chance of the title; of a player without a rating where it may lie."""
+
+    name: str
+    p: float
+    band: tuple[float, float] | None
+
+
+class Placed(NamedTuple):
+    """A place, who has it, and the money; 0 if there is none."""
+
+    place: str
+    name: str
+    money: float
+
+
+@dataclass(frozen=True)
+class WallView:
+    """A night as everybody sees it.
+
+    Parameters
+    ----------
+    name
+        what it is called.
+    view
+        the evening.
+    tables, next
+        what is on the tables, and what waits for one.
+    favorites
+        who wins it, the most likely first.
+    places
+        who finished where, as far as that is decided.
+    played, matches
+        how many matches have been played, and will be.
+    prizes
+        the money for each place.
+    clock
+        what time it is, such as 21:29.
+    chances
+        of the first player of each match that is played or ready.
+    """
+
+    name: str
+    view: EveningView
+    tables: Sequence[TableView]
+    next: Sequence[NextView]
+    favorites: Sequence[Favorite]
+    places: Sequence[Placed]
+    played: int
+    matches: int
+    prizes: Sequence[float]
+    clock: str
+    chances: Mapping[str, float]
+
+    @property
+    def state(self) -> Evening:
+        """The state of the evening."""
+        return self.view.state
+
+    @property
+    def final(self) -> Sentence | str:
+        """How the champion won the last match."""
+        results = [one.what for one in self.state.events if isinstance(one.what, Result)]
+        counted = [one for one in results if one in self.state.counted.values()]
+        if not self.places or not counted or counted[-1].winner != self.places[0].name:
+            return ""
+        last = counted[-1]
+        loser = next(name for name in last.players if name != last.winner)
+        score = f"{last.games[last.winner]}-{last.games[loser]}"
+        return say("Final {score} against {player}", score=score, player=loser)
+
+    @property
+    def marks(self) -> str:
+        """What a rendered page depends on besides the state: calls, disputes, prizes."""
+        return " ".join(f"{one.name} {one.state}" for one in self.tables) + str(self.prizes)
+
+
+def wall_view(
+    state: Evening,
+    known: Known | None,
+    *,
+    name: str,
+    now: str,
+    prizes: Sequence[float] = (),
+    disputed: Collection[str] = (),
+) -> WallView:
+    """Return a night as everybody sees it.
+
+    Parameters
+    ----------
+    state, known
+        the state, and what was worked out of it or of an earlier one.
+    name
+        what it is called where it has no name.
+    now
+        what time it is, such as 2025-03-01T19:30:00.
+    prizes
+        the money for each place.
+    disputed
+        the matches of which the players have sent different scores.
+    """
+    view = view_of(state, known)
+    fresh = known if known and known.of is state else None
+    chances = fresh.chances if fresh else {}
+    tables = [
+        _table(state, one, now, chances.get(one.name), one.name in disputed)
+        for one in (*view.playing, *view.calls)
+    ]
+    starts = {name: at[1] for name, at in fresh.starts.items()} if fresh else {}
+    begun = fresh.start if fresh else 0
+    waiting = sorted(view.waiting, key=lambda one: starts.get(one.name, math.inf))
+    later = [
+        NextView(
+            one,
+            state.number_of(one.name),
+            time_of_day(begun + starts[one.name]) if one.name in starts else "",
+        )
+        for one in waiting
+    ]
+    return WallView(
+        state.plan.name or name,
+        view,
+        sorted(tables, key=lambda one: one.match.table or 0),
+        later,
+        _favorites(known),
+        [Placed(place, who, _money(place, prizes)) for place, who in view.places],
+        len(state.counted) if state.drawn else 0,
+        len(state.match_numbers) if state.drawn else 0,
+        prizes,
+        now[11:16],
+        chances,
+    )
+
+
+def _table(
+    state: Evening, one: MatchView, now: str, chance: float | None, disputed: bool
+) -> TableView:
+    name = state.plan.table_name(one.table or 1)
+    kind, score = "ready", one.score
+    if disputed:
+        kind, score, chance = "two", None, None
+    elif one.since:
+        since = datetime.fromisoformat(state.on_tables[one.name].at)
+        walking = datetime.fromisoformat(now) - since < _WALKING
+        if state.plan.form == "chips":
+            return TableView(name, "playing", one, state.match_words(one.name), None, None)
+        kind = "hill" if one.hill else "called" if walking and not one.score else "playing"
+        score = one.score or ((0, 0) if kind == "playing" else None)
+    return TableView(name, kind, one, state.match_words(one.name), score, chance)
+
+
+def _favorites(known: Known | None) -> list[Favorite]:
+    """Return who wins it; a player without a rating comes where the low end of the band is."""
+    rows = known.data.get("odds", []) if known else []
+    found = []
+    for row in rows:
+        band = (row["p_title_low"], row["p_title_high"]) if "p_title_low" in row else None
+        if row["p_title"] > 0.0:
+            found.append(Favorite(row["name"], row["p_title"], band))
+    return sorted(found, key=lambda one: (-(one.band[0] if one.band else one.p), -one.p))
+
+
+def _money(place: str, prizes: Sequence[float]) -> float:
+    """Return what a place is paid; who share places share their money.
+
+    >>> _money("1", [200.0, 100.0]), _money("2-3", [200.0, 100.0]), _money("4", [200.0])
+    (200.0, 50.0, 0.0)
+    """
+    ends = [int(part) for part in re.findall(r"\d+", place)]
+    if not ends or not place[0].isdigit():
+        return 0.0
+    return sum(prizes[ends[0] - 1 : ends[-1]]) / (ends[-1] - ends[0] + 1)
+
+
+def pictures_of(view: WallView, *, told: int) -> list[str]:
+    """Return what the wall shows in turn of a night: tables, bracket, story, end, or check-in.
+
+    Parameters
+    ----------
+    view
+        the night.
+    told
+        how many steps its story has.
+    """
+    if not view.state.drawn:
+        return ["check-in"]
+    bracket = [] if view.state.plan.form == "chips" else ["bracket"]
+    story = ["story"] if told > 2 and not view.view.chips else []
+    if view.view.over:
+        return ["end", "end", *bracket]
+    return ["tables", *bracket, "tables", *story]
+
+
+def turn_at(now: str) -> tuple[int, int]:
+    """Return which turn it is, and for how many seconds still.
+
+    >>> turn_at("2025-03-01T00:00:31")
+    (2, 14)
+    """
+    at = datetime.fromisoformat(now)
+    seconds = (at.hour * 60 + at.minute) * 60 + at.second
+    return seconds // _TURN, _TURN - seconds % _TURN
+
+
+def just_called(state: Evening, now: str) -> bool:
+    """Return whether a match has just been called."""
+    if not state.drawn or state.plan.form == "chips":
+        return False
+    at = datetime.fromisoformat(now)
+    calls = [datetime.fromisoformat(one.at) for one in state.on_tables.values()]
+    return any(timedelta(0) <= at - one < _JUST_CALLED for one in calls)
