@@ -65,9 +65,10 @@ class Director:
     def begins(self) -> None:
         self.page.goto(self.site.address)
         self.page.get_by_role("link", name="New tournament").click()
+        self.page.get_by_text("More choices").click()
         self.page.select_option("[name=seeding]", "rating")
-        self.does("Start", entrants=PLAYERS, race="2", losers_race="1", tables="4")
-        self.does("Make the draw", "draw")
+        self.does("Go to check-in", entrants=PLAYERS, race="2", losers_race="1", tables="4")
+        self.does("Draw ", "draw")
         self.page.get_by_text("Late entry").click()
         self.does("Add player", "late 'Late Larry' --rating 555", name="Late Larry", rating="555")
 

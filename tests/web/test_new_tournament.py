@@ -125,6 +125,21 @@ def test_next_week_has_the_same_people_and_options(tmp_path: Path) -> None:
         assert kept == PrizeMoney(20.0, 0.0, 0.1, "70/30", 5.0)
 
 
+def test_a_tournament_is_deleted_once_that_is_meant_and_a_copy_stays(hall: Hall) -> None:
+    folder = hall.site.path.parent
+    assert "A copy of its file is kept" in hall.director.send("/desk/delete").words
+    assert hall.guest.send("/desk/delete", sure="yes").status == 403
+    before = hall.state
+    shown = hall.director.send("/desk/delete", sure="yes")
+    assert "Deleted. The copy is" in shown.words
+    (copy,) = folder.glob("*.backup.db")
+    assert read_tournament(copy).events == before.events
+    assert "No tournament" in hall.guest.open("/players").words
+    assert hall.guest.open("/").status == 200
+    assert hall.director.send("/new", **ASKED).status == 200
+    assert list(hall.state.entrants) == ["Ann", "Bo", "Cy", "Di"]
+
+
 def test_players_come_in_a_file(tmp_path: Path) -> None:
     with running(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)

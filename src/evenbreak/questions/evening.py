@@ -120,10 +120,15 @@ class Export(UnderWay):
   evenbreak rate matches.csv
   evenbreak tournament export --events --out cup.csv
   evenbreak tournament export --story --out story.svg
+  evenbreak tournament export --out night.html
 """
     out: Annotated[
         str | None,
-        Field(File("FILE.csv"), "Write them to this file; with {story} .svg is a picture."),
+        Field(
+            File("FILE.csv"),
+            "Write them to this file; .html is the whole night as one page to send on, with "
+            "{story} .svg is a picture.",
+        ),
     ] = None
     events: Annotated[
         bool,

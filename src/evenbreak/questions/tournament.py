@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, TypeAlias
 
-from evenbreak.fields.kinds import File, Flag
+from evenbreak.fields.kinds import File, Flag, Text
 from evenbreak.fields.question import Field, Says
 from evenbreak.questions.common import CHANCE, ScaleOf, Seed, Starters, Sure
 from evenbreak.questions.evening import TIME_OF_DAY, At, Prizes, TimedUnderWay
@@ -32,9 +32,20 @@ class NewTournament(TournamentPlan, Starters):
   evenbreak tournament new entrants.csv --race 7 --losers-race 5 --tables 4
   evenbreak tournament new entrants.csv --format single --race-to 5 --out saturday.db
   evenbreak tournament new entrants.csv --format chips --chips hoboken
+  evenbreak tournament new --like tonight.db --out next.db
 """
-    entrants: Annotated[str, Field(File("ENTRANTS.csv"), argument=True)]
+    entrants: Annotated[
+        str | None, Field(File("ENTRANTS.csv"), metavar="[ENTRANTS.csv]", argument=True)
+    ] = None
+    like: Annotated[
+        str | None,
+        Field(
+            File("FILE.db"),
+            "As that tournament was: the same options and, without a list, the same people.",
+        ),
+    ] = None
     tables: Tables = 4
+    name: Annotated[str, Field(Text("NAME"), "What the tournament is called.", rare=True)] = ""
     discipline: Discipline = "9-ball"
     pace: EarlierNights = ()
     scale: ScaleOf = None
@@ -46,8 +57,20 @@ class NewTournament(TournamentPlan, Starters):
     at: At = None
 
     def check(self) -> None:
-        """Refuse a draw on paper where there is none."""
-        refuse_lines(self)
+        """Refuse what another tournament says already, and a draw on paper where there is none."""
+        if self.like is not None:
+            for one in self.given:
+                if one not in ("like", "entrants", "name", "out", "at"):
+                    self.refuse("{like} says it already; leave out {part}", part=Parameter(one))
+            return None
+        if self.entrants is None:
+            self.refuse("the list of entrants is missing; name it, or give {like}")
+        return refuse_lines(self)
+
+    @property
+    def planned(self) -> bool:
+        """Whether the plan is asked for, and not another tournament's."""
+        return self.like is None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 
-def html_page(*, search: bool = False, **values: Any) -> bytes:
+def html_page(*, search: bool = False, more_style: str = "", **values: Any) -> bytes:
     """Return a page that asks no other host for anything.
 
     Its Content-Security-Policy allows its own style and, if there is one, its own script.
@@ -36,6 +36,8 @@ def html_page(*, search: bool = False, **values: Any) -> bytes:
     ----------
     search
         whether players can be searched for, which takes a script; without it, the box is hidden.
+    more_style
+        the page's own style, after that of all.
     values
         what the page shows; every text in it is escaped.
 
@@ -44,13 +46,16 @@ def html_page(*, search: bool = False, **values: Any) -> bytes:
     bytes
         UTF-8; the same values give the same bytes.
     """
-    style = own_file("sheet.css") + own_file("bracket.css")
+    style = own_file("sheet.css") + own_file("bracket.css") + more_style
     script = own_file("search.js") if search else ""
     template = environment("evenbreak.sheets").get_template("answer.html")
-    page = template.render(
-        style=style, script=script, csp=policy(style, script), version=__version__, **values
-    )
+    csp = OF_DRAWINGS if more_style else policy(style, script)
+    page = template.render(style=style, script=script, csp=csp, version=__version__, **values)
     return page.encode()
+
+
+OF_DRAWINGS = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+"""The policy of a page whose drawings bring styles of their own: no script, no other host."""
 
 
 def policy(style: str, script: str = "", *, images: str = "") -> str:

@@ -41,6 +41,7 @@ from evenbreak.web.pages import (
     me,
     moves,
     players,
+    share,
     table,
     team,
     wall,
@@ -87,6 +88,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
                 *desk_extras.ROUTES,
                 *entry.ROUTES,
                 *check_in.ROUTES,
+                *share.ROUTES,
                 *team.ROUTES,
                 *wall.ROUTES,
             ]

@@ -92,7 +92,9 @@ class Guard:
             nonlocal started
             if message["type"] == "http.response.start":
                 started = True
-                message["headers"] = [*message.get("headers", []), *self.headers]
+                own = list(message.get("headers", []))
+                known = {name for name, _ in own}
+                message["headers"] = own + [one for one in self.headers if one[0] not in known]
                 if all(name != b"cache-control" for name, _ in message["headers"]):
                     message["headers"].append((b"cache-control", b"no-store"))
             await send(message)

@@ -121,6 +121,11 @@ class Night:
         self._begun = self._begun or holds(self.path, TOURNAMENT)
         return self._begun and self.path.exists()
 
+    def forget(self) -> None:
+        """Forget the tournament, which is no longer in the file."""
+        self._begun, self._read, self.known = False, None, None
+        self._know(None)
+
     @property
     def begun_at(self) -> str:
         """When the tournament was begun; '' if there is none."""

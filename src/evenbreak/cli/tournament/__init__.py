@@ -29,7 +29,7 @@ COMMANDS = {
 """Each command, in the module of its name, with its line of help."""
 
 
-_NAMES_IT = ("--file", "--out", "--pace", "import")
+_NAMES_IT = ("--file", "--out", "--pace", "--like", "import")
 """What stands before a file that has an option already, or is what is imported."""
 
 

@@ -11,6 +11,7 @@ from evenbreak.cli.tournament.evening import moment, night_of
 from evenbreak.cli.tournament.options import Entered, drawn_up, entered_in, none_learned
 from evenbreak.questions.evening import Import
 from evenbreak.questions.tournament import NewTournament
+from evenbreak.words import say
 
 if TYPE_CHECKING:
     from evenbreak.tournaments.evening.fold import Evening
@@ -29,8 +30,10 @@ def command(asked: NewTournament) -> Answer:
     from evenbreak.tournaments.evening.fold import evening
     from evenbreak.tournaments.evening.plan import opened
 
+    if asked.like is not None:
+        return _like(asked, asked.like)
     entered, at = entered_in(asked), moment(asked.at)
-    plan = replace(entered.plan, tables=asked.tables, discipline=asked.discipline)
+    plan = replace(entered.plan, tables=asked.tables, discipline=asked.discipline, name=asked.name)
     roster, lines = entered.roster, None
     if asked.seeding == "drawn":
         roster, _, lines = drawn_up(roster, asked.seeding, asked.seed)
@@ -53,6 +56,44 @@ def command(asked: NewTournament) -> Answer:
             *answer.warnings,
         ],
     )
+
+
+def _like(asked: NewTournament, path: str) -> Answer:
+    """Start the next edition of a tournament."""
+    from dataclasses import replace
+
+    import numpy as np
+
+    from evenbreak import files
+    from evenbreak.files.lists.roster import refuse_to_read
+    from evenbreak.files.store.desk import keep_prizes, kept_prizes
+    from evenbreak.files.store.tournament import new_tournament, read_tournament
+    from evenbreak.ratings.scale import scale_of
+    from evenbreak.tournaments.evening.edition import next_edition
+    from evenbreak.tournaments.evening.events import Entrant, Event
+    from evenbreak.tournaments.evening.fold import evening
+    from evenbreak.tournaments.evening.plan import opened
+
+    at = moment(asked.at)
+    plan, entrants = next_edition(read_tournament(path), at[:10])
+    plan = replace(plan, name=asked.name or plan.name)
+    warnings: tuple[str, ...] = ()
+    if asked.entrants is not None:
+        file = files.read_entrants(asked.entrants)
+        refuse_to_read(file, scale_of(plan.scale), path, say("put all on one scale"))
+        warnings = file.warnings
+        known = {one.name: one for one in entrants}
+        rows = zip(file.roster.players, file.roster.rating.tolist(), strict=True)
+        entrants = tuple(
+            Entrant(name, rating) if np.isfinite(rating) else known.get(name, plan.newcomer(name))
+            for name, rating in rows
+        )
+    events = [Event(at, opened(plan, entrants))]
+    answer = night_of(asked.out, evening(events), at, [])
+    new_tournament(asked.out, events)
+    if (money := kept_prizes(path)) is not None:
+        keep_prizes(asked.out, money)
+    return replace(answer, warnings=[*warnings, *answer.warnings])
 
 
 def _unrated(entered: Entered, state: Evening) -> list[str]:

@@ -10,7 +10,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.kit.terminal import write_file
-from evenbreak.cli.tournament.evening import answer_of, moment
+from evenbreak.cli.tournament.evening import answer_of, moment, outlook_of
 from evenbreak.cli.tournament.odds import paid_places
 from evenbreak.questions.evening import Export, Next, Print, Show
 from evenbreak.words import FilePath, say, say_count
@@ -76,6 +76,8 @@ def export(asked: Export) -> Answer:
     name = PurePath(asked.path).stem
     if asked.story:
         return _story(asked)
+    if asked.out is not None and PurePath(asked.out).suffix.lower() in (".html", ".htm"):
+        return _night_page(asked)
     if asked.events:
         answer = tournament_events_answer(read_events(asked.path), name)
     else:
@@ -83,6 +85,27 @@ def export(asked: Export) -> Answer:
     if asked.out is not None:
         write_file(asked.out, "".join(to_csv(answer)).encode())
     return answer
+
+
+def _night_page(asked: Export) -> Answer:
+    """Write the night as one page that can be sent on."""
+    from evenbreak.answers.tournament.night import night_answer
+    from evenbreak.answers.tournament.prizes import payers_of
+    from evenbreak.files.store.desk import kept_prizes
+    from evenbreak.sheets.night_page import night_html, with_prizes
+    from evenbreak.tournaments.evening.story import story_of
+
+    outlook = outlook_of(asked.path, moment(None, asked.path))
+    state, money = outlook.state, kept_prizes(asked.path)
+    answer = night_answer(outlook)
+    rows = answer.to_dict().get("places", [])
+    prizes = money.amounts(len(state.entrants), payers_of(state)) if money else []
+    unit = money.unit if money else 0.0
+    places = with_prizes([(row["place"], row["name"]) for row in rows], prizes, unit)
+    assert asked.out is not None  # noqa: S101 - it is what is asked for
+    name = PurePath(asked.path).stem
+    write_file(asked.out, night_html(state, places, story_of(state), name))
+    return replace(answer, parts=[say("The night is in {file}.", file=FilePath(asked.out))])
 
 
 def _story(asked: Export) -> Answer:

@@ -60,14 +60,31 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
     def write(base: sqlite3.Connection) -> None:
         if len(entries(base, path, TOURNAMENT, _RULES)) != in_place_of:
             raise refused(path, "{name} is there already; give the new tournament another name")
-        for table in ("proposal", PHONES, "prize"):
-            base.execute(f"DROP TABLE IF EXISTS {table}")
-        bring_up_to_date(base)
-        base.execute(f"DELETE FROM {ENTRIES} WHERE strand != ?", (TEAM_NIGHT,))  # noqa: S608
+        _clear(base)
         add(base, TOURNAMENT, _RULES, events)
 
     begin(path, write)
     return state
+
+
+def _clear(base: sqlite3.Connection) -> None:
+    """Take a tournament out of a file, with what phones sent and its prizes."""
+    for table in ("proposal", PHONES, "prize"):
+        base.execute(f"DROP TABLE IF EXISTS {table}")
+    bring_up_to_date(base)
+    base.execute(f"DELETE FROM {ENTRIES} WHERE strand != ?", (TEAM_NIGHT,))  # noqa: S608
+
+
+def delete_tournament(path: str | Path) -> None:
+    """Take the tournament out of a file; make a copy of the file first, to have it back.
+
+    Raises
+    ------
+    DataError
+        if the file is not that of a tournament, or cannot be written.
+    """
+    with changing(path) as base:
+        _clear(base)
 
 
 def read_events(path: str | Path) -> list[Event]:

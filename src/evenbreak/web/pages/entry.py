@@ -24,6 +24,7 @@ from evenbreak.files.lists.entrants import read_entrants
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.store.desk import back_up, kept_prizes
 from evenbreak.files.store.tournament import (
+    delete_tournament,
     earlier_nights,
     new_tournament,
     read_events,
@@ -59,7 +60,7 @@ from evenbreak.web.forms import (
 )
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
-from evenbreak.web.page import asked_again, done, page, site_of
+from evenbreak.web.page import asked_again, done, in_words, page, site_of
 from evenbreak.web.pages.players import UNITS, money_fields, money_of
 from evenbreak.web.pasted import Known, ListError, entered_list, lines_of
 from evenbreak.web.sessions import DIRECTORS_PAGE, check_director
@@ -224,6 +225,30 @@ def _ask_about(
     if why is not None:
         return asked_again(request, "check_list.html", form, why, lines=asked.lines, kept=kept)
     return page(request, "check_list.html", lines=asked.lines, kept=kept, entered={}, why="")
+
+
+async def delete(request: Request) -> Response:
+    """Take the tournament out of the file, once it is asked whether that is meant; keep a copy."""
+    form, site = await form_of(request), site_of(request)
+    check_director(request)
+    there = await asyncio.to_thread(_there, site)
+    if there is None:
+        raise RefusalError("No tournament is running yet.", status=404)
+    if not form.text("sure"):
+        line = say(
+            "The tournament of {players} players, started on {day}, is deleted. A copy of its file "
+            "is kept.",
+            players=there.players,
+            day=there.begun[:10],
+        )
+        own = ("csrf", "sure", "named")
+        fields = [one for one in form.fields.multi_items() if one[0] not in own]
+        lines = [in_words(request, line)]
+        return page(request, "sure.html", fields=fields, lines=lines, lost=[], back="/new")
+    copy = await asyncio.to_thread(back_up, site.path, datetime.now())
+    await asyncio.to_thread(delete_tournament, site.path)
+    site.night.forget()
+    return done(request, "/new", say("Deleted. The copy is {name}.", name=copy.name))
 
 
 class There(NamedTuple):
@@ -398,4 +423,5 @@ ROUTES = [
     Route("/new", ask, methods=["GET"]),
     Route("/new", begin, methods=["POST"]),
     Route("/next", again, methods=["GET"]),
+    Route("/desk/delete", delete, methods=["POST"]),
 ]

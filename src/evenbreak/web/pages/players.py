@@ -44,7 +44,7 @@ async def players(request: Request) -> Response:
     state = await asyncio.to_thread(night.state)
     director = is_director(request)
     begun = _begun(state)
-    posts = {route.path for route in request.app.routes}
+    phones = await asyncio.to_thread(night.phones) if director else None
     return page(
         request,
         "players.html",
@@ -54,7 +54,7 @@ async def players(request: Request) -> Response:
         begun_to_play=begun,
         movable=[name for name in state.order if name not in begun] if state.drawn else [],
         codes=site_of(request).player_codes() if director else {},
-        can_release="/desk/release" in posts,
+        claimed=phones.claims if phones else (),
     )
 
 

@@ -1,0 +1,134 @@
+"""A finished night as one page that can be sent on: places, prizes, bracket, story, results."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from html import escape
+
+from markupsafe import Markup
+
+from evenbreak.answers.tournament.bracket_view import bracket_panels
+from evenbreak.answers.tournament.printed import paper_words
+from evenbreak.answers.tournament.story import remarks
+from evenbreak.sheets.bracket_page import bracket_both
+from evenbreak.sheets.html_page import Section, html_page, own_file, shown_name
+from evenbreak.sheets.story_drawing import story_svg
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.story import Story
+from evenbreak.tournaments.money.payouts import shared_prize
+from evenbreak.words import PYTHON, Face, in_face, say
+
+Places = Sequence[tuple[str, str]]
+"""Who finished where: a place such as 5-6, and a name."""
+
+
+def with_prizes(
+    places: Places, prizes: Sequence[float], unit: float = 0.0
+) -> list[tuple[str, str, float]]:
+    """Return places with what each is paid; who share places share their money.
+
+    >>> with_prizes([("1", "Ann"), ("2-3", "Bo"), ("2-3", "Cy")], [100.0, 60.0, 30.0])
+    [('1', 'Ann', 100.0), ('2-3', 'Bo', 45.0), ('2-3', 'Cy', 45.0)]
+    """
+    found = []
+    for place, name in places:
+        ends = [int(part) for part in re.findall(r"\d+", place)] if place[:1].isdigit() else []
+        paid = shared_prize(prizes, ends[0], ends[-1], unit) if ends else 0.0
+        found.append((place, name, paid))
+    return found
+
+
+def night_html(
+    state: Evening,
+    places: Sequence[tuple[str, str, float]],
+    story: Story | None,
+    name: str,
+    face: Face = PYTHON,
+) -> bytes:
+    """Return a night as one page of HTML in UTF-8, which asks no other host for anything.
+
+    Parameters
+    ----------
+    state
+        the night.
+    places
+        who finished where, and what that is paid.
+    story
+        the story of the night; None leaves it out.
+    name
+        what the night is called, where its plan has no name.
+    face
+        how the page says a sentence.
+    """
+
+    def said(text: str) -> str:
+        return str(in_face(text, face))
+
+    sections = [Section("places", said(say("Places")), _places(places, said))] if places else []
+    if state.plan.form != "chips":
+        drawn = bracket_both(bracket_panels(state), words=said, sight=False)
+        sections.append(Section("bracket", said(say("Bracket")), drawn))
+    if story is not None and len(story.steps) > 1:
+        sections.append(
+            Section("story", said(say("Story of the night")), _story(story, face, said))
+        )
+    sections.append(Section("results", said(say("Results")), _results(state, said)))
+    about = paper_words(state)[0] if state.plan.form != "chips" else ""
+    heading = [state.plan.name or name, *filter(None, (state.plan.date, about))]
+    return html_page(
+        heading=heading,
+        links=[(one.id, one.title) for one in sections],
+        sections=sections,
+        below="",
+        made_of="",
+        more_style=own_file("night.css"),
+    )
+
+
+def _text(name: str) -> str:
+    return escape(shown_name(name))
+
+
+def _money(amount: float) -> str:
+    return f"{amount:,.0f}" if amount == round(amount) else f"{amount:,.2f}"
+
+
+def _places(places: Sequence[tuple[str, str, float]], said: Callable[[str], str]) -> Markup:
+    first, rest = places[0], places[1:]
+    paid = f" · {_money(first[2])}" if first[2] else ""
+    lines = [
+        f'<div class="champion"><p>{escape(said(say("Champion")))}{paid}</p>'
+        f'<p class="big"><bdi>{_text(first[1])}</bdi></p></div>',
+        '<table class="places">',
+    ]
+    for place, name, amount in rest:
+        money = _money(amount) if amount else ""
+        lines.append(
+            f'<tr><td class="number">{escape(place)}</td><th><bdi>{_text(name)}</bdi></th>'
+            f'<td class="number">{money}</td></tr>'
+        )
+    return Markup("\n".join([*lines, "</table>"]))  # noqa: S704 - every name is escaped
+
+
+def _story(story: Story, face: Face, said: Callable[[str], str]) -> Markup:
+    small = story_svg(story, face, size=(480, 420))
+    lines = [f'<div class="story wide">{story_svg(story, face)}</div>']
+    lines.append(f'<div class="story small">{small}</div>')
+    for one in remarks(story):
+        words = ", ".join(said(part) for part in one[1:])
+        lines.append(f"<p><strong>{escape(said(one[0]))}:</strong> {_text(words)}</p>")
+    return Markup("\n".join(lines))  # noqa: S704 - every text is escaped
+
+
+def _results(state: Evening, said: Callable[[str], str]) -> Markup:
+    lines = ['<table class="results">']
+    for match, one in state.counted.items():
+        number = state.match_numbers.get(match, "")
+        loser, forfeit = one.loser, escape(said(say("forfeit")))
+        score = forfeit if one.forfeit else f"{one.games[one.winner]}-{one.games[loser]}"
+        lines.append(
+            f'<tr><td class="number">{number}</td><th><bdi>{_text(one.winner)}</bdi></th>'
+            f'<td class="score">{score}</td><td><bdi>{_text(loser)}</bdi></td></tr>'
+        )
+    return Markup("\n".join([*lines, "</table>"]))  # noqa: S704 - every name is escaped
