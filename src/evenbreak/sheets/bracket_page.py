@@ -13,12 +13,11 @@ from html import escape
 
 from markupsafe import Markup
 
-from evenbreak.answers.kit.wording import share_at_a_glance
 from evenbreak.answers.tournament.bracket_view import Box, Line, Panel
 from evenbreak.answers.tournament.short_names import rough_width, short_names
 from evenbreak.sheets.bracket_drawing import BOX_HIGH, BOX_WIDE, Drawing, Placed, drawing
 from evenbreak.sheets.html_page import Section, html_page, own_file, shown_name
-from evenbreak.words import say
+from evenbreak.words import Figure, say
 
 COLUMN, ROW = 232.0, 49.0
 """The width of a round and the height of a match, in the drawing's own pixels."""
@@ -174,12 +173,11 @@ class _Page:
         if box.state in SHAPES and (box.table or box.state == "ready"):
             kind, path = SHAPES[box.state]
             at = f"{_at(x - 17.0)} {_at(y + 3.0)}"
-            if box.table:  # on the frame
-                left = x + self.wide - 21.0
-                halo = f'x="{_at(left)}" y="{_at(top - 7)}" width="17" height="14"'
-                parts.append(f'<rect class="halo" {halo}/>')
-                at = f"{_at(left + 3.0)} {_at(top - 5.5)}"
-            parts.append(f'<path class="shape {kind}" transform="translate({at})" d="{path}"/>')
+            if box.table:  # on the frame, clear of the score
+                at = f"{_at(x + self.wide - 18.0)} {_at(top - 7.5)}"
+            parts.append(
+                f'<path class="shape {kind}" transform="translate({at})scale(.85)" d="{path}"/>'
+            )
         parts += [self.line(box, k, one, x, y) for k, one in enumerate(box.lines)]
         address = self.link(box)
         maybe = " maybe" if box.beside < 0 and box.state == "waits" else ""
@@ -200,7 +198,8 @@ class _Page:
             room -= _SCORE
         if line.chance is not None:
             at = right - (_SCORE if line.score else 0.0)
-            parts.append(_text("odds", at, middle, str(self.words(share_at_a_glance(line.chance)))))
+            chance = Figure(min(max(line.chance, 0.01), 0.99), ".0%")
+            parts.append(_text("odds", at, middle, str(self.words(chance))))
             room -= _CHANCE
         wide = rough_width(text, bold=line.known) * LETTERS
         size = LETTERS * max(0.3, room / wide) if wide > room else 0.0
