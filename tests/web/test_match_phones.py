@@ -4,9 +4,9 @@ import random
 
 import pytest
 
-from evenbreak.files.store.desk import alone, disputes, phone_entries
+from evenbreak.files.store.desk import Sides, disputes, phone_entries
 from evenbreak.files.store.tournament import add_events, read_tournament
-from evenbreak.tournaments.evening.events import Event, Renamed
+from evenbreak.tournaments.evening.events import Event, Renamed, Result
 from evenbreak.web.codes import LETTERS
 from tries import tries
 from web.conftest import Hall, begun
@@ -27,6 +27,11 @@ class Player:
 
     def sends(self, a: int, b: int) -> Shown:
         return self.phone.taps(self.match, a, b)
+
+
+def said(hall: Hall) -> Sides:
+    """Return what the players of the first match say."""
+    return hall.site.night.phones().sides("W1.1", hall.state.pair("W1.1"))
 
 
 def test_two_phones_at_different_addresses_agree(hall: Hall) -> None:
@@ -50,8 +55,7 @@ def test_one_phone_cannot_confirm_itself(hall: Hall, *, private_tab: bool) -> No
     assert "W1.1" not in hall.state.counted
     # A private tab can't be told from a second phone behind one address: the director looks.
     assert ("Ask the director to confirm it" in shown.words) is private_tab
-    (said,) = alone(hall.state, hall.site.night.phones())
-    assert len(said.scores) == (2 if private_tab else 1)
+    assert (said(hall).agree, said(hall).apart) == (private_tab, False)
     assert hall.director.send("/desk/result", match="W1.1", a=3, b=0).status == 200
 
 
@@ -61,8 +65,7 @@ def test_a_name_belongs_to_the_first_phone_that_claims_it_all_evening(hall: Hall
     owner.sends(3, 1)
     assert thief.claims(0).status == 409
     assert thief.sends(1, 3).status == 403
-    ours = hall.site.night.phones().sides("W1.1", owner.pair)
-    assert ours.scores == {owner.pair[0]: (3, 1)}
+    assert said(hall).scores == {owner.pair[0]: (3, 1)}
     other = Player(hall, "127.0.0.4")
     other.claims(1)
     assert "You both agree" in other.sends(3, 1).words
@@ -79,7 +82,7 @@ def test_the_director_or_the_code_takes_a_name_from_a_thief(hall: Hall) -> None:
     assert owner.claims(0).status == 409
     assert owner.phone.send("/desk/release", player=name).status == 403
     assert hall.director.send("/desk/release", player=name).status == 200
-    assert alone(hall.state, hall.site.night.phones()) == []  # what the thief sent is void
+    assert not said(hall).proposed  # what the thief sent is void
     assert thief.claims(0).status == 200
     code = hall.site.player_code(name)
     assert name in owner.phone.open(f"/c/{code.lower()}").words
@@ -95,8 +98,8 @@ def test_two_scores_are_one_case_for_the_director_until_one_gives_way(hall: Hall
     for side, (one, score) in enumerate(zip(players, ((3, 1), (2, 3)), strict=True)):
         one.claims(side)
         one.sends(*score)
-    (said,) = disputes(hall.state, hall.site.night.phones())
-    assert list(said.scores.values()) == [(3, 1), (2, 3)]
+    (case,) = disputes(hall.state, hall.site.night.phones())
+    assert (case.match, list(case.scores.values())) == ("W1.1", [(3, 1), (2, 3)])
     for one in players:
         assert "Two scores" in one.phone.open("/me").words
     assert "says you won 3-1" not in players[0].phone.send("/me/withdraw", match="W1.1").words
@@ -187,7 +190,8 @@ def test_a_table_s_tablet_taps_for_both_and_can_be_taken_back(hall: Hall) -> Non
     shown = tablet.send("/table/4/score", match=match, a=3, b=1)
     assert "Just finished" in shown.words
     assert hall.state.counted[match].score == (3, 1)
-    assert hall.state.events[-1].by_phones
+    (result,) = [one for one in hall.state.events if isinstance(one.what, Result)]
+    assert result.by_phones
     assert "The director knows" in tablet.send("/table/4/wrong", match=match).words
     assert hall.director.send("/table/4/tablet", give="no").status == 200
     hall.director.send("/desk/call", match="W1.2", table=4)

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
-from typing import NamedTuple
 
 from evenbreak.errors import DataError
 from evenbreak.evenings.log import read_json
@@ -272,33 +271,11 @@ class Sides:
         return len(used) == 2 and not used[0] & used[1]
 
 
-class Said(NamedTuple):
-    """What the players of a match say of its result, for the director to decide.
-
-    Parameters
-    ----------
-    match, pair
-        the match and its players.
-    scores
-        what each of them says, the games of the first player of the pair first.
-    """
-
-    match: str
-    pair: tuple[str, str]
-    scores: dict[str, tuple[int, int]]
-
-
-def disputes(state: Evening, phones: Phones) -> list[Said]:
+def disputes(state: Evening, phones: Phones) -> list[Sides]:
     """Return the matches of which the two players propose different results."""
-    return [one for one in _said(state, phones) if len(set(one.scores.values())) == 2]
-
-
-def alone(state: Evening, phones: Phones) -> list[Said]:
-    """Return the matches of which one person alone proposes a result.
-
-    Only one of the players has sent it, or both have, from one phone or one address.
-    """
-    return [one for one in _said(state, phones) if len(set(one.scores.values())) == 1]
+    ready = state.standing.to_play if state.drawn else ()
+    sides = (phones.sides(name, state.pair(name)) for name in ready)
+    return [one for one in sides if len(set(one.scores.values())) == 2]
 
 
 def objected(state: Evening, phones: Phones) -> list[str]:
@@ -309,13 +286,6 @@ def objected(state: Evening, phones: Phones) -> list[str]:
         if result is not None and result.games == dict(entry.score):
             found.append(match)
     return found
-
-
-def _said(state: Evening, phones: Phones) -> list[Said]:
-    if not state.drawn:
-        return []
-    sides = [phones.sides(name, state.pair(name)) for name in state.standing.to_play]
-    return [Said(one.match, one.pair, one.scores) for one in sides if one.proposed]
 
 
 def phones_in(entries: Iterable[Entry], state: Evening) -> Phones:
