@@ -327,6 +327,24 @@ def test_an_entry_is_free_if_nothing_else_changes_without_it(form: str, seed: in
                 undo(state, number) if number != own_last(state) else undo(state, -1)
 
 
+@pytest.mark.parametrize("form", list(FORMS))
+@pytest.mark.parametrize("seed", range(TRIES))
+def test_looking_ahead_is_what_is_entered_then(form: str, seed: int) -> None:
+    night = random_night(form, seed, 14)
+    night.add(roster.rename(night.state, "P3", "Zoë"))
+    for _ in range(6):
+        before, events = night.state, list(night.events)
+        try:
+            night.entry()
+        except InputError:
+            continue
+        added = night.events[len(events) :]
+        ahead, after = before.then(*added), night.state
+        assert facts(ahead) == facts(after)
+        assert (ahead.numbers, ahead.entries) == (after.numbers, after.entries)
+        assert losses(before, ahead) == losses(before, after)
+
+
 def test_undo_is_the_directors_own_and_redo_brings_it_back() -> None:
     night = Night("double", 8, 1)
     night.add(moves.call(night.state, "W1.1", 1))

@@ -19,7 +19,7 @@ from evenbreak.files.store.desk import change_secrets, kept_secrets, new_pin
 from evenbreak.files.store.evening_file import is_there
 from evenbreak.tournaments.evening.calling import calls_after
 from evenbreak.tournaments.evening.events import BY_ITSELF, Event
-from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.beside import Made
 from evenbreak.web.codes import codes_of
 from evenbreak.web.guard import RefusalError
@@ -159,7 +159,7 @@ class Site:
         if not events or not self.calls_itself:
             return list(events)
         order = self.night.known.order if self.night.known else ()
-        found = calls_after(state, evening([*state.events, *events]), order)
+        found = calls_after(state, state.then(*events), order)
         return [*events, *(Event(events[0].at, one, BY_ITSELF) for one in found)]
 
     @property

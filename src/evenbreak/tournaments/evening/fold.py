@@ -103,6 +103,8 @@ class Evening:
         for each match and its players why it waits.
     undone
         the entries that are undone, by number, the last undone last.
+    log
+        all entries as they were made.
     elsewhere
         the tables that other events of the night have taken, and who plays there.
     """
@@ -126,6 +128,7 @@ class Evening:
     registered: Mapping[str, float | None] = field(default_factory=dict)
     waits: Mapping[Pairing, Waits] = field(default_factory=dict)
     undone: Mapping[int, TakenBack[Event]] = field(default_factory=dict)
+    log: tuple[Event, ...] = ()
     elsewhere: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
 
     @property
@@ -291,6 +294,10 @@ class Evening:
         seats = self.standing.seats.get(match, ())
         return frozenset(self.order[k] for k in seats if k is not None and k >= 0)
 
+    def then(self, *events: Event) -> Evening:
+        """Return the state after more events; this one stays as it is."""
+        return replace(evening([*self.log, *events]), elsewhere=self.elsewhere)
+
     def pair(self, match: str) -> tuple[str, str]:
         """Return the players of a match that can be played or was."""
         one, other = (self.order[k] for k in self.standing.seats[match] if k is not None)
@@ -360,8 +367,9 @@ def evening(events: Iterable[Event]) -> Evening:
     >>> evening([Event("2025-03-01T19:30:00", what) for what in happened]).winners
     {'F': 'Bo'}
     """
-    history = read(list(events))
-    kept, numbers = list(history.kept.values()), tuple(history.kept)
+    log = tuple(events)
+    history = read(log)
+    kept = list(history.kept.values())
     first = kept[0].what if kept else None
     if not isinstance(first, Opened):
         raise InputError("the first entry does not start a tournament")
@@ -388,7 +396,7 @@ def evening(events: Iterable[Event]) -> Evening:
         matches.ties,
         matches.later,
         tuple(kept),
-        numbers,
+        tuple(history.kept),
         history.entries,
         history.former,
         frozenset(people.arrived & people.entrants.keys()),
@@ -396,6 +404,7 @@ def evening(events: Iterable[Event]) -> Evening:
         people.registered,
         matches.waits,
         history.undone,
+        log,
     )
 
 

@@ -30,7 +30,7 @@ from evenbreak.tournaments.evening.events import (
     race_words,
     score_words,
 )
-from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening, evening
+from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
 from evenbreak.tournaments.evening.known import (
     check_entrant,
@@ -97,7 +97,7 @@ def draw_next(
     first = draw(state, rng, without=without)
     if state.plan.form != "swiss":
         return [first]
-    return [first, draw_later(evening([*state.events, Event(state.events[-1].at, first)]), rng)]
+    return [first, draw_later(state.then(Event(state.events[-1].at, first)), rng)]
 
 
 def result(
@@ -220,7 +220,7 @@ def corrections(
     found = correct(state, match, score, follow=follow, ended=ended, winner=winner)
     if follow != "stop":
         return [found]
-    after = evening([*state.events, Event(state.events[-1].at, found)])
+    after = state.then(Event(state.events[-1].at, found))
     calls = []
     for name, one in state.on_tables.items():
         if name in after.on_tables or name not in after.standing.to_play:

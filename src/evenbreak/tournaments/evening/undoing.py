@@ -69,39 +69,39 @@ def free_entries(state: Evening) -> set[int]:
     Undone, they leave every other result and every match in play as it is. Scores that players tap
     are not among them.
     """
-    found, base = set(), evening(state.events)
-    events = dict(zip(base.numbers, base.events, strict=True))
-    for place, number in list(zip(base.numbers, state.numbers, strict=True))[1:]:
-        what = events[place].what
-        if events[place].by == BY_ITSELF or (isinstance(what, Scored) and events[place].by_phones):
-            continue
-        if isinstance(what, Called) and _act(events, place)[-1] != place:
-            continue
-        if (isinstance(what, _LIGHT) and len(_act(events, place)) == 1) or _is_free(base, place):
-            found.add(number)
-    return found
+    return {number for number in state.numbers[1:] if is_free(state, number)}
 
 
-def _is_free(state: Evening, entry: int) -> bool:
-    """Return whether an entry can be undone without loss."""
+def is_free(state: Evening, entry: int) -> bool:
+    """Return whether an entry is one that nothing follows from."""
     events = dict(zip(state.numbers, state.events, strict=True))
+    if entry not in events or entry == 1:
+        return False
     what, at = events[entry].what, state.events[-1].at
-    if isinstance(what, Result) and state.drawn and state.plan.form != "chips":
-        sources = {what.match, *(g.name for g in state.bracket.groups if what.match in g.matches)}
-        begun = {*state.records, *state.on_tables, *state.live}
-        follows = [
-            match.name
-            for match in state.bracket.matches
-            if any(isinstance(slot, Source) and slot.match in sources for slot in match.slots)
-        ]
-        if not begun & {*follows} and not (state.later and state.plan.form == "swiss"):
-            return True
+    act = _act(events, entry) if isinstance(what, Called | Result) else [entry]
+    if (isinstance(what, Scored) and events[entry].by_phones) or act[-1] != entry:
+        return False
+    if len(act) == 1 and (isinstance(what, _LIGHT) or _leads_nowhere(state, what)):
+        return True
     try:
-        gone = [Event(at, one) for one in _taken_back(state, events, entry)]
-        after = evening([*state.events, *gone])
+        after = state.then(*(Event(at, Undone(number)) for number in reversed(act)))
         return not losses(state, after) and (after.drawn or not state.drawn)
     except InputError:
         return False
+
+
+def _leads_nowhere(state: Evening, what: object) -> bool:
+    """Return whether a result is one of a match from which none has begun that it leads to."""
+    if not isinstance(what, Result) or not state.drawn or state.plan.form in ("chips", "swiss"):
+        return False
+    sources = {what.match, *(g.name for g in state.bracket.groups if what.match in g.matches)}
+    begun = {*state.records, *state.on_tables, *state.live}
+    return not any(
+        isinstance(slot, Source) and slot.match in sources
+        for name in begun
+        if name in state.bracket.by_name
+        for slot in state.bracket.match(name).slots
+    )
 
 
 def undo(state: Evening, entry: int | None = None) -> list[Undone]:
@@ -118,7 +118,7 @@ def undo(state: Evening, entry: int | None = None) -> list[Undone]:
     chosen = own if entry is None else entry
     if chosen is None:
         raise InputError("there is nothing to undo")
-    if chosen not in undoable(state) and chosen not in free_entries(state):
+    if chosen not in undoable(state) and not is_free(state, chosen):
         if chosen in state.undone:
             raise InputError("entry {entry} has already been undone", entry=chosen)
         raise InputError(

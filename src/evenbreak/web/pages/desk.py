@@ -23,7 +23,7 @@ from evenbreak.tournaments.evening.events import Result, score_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.settling import tied_groups
-from evenbreak.tournaments.evening.undoing import own_last, undoable
+from evenbreak.tournaments.evening.undoing import is_free, own_last, undoable
 from evenbreak.web.desk_view import (
     DeskMatch,
     chance,
@@ -175,7 +175,7 @@ def _undo_of(state: Evening, one: DeskMatch) -> dict[str, Any] | None:
     """Return how the result of a match is taken back, if nothing follows from it."""
     for number, event in reversed(list(zip(state.numbers, state.events, strict=True))):
         if isinstance(event.what, Result) and event.what.match == one.name:
-            can = number in undoable(state)
+            can = number in undoable(state) or is_free(state, number)
             return {"entry": number, "words": undo_words(state, event)} if can else None
     return None
 

@@ -22,7 +22,7 @@ from evenbreak.fields.question import AskedError, Declared, declared
 from evenbreak.files.store.tournament import add_events
 from evenbreak.questions.moves import PLAYER, Correct
 from evenbreak.tournaments.evening.events import Event, What
-from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.moves import known_match
 from evenbreak.tournaments.evening.undoing import losses, matches_of
 from evenbreak.web.desk_view import corrected
@@ -123,7 +123,7 @@ async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Res
     def decide(state: Evening) -> list[Event]:
         events: list[Event] = []
         for one in asked:
-            now = state if not events else evening([*state.events, *events])
+            now = state.then(*events) if events else state
             try:
                 events += [Event(at, what) for what in move.decide(now, one, at)]
             except AlreadyError as error:  # the same tap again
@@ -174,7 +174,7 @@ def _ask_what(request: Request, form: Form, asked: Correct, before: Evening) -> 
     """Ask what happens to the matches that are played on a result that is corrected."""
     at, stop = site_of(request).clock(), replace(asked, follow="stop")
     whats = MOVES["correct"].decide(before, stop, at)
-    after = evening([*before.events, *(Event(at, what) for what in whats)])
+    after = before.then(*(Event(at, what) for what in whats))
     match = known_match(before, asked.match, over=True)
     return page(
         request,
