@@ -220,6 +220,8 @@ class _Reader(HTMLParser):
         form, name = self.forms[-1], at.get("name", "")
         if tag == "input" and at.get("type") == "hidden":
             form.fields.append((name, at["value"]))
+        elif tag == "input" and at.get("type") in ("radio", "checkbox"):
+            form.choices.setdefault(name, []).append(at["value"])
         elif tag == "input" and name:
             form.typed.append(name)
             form.fields.append((name, at.get("value", "")))
@@ -245,6 +247,11 @@ class _Reader(HTMLParser):
             self.select = ""
 
 
-def forms_of(got: Got) -> list[Form]:
+def forms_in(text: str) -> list[Form]:
     """Return the forms of a page that are posted."""
-    return _Reader(got.text).forms
+    return _Reader(text).forms
+
+
+def forms_of(got: Got) -> list[Form]:
+    """Return the same of what a browser was answered."""
+    return forms_in(got.text)

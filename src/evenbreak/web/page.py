@@ -10,6 +10,7 @@ import base64
 import hashlib
 import json
 import os
+import re
 import secrets
 import urllib.parse
 from collections.abc import Mapping, Sequence
@@ -119,7 +120,14 @@ def style(color: str | None = None, whose: str = "director") -> str:
     sheets = [one for one in sheets if whose == "wall" or one.name not in without]
     text = "".join(one.read_text(encoding="utf-8") for one in (common, *sheets, drawn))
     text += story_style() if whose == "wall" else ""
-    return text + (accent(color).style() if color else "")
+    return _short(text) + (accent(color).style() if color else "")
+
+
+def _short(text: str) -> str:
+    """Return a style without what only its readers need: comments, and blanks."""
+    plain = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
+    bare = re.sub(r"\s*([{};,])\s*|\s*\n\s*|(:) ", lambda at: at[1] or at[2] or " ", plain)
+    return bare.replace(";}", "}")
 
 
 @cache
