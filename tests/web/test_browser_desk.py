@@ -1,4 +1,4 @@
-"""The desk in a real browser: it follows what happens, and leaves alone what is filled in."""
+"""The desk in a real browser: it follows what happens, and leaves alone what is tapped or typed."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from web.phones import Phone
 pytestmark = pytest.mark.thorough
 
 AT = "2025-03-01T20:00:00"
-PROPOSED = "section.proposed"
 
 
 def score(hall: Hall, match: str, games: tuple[int, int]) -> None:
@@ -40,60 +39,78 @@ def desk(browser: Any, playing: Hall) -> Any:
     page.context.close()
 
 
-def field(page: Any, match: str) -> Any:
-    return page.locator(f'form.result:has([value="{match}"]):has([value="new"]) [name=a]').first
+def card(page: Any, match: str) -> Any:
+    return page.locator(f'section.table[data-key="{match}"]')
 
 
-def test_a_stray_digit_does_not_freeze_the_desk(desk: Any, playing: Hall) -> None:
-    field(desk, "W1.2").press_sequentially("7")
-    phone = Phone(playing.site)
-    phone.claims(playing.state.pair("W1.1")[0])
-    assert phone.taps("W1.1", 3, 1).status == 200
-    desk.wait_for_selector(PROPOSED, timeout=5000)
-    assert field(desk, "W1.2").input_value() == "7"
-    assert desk.evaluate("document.activeElement.name") == "a"
-    desk.keyboard.type("8")
-    assert field(desk, "W1.2").input_value() == "78"
+def pad(page: Any, match: str) -> Any:
+    return card(page, match).locator(".pad .btn:visible")
 
 
-def test_a_field_keeps_the_focus_while_the_page_changes_around_it(desk: Any, playing: Hall) -> None:
-    field(desk, "W1.3").click()
-    desk.keyboard.type("2")
-    for games in ((1, 0), (1, 1), (2, 1)):
-        score(playing, "W1.1", games)
-        desk.wait_for_function(
-            "(games) => document.querySelector('[data-key=\"W1.1\"] [name=a]').value == games",
-            arg=str(games[0]),
-        )
-    add_events(playing.site.path, lambda s: [Event(AT, moves.result(s, "W1.2", (3, 0)))])
-    desk.wait_for_selector('[data-key="W1.2"]', state="detached", timeout=5000)
-    desk.keyboard.type("1")
-    assert field(desk, "W1.3").input_value() == "21"
-
-
-def test_what_was_typed_goes_along_with_a_match_that_moves(desk: Any, playing: Hall) -> None:
-    field(desk, "W1.1").fill("2")
-    add_events(playing.site.path, lambda s: [Event(AT, moves.call_back(s, "W1.1"))])
-    desk.wait_for_function(
-        "() => !document.body.innerText.includes('Table 1: W1.1, race') &&"
-        " document.querySelector('[data-key=\"W1.1\"] [name=a]')?.value === '2'",
+def shows(page: Any, match: str, games: int) -> None:
+    """Wait until the first player of a match on the desk has so many games."""
+    page.wait_for_function(
+        "([match, games]) => document.querySelector(`section.table[data-key='${match}'] .won`)"
+        "?.innerText === games",
+        arg=[match, str(games)],
         timeout=8000,
     )
 
 
-def test_the_answer_to_an_entry_stays_until_the_next(desk: Any, playing: Hall) -> None:
-    field(desk, "W1.1").fill("3")
-    desk.locator('form.result:has([value="W1.1"]):has([value="new"]) [name=b]').first.fill("1")
-    desk.keyboard.press("Enter")
-    desk.wait_for_selector(".said")
-    said = desk.inner_text(".said")
-    assert "3:1 in W1.1" in said
+def test_two_taps_enter_a_result_and_its_card_stays(desk: Any, playing: Hall) -> None:
+    score(playing, "W1.1", (2, 1))
+    shows(desk, "W1.1", 2)
+    assert pad(desk, "W1.1").count() == 0
+    card(desk, "W1.1").locator(".seat").first.click()
+    assert pad(desk, "W1.1").all_inner_texts() == ["0", "1", "2"]
+    loud = card(desk, "W1.1").locator(".pad .btn.loud:visible")
+    assert loud.inner_text() == "1"  # as the phones have it
+    loud.click()
+    desk.wait_for_selector(".entered")
+    said = desk.inner_text(".entered > .what")
+    assert "3-1 in match 1" in said
     score(playing, "W1.2", (2, 0))
-    desk.wait_for_function(
-        "() => document.querySelector('[data-key=\"W1.2\"] [name=a]').value === '2'", timeout=8000
-    )
+    shows(desk, "W1.2", 2)
     desk.wait_for_timeout(2500)
-    assert desk.inner_text(".said") == said
-    desk.locator("[data-key='W1.2']").get_by_role("button", name="Take it off the table").click()
-    desk.wait_for_function("(old) => document.querySelector('.said').innerText !== old", arg=said)
-    assert "W1.2 is off table 2." in desk.inner_text(".said")
+    assert desk.inner_text(".entered > .what") == said
+    desk.reload()
+    assert desk.inner_text(".entered > .what") == said
+    desk.get_by_role("button", name="OK").click()
+    desk.wait_for_selector(".entered", state="detached")
+
+
+def test_a_tapped_winner_stays_while_the_page_changes_around_it(desk: Any, playing: Hall) -> None:
+    card(desk, "W1.3").locator(".seat").nth(1).click()
+    for games in ((1, 0), (1, 1), (2, 1)):
+        score(playing, "W1.1", games)
+        shows(desk, "W1.1", games[0])
+    phone = Phone(playing.site)
+    phone.claims(playing.state.pair("W1.2")[0])
+    assert phone.taps("W1.2", 3, 1).status == 200
+    desk.wait_for_selector("section.is-call:has-text('sent it')", timeout=5000)
+    pad(desk, "W1.3").nth(2).click()
+    desk.wait_for_selector(".entered")
+    result = playing.state.counted["W1.3"]
+    assert (result.winner, min(result.score)) == (playing.state.pair("W1.3")[1], 2)
+
+
+def test_enter_on_a_tapped_winner_enters_nothing(desk: Any, playing: Hall) -> None:
+    card(desk, "W1.1").locator("input[name=winner]").first.focus()
+    desk.keyboard.press("Space")
+    desk.keyboard.press("Enter")
+    desk.wait_for_timeout(500)
+    assert not playing.state.counted
+    pad(desk, "W1.1").first.focus()
+    desk.keyboard.press("Enter")
+    desk.wait_for_selector(".entered")
+    assert "W1.1" in playing.state.counted
+
+
+def test_a_correction_takes_three_taps_from_the_bracket(desk: Any, playing: Hall) -> None:
+    playing.director.send("/desk/result", match="W1.1", a=3, b=1)
+    desk.goto(f"{playing.site.address}/bracket")
+    desk.locator('a[href*="match=1"]:visible').first.click()
+    desk.locator(".sheet .seat").nth(1).click()
+    desk.locator(".sheet .pad .btn:visible").nth(2).click()
+    desk.wait_for_load_state()
+    assert playing.state.counted["W1.1"].score == (2, 3)
