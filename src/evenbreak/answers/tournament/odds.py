@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from evenbreak.answers.columns.shown import band
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, quantities_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Quantities, Table
@@ -26,6 +27,7 @@ from evenbreak.tournaments.odds.races import chances_given
 from evenbreak.tournaments.odds.rematches import expected_rematches
 from evenbreak.tournaments.odds.title import PlaceOdds, TitleOdds, title_odds
 from evenbreak.tournaments.odds.uncertain import drawn_chances, over_ratings
+from evenbreak.words import Sentence, joined, say
 
 Bands: TypeAlias = Mapping[str, tuple[float, float]]
 """The title odds of players without a rating if they are weak, and if they are strong."""
@@ -108,7 +110,7 @@ def tournament_odds_answer(
     unrated = tournament.unrated_words(spread=not sure)
     how = how_words(plug_in, odds, walkovers, tournament.to_draw)
     form = form_used_words(tournament.file.form, tournament.scale)
-    parts += filter(None, [tournament.byes, unrated, form, how])
+    parts += filter(None, [tournament.byes, unrated, bands_words(bands), form, how])
     return Answer(
         tournament.heading,
         parts,
@@ -155,7 +157,7 @@ def odds_table(
         )
         values[column] = odds.p_place[:, k]
         if k == 0 and bands:
-            values["p_title_band"] = [bands.get(name) for name in odds.bracket.players]
+            values["-p_title_band"] = [bands.get(name) for name in odds.bracket.players]
     if odds is not plug_in:
         values["p_title_if_sure"] = plug_in.title
         if not plug_in.exact:
@@ -170,6 +172,18 @@ def odds_table(
     if prizes:
         values["prize_mean"] = odds.expected_prize(prizes)
     return table_by_column("players", values, order=favorites(odds, bands))
+
+
+def bands_words(bands: Bands) -> Sentence | str:
+    """Return between what the title odds of players without a rating are; '' of nobody.
+
+    >>> bands_words({"Di": (0.002, 0.57)})
+    'Without a rating, the title odds are uncertain: Di 0.2%-57%.'
+    """
+    each = [say("{name} {band}", name=name, band=band(ends)) for name, ends in bands.items()]
+    if not each:
+        return ""
+    return say("Without a rating, the title odds are uncertain: {each}.", each=joined(each, ", "))
 
 
 def favorites(odds: PlaceOdds, bands: Bands = NOTHING) -> list[int]:

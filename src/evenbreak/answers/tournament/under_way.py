@@ -14,7 +14,7 @@ from evenbreak.answers.kit.scales import form_used_words
 from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.tournament.chips import chip_time_answer
 from evenbreak.answers.tournament.night import begun_at, heading
-from evenbreak.answers.tournament.odds import favourite_words, how_words, odds_table
+from evenbreak.answers.tournament.odds import bands_words, favourite_words, how_words, odds_table
 from evenbreak.answers.tournament.prizes import stakes
 from evenbreak.answers.tournament.time import (
     assumed_words,
@@ -84,6 +84,8 @@ def odds_under_way(
         if (at_stake := _at_stake(outlook, prizes)).rows:
             parts.append(at_stake)
         parts.append(how_words(plug_in, odds, outlook.walkovers, _to_draw(state)))
+    if unsure := bands_words(bands):
+        parts.append(unsure)
     if form := form_used_words(state.plan.match_form, state.scale):
         parts.append(form)
     if odds is not plug_in and outlook.games:
