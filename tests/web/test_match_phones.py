@@ -198,6 +198,21 @@ def test_a_table_s_tablet_taps_for_both_and_can_be_taken_back(hall: Hall) -> Non
     assert tablet.send("/table/4/score", match="W1.2", a=1, b=0).status == 403
 
 
+def test_who_is_called_answers_and_the_desk_knows(hall: Hall) -> None:
+    one = Player(hall, "127.0.0.2")
+    one.claims(0)
+    hall.director.send("/desk/call", match="W1.1", table=2)
+    name = one.pair[0]
+    assert "The desk knows" in one.phone.send("/me/coming", match="W1.1", minutes=5).words
+    assert f"{name} needs 5 minutes" in hall.director.open("/desk").words
+    assert "Tap for a game" in one.phone.send("/me/coming", match="W1.1").words
+    assert f"{name} is coming" in hall.director.open("/desk").words
+    hall.director.send("/desk/uncall", match="W1.1")
+    hall.site.clock = lambda: "2031-03-01T20:00:00"
+    hall.director.send("/desk/call", match="W1.1", table=3)
+    assert "You're up: table 3" in one.phone.open("/me").words
+
+
 def test_a_table_s_page_leads_its_players_to_their_own(hall: Hall) -> None:
     hall.director.send("/desk/call", match="W1.1", table=2)
     one = Player(hall, "127.0.0.2")

@@ -221,17 +221,7 @@ def step_of(state: Evening, me: str, mine: MyMatch | None, phones: Phones) -> st
 
 def _goes(state: Evening, me: str, mine: MyMatch, phones: Phones) -> bool:
     """Return whether a player who has been called is on the way, or at the table already."""
-    note = phones.coming.get(me)
-    said = note is not None and note.match == mine.name and note.at >= mine.since
-    return state.plan.form == "chips" or (said and not minutes_of(phones, me, mine))
-
-
-def minutes_of(phones: Phones, me: str, mine: MyMatch) -> int:
-    """Return how many minutes a player who has been called has asked for."""
-    note = phones.coming.get(me)
-    if note is None or note.match != mine.name or note.at < mine.since:
-        return 0
-    return note.score.get("minutes", 0)
+    return state.plan.form == "chips" or phones.answer(me, mine.name, mine.since) == 0
 
 
 def chances(state: Evening, mine: MyMatch) -> tuple[float, float, tuple[float, float] | None]:

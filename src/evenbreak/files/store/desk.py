@@ -218,6 +218,13 @@ class Phones:
         """Return the table that a tablet belongs to; 0 if it is none."""
         return int(self.tablets[phone].player) if phone in self.tablets else 0
 
+    def answer(self, player: str, match: str, since: str) -> int | None:
+        """Return in how many minutes a player who was called comes; None: they have not said."""
+        note = self.coming.get(player)
+        if note is None or note.match != match or note.at < since:
+            return None
+        return note.score.get("minutes", 0)
+
     def tablets_of(self, table: int) -> list[str]:
         """Return the tablets of a table."""
         return [phone for phone, one in self.tablets.items() if one.player == str(table)]

@@ -84,7 +84,7 @@ def _desk_values(request: Request, state: Evening, known: Known | None) -> dict[
     }
     lists = "calls disputes sent late aside tables soon still ready tied objected"
     shown |= {name: [] for name in lists.split()} | {"waits": {}, "drawable": False}
-    shown |= {"next_call": None, "next_table": 0, "free_table": None}
+    shown |= {"next_call": None, "next_table": 0, "free_table": None, "answers": {}}
     shown |= sheet_values(request, state)
     if not state.drawn:
         return shown
@@ -101,6 +101,10 @@ def _desk_values(request: Request, state: Evening, known: Known | None) -> dict[
     return shown | {
         "disputes": [one for one in both if one.state == "two"],
         "sent": [one for one in both if one.state == "sent"],
+        "answers": {
+            name: [(who, phones.answer(who, name, on.at)) for who in on.call.players]
+            for name, on in state.on_tables.items()
+        },
         "tables": [one for one in tables if one.state not in ("two", "sent")],
         "calls": calls,
         "next_call": calls[0][0] if len(calls) == 1 else None,

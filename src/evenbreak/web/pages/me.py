@@ -39,7 +39,6 @@ from evenbreak.web.my_night import (
     chances,
     first_name,
     match_of,
-    minutes_of,
     place_of,
     sides_of,
     step_of,
@@ -101,7 +100,7 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
         shown["odds"] = chances(state, mine)
         shown["race_why"] = why_words(state, mine)
         shown["other"] = first_name(str(mine.other), name)
-        shown["minutes"] = minutes_of(phones, name, mine)
+        shown["minutes"] = phones.answer(name, mine.name, mine.since)
     if mine:
         shown["onward"] = [(word, after(state, mine, word, known)) for word in ("winner", "loser")]
     return page(request, "me.html", live=True, status=status, **shown)
