@@ -10,7 +10,7 @@ NIGHT = """\
 tournament new data/demo_roster.csv --race 5 --losers-race 4 --tables 2 --at 18:50
 tournament draw --at 19:00
 tournament call --at 19:02
-tournament result W1.2 5:3 --at 19:40
+tournament result 3 5:3 --at 19:40
 """
 
 

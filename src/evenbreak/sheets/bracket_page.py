@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from html import escape
+from typing import Any
 
 from markupsafe import Markup
 
@@ -41,6 +42,7 @@ SHAPES = {
 _ON_WHITE = {
     "paper": "#fff",
     "card": "#fff",
+    "sunk": "#e9ebef",
     "ink": "#0e151d",
     "ink-2": "#46515e",
     "ink-3": "#5b6572",
@@ -48,6 +50,7 @@ _ON_WHITE = {
     "rule": "#b9c0c8",
     "live": "#00694c",
     "live-on": "#fff",
+    "call": "#8a4600",
     "call-surface": "#ffb32e",
     "call-on": "#221200",
     "stop": "#ad1457",
@@ -365,7 +368,9 @@ def bracket_html(panels: Sequence[Panel], heading: Sequence[str]) -> bytes:
     True
     """
     section = Section("bracket", "Bracket", bracket_both(panels))
-    return html_page(heading=list(heading), links=[], sections=[section], below="", made_of="")
+    around: dict[str, Any] = {"links": [], "below": "", "made_of": ""}
+    style = f"{own_file('bracket.css')}.bracket{{{_on_white()}padding:1rem;overflow-x:auto}}"
+    return html_page(heading=list(heading), sections=[section], more_style=style, **around)
 
 
 def bracket_both(
@@ -382,11 +387,16 @@ def bracket_both(
     return Markup('<div class="bracket">{}{}</div>').format(drawn, rounds)
 
 
+def _on_white() -> str:
+    """Return the colors of a drawing that brings its own, dark letters on white."""
+    colors = "".join(f"--{name}:{color};" for name, color in _ON_WHITE.items())
+    return f"{colors}background:#fff;color:#0e151d;"
+
+
 def bracket_picture(panels: Sequence[Panel]) -> bytes:
     """Return the drawing of a bracket as an SVG file, dark letters on white."""
-    colors = "".join(f"--{name}:{color};" for name, color in _ON_WHITE.items())
     style = (
-        f"svg{{{colors}background:#fff;font-family:system-ui,'Segoe UI',Roboto,'Noto Sans',"
+        f"svg{{{_on_white()}font-family:system-ui,'Segoe UI',Roboto,'Noto Sans',"
         f"sans-serif}}{own_file('bracket.css').partition('.phone')[0]}"
     )
     head, _, drawn = str(bracket_svg(panels)).partition(">")

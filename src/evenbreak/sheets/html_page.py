@@ -27,7 +27,9 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 
-def html_page(*, search: bool = False, more_style: str = "", **values: Any) -> bytes:
+def html_page(
+    *, search: bool = False, more_style: str = "", drawings: bool = False, **values: Any
+) -> bytes:
     """Return a page that asks no other host for anything.
 
     Its Content-Security-Policy allows its own style and, if there is one, its own script.
@@ -38,6 +40,8 @@ def html_page(*, search: bool = False, more_style: str = "", **values: Any) -> b
         whether players can be searched for, which takes a script; without it, the box is hidden.
     more_style
         the page's own style, after that of all.
+    drawings
+        whether it has drawings that bring styles of their own.
     values
         what the page shows; every text in it is escaped.
 
@@ -46,10 +50,10 @@ def html_page(*, search: bool = False, more_style: str = "", **values: Any) -> b
     bytes
         UTF-8; the same values give the same bytes.
     """
-    style = own_file("sheet.css") + own_file("bracket.css") + more_style
+    style = own_file("sheet.css") + more_style
     script = own_file("search.js") if search else ""
     template = environment("evenbreak.sheets").get_template("answer.html")
-    csp = OF_DRAWINGS if more_style else policy(style, script)
+    csp = OF_DRAWINGS if drawings else policy(style, script)
     page = template.render(style=style, script=script, csp=csp, version=__version__, **values)
     return page.encode()
 

@@ -82,7 +82,8 @@ def night_html(
         sections=sections,
         below="",
         made_of="",
-        more_style=own_file("night.css"),
+        more_style=own_file("bracket.css") + own_file("night.css"),
+        drawings=True,
     )
 
 
