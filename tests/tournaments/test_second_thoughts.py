@@ -462,3 +462,43 @@ def test_tables_have_names_and_some_are_given_out_by_hand() -> None:
     for wrong in ({"labels": ("5", "5")}, {"labels": ("4",)}, {"reserved": (9,)}):
         with pytest.raises(InputError):
             moves.change(night.state, **wrong)
+
+
+@pytest.mark.parametrize("form", list(FORMS))
+@pytest.mark.parametrize("seed", range(TRIES))
+def test_every_move_fits_every_format_or_says_why_not(form: str, seed: int) -> None:
+    night = random_night(form, seed, 5)
+    if not night.state.drawn:
+        night = Night(form, 6, seed)
+    ready = list(night.state.standing.to_play)
+    name = ready[seed % len(ready)] if ready else "1"
+    one, other = night.state.order[:2]
+    new = Entrant("New", 500.0)
+    for decide in (
+        lambda s: [roster.check_in(s, one, arrived=True, paid=True)],
+        lambda s: [roster.rename(s, other, "Zoë")],
+        lambda s: [roster.substitute(s, one, new)],
+        lambda s: [roster.swap(s, one, "Zoë")],
+        lambda s: [tables.wait(s, name, reason="eats")],
+        lambda s: [moves.result(s, name, (1, 0), ended="time")],
+        lambda s: tables.swap_tables(s, *[*s.on_tables, name, name][:2]),
+        lambda s: moves.corrections(s, next(iter(s.counted), name), (0, 3), follow="stop"),
+        lambda s: [moves.correct(s, next(iter(s.counted), name), (3, 0), follow="keep")],
+        undo,
+        redo,
+    ):
+        before = night.state
+        try:
+            added = list(decide(before))
+        except InputError:
+            continue
+        for what in added:
+            night.add(what)
+        after = night.state
+        if not after.drawn:
+            return
+        assert before.then(*(Event(AT, what) for what in added)).numbers == after.numbers
+        taken = [on.call.table for on in after.on_tables.values()]
+        assert len(taken) == len({*taken})
+        for match in after.standing.to_play:
+            assert min(after.needed(match, after.pair(match))) >= 1
