@@ -318,8 +318,8 @@ def test_calling_a_match_before_its_round_costs_little_while_others_are_under_wa
     assert all(0.0 <= call.later <= 2 * a_match for call in calls.values())
     rows = [found.names.index(name) for name in calls]
     for row in rows:
-        start = found._room.on_the_first(20).planned([found.names[row]]).start
-        assert (start[found._room.on_the_first(20).evenings.needed] >= 0.0).all()
+        start = found.room.on_the_first(20).planned([found.names[row]]).start
+        assert (start[found.room.on_the_first(20).evenings.needed] >= 0.0).all()
         assert (start[:, row] == 5.0).all()
 
 
@@ -331,7 +331,7 @@ def test_two_tables_are_filled_together_and_not_each_as_if_the_other_were_free()
         bracket, laws_of(bracket), tables=2, pace=EXACT, turnover=AT_ONCE, results=results
     )
     ends = {
-        pair: float(found._room.ends(found._room.planned(pair)).mean())
+        pair: float(found.room.ends(found.room.planned(pair)).mean())
         for pair in itertools.permutations(found.standing.to_play, 2)
     }
     one_by_one = [call.match for call in found.calls()[:2]]

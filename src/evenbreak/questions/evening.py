@@ -61,6 +61,9 @@ class UnderWay(Question):
     """A question about the tournament under way."""
 
     file: EveningFile = None
+    event: Annotated[
+        int, Field(Whole(1, 99), "Which event of the night it is about.", section="File")
+    ] = 1
 
     @property
     def path(self) -> str:
@@ -73,6 +76,20 @@ class TimedUnderWay(UnderWay):
     """A question about the tournament under way at a time of day."""
 
     at: At = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SecondChance(TimedUnderWay):
+    """Begin a second event on the same tables, for those who are out of an elimination by now.
+
+    It is a single elimination. Whoever went out last is the first seed. More can enter until its
+    draw is made; the other commands then go by its number, such as {event} 2.
+    """
+
+    race: Annotated[
+        int | None,
+        Field(Whole(1, LONGEST_RACE), "What is raced to.", usual="as on the losers' side"),
+    ] = None
 
 
 @dataclass(frozen=True, kw_only=True)

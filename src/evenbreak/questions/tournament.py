@@ -54,6 +54,10 @@ class NewTournament(TournamentPlan, Starters):
         str,
         Field(File("FILE.db"), "The file of the tournament, which must not exist yet."),
     ] = "tonight.db"
+    beside: Annotated[
+        bool,
+        Field(Flag(), "Begin it beside the one that is under way in {out}, on the same tables."),
+    ] = False
     at: At = None
 
     def check(self) -> None:

@@ -25,8 +25,8 @@ from evenbreak.errors import EvenbreakError, InputError
 from evenbreak.files.store.desk import TABLE as PHONES
 from evenbreak.files.store.desk import Phones, keep_prizes, kept_prizes, phone_entries, phones_in
 from evenbreak.files.store.evening_file import holds
-from evenbreak.files.store.formats import TOURNAMENT, has_table, size_of
-from evenbreak.files.store.tournament import read_events, tournament_of
+from evenbreak.files.store.formats import has_table, size_of
+from evenbreak.files.store.tournament import night_of, read_night
 from evenbreak.tournaments.evening.events import Event, Late, Opened
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
@@ -91,21 +91,24 @@ class Known:
 
 
 class Night:
-    """The tournament in a file.
+    """An event of the night in a file.
 
     Parameters
     ----------
     path
         the file.
+    event
+        the number of the event: 1 unless it was begun beside others.
     clock
         returns what time it is.
     """
 
-    def __init__(self, path: Path, *, clock: Callable[[], str] = now) -> None:
+    def __init__(self, path: Path, event: int = 1, *, clock: Callable[[], str] = now) -> None:
         self.path = path
+        self.event = event
         self.clock = clock
         self.known: Known | None = None
-        self._read: tuple[tuple[int, int, int], list[Event], Evening] | None = None
+        self._read: tuple[tuple[int, int, int], dict[int, list[Event]], Evening] | None = None
         self._phones: tuple[tuple[int, int, int], Evening, Phones] | None = None
         self._money: PrizeMoney | None = None
         self._money_at = -math.inf
@@ -118,7 +121,7 @@ class Night:
     @property
     def exists(self) -> bool:
         """Whether the tournament has been begun."""
-        self._begun = self._begun or holds(self.path, TOURNAMENT)
+        self._begun = self._begun or holds(self.path, str(self.event))
         return self._begun and self.path.exists()
 
     def forget(self) -> None:
@@ -135,11 +138,11 @@ class Night:
         """Return the state of the evening: the same object until something happens."""
         mark, read = mark_of(self.path), self._read
         if read is None or read[0] != mark:
-            events = read_events(self.path)
-            same = read is not None and read[1] == events
-            state = read[2] if read and same else tournament_of(self.path, events)
+            night = read_night(self.path, self.event)
+            same = read is not None and read[1] == night
+            state = read[2] if read and same else night_of(self.path, night)[self.event]
             # Another thread may keep what it read before; what is returned is what was read here.
-            read = self._read = mark, events, state
+            read = self._read = mark, night, state
         return read[2]
 
     def phones(self) -> Phones:
@@ -153,7 +156,7 @@ class Night:
     @property
     def names(self) -> set[str]:
         """Everyone who has entered, also under an earlier name, as far as the file was read."""
-        events = self._read[1] if self._read else []
+        events = self._read[1].get(self.event, []) if self._read else []
         begun = [
             entrant
             for one in events

@@ -17,6 +17,7 @@ from evenbreak.errors import DataError
 from evenbreak.files.league.league_file import LeagueFile
 from evenbreak.files.store.desk import change_secrets, kept_secrets, new_pin
 from evenbreak.files.store.evening_file import is_there
+from evenbreak.files.store.tournament import event_numbers
 from evenbreak.tournaments.evening.calling import calls_after
 from evenbreak.tournaments.evening.events import BY_ITSELF, Event
 from evenbreak.tournaments.evening.fold import Evening
@@ -68,7 +69,9 @@ class Site:
     taps: Tries = field(default_factory=lambda: Tries(240))
 
     def __post_init__(self) -> None:
-        self.night = Night(self.path, clock=self.clock)
+        self.night = Night(self.path, clock=lambda: self.clock())
+        self._nights = {1: self.night}
+        self._numbers: tuple[tuple[int, int, int] | None, list[int]] = None, [1]
         self.teams = TeamNights(self.path, self.night.beside)
         self.league = League(self.path)
         self.made = Made()
@@ -84,14 +87,24 @@ class Site:
 
     @property
     def nights(self) -> list[Night]:
-        """The events of the night, which share its tables."""
-        return [self.night]
+        """The events of the night, which share its tables; a lone one if none has begun."""
+        mark = mark_of(self.path)
+        if mark != self._numbers[0]:
+            with suppress(DataError):  # of a file that cannot be read, the pages say why
+                self._numbers = mark, event_numbers(self.path)
+        for number in self._numbers[1]:
+            if number not in self._nights:
+                night = Night(self.path, number, clock=lambda: self.clock())
+                night.beside = self.night.beside
+                self._nights[number] = night
+        return [self._nights[number] for number in self._numbers[1]]
 
     @property
     def names(self) -> set[str]:
         """Whoever plays tonight or is in the league: what no sentence is read for."""
         sheet = self.league.sheet
-        return {*self.night.names, *self.teams.names, *(sheet.ratings.players if sheet else ())}
+        tonight = {name for night in self._nights.values() for name in night.names}
+        return {*tonight, *self.teams.names, *(sheet.ratings.players if sheet else ())}
 
     def rendered_of(self, what: Sequence[object]) -> dict[tuple[object, ...], str]:
         """Return the pages that were rendered of these: the same objects, or equal texts."""
@@ -155,8 +168,11 @@ class Site:
             change_secrets(self.path, found)
 
     def with_calls(self, state: Evening, events: Sequence[Event]) -> list[Event]:
-        """Return a result with the calls that it makes by itself, unless they are made by hand."""
-        if not events or not self.calls_itself:
+        """Return a result with the calls that it makes by itself, unless they are made by hand.
+
+        Where several events share the tables, they are: the next match may be another event's.
+        """
+        if not events or not self.calls_itself or state.beside:
             return list(events)
         order = self.night.known.order if self.night.known else ()
         found = calls_after(state, state.then(*events), order)
@@ -223,11 +239,11 @@ def night_of(request: Request) -> Night:
     """
     nights: list[Night] = request.app.state.site.nights
     form = getattr(request.state, "form", None)
-    text = form.text("event") if form else ""
-    number = text or request.query_params.get("event") or "1"
-    if not number.isascii() or not number.isdigit() or not 1 <= int(number) <= len(nights):
-        raise RefusalError("There is no such page.", status=404)
-    return nights[int(number) - 1]
+    asked = (form.text("event") if form else "") or request.query_params.get("event") or "1"
+    for night in nights:
+        if str(night.event) == asked:
+            return night
+    raise RefusalError("There is no such page.", status=404)
 
 
 def _token(key: str, what: str) -> str:

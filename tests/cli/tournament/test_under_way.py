@@ -216,3 +216,19 @@ def test_a_hint_names_the_file_that_the_command_was_given(tmp_path, run):
     for words in (("--file", file), (f"--file={file}",), (file,)):
         again = run("tournament", "draw", *words)
     assert f"evenbreak tournament undo --file {file}" in again.stderr
+
+
+def test_another_event_is_played_on_the_same_tables(begun, tmp_path):
+    more = tmp_path / "more.csv"
+    more.write_text("player,rating\nEd,90\nFlo,80\nGus,70\nHal,60\n")
+    new = ("tournament", "new", str(more), "--format", "single", "--race", "3", "--beside")
+    said = begun.run(*new, "--out", begun.file, "--text")
+    assert "It is event 2 of the night: give --event 2 to the other commands." in said.stdout
+    first = begun("call", "1")["next"][0]
+    begun("draw", "--event", "2")
+    other = begun("call", "1", "--event", "2")["next"][0]
+    assert first["table"] != other["table"]
+    taken = begun.run(
+        "tournament", "call", "2", "--table", str(other["table"]), "--file", begun.file
+    )
+    assert (taken.exit_code, "is taken by" in taken.stderr) == (2, True)

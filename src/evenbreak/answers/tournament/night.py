@@ -36,7 +36,6 @@ from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import Result, score_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw, stage_to_draw
-from evenbreak.tournaments.evening.moves import free_tables
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.plan import pairings, swiss_of
 from evenbreak.tournaments.evening.settling import tied_groups
@@ -279,7 +278,7 @@ def _tables(night: Outlook) -> list[tuple[int | None, str]]:
         (one.call.table, name) for name, one in state.on_tables.items()
     )
     waiting = [call.match for call in night.calls if call.match not in night.to_call]
-    called = zip(free_tables(state), night.to_call, strict=False)
+    called = [(table, name) for name, table in night.tables_to_call.items()]
     return [*playing, *called, *((None, name) for name in waiting)]
 
 

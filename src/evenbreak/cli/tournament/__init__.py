@@ -11,6 +11,9 @@ from evenbreak.questions.moves import COMMANDS as MOVES
 COMMANDS = {
     "new": Entry("tournament.new", "Begin a tournament that is run here."),
     "import": Entry("tournament.new:import_", "Go on with a tournament from another program."),
+    "second-chance": Entry(
+        "tournament.new:second_chance", "Begin another event for those who are out."
+    ),
     **{name: Entry(f"tournament.moves:{name}", line) for name, (_, line) in MOVES.items()},
     "show": Entry("tournament.paper:show", "Show the bracket."),
     "next": Entry("tournament.paper:next_matches", "Show who plays next, and on which table."),

@@ -69,7 +69,7 @@ def add(
         if lost:
             refuse(f"nothing was entered yet. {' '.join(lost)} Give --yes if that is meant")
 
-    return add_events(asked.path, events, check=check)
+    return add_events(asked.path, events, event=asked.event, check=check)
 
 
 def answer_of(asked: TimedUnderWay, state: Evening, said: Sequence[str] = ()) -> Answer:
@@ -85,7 +85,7 @@ def night_of(file: str, state: Evening, at: str, said: Sequence[str] = ()) -> An
     return night_answer(Outlook(state, at), said, source=PurePath(file).name)
 
 
-def outlook_of(file: str, at: str) -> Outlook:
+def outlook_of(file: str, at: str, event: int = 1) -> Outlook:
     """Return what is to be expected of the tournament in a file; refuse one without a draw."""
     from evenbreak.files.store.tournament import read_tournament
     from evenbreak.tournaments.evening.outlook import Outlook
@@ -95,6 +95,6 @@ def outlook_of(file: str, at: str) -> Outlook:
             f"name a list of entrants, such as entrants.csv; there is no tournament under way in "
             f"{file}"
         )
-    outlook = Outlook(read_tournament(file), at)
+    outlook = Outlook(read_tournament(file, event), at)
     _ = outlook.state.bracket
     return outlook

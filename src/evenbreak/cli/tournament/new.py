@@ -9,7 +9,7 @@ from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.said import SAY_WHICH, refuse
 from evenbreak.cli.tournament.evening import moment, night_of
 from evenbreak.cli.tournament.options import Entered, drawn_up, entered_in, none_learned
-from evenbreak.questions.evening import Import
+from evenbreak.questions.evening import Import, SecondChance
 from evenbreak.questions.tournament import NewTournament
 from evenbreak.words import say
 
@@ -25,7 +25,7 @@ def command(asked: NewTournament) -> Answer:
     import numpy as np
 
     from evenbreak.answers.tournament.time import venue_words
-    from evenbreak.files.store.tournament import new_tournament
+    from evenbreak.files.store.tournament import begin_beside, new_tournament
     from evenbreak.tournaments.evening.events import Drawn, Entrant, Event
     from evenbreak.tournaments.evening.fold import evening
     from evenbreak.tournaments.evening.plan import opened
@@ -46,7 +46,11 @@ def command(asked: NewTournament) -> Answer:
     state = evening(events)
     said = [*_unrated(entered, state), *filter(None, [venue_words(plan.discipline, plan.earlier)])]
     answer = night_of(asked.out, state, at, said)
-    new_tournament(asked.out, events)  # last, so that what cannot be shown is never written
+    if asked.beside:
+        number = begin_beside(asked.out, lambda _: events)
+        answer = night_of(asked.out, state, at, [_beside_words(number), *said])
+    else:
+        new_tournament(asked.out, events)  # last, so that what cannot be shown is never written
     return replace(
         answer,
         warnings=[
@@ -94,6 +98,26 @@ def _like(asked: NewTournament, path: str) -> Answer:
     if (money := kept_prizes(path)) is not None:
         keep_prizes(asked.out, money)
     return replace(answer, warnings=[*warnings, *answer.warnings])
+
+
+def _beside_words(number: int) -> str:
+    return f"It is event {number} of the night: give --event {number} to the other commands."
+
+
+@command_of(SecondChance, "second-chance")
+def second_chance(asked: SecondChance) -> Answer:
+    """Begin a second chance for those who are out."""
+    from evenbreak.files.store.tournament import begin_beside, read_tournament
+    from evenbreak.tournaments.evening import beside
+    from evenbreak.tournaments.evening.events import Event
+
+    at = moment(asked.at, asked.path)
+    number = begin_beside(
+        asked.path, lambda state: [Event(at, beside.second_chance(state, race=asked.race))]
+    )
+    state = read_tournament(asked.path, number)
+    said = [_beside_words(number), f"Entered: {', '.join(state.entrants)}."]
+    return night_of(asked.path, state, at, said)
 
 
 def _unrated(entered: Entered, state: Evening) -> list[str]:

@@ -52,7 +52,9 @@ def _odds_under_way(asked: TournamentOdds) -> Answer:
     from evenbreak.answers.tournament.under_way import odds_under_way
 
     file = asked.path
-    outlook = replace(outlook_of(file, moment(asked.at, file)), walkovers=asked.walkovers)
+    outlook = replace(
+        outlook_of(file, moment(asked.at, file), asked.event), walkovers=asked.walkovers
+    )
     paid = paid_places(asked.prizes, len(outlook.state.order))
     return odds_under_way(outlook, sure=asked.sure, prizes=paid, source=PurePath(file).name)
 
@@ -87,7 +89,7 @@ def _time_under_way(asked: TournamentTime) -> Answer:
 
     file = asked.path
     return time_under_way(
-        outlook_of(file, moment(asked.at, file)),
+        outlook_of(file, moment(asked.at, file), asked.event),
         tables=asked.tables,
         turnover=None if asked.turnover is None else Turnover(asked.turnover),
         source=PurePath(file).name,
@@ -106,11 +108,11 @@ def prizes(asked: PayOut) -> Answer:
     from evenbreak.files.store.tournament import read_tournament
 
     file, house, has_money = asked.path, asked.house, asked.fee or asked.added
-    state = read_tournament(file)
+    state = read_tournament(file, asked.event)
     entrants, name = len(state.entrants), PurePath(file).name
     money = _money(asked)
     if asked.calcutta:
-        odds = outlook_of(file, moment(asked.at, file)).odds
+        odds = outlook_of(file, moment(asked.at, file), asked.event).odds
         bids = _bids(asked, state.order)
         table = money.payouts(entrants)
         return calcutta_answer(odds, table, bids, house=house, source=name)
@@ -124,7 +126,7 @@ def prizes(asked: PayOut) -> Answer:
         )
     if not money.pot(payers_of(state)):
         asked.refuse("there is no prize money; give {fee} or {added}")
-    now = outlook_of(file, moment(asked.at, file)).odds if state.drawn else None
+    now = outlook_of(file, moment(asked.at, file), asked.event).odds if state.drawn else None
     answer = tournament_prizes_answer(state, money, now, source=name)
     if asked.keep:
         keep_prizes(file, money)

@@ -27,7 +27,7 @@ def show(asked: Show) -> Answer:
     from evenbreak.answers.tournament.night import bracket_table
     from evenbreak.files.store.tournament import read_tournament
 
-    state, out = read_tournament(asked.path), asked.out
+    state, out = read_tournament(asked.path, asked.event), asked.out
     chips = state.plan.form == "chips"
     if out is not None:
         kind = PurePath(out).suffix.lower()
@@ -52,7 +52,7 @@ def next_matches(asked: Next) -> Answer:
     from evenbreak.files.store.tournament import read_tournament
     from evenbreak.tournaments.evening.outlook import Outlook
 
-    state = read_tournament(asked.path)
+    state = read_tournament(asked.path, asked.event)
     if asked.prizes is not None and state.plan.form == "chips":
         asked.refuse("{prizes} is for matches; in a chip tournament no single rack decides them")
     return night_answer(
@@ -79,9 +79,9 @@ def export(asked: Export) -> Answer:
     if asked.out is not None and PurePath(asked.out).suffix.lower() in (".html", ".htm"):
         return _night_page(asked)
     if asked.events:
-        answer = tournament_events_answer(read_events(asked.path), name)
+        answer = tournament_events_answer(read_events(asked.path, asked.event), name)
     else:
-        answer = tournament_matches_answer(read_tournament(asked.path), name)
+        answer = tournament_matches_answer(read_tournament(asked.path, asked.event), name)
     if asked.out is not None:
         write_file(asked.out, "".join(to_csv(answer)).encode())
     return answer
@@ -115,7 +115,7 @@ def _story(asked: Export) -> Answer:
     from evenbreak.files.store.tournament import read_tournament
     from evenbreak.tournaments.evening.story import story_of
 
-    state = read_tournament(asked.path)
+    state = read_tournament(asked.path, asked.event)
     _ = state.bracket  # which refuses a tournament without a draw
     story = story_of(state)
     answer = story_answer(state, story)
@@ -136,7 +136,7 @@ def print_paper(asked: Print) -> Answer:
     from evenbreak.sheets.paper_pages import score_cards_pdf
     from evenbreak.sheets.pdf_page import usual_paper
 
-    state = read_tournament(asked.path)
+    state = read_tournament(asked.path, asked.event)
     if state.plan.form == "chips":
         refuse("a chip tournament has neither score cards nor a bracket to print")
     place = asked.out or f"{asked.what}.pdf"

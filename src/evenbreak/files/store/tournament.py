@@ -8,22 +8,25 @@ from __future__ import annotations
 
 import csv
 import sqlite3
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.store.desk import TABLE as PHONES
-from evenbreak.files.store.evening_file import begin, changing, opened, refused
+from evenbreak.files.store.evening_file import begin, changing, is_there, opened, refused
 from evenbreak.files.store.formats import ENTRIES, TEAM_NIGHT, TOURNAMENT, bring_up_to_date
-from evenbreak.files.store.log import Rules, TakenBeforeError, add, entries, was_taken
+from evenbreak.files.store.log import Rules, TakenBeforeError, add, entries, tournaments, was_taken
 from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import text_of
 from evenbreak.tournaments.clock.event_pace import EarlierNight
+from evenbreak.tournaments.evening.beside import together
 from evenbreak.tournaments.evening.earlier import nights_until
-from evenbreak.tournaments.evening.events import KINDS, Event
+from evenbreak.tournaments.evening.events import KINDS, Changed, Event, Opened
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.words import Command, say
+
+TAKEN = say("that was entered before; nothing was entered a second time")
 
 
 def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: int = 0) -> Evening:
@@ -87,27 +90,98 @@ def delete_tournament(path: str | Path) -> None:
         _clear(base)
 
 
-def read_events(path: str | Path) -> list[Event]:
-    """Return the events of a tournament.
+def begin_beside(
+    path: str | Path, begin: Callable[[Evening], Sequence[Event]], *, form: str | None = None
+) -> int:
+    """Begin another event on the tables of the tournament in a file; return its number.
+
+    Parameters
+    ----------
+    path
+        the file.
+    begin
+        returns the first entries of the event, given the state of the first event.
+    form
+        what the form is known by that it comes from.
+
+    Raises
+    ------
+    TakenBeforeError
+        if the form was taken before.
+    DataError
+        if the file has no tournament, or cannot be read or written.
+    InputError
+        if a chip tournament is played: its tables are never free.
+    """
+    with changing(path) as base:
+        strands = _strands(base, path)
+        if any(was_taken(base, str(n), form) for n in strands):
+            raise TakenBeforeError(TAKEN)
+        states = night_of(path, strands)
+        number, house = max(states) + 1, states[min(states)]
+        events = list(begin(house))
+        first = events[0]
+        assert isinstance(first.what, Opened)  # noqa: S101
+        if "chips" in {first.what.plan.form, *(one.plan.form for one in states.values())}:
+            raise InputError("a chip tournament has the tables for itself")
+        plan = first.what.plan.at_tables_of(house.plan)
+        events[0] = replace(first, what=replace(first.what, plan=plan))
+        together({**states, number: _shown(evening(events))})
+        add(base, str(number), _RULES, events, form=form)
+    return number
+
+
+def read_events(path: str | Path, event: int = 1) -> list[Event]:
+    """Return the entries of a tournament, or of another event of its night.
 
     Raises
     ------
     DataError
-        if the file is not that of a tournament, or cannot be read.
+        if the file is not that of a tournament, has no such event, or cannot be read.
+    """
+    return read_night(path, event)[event]
+
+
+def event_numbers(path: str | Path) -> list[int]:
+    """Return the numbers of the events of the night in a file; [1] if there is none yet."""
+    if not is_there(path):
+        return [1]
+    with opened(path) as base:
+        return tournaments(base) or [1]
+
+
+def read_night(path: str | Path, event: int = 1) -> dict[int, list[Event]]:
+    """Return the entries of all events of a night by their numbers; `event` must be one of them.
+
+    Raises
+    ------
+    DataError
+        if the file is not that of a tournament, has no such event, or cannot be read.
     """
     with opened(path) as base:
-        return _events(base, path)
+        return _strands(base, path, event)
 
 
-def read_tournament(path: str | Path) -> Evening:
-    """Return the state of a tournament.
+def read_tournament(path: str | Path, event: int = 1) -> Evening:
+    """Return the state of a tournament, or of another event of its night.
 
     Raises
     ------
     DataError
-        if the file is not that of a tournament, or cannot be read.
+        if the file is not that of a tournament, has no such event, or cannot be read.
     """
-    return tournament_of(path, read_events(path))
+    return night_of(path, read_night(path, event))[event]
+
+
+def night_of(path: str | Path, strands: Mapping[int, Sequence[Event]]) -> dict[int, Evening]:
+    """Return the state of each event of a night, from the entries in its file.
+
+    Raises
+    ------
+    DataError
+        if there is none; it names the entry that does not fit.
+    """
+    return together({n: _RULES.state(path, events) for n, events in strands.items()})
 
 
 def earlier_nights(places: Iterable[str | Path]) -> tuple[EarlierNight, ...]:
@@ -147,6 +221,7 @@ def add_events(
     path: str | Path,
     decide: Callable[[Evening], Sequence[Event]],
     *,
+    event: int = 1,
     by: str = "",
     form: str | None = None,
     check: Callable[[Evening, Evening], None] | None = None,
@@ -160,6 +235,8 @@ def add_events(
     decide
         returns the events, given the state; nobody else can add any in the meantime. If it raises
         an error, nothing is added.
+    event
+        the number of the event of the night.
     by
         who enters them, unless an event says so itself; kept beside them.
     form
@@ -176,15 +253,19 @@ def add_events(
         if the file is not that of a tournament, or cannot be read or written.
     """
     with changing(path) as base:
-        if was_taken(base, TOURNAMENT, form):
-            raise TakenBeforeError("that was entered before; nothing was entered a second time")
-        earlier = _events(base, path)
-        before = tournament_of(path, earlier)
-        added = [replace(event, by=event.by or by) for event in decide(before)]
-        after = _shown(evening([*earlier, *added]))
+        if was_taken(base, str(event), form):
+            raise TakenBeforeError(TAKEN)
+        strands = _strands(base, path, event)
+        states = night_of(path, strands)
+        before, earlier = states[event], strands[event]
+        added = [replace(one, by=one.by or by) for one in decide(before)]
+        _refuse_tables(added, event)
+        alone = _shown(evening([*earlier, *added]))
+        others = {n: _RULES.state(path, rest) for n, rest in strands.items() if n != event}
+        after = together({event: alone, **others})[event]
         if check:
             check(before, after)
-        add(base, TOURNAMENT, _RULES, added, count=len(earlier), form=form)
+        add(base, str(event), _RULES, added, count=len(earlier), form=form)
     return before, after
 
 
@@ -197,28 +278,28 @@ def _shown(state: Evening) -> Evening:
     return state
 
 
-def _events(base: sqlite3.Connection, path: str | Path) -> list[Event]:
-    events = entries(base, path, TOURNAMENT, _RULES)
-    if not events:
-        raise refused(
-            path,
-            "{name} holds a team night and no tournament; open it with {serve}, or start a "
-            "tournament in it with {new}",
-            serve=Command("serve"),
-            new=Command("tournament new"),
-        )
-    return events
+def _refuse_tables(added: Sequence[Event], event: int) -> None:
+    """Refuse to change the tables in another event than that which has them."""
+    tables = ("tables", "labels", "reserved", "streamed", "slower")
+    for one in added if event > 1 else ():
+        if isinstance(one.what, Changed) and any(getattr(one.what, k) is not None for k in tables):
+            raise InputError("the tables are those of the first event; change them there")
 
 
-def tournament_of(path: str | Path, events: Sequence[Event]) -> Evening:
-    """Return the state after the events of a file, if it can be shown.
-
-    Raises
-    ------
-    DataError
-        if it cannot; it names the entry that does not fit.
-    """
-    return _RULES.state(path, events)
+def _strands(base: sqlite3.Connection, path: str | Path, event: int = 1) -> dict[int, list[Event]]:
+    """Return the entries of each event of the night; refuse a file without a certain one."""
+    found = {n: entries(base, path, str(n), _RULES) for n in tournaments(base)}
+    if event in found:
+        return found
+    if found:
+        raise refused(path, "{name} has no event {event}", event=event)
+    raise refused(
+        path,
+        "{name} holds a team night and no tournament; open it with {serve}, or start a "
+        "tournament in it with {new}",
+        serve=Command("serve"),
+        new=Command("tournament new"),
+    )
 
 
 _RULES: Rules[Event, Evening] = Rules(KINDS, Event, lambda events: _shown(evening(events)))

@@ -104,6 +104,8 @@ class Finish:
         how long matches take this evening.
     standing
         where the tournament stands.
+    room
+        the tables, what is on them, and the evenings that are played on them.
     """
 
     finishes: Floats
@@ -111,7 +113,16 @@ class Finish:
     names: tuple[str, ...]
     pace: Pace
     standing: Standing
-    _room: _Room
+    room: Room
+
+    @classmethod
+    def planned(cls, room: Room, pace: Pace, where: Standing) -> Finish:
+        """Return when it ends if whatever has the longest way to the end goes first."""
+        plan, names = room.planned(), room.evenings.names
+        starts = np.where(room.evenings.needed, plan.start, np.nan)
+        for match in room.playing:
+            starts[:, names.index(match.match)] = match.started
+        return cls(room.ends(plan), starts, names, pace, where, room)
 
     def finish(self, q: float) -> float:
         """Return the time by which the tournament has ended with chance q."""
@@ -137,15 +148,15 @@ class Finish:
     def next_start(self, player: str) -> Start:
         """Return when a player's next match begins, whichever it is."""
         seat = self.standing.bracket.player(player)
-        evenings = self._room.evenings
+        evenings = self.room.evenings
         mine = evenings.needed & ((evenings.first == seat) | (evenings.second == seat))
-        mine[:, [k for k, name in enumerate(self.names) if name in self._room.on_tables]] = False
+        mine[:, [k for k, name in enumerate(self.names) if name in self.room.on_tables]] = False
         times = np.where(mine, self.starts, np.inf).min(axis=1, initial=np.inf)
         return _start(times[np.isfinite(times)], times.size)
 
     def if_won(self, match: str) -> tuple[float, float]:
         """Return when the evening ends on average, given which slot's player wins a match."""
-        evenings = self._room.evenings
+        evenings = self.room.evenings
         k = self.names.index(match)
         won, played = evenings.first_won[:, k], evenings.needed[:, k]
         means = [
@@ -158,14 +169,14 @@ class Finish:
         """Return when it ends and each match begins if some matches are called now."""
         if not names:
             return self
-        room = self._room
+        room = self.room
         planned = room.planned(names)
         starts = np.where(room.evenings.needed, planned.start, np.nan)
         for match in room.playing:
             starts[:, self.names.index(match.match)] = match.started
         return replace(self, finishes=room.ends(planned), starts=starts)
 
-    def calls(self, tables: int = 1) -> list[Call]:
+    def calls(self, tables: int = 1, ready: Sequence[str] | None = None) -> list[Call]:
         """Return the matches that can be called next, the one with the soonest finish first.
 
         All are tried on the same evenings, some of those played out, so that small differences
@@ -176,8 +187,11 @@ class Finish:
         ----------
         tables
             how many are free: the second match is the best with the first on a table, and so on.
+        ready
+            the matches that can be called; None: those of the tournament.
         """
-        ready = [name for name in self.standing.to_play if name not in self._room.on_tables]
+        if ready is None:
+            ready = [name for name in self.standing.to_play if name not in self.room.on_tables]
         tried, untried = self._most_urgent(ready)
         chosen: list[Call] = []
         last = min(tables, _CHOSEN, len(tried))
@@ -194,7 +208,7 @@ class Finish:
         This is asked so many times, which are given less work each.
         """
         runs = int(_WORK / (times * len(tried) * len(self.names) ** 2))
-        room = self._room.on_the_first(min(_TRIED, max(_FEWEST_TRIED, runs)))
+        room = self.room.on_the_first(min(_TRIED, max(_FEWEST_TRIED, runs)))
         ends = {name: room.ends(room.planned([*called, name])) for name in tried}
         best = min(ends, key=lambda name: float(ends[name].mean()))
         calls = []
@@ -211,15 +225,15 @@ class Finish:
         """Return the matches to try calling, and the others, those that matter most first."""
         if len(ready) <= _CALLS:
             return list(ready), []
-        evenings = self._room.evenings
+        evenings = self.room.evenings
         minutes = np.where(evenings.needed, evenings.minutes, 0.0).mean(axis=0)
-        path = longest_paths(self._room.waits, minutes)
+        path = longest_paths(self.room.waits, minutes)
         order = sorted(ready, key=lambda name: -path[self.names.index(name)])
         return order[:_CALLS], order[_CALLS:]
 
 
 @dataclass(frozen=True, eq=False)
-class _Room:
+class Room:
     """The tables, what is on them, and the evenings that are played on them."""
 
     evenings: Evenings
@@ -228,7 +242,7 @@ class _Room:
     now: float
     playing: tuple[InPlay, ...]
 
-    def on_the_first(self, runs: int) -> _Room:
+    def on_the_first(self, runs: int) -> Room:
         """Return the same with the first of the evenings only."""
         evenings = self.evenings
         cells = (getattr(evenings, one.name)[:runs] for one in fields(evenings)[1:])
@@ -340,12 +354,8 @@ def finish(
         seed=seed,
     )
     waits = waiting(bracket, evenings.names, for_rounds=wait_for_rounds)
-    room = _Room(evenings, waits, _tables(tables, clock, len(playing)), clock, tuple(playing))
-    planned = room.planned()
-    starts = np.where(evenings.needed, planned.start, np.nan)
-    for match in playing:
-        starts[:, evenings.names.index(match.match)] = match.started
-    return Finish(room.ends(planned), starts, evenings.names, speed, where, room)
+    room = Room(evenings, waits, tables_free(tables, clock, len(playing)), clock, tuple(playing))
+    return Finish.planned(room, speed, where)
 
 
 def minutes_later(one: Finish, other: Finish) -> tuple[float, float]:
@@ -371,7 +381,7 @@ def _start(times: Floats, runs: int) -> Start:
     return Start(early, middle, late, times.size / runs)
 
 
-def _tables(tables: int | Sequence[float], clock: float, busy: int) -> Floats:
+def tables_free(tables: int | Sequence[float], clock: float, busy: int) -> Floats:
     """Return from when on each table is free, those of the matches under way first."""
     if isinstance(tables, Sequence):
         free = np.sort(floats(tables, "tables", low=0.0))

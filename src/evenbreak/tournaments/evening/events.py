@@ -6,7 +6,7 @@ An event is a frozen value; `KINDS` turns it into JSON and back.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Annotated, Any, TypeAlias
 
 from msgspec import Meta
@@ -101,6 +101,11 @@ class Plan(Format, Occasion):
     chips: ChipChart | None = field(default=None, hash=False)
     earlier: tuple[EarlierNight, ...] = ()
     match_form: Annotated[float, Meta(ge=0, le=MOST_FORM)] = 0.0
+
+    def at_tables_of(self, house: Occasion) -> Plan:
+        """Return the plan with the tables, their names and the pace of another."""
+        names = [one.name for one in fields(Occasion) if one.name not in ("name", "date")]
+        return replace(self, **{name: getattr(house, name) for name in names})
 
     def newcomer(self, name: str) -> Entrant:
         """Return a player of whom no rating is known."""

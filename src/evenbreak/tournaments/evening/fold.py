@@ -107,6 +107,10 @@ class Evening:
         all entries as they were made.
     elsewhere
         the tables that other events of the night have taken, and who plays there.
+    beside
+        the other events of the night.
+    event
+        the number of this one.
     """
 
     plan: Plan
@@ -130,6 +134,8 @@ class Evening:
     undone: Mapping[int, TakenBack[Event]] = field(default_factory=dict)
     log: tuple[Event, ...] = ()
     elsewhere: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
+    beside: tuple[Evening, ...] = ()
+    event: int = 1
 
     @property
     def drawn(self) -> bool:
@@ -295,8 +301,11 @@ class Evening:
         return frozenset(self.order[k] for k in seats if k is not None and k >= 0)
 
     def then(self, *events: Event) -> Evening:
-        """Return the state after more events; this one stays as it is."""
-        return replace(evening([*self.log, *events]), elsewhere=self.elsewhere)
+        """Return the state after more events; this one stays as it is, and so do others beside."""
+        after = evening([*self.log, *events])
+        elsewhere, beside, event = self.elsewhere, self.beside, self.event
+        plan = after.plan.at_tables_of(self.plan) if event > 1 else after.plan
+        return replace(after, plan=plan, elsewhere=elsewhere, beside=beside, event=event)
 
     def pair(self, match: str) -> tuple[str, str]:
         """Return the players of a match that can be played or was."""

@@ -7,7 +7,7 @@ into what is expected of the matches to come.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import cached_property
 from typing import NamedTuple
@@ -21,6 +21,7 @@ from evenbreak.tournaments.chips.play import rack_chances
 from evenbreak.tournaments.clock.evenings import InPlay
 from evenbreak.tournaments.clock.event_pace import Timed, event_pace, learned_pace
 from evenbreak.tournaments.clock.finish import Call, Finish, finish
+from evenbreak.tournaments.clock.shared_tables import SharedTables
 from evenbreak.tournaments.evening.chip_outlook import chip_minutes, chip_odds, drawn_racks
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
 from evenbreak.tournaments.evening.fold import Evening
@@ -67,18 +68,26 @@ class Outlook:
         what time it is, such as 2025-03-01T19:30:00.
     walkovers
         the chance that a match that has not begun is a walkover, for either player.
+    origin
+        from when times are counted; None: from the first match of the night.
     """
 
     state: Evening
     now: str
     walkovers: float = 0.0
+    origin: datetime | None = None
 
-    @property
+    @cached_property
     def start(self) -> datetime:
-        """When the first match was called, or else the draw was made."""
-        events = self.state.events
-        firsts = [e.at for kind in (Called, Drawn) for e in events if isinstance(e.what, kind)]
-        return datetime.fromisoformat(min([*firsts[:1], self.now]))
+        """When the first match of the night was called, or else the draw was made."""
+        if self.origin is not None:
+            return self.origin
+        each = [self.state.events, *(one.events for one in self.state.beside)]
+        firsts = [
+            [e.at for kind in (Called, Drawn) for e in events if isinstance(e.what, kind)][:1]
+            for events in each
+        ]
+        return datetime.fromisoformat(min([at for ats in firsts for at in ats] + [self.now]))
 
     @property
     def pace(self) -> Pace:
@@ -294,40 +303,89 @@ class Outlook:
     @cached_property
     def as_things_are(self) -> Finish:
         """When it ends if nothing is changed, and the matches that are to be called now are."""
-        return self._uncalled.after_calls(self.to_call)
+        if self._shared is None:
+            return self.uncalled.after_calls(self.to_call)
+        called = [(k, name) for _, k, name in self._to_call]
+        return self._shared.after_calls(called)[self._part]
 
     @cached_property
-    def _uncalled(self) -> Finish:
+    def uncalled(self) -> Finish:
+        """When it ends if it has the tables for itself and nothing is called now."""
         return self.finish()
 
     @cached_property
-    def calls(self) -> list[Call]:
-        """The matches that can be called, the best first; of a group round by round."""
-        state = self.state
-        free = len(state.free_tables)
-        found = [
-            call
-            for call in self._uncalled.calls(max(1, free))
-            if call.match in state.standing.to_play
-        ]
-        grouped = {name for group in state.bracket.groups for name in group.matches}
-        found.sort(key=lambda c: state.bracket.match(c.match).round if c.match in grouped else 0)
-        return found
+    def _events(self) -> list[Evening]:
+        """The events of the night that are drawn, in their order; they share the tables."""
+        every = sorted((self.state, *self.state.beside), key=lambda one: one.event)
+        return [one for one in every if one.drawn and one.plan.form != "chips"]
+
+    @property
+    def _part(self) -> int:
+        return self._events.index(self.state)
 
     @cached_property
+    def _shared(self) -> SharedTables | None:
+        """The night on its tables, if there are several events."""
+        if self.state.plan.form == "chips" or len(self._events) < 2:
+            return None
+        parts = [
+            self.uncalled
+            if one is self.state
+            else replace(self, state=one, origin=self.start).uncalled
+            for one in self._events
+        ]
+        return SharedTables(tuple(parts), self.state.plan.tables)
+
+    @cached_property
+    def _queue(self) -> list[tuple[int, Call]]:
+        """The matches of the night that can be called, each with its event, the best first."""
+        free = max(1, len(self.state.free_tables))
+        every = (
+            [(0, call) for call in self.uncalled.calls(free)]
+            if self._shared is None
+            else self._shared.calls(free)
+        )
+        brackets = [one.bracket for one in self._events]
+        grouped = [{n for group in one.groups for n in group.matches} for one in brackets]
+        found = [(k, one) for k, one in every if one.match in brackets[k].by_name]
+        found.sort(
+            key=lambda one: (
+                brackets[one[0]].match(one[1].match).round if one[1].match in grouped[one[0]] else 0
+            )
+        )
+        return [(k, one) for k, one in found if one.match in self._events[k].standing.to_play]
+
+    @property
+    def calls(self) -> list[Call]:
+        """The matches that can be called, the best first; of a group round by round."""
+        return [call for k, call in self._queue if k == self._part]
+
+    @cached_property
+    def _to_call(self) -> list[tuple[int, int, str]]:
+        """The tables that are free, each with the event and the match to call to it now."""
+        states = self._events
+        playing = [one.call.players for state in states for one in state.on_tables.values()]
+        busy, found = {player for pair in playing for player in pair}, []
+        free = iter(self.state.free_tables)
+        for k, call in self._queue:
+            pair = set(states[k].pair(call.match))
+            if pair & busy or call.match in states[k].waiting_for:
+                continue
+            if (table := next(free, None)) is None:
+                break
+            busy |= pair
+            found.append((table, k, call.match))
+        return found
+
+    @property
+    def tables_to_call(self) -> dict[str, int]:
+        """The matches to call now as far as their players are free, each with its table."""
+        return {name: table for table, k, name in self._to_call if k == self._part}
+
+    @property
     def to_call(self) -> tuple[str, ...]:
         """The matches to call now, one for each free table as far as their players are free."""
-        state = self.state
-        free = len(state.free_tables)
-        playing = [one.call.players for one in state.on_tables.values()]
-        busy = {name for players in (*playing, *state.elsewhere.values()) for name in players}
-        found: list[str] = []
-        for call in self.calls:
-            pair = set(state.pair(call.match))
-            if call.match not in state.waiting_for and len(found) < free and not pair & busy:
-                busy |= pair
-                found.append(call.match)
-        return tuple(found)
+        return tuple(self.tables_to_call)
 
     def finish(
         self,
@@ -356,6 +414,7 @@ class Outlook:
             played=self.timed,
             playing=playing,
             now=max([self.minutes(self.now), *(one.scored or one.started for one in playing)]),
+            seed=state.event - 1,
         )
 
     def chip_finishes(

@@ -24,6 +24,7 @@ from evenbreak.files.lists.entrants import read_entrants
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.store.desk import back_up, kept_prizes
 from evenbreak.files.store.tournament import (
+    begin_beside,
     delete_tournament,
     earlier_nights,
     new_tournament,
@@ -186,6 +187,10 @@ async def begin(request: Request) -> Response:
             form = _with_list(form, content, listed)
         money = money_of(form)
         event, warnings = await asyncio.to_thread(_begun, form, site, content, listed)
+        if form.text("beside") and site.night.exists:
+            key = form.key(request.url.path)
+            number = await asyncio.to_thread(begin_beside, site.path, lambda _: [event], form=key)
+            return done(request, f"/desk?event={number}", *warnings)
         if await asyncio.to_thread(_is_there, site, event):  # the same tap again
             return done(request, CHECK_IN)
         before = await asyncio.to_thread(_put_aside, form, site)

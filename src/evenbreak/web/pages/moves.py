@@ -19,10 +19,12 @@ from evenbreak.answers.tournament.moves import lost_words
 from evenbreak.evenings.move import AlreadyError, Move
 from evenbreak.fields.kinds import Text
 from evenbreak.fields.question import AskedError, Declared, declared
-from evenbreak.files.store.tournament import add_events
+from evenbreak.files.store.tournament import add_events, begin_beside
 from evenbreak.questions.moves import PLAYER, Correct
+from evenbreak.tournaments.evening import beside
 from evenbreak.tournaments.evening.events import Event, What
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.format import LONGEST_RACE
 from evenbreak.tournaments.evening.moves import known_match
 from evenbreak.tournaments.evening.undoing import losses, matches_of
 from evenbreak.web.desk_view import corrected
@@ -145,7 +147,13 @@ async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Res
 
     try:
         before, after = await asyncio.to_thread(
-            add_events, night.path, decide, by=DIRECTORS_PAGE, form=key, check=check
+            add_events,
+            night.path,
+            decide,
+            event=night.event,
+            by=DIRECTORS_PAGE,
+            form=key,
+            check=check,
         )
     except _AskError as error:
         if move is MOVES["correct"]:
@@ -201,4 +209,21 @@ def _name_of(before: Evening, after: Evening) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-ROUTES = [_route(name, move) for name, move in MOVES.items()]
+async def second_chance(request: Request) -> Response:
+    """Begin a second event for those who are out by now."""
+    form = await form_of(request)
+    check_director(request)
+    at, race = site_of(request).clock(), form.whole("race", 1, LONGEST_RACE, default=0)
+
+    def begin(state: Evening) -> list[Event]:
+        return [Event(at, beside.second_chance(state, race=race or None), DIRECTORS_PAGE)]
+
+    key = form.key(request.url.path)
+    number = await asyncio.to_thread(begin_beside, night_of(request).path, begin, form=key)
+    return done(request, f"{_DESK}?event={number}")
+
+
+ROUTES = [
+    *(_route(name, move) for name, move in MOVES.items()),
+    Route(f"{_DESK}/second-chance", second_chance, methods=["POST"]),
+]

@@ -1,0 +1,119 @@
+"""Several events of one night on one set of tables, and a second chance for those who are out.
+
+The tables, their names and the pace of the house are those of the first event. Nobody plays in two
+events at once, and no table has two matches: where an entry that is taken back would lead to that,
+the match that was called first goes back to the queue.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from evenbreak.errors import InputError
+from evenbreak.tournaments.brackets.bracket import Source
+from evenbreak.tournaments.evening.events import Opened
+from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
+from evenbreak.tournaments.evening.matches import Pairing
+
+
+def together(states: Mapping[int, Evening]) -> dict[int, Evening]:
+    """Return the events of a night, each knowing of the others; a lone event stays as it is.
+
+    Parameters
+    ----------
+    states
+        each event by its number, as it would be alone.
+    """
+    if len(states) < 2:
+        return dict(states)
+    house = states[min(states)].plan
+    found = {
+        n: replace(one, plan=one.plan.at_tables_of(house), event=n) for n, one in states.items()
+    }
+    for n, gone in _doubled(found).items():
+        calls = {pairing: one for pairing, one in found[n].calls.items() if pairing not in gone}
+        found[n] = replace(found[n], calls=calls)
+    return {n: _among(n, found) for n in found}
+
+
+def _among(number: int, states: Mapping[int, Evening]) -> Evening:
+    """Return an event with the tables and players that the others have taken."""
+    others = [one for n, one in states.items() if n != number]
+    calls = [on.call for one in others if one.drawn for on in one.on_tables.values()]
+    elsewhere = {call.table: call.players for call in calls}
+    return replace(states[number], elsewhere=elsewhere, beside=tuple(others))
+
+
+def _doubled(states: Mapping[int, Evening]) -> dict[int, set[Pairing]]:
+    """Return the calls, by event, whose table is closed, or whose table or player is taken."""
+    seated = [
+        (on.at, n, name, on.call)
+        for n, one in states.items()
+        if one.drawn
+        for name, on in one.on_tables.items()
+    ]
+    taken: set[int | str] = set()
+    gone: dict[int, set[Pairing]] = {}
+    for _, n, name, call in sorted(seated, key=lambda one: one[:2], reverse=True):
+        closed = call.table > states[n].plan.tables
+        if closed or taken & {call.table, *call.players}:
+            gone.setdefault(n, set()).add((name, frozenset(call.players)))
+        else:
+            taken |= {call.table, *call.players}
+    return gone
+
+
+def out(state: Evening) -> list[str]:
+    """Return who is out of an elimination and has not gone home, the last out first."""
+    slots = [slot for one in state.bracket.matches for slot in one.slots]
+    stays = {one.match for one in slots if isinstance(one, Source) and one.outcome == "loser"}
+    lost = [
+        (one.at, name, one.result.loser)
+        for name, played in state.records.items()
+        for one in played[-1:]
+        if name in state.counted and name not in stays
+    ]
+    names = [player for _, name, player in sorted(lost, reverse=True) if name in state.counted]
+    losers = {one.loser for name, one in state.counted.items() if name not in stays}
+    return [name for name in dict.fromkeys(names) if name in losers - {*state.dropped}]
+
+
+def second_chance(state: Evening, *, race: int | None = None) -> Opened:
+    """Return the beginning of a second event for those who are out of an elimination by now.
+
+    It is a single elimination. Whoever went out last is the first seed; more can enter until its
+    draw is made.
+
+    Parameters
+    ----------
+    state
+        the first event.
+    race
+        the games of a race; None: those of the losers' side.
+
+    Raises
+    ------
+    InputError
+        if it is no elimination, or fewer than two are out.
+    """
+    plan = state.plan
+    if plan.form not in ELIMINATIONS or not state.drawn:
+        raise InputError("a second chance is for those who are out of an elimination")
+    names = out(state)
+    if len(names) < 2:
+        raise InputError("fewer than two players are out, so there is no second chance yet")
+    plan = replace(
+        plan,
+        form="single",
+        race=race or plan.losers_race or plan.race,
+        losers_race=None,
+        final_race=None,
+        third_place=False,
+        seeding="listed",
+        qualifiers=None,
+        layout=(),
+        by_match={},
+        name="",
+    )
+    return Opened(plan, tuple(state.entrants[name] for name in names))
