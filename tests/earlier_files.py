@@ -52,8 +52,17 @@ def tournament(path: Path) -> dict[str, Any]:
             for one in phone_entries(path)
             if one.kind == PROPOSED
         ],
-        "prizes": kept_prizes(path),
+        "prizes": _prizes(path),
     }
+
+
+def _prizes(path: Path) -> dict[str, Any] | None:
+    """Return the prize money as earlier versions kept it: exact to the hundredth."""
+    money = kept_prizes(path)
+    if money is None:
+        return None
+    assert money.unit == 0.0
+    return {name: getattr(money, name) for name in ("fee", "added", "house", "payout")}
 
 
 def team_night(path: Path) -> dict[str, Any]:
