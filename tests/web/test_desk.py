@@ -187,12 +187,12 @@ def test_a_correction_asks_what_happens_to_what_is_played_on_it(full: Hall, foll
 
 
 def test_the_history_undoes_what_nothing_follows_from_and_has_no_taps(full: Hall) -> None:
-    first, second = on(full, 1), on(full, 2)
+    first, second, third = (on(full, table) for table in (1, 2, 3))
     taps(full, first, 1)
     taps(full, second, 1)
     add_events(
         full.site.path,
-        lambda s: [Event(full.site.clock(), moves.score(s, on(full, 3), (1, 0)))],
+        lambda s: [Event(full.site.clock(), moves.score(s, third, (1, 0)))],
         by="phone: x",
     )
     shown = full.director.open("/desk/history")
@@ -201,12 +201,12 @@ def test_the_history_undoes_what_nothing_follows_from_and_has_no_taps(full: Hall
     entry = next(
         n
         for n, one in zip(full.state.numbers, full.state.events, strict=True)
-        if getattr(one.what, "match", "") == first and type(one.what).__name__ == "Result"
+        if getattr(one.what, "match", "") == second and type(one.what).__name__ == "Result"
     )
     assert str(entry) in entries
     assert full.director.send("/desk/undo", entry=entry, back="/desk/history").status == 200
-    assert first not in full.state.counted
-    assert second in full.state.counted
+    assert second not in full.state.counted
+    assert first in full.state.counted
 
 
 @pytest.mark.parametrize("page", ["/desk", "/bracket"])

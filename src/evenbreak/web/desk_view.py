@@ -289,7 +289,7 @@ def last_act(state: Evening, read: int) -> LastAct | None:
     number, event = last
     shouts = [
         shout(state, name)
-        for name in state.on_tables
+        for name in sorted(state.on_tables, key=lambda name: state.on_tables[name].call.table)
         if name not in state.live and _called_at(entries, name) > read
     ]
     title, lines = _told(state, number)
