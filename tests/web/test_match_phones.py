@@ -198,6 +198,15 @@ def test_a_table_s_tablet_taps_for_both_and_can_be_taken_back(hall: Hall) -> Non
     assert tablet.send("/table/4/score", match="W1.2", a=1, b=0).status == 403
 
 
+def test_a_phone_can_be_claimed_before_the_draw(hall: Hall) -> None:
+    one = Player(hall, "127.0.0.2")
+    hall.director.send("/desk/undo", entry=2)
+    assert not hall.state.drawn
+    assert "You're in" in one.claims(0).words
+    hall.director.send("/desk/draw")
+    assert "Winners' round 1" in one.phone.open("/me").words
+
+
 def test_who_is_called_answers_and_the_desk_knows(hall: Hall) -> None:
     one = Player(hall, "127.0.0.2")
     one.claims(0)

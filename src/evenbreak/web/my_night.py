@@ -267,6 +267,8 @@ def why_words(state: Evening, mine: MyMatch) -> Sentence | str:
 
 def way_of(state: Evening, me: str, mine: MyMatch | None) -> list[Step]:
     """Return the matches that a player has played, in that order, and the next one."""
+    if not state.drawn:
+        return []
     at = {name: played[-1].at for name, played in state.records.items()}
     steps = []
     for result in sorted(state.counted.values(), key=lambda one: at.get(one.match, "")):
@@ -285,6 +287,8 @@ def way_of(state: Evening, me: str, mine: MyMatch | None) -> list[Step]:
 def after(state: Evening, mine: MyMatch, outcome: str, known: Known | None) -> After | None:
     """Return where a player goes who wins or loses a match; None: nowhere, or it is not known."""
     match, via = mine.name, mine.seat + 1
+    if state.plan.form == "swiss":  # the next round is not drawn yet
+        return None
     while True:
         onward = [
             (one, k)

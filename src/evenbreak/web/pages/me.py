@@ -29,7 +29,7 @@ from evenbreak.files.store.desk import (
     Phones,
     enter,
 )
-from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.web import taps
 from evenbreak.web.codes import code_in
 from evenbreak.web.forms import form_of
@@ -80,6 +80,7 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
     ready = mine is not None and mine.pair is not None and mine.name in state.standing.to_play
     if step in ("waits", "up") and ready and (why or request.query_params.get("play")):
         step = "playing"
+    played = state.counted.values() if state.drawn else ()
     shown: dict[str, Any] = {
         "me": name,
         "mine": mine,
@@ -89,8 +90,9 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
         "code": site_of(request).player_code(name),
         "older": known is None or known.of is not state,
         "way": way_of(state, name, mine),
-        "won": sum(one.winner == name for one in state.counted.values()),
-        "lost": sum(one.loser == name for one in state.counted.values()),
+        "won": sum(one.winner == name for one in played),
+        "lost": sum(one.loser == name for one in played),
+        "eliminates": state.plan.form in ELIMINATIONS,
         "dropped": name in state.dropped,
         "finished": place_of(state, name, known, night.prizes()),
         "state": state,
