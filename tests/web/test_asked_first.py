@@ -158,3 +158,19 @@ def test_a_phone_follows_its_player_when_others_play_the_match_now(busy: Hall) -
     assert "losers' round 1" in phones[gone].open("/me").words.casefold()
     busy.director.send("/desk/correct", **{**WRONG, "a": 3, "b": 1})
     assert "Tap for a game" in phones[gone].open("/me").words
+
+
+@pytest.mark.slow
+def test_another_event_has_a_desk_of_its_own_on_the_same_tables(hall: Hall) -> None:
+    four = "Zoe,612\nYan,540\nXia,500\nWim,480"
+    new = {"entrants": four, "race": 3, "format": "single", "races": "even", "scale": "fargo"}
+    more = {"tables": 2, "discipline": "9-ball", "seeding": "listed", "beside": "yes"}
+    shown = hall.director.send("/new", **new, **more)
+    assert shown.url.endswith("/desk?event=2"), shown.words
+    assert hall.director.send("/desk/draw", event=2).url.endswith("/desk?event=2")
+    hall.director.send("/desk/call", match="1", table=1)
+    assert hall.director.send("/desk/call", match="1", table=1, event=2).status == 400
+    assert hall.director.send("/desk/call", match="1", table=2, event=2).status == 200
+    assert 'name="event" value="2"' in hall.director.open("/desk?event=2").text
+    assert list(hall.state.elsewhere) == [2]
+    assert hall.director.open("/desk?event=3").status == 404

@@ -37,7 +37,7 @@ from evenbreak.sheets.story_drawing import story_style
 from evenbreak.site.look import accent
 from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.sessions import form_token, is_director
-from evenbreak.web.site import Site
+from evenbreak.web.site import Site, event_of
 from evenbreak.words import Face, Figure, capital_in_face, in_face, say, say_as, say_count
 
 _LANGUAGE = "language"
@@ -246,6 +246,7 @@ def page(
             once=_ONCE,
             of_league=values.pop("of_league", {}),
             begun=begun_at(request),
+            event=event_of(request),
             said=said,
             live=live,
             quick=quick,

@@ -229,6 +229,13 @@ class Site:
         return _token(self._secret("match"), what)
 
 
+def event_of(request: Request) -> int:
+    """Return the number of the event that a request names in its form or address; 1 if none."""
+    form = getattr(request.state, "form", None)
+    text: str = (form.text("event") if form else "") or request.query_params.get("event", "")
+    return int(text) if text.isascii() and text.isdigit() and len(text) < 3 else 1
+
+
 def night_of(request: Request) -> Night:
     """Return the event that a request is about: as its form or its address says, else the first.
 
@@ -238,10 +245,9 @@ def night_of(request: Request) -> Night:
         if there is no such event.
     """
     nights: list[Night] = request.app.state.site.nights
-    form = getattr(request.state, "form", None)
-    asked = (form.text("event") if form else "") or request.query_params.get("event") or "1"
+    number = event_of(request)
     for night in nights:
-        if str(night.event) == asked:
+        if night.event == number:
             return night
     raise RefusalError("There is no such page.", status=404)
 

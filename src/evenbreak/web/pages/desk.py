@@ -42,6 +42,7 @@ from evenbreak.web.guard import RefusalError
 from evenbreak.web.night import Known
 from evenbreak.web.page import page, site_of
 from evenbreak.web.sessions import check_director, is_director
+from evenbreak.web.site import night_of
 from evenbreak.words import say
 
 _READ = "read"
@@ -55,10 +56,19 @@ async def desk(request: Request) -> Response:
         if await site.teams.now() is not None:
             return RedirectResponse("/team", status_code=303)
         raise RefusalError("No tournament is running yet.", status=404)
-    known = await site.night.outlook()
-    state = await asyncio.to_thread(site.night.state)
+    night = night_of(request)
+    known = await night.outlook()
+    state = await asyncio.to_thread(night.state)
     shown = await asyncio.to_thread(_desk_values, request, state, known)
     return page(request, "desk.html", live=True, **shown)
+
+
+def _next(state: Evening, known: Known | None) -> list[tuple[str, int]]:
+    """Return the matches to call, each with a table: of several events, as the night goes on."""
+    if state.beside:
+        calls = known.calls if known and known.of is state else []
+        return [(name, table) for table, name in calls]
+    return [(one.match, one.table) for one in proposed_calls(state, known.order if known else ())]
 
 
 def _desk_values(request: Request, state: Evening, known: Known | None) -> dict[str, Any]:
@@ -72,6 +82,7 @@ def _desk_values(request: Request, state: Evening, known: Known | None) -> dict[
         "state": state,
         "name": state.plan.name or say("Tonight"),
         "clock": _clock(now),
+        "nights": [one.event for one in site.nights],
         "over": over,
         "all": played,
         "finish": view.finish[1] if view.finish and not view.over else "",
@@ -88,12 +99,12 @@ def _desk_values(request: Request, state: Evening, known: Known | None) -> dict[
     shown |= sheet_values(request, state)
     if not state.drawn:
         return shown
-    sides, phones = sides_now(request, state), site.night.phones()
+    sides, phones = sides_now(request, state), night_of(request).phones()
     on = sorted(state.on_tables, key=lambda name: state.on_tables[name].call.table)
     tables = [desk_match(state, name, now, sides) for name in on]
     off = [name for name in sides if name not in on]
     both = [*tables, *(desk_match(state, name, now, sides) for name in off)]
-    calls = [(desk_match(state, c.match, now), c.table) for c in proposed_calls(state, order)]
+    calls = [(desk_match(state, name, now), table) for name, table in _next(state, known)]
     free = tables_to_give(state)
     called = [one.name for one, _ in calls]
     late, still = waiting(state, now)

@@ -40,7 +40,7 @@ from evenbreak.web.forms import (
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import can_be_opened, done, in_words, page, site_of
 from evenbreak.web.sessions import DIRECTORS_PAGE, check_director
-from evenbreak.web.site import night_of
+from evenbreak.web.site import event_of, night_of
 from evenbreak.words import Parameter
 
 OF_COMMANDS = ("file", "at", "yes", "seed")
@@ -167,7 +167,9 @@ def _back(request: Request, form: Form) -> str:
     """Return the page that a form leads back to: the one that it names, else the desk."""
     back = form.text("back")
     is_page = back.startswith("/") and can_be_opened(request, back.partition("?")[0])
-    return back if is_page and not back.startswith("//") else _DESK
+    event = event_of(request)
+    desk = f"{_DESK}?event={event}" if event > 1 else _DESK
+    return back if is_page and not back.startswith("//") else desk
 
 
 def _ask(request: Request, form: Form, said: Sequence[str], asked: _AskError) -> Response:
