@@ -79,12 +79,13 @@ def is_free(state: Evening, entry: int) -> bool:
         return False
     what, at = events[entry].what, state.events[-1].at
     act = _act(events, entry) if isinstance(what, Called | Result) else [entry]
-    if (isinstance(what, Scored) and events[entry].by_phones) or act[-1] != entry:
+    own = [number for number in act if events[number].by != BY_ITSELF]
+    if (isinstance(what, Scored) and events[entry].by_phones) or own[-1] != entry:
         return False
-    if len(act) == 1 and (isinstance(what, _LIGHT) or _leads_nowhere(state, what)):
+    if len(own) == 1 and (isinstance(what, _LIGHT) or _leads_nowhere(state, what)):
         return True
     try:
-        after = state.then(*(Event(at, Undone(number)) for number in reversed(act)))
+        after = state.then(*(Event(at, one) for one in _taken_back(state, events, entry)))
         return not losses(state, after) and (after.drawn or not state.drawn)
     except InputError:
         return False
