@@ -200,7 +200,7 @@ def test_a_table_s_tablet_taps_for_both_and_can_be_taken_back(hall: Hall) -> Non
 
 def test_a_phone_can_be_claimed_before_the_draw(hall: Hall) -> None:
     one = Player(hall, "127.0.0.2")
-    hall.director.send("/desk/undo", entry=2)
+    hall.director.send("/desk/undo", entry=2, sure="yes")
     assert not hall.state.drawn
     assert "You're in" in one.claims(0).words
     hall.director.send("/desk/draw")
