@@ -161,7 +161,7 @@ def used(process: int) -> int:
     return int(found[1]) // 1000 if found else 0
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 def test_a_hundred_watch_and_twenty_tap(tmp_path: Path) -> None:
     path, port = tmp_path / "tonight.db", free_port()
     entrants = tuple(Entrant(f"Player Number {k}", 700.0 - 3 * k) for k in range(64))

@@ -28,7 +28,7 @@ from evenbreak.errors import EvenbreakError
 from evenbreak.files.store.log import TakenBeforeError
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import Guard, RefusalError
-from evenbreak.web.page import begun_at, done, refused, script_hash, site_of, style
+from evenbreak.web.page import begun_at, done, packed_style, refused, script_hash, site_of, style
 from evenbreak.web.pages import (
     bracket,
     check_in,
@@ -128,8 +128,11 @@ def cookie_name(site: Site) -> str:
 async def _style(request: Request) -> Response:
     kept = {"cache-control": "max-age=31536000, immutable"}  # another style has another address
     whose = next((one for one in ("guest", "wall") if one in request.query_params), "director")
-    text = style(site_of(request).color, whose)
-    return PlainTextResponse(text, media_type="text/css", headers=kept)
+    color = site_of(request).color
+    if "gzip" not in request.headers.get("accept-encoding", ""):
+        return PlainTextResponse(style(color, whose), media_type="text/css", headers=kept)
+    packed = {**kept, "content-encoding": "gzip", "vary": "accept-encoding"}
+    return Response(packed_style(color, whose), media_type="text/css", headers=packed)
 
 
 async def _refused(request: Request, error: Exception) -> Response:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.desk_view import progress
 from evenbreak.web.evening_view import EveningView, MatchView, view_of
 from evenbreak.web.night import Known
 from evenbreak.words import Sentence, say
@@ -180,8 +181,7 @@ def wall_view(
         later,
         _favorites(known),
         [Placed(place, who, _money(place, prizes)) for place, who in view.places],
-        len(state.counted) if state.drawn else 0,
-        len(state.match_numbers) if state.drawn else 0,
+        *progress(state),
         prizes,
         now[11:16],
         chances,
