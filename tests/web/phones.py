@@ -77,6 +77,19 @@ class Phone:
             path = f"{path}?{urllib.parse.urlencode(asked)}"
         return self._get(urllib.request.Request(self.site.address + path))  # noqa: S310
 
+    def travels(self, path: str) -> int:
+        """Return how many bytes travel when a browser opens a page, and its style with it."""
+        found = 0
+        for at in (path, style_of(self.open(path).text)):
+            asked = urllib.request.Request(self.site.address + at)  # noqa: S310
+            asked.add_header("Accept-Encoding", "gzip")
+            try:
+                with self.opener.open(asked, timeout=20) as got:
+                    found += len(got.read())
+            except urllib.error.HTTPError as refused:
+                found += len(refused.read())
+        return found
+
     def token(self) -> str:
         """Return the token of this phone's forms, which its session keeps."""
         if not self.kept:
@@ -129,6 +142,12 @@ class Phone:
         except urllib.error.HTTPError as error:
             text = error.read().decode("utf-8", "replace")
             return Shown(error.code, text, error.url or "", error.headers)
+
+
+def style_of(text: str) -> str:
+    """Return the address of the style that a page names, which is one."""
+    (found,) = re.findall(r'rel="stylesheet" href="([^"]+)"', text)
+    return unescape(found)
 
 
 def carried(site: Site, token: str) -> dict[str, str]:

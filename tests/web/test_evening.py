@@ -23,7 +23,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.web.night import mark_of, version_of
 from web.conftest import Hall, begun
-from web.phones import Phone, running, two_phones
+from web.phones import Phone, running, style_of, two_phones
 
 Decide = Callable[[Evening], object]
 
@@ -172,15 +172,27 @@ def test_many_phones_at_once_lose_nothing(hall: Hall) -> None:
     assert set(hall.state.counted) == set(matches)
 
 
-@pytest.mark.parametrize("path", ["/", "/bracket", "/screen", "/fair"])
+@pytest.mark.parametrize("path", ["/", "/me", "/bracket", "/screen", "/fair"])
 def test_a_page_is_small_and_needs_nothing_from_elsewhere(standing_hall: Hall, path: str) -> None:
     shown = standing_hall.guest.open(path)
-    style = standing_hall.guest.open(shown.text.split('rel="stylesheet" href="')[1].split('"')[0])
-    first = path != "/bracket"  # whoever comes to the bracket has the style by then
-    assert len(shown.text) + first * len(style.text) < 60_000
-    assert shown.text.count('rel="stylesheet"') == 1
+    assert standing_hall.guest.travels(path) < 60_000
     assert "src=" not in shown.text
     assert "//" not in shown.text.replace("http://127.0.0.1", "").split("</script>")[-1]
+
+
+def test_the_first_page_is_small_even_where_it_is_not_compressed(
+    standing_hall: Hall, tmp_path: Path
+) -> None:
+    def size(phone: Phone, path: str) -> int:
+        text = phone.open(path).text
+        return len((text + phone.open(style_of(text)).text).encode())
+
+    player = Phone(standing_hall.site, address="127.0.0.5")
+    assert player.claims("Player 5").status == 200
+    with running(tmp_path / "before.db") as site:
+        for phone in (standing_hall.guest, player, Phone(site)):
+            for path in ("/", "/me"):
+                assert phone.travels(path) < size(phone, path) / 2 < 30_000
 
 
 def test_several_matches_are_called_with_one_tap(hall: Hall) -> None:
