@@ -79,7 +79,7 @@ def is_free(state: Evening, entry: int) -> bool:
         return False
     what, at = events[entry].what, state.events[-1].at
     act = _act(events, entry) if isinstance(what, Called | Result) else [entry]
-    own = [number for number in act if events[number].by != BY_ITSELF]
+    own = [number for number in act if events[number].by != BY_ITSELF] or [entry]
     if (isinstance(what, Scored) and events[entry].by_phones) or own[-1] != entry:
         return False
     if len(own) == 1 and (isinstance(what, _LIGHT) or _leads_nowhere(state, what)):
