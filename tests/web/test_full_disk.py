@@ -103,7 +103,7 @@ def test_no_refusal_names_the_folder(hall: Hall, monkeypatch: pytest.MonkeyPatch
     def fails(*_: object) -> None:
         raise DataError([f"{path}: wrong", f"{path.absolute().parent}/other.csv:3: wrong too"])
 
-    monkeypatch.setattr(night, "read_events", fails)
+    monkeypatch.setattr(night, "read_night", fails)
     os.utime(path)
     for page in READ:
         assert str(path.parent) not in hall.guest.open(page).text, page
