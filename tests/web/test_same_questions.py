@@ -91,7 +91,7 @@ NAMED_BY_THE_PAGE = {"form": "format"}
 ASKED_BY_BOTH = (
     *("form", "final", "qualifiers", "groups", "pod_size", "rounds", "third_place", "seeding"),
     "knockout_size",
-    *("losers_race", "final_race", "discipline", "scale"),
+    *("losers_race", "final_race", "discipline", "scale", "tables"),
 )
 
 
@@ -111,7 +111,7 @@ def test_a_tournament_has_the_same_choices_on_the_page(director: Phone, name: st
 
 @pytest.mark.parametrize(
     "name",
-    ["race", "losers_race", "final_race", "tables", "qualifiers", "groups", "rounds"],
+    ["race", "losers_race", "final_race", "qualifiers", "groups", "rounds"],
 )
 def test_a_tournament_has_the_same_limits_on_the_page(director: Phone, name: str) -> None:
     kind = declaration(NewTournament, name).kind

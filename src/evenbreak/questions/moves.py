@@ -2,38 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from typing import Annotated, Literal, TypeAlias
 
-from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, Flag, Named, Number, Text, Whole
 from evenbreak.fields.question import Field, Says
 from evenbreak.questions.common import SCORE, Seed
 from evenbreak.questions.evening import TIME_OF_DAY, TimedUnderWay
 from evenbreak.tournaments.evening.format import (
     LONGEST_RACE,
-    MOST_TABLES,
     FinalRace,
     LosersRace,
-    Tables,
+    NamedTables,
+    names_in,
 )
-
-
-def labels_in(text: str) -> tuple[str, ...]:
-    """Return the names of tables in a list; numbers may be a range.
-
-    >>> labels_in("5-8, TV"), labels_in("none")
-    (('5', '6', '7', '8', 'TV'), ())
-    """
-    found: list[str] = []
-    for part in filter(None, (one.strip() for one in text.split(","))):
-        ends = re.fullmatch(r"(\d{1,3})\s*[-–]\s*(\d{1,3})", part)
-        low, high = (int(ends[1]), int(ends[2])) if ends else (1, 0)
-        if high - low >= MOST_TABLES:
-            raise InputError("{text!r} is more than {most} tables", text=part, most=MOST_TABLES)
-        found += [str(n) for n in range(low, high + 1)] if ends else [part]
-    return () if [one.casefold() for one in found] == ["none"] else tuple(found)
 
 
 def score_or_name(text: str) -> tuple[int, int] | str:
@@ -227,10 +209,10 @@ class Change(Entry):
 
     examples = """\
   evenbreak tournament change --tables 5
-  evenbreak tournament change --labels 5-8,TV --reserved TV
+  evenbreak tournament change --tables 5-8,TV --reserved TV
   evenbreak tournament change --losers-race 4
 """
-    tables: Tables | None = None
+    tables: NamedTables | None = None
     race: Annotated[int | None, Field(Whole(1, LONGEST_RACE), "What is raced to.")] = None
     losers_race: Annotated[
         LosersRace, Says("The same on the losers' side.", usual="", section="")
@@ -238,17 +220,13 @@ class Change(Entry):
     final_race: Annotated[FinalRace, Says("The same in the final.", usual="", section="")] = None
     name: Annotated[str | None, Field(Text("NAME"), "What the tournament is called.")] = None
     date: Annotated[str | None, Field(Text("DATE"), "Its date.")] = None
-    labels: Annotated[
-        tuple[str, ...] | None,
-        Field(Named(labels_in, "NAME,..."), "What the tables are called, such as 5-8,TV."),
-    ] = None
     reserved: Annotated[
         tuple[str, ...] | None,
-        Field(Named(labels_in, "TABLE,..."), "Tables that are given out by name alone, or none."),
+        Field(Named(names_in, "TABLE,..."), "Tables that are given out by name alone, or none."),
     ] = None
     streamed: Annotated[
         tuple[str, ...] | None,
-        Field(Named(labels_in, "TABLE,..."), "Tables that are shown on a stream, or none."),
+        Field(Named(names_in, "TABLE,..."), "Tables that are shown on a stream, or none."),
     ] = None
     slower: Annotated[
         float | None,

@@ -11,9 +11,10 @@ from evenbreak.questions.common import CHANCE, ScaleOf, Seed, Starters, Sure
 from evenbreak.questions.evening import TIME_OF_DAY, At, Prizes, TimedUnderWay
 from evenbreak.questions.pace import EarlierNights, Pace, Turnover
 from evenbreak.questions.plan import TournamentPlan, refuse_lines
-from evenbreak.tournaments.evening.format import Discipline, Tables
+from evenbreak.tournaments.evening.format import Discipline, HouseTables, NamedTables, Tables
 from evenbreak.words import Parameter
 
+_FOUR = HouseTables(4)
 _DRAW = "The seed of the draw, and of what is simulated."
 Draw: TypeAlias = Annotated[Seed, Says(_DRAW, section="Details")]
 
@@ -29,7 +30,7 @@ class NewTournament(TournamentPlan, Starters):
     """
 
     examples = """\
-  evenbreak tournament new entrants.csv --race 7 --losers-race 5 --tables 4
+  evenbreak tournament new entrants.csv --race 7 --losers-race 5 --tables 1-3,TV
   evenbreak tournament new entrants.csv --format single --race-to 5 --out saturday.db
   evenbreak tournament new entrants.csv --format chips --chips hoboken
   evenbreak tournament new --like tonight.db --out next.db
@@ -44,7 +45,7 @@ class NewTournament(TournamentPlan, Starters):
             "As that tournament was: the same options and, without a list, the same people.",
         ),
     ] = None
-    tables: Tables = 4
+    tables: NamedTables = _FOUR
     name: Annotated[str, Field(Text("NAME"), "What the tournament is called.", rare=True)] = ""
     discipline: Discipline = "9-ball"
     pace: EarlierNights = ()

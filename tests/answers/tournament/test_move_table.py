@@ -34,7 +34,7 @@ ENTERED = [
     ("late", "Gus --rating 60", {"player": "Gus", "rating": "60"}),
     ("undo", "", {}),
     ("redo", "", {}),
-    ("change", "--labels 5-7,TV,A --reserved TV", {"labels": "5-7,TV,A", "reserved": "TV"}),
+    ("change", "--tables 5-7,TV,A --reserved TV", {"tables": "5-7,TV,A", "reserved": "TV"}),
     ("change", "--tables 2 --race 4", {"tables": "2", "race": "4"}),
     ("forfeit", "zoe --yes", {"player": "Zoe", "sure": "yes"}),
     ("drop", "cy --yes", {"player": "Cy", "sure": "yes"}),

@@ -122,9 +122,9 @@ def _stand_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
 
 
 def _change(state: Evening, asked: Change, _: str) -> Sequence[What]:
-    count = asked.tables if asked.tables or not asked.labels else len(asked.labels)
+    count, labels = asked.tables or (None, None)
     then = replace(state.plan, tables=count or state.plan.tables)
-    then = replace(then, labels=then.labels if asked.labels is None else asked.labels)
+    then = replace(then, labels=then.labels if labels is None else labels)
 
     def numbers(names: tuple[str, ...] | None) -> tuple[int, ...] | None:
         return None if names is None else tuple(map(then.table_number, names))
@@ -138,7 +138,7 @@ def _change(state: Evening, asked: Change, _: str) -> Sequence[What]:
             final_race=asked.final_race,
             name=asked.name,
             date=asked.date,
-            labels=asked.labels,
+            labels=labels,
             reserved=numbers(asked.reserved),
             streamed=numbers(asked.streamed),
             slower=asked.slower,

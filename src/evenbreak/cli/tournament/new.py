@@ -33,7 +33,13 @@ def command(asked: NewTournament) -> Answer:
     if asked.like is not None:
         return _like(asked, asked.like)
     entered, at = entered_in(asked), moment(asked.at)
-    plan = replace(entered.plan, tables=asked.tables, discipline=asked.discipline, name=asked.name)
+    plan = replace(
+        entered.plan,
+        tables=asked.tables.many,
+        labels=asked.tables.labels or (),
+        discipline=asked.discipline,
+        name=asked.name,
+    )
     roster, lines = entered.roster, None
     if asked.seeding == "drawn":
         roster, _, lines = drawn_up(roster, asked.seeding, asked.seed)

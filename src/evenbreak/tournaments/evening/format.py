@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, TypeAlias
+from typing import Annotated, NamedTuple, TypeAlias
 
 from msgspec import Meta
 
 from evenbreak.errors import InputError
-from evenbreak.fields.kinds import Choice, Flag, Whole
+from evenbreak.fields.kinds import Choice, Flag, Named, Whole
 from evenbreak.fields.question import Field
 from evenbreak.words import say
 
@@ -23,6 +25,93 @@ MOST_PLAYERS, MOST_TABLES, LONGEST_RACE = 256, 1000, 100
 
 Tables: TypeAlias = Annotated[
     Table, Field(Whole(1, MOST_TABLES), "The number of tables.", metavar="T", label=say("Tables"))
+]
+
+
+class HouseTables(NamedTuple):
+    """How many tables there are, and what the house calls them; None: nothing is said of it."""
+
+    many: int
+    labels: tuple[str, ...] | None = None
+
+    def __str__(self) -> str:
+        return names_text(self.labels) if self.labels else str(self.many)
+
+
+_SPAN = re.compile(r"([0-9]{1,4})\s*[-–—]\s*([0-9]{1,4})")
+LONGEST_LABEL = 12
+
+
+def names_in(text: str) -> tuple[str, ...]:
+    """Return the names of tables in a list; numbers may be a range.
+
+    >>> names_in("5-8, TV"), names_in("none")
+    (('5', '6', '7', '8', 'TV'), ())
+    """
+    names: list[str] = []
+    for part in (" ".join(one.split()) for one in re.split("[,;]", text)):
+        span = _SPAN.fullmatch(part)
+        names += map(str, range(int(span[1]), int(span[2]) + 1)) if span else [part]
+    found = tuple(filter(None, names))
+    return () if [one.casefold() for one in found] == ["none"] else found
+
+
+def names_text(names: Sequence[str]) -> str:
+    """Return the names of tables as a list, as `names_in` reads it.
+
+    >>> names_text(["1", "2", "3", "TV", "5"])
+    '1-3, TV, 5'
+    """
+    runs: list[list[str]] = []
+    for name in names:
+        last = runs[-1][-1] if runs else ""
+        if name.isdecimal() and last.isdecimal() and int(name) == int(last) + 1:
+            runs[-1].append(name)
+        else:
+            runs.append([name])
+    return ", ".join(f"{run[0]}-{run[-1]}" if len(run) > 1 else run[0] for run in runs)
+
+
+def house_tables(text: str) -> HouseTables:
+    """Return how many tables there are, or what they are called.
+
+    Raises
+    ------
+    InputError
+        if there are none or too many, or two have one name.
+
+    >>> house_tables("4"), house_tables("1-2, TV"), house_tables("1-4").labels
+    (HouseTables(many=4, labels=None), HouseTables(many=3, labels=('1', '2', 'TV')), ())
+    """
+    names, plain = names_in(text), text.strip()
+    if re.fullmatch("[0-9]{1,4}", plain, re.ASCII):
+        count, names = int(plain), ()
+    else:
+        count = len(names) if len(names) > 1 else 0  # a word alone is a slip
+    if not 1 <= count <= MOST_TABLES or any(len(name) > LONGEST_LABEL for name in names):
+        raise InputError(
+            "{tables!r}: write how many tables there are, from 1 to {most:,}, or their names, "
+            "such as 1-3, TV",
+            tables=text[:60],
+            most=MOST_TABLES,
+        )
+    known = [name.casefold() for name in names]
+    twice = next((name for name in names if known.count(name.casefold()) > 1), None)
+    if twice:
+        raise InputError("two tables are called {name}; give each its own name", name=twice)
+    if not names:
+        return HouseTables(count)
+    numbered = names == tuple(map(str, range(1, count + 1)))
+    return HouseTables(count, () if numbered else names)
+
+
+NamedTables: TypeAlias = Annotated[
+    HouseTables,
+    Field(
+        Named(house_tables, "T|NAME,..."),
+        "How many tables there are, or what they are called, such as 4, or 5-8,TV.",
+        label=say("Tables, how many or by name"),
+    ),
 ]
 Discipline: TypeAlias = Annotated[
     str, Field(Choice(DISCIPLINES), "The game, for how long matches take.", label=say("Game"))

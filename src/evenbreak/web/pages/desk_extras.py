@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -18,8 +17,10 @@ from evenbreak.answers.tournament.night import played_words
 from evenbreak.answers.tournament.under_way import time_under_way
 from evenbreak.files.store.desk import ENTERED, back_up, phone_entries
 from evenbreak.files.store.tournament import read_events
+from evenbreak.tournaments.evening.edition import tables_text
 from evenbreak.tournaments.evening.events import Called, CalledBack, Plan, Scored
 from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.format import names_text
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.plan import FORMATS, FORMATS_WITH
@@ -47,35 +48,18 @@ async def more(request: Request) -> Response:
         raise RefusalError("No tournament is running yet.", status=404)
     state = await asyncio.to_thread(site.night.state)
     plan = state.plan
-    names = [plan.table_name(n) for n in range(1, plan.tables + 1)]
     return page(
         request,
         "more.html",
         state=state,
         over=state.drawn and not state.standing.to_play and not can_draw(state),
         still_in=[name for name in state.entrants if name not in state.dropped],
-        tables=tables_words(names),
-        reserved=tables_words([plan.table_name(n) for n in plan.reserved]),
-        streamed=tables_words([plan.table_name(n) for n in plan.streamed]),
+        tables=tables_text(plan),
+        reserved=names_text([plan.table_name(n) for n in plan.reserved]),
+        streamed=names_text([plan.table_name(n) for n in plan.streamed]),
         races=_races(plan),
         calls_itself=site.calls_itself,
     )
-
-
-def tables_words(names: Sequence[str]) -> str:
-    """Return the names of tables as a list.
-
-    >>> tables_words(["1", "2", "3", "TV", "5"])
-    '1-3, TV, 5'
-    """
-    runs: list[list[str]] = []
-    for name in names:
-        last = runs[-1][-1] if runs else ""
-        if name.isdecimal() and last.isdecimal() and int(name) == int(last) + 1:
-            runs[-1].append(name)
-        else:
-            runs.append([name])
-    return ", ".join(f"{run[0]}-{run[-1]}" if len(run) > 1 else run[0] for run in runs)
 
 
 def _races(plan: Plan) -> dict[str, tuple[str, int]]:

@@ -36,7 +36,7 @@ from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import NAMES, Scale
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS
 from evenbreak.tournaments.clock.event_pace import EarlierNight
-from evenbreak.tournaments.evening.edition import next_edition, table_names, tables_text
+from evenbreak.tournaments.evening.edition import next_edition, tables_text
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan
 from evenbreak.tournaments.evening.format import LONGEST_RACE, Format
 from evenbreak.tournaments.evening.later_draws import can_draw
@@ -359,15 +359,16 @@ def _plan(form: Form, scale: Scale, earlier: tuple[EarlierNight, ...]) -> Plan:
     asked = asked_in(
         NewTournament,
         form,
-        [*declared(Format), *fields_named(NewTournament, "form", "seeding", "discipline")],
+        [
+            *declared(Format),
+            *fields_named(NewTournament, "form", "seeding", "discipline", "tables"),
+        ],
         entrants="",
         race=length if races == EVEN else None,
         race_to=length if races == FAIR else None,
         chart=races if races in CHARTS else None,
         chips=form.one_of("chips", tuple(CHIP_CHARTS)) if kind == "chips" else None,
-        tables=1,
     )
-    tables, labels = table_names(form.text("tables") or "4")
     return Plan(
         asked.form,
         length or 1,
@@ -380,8 +381,8 @@ def _plan(form: Form, scale: Scale, earlier: tuple[EarlierNight, ...]) -> Plan:
         starter_error=scale.points_per_doubling,
         name=" ".join(form.text("name", longest=60).split()),
         date=_date(form),
-        tables=tables,
-        labels=labels,
+        tables=asked.tables.many,
+        labels=asked.tables.labels or (),
         slower=float(form.one_of("slower", ("", *dict(PACES))) or 1.0),
         discipline=asked.discipline,
         chips=None if asked.chips is None else CHIP_CHARTS[asked.chips],
