@@ -13,6 +13,7 @@ from __future__ import annotations
 import base64
 import io
 import os
+import re
 import shutil
 import socket
 import tempfile
@@ -79,8 +80,17 @@ def served(path: Path, clock: Clock) -> Iterator[Site]:
 
 
 def shot(page: Any, *, first: str = "", last: str = "") -> bytes:
-    """Return a picture of the page, from the top or an element `first` to the end of `last`."""
-    page.evaluate("document.activeElement.blur(); scrollTo(0, 0)")
+    """Return a picture of the page, from the top or an element `first` to the end of `last`.
+
+    What stays at the bottom of a phone would cover the middle of a longer picture.
+    """
+    page.evaluate(
+        """() => {
+          document.activeElement.blur(); scrollTo(0, 0);
+          document.querySelectorAll("nav.tabs").forEach(one => one.style.display = "none");
+          document.querySelectorAll(".bottom").forEach(one => one.style.position = "static");
+        }"""
+    )
     ends = [page.locator(one).first.bounding_box() for one in (first, last) if one]
     width, height = page.viewport_size["width"], page.viewport_size["height"]
     top = ends[0]["y"] - 7 if first else 0.0
@@ -97,10 +107,10 @@ def kept(picture: bytes, file: Path) -> None:
 
 
 def settled(page: Any, site: Site, path: str) -> None:
-    """Open a page once the odds are those of the last entry; *Tonight* says while they are not."""
-    for _ in range(300):
+    """Open a page once the odds are those of the last entry; *Tonight* is marked until then."""
+    for _ in range(600):
         page.goto(f"{site.address}/", wait_until="domcontentloaded")
-        if "worked out" not in page.inner_text("main"):
+        if not page.locator("[data-older]").count():
             page.goto(f"{site.address}{path}", wait_until="domcontentloaded")
             return
         time.sleep(0.1)
@@ -113,21 +123,49 @@ def press(page: Any, button: Any) -> None:
         button.click()
 
 
-def result(page: Any, players: tuple[str, str], games: tuple[int, int]) -> Any:
-    """Type a result, and return the button that enters it."""
-    one, other = (page.get_by_label(name) for name in players)
-    form = page.locator("form.result:visible", has=one).filter(has=other)
-    for name, won in zip(players, games, strict=True):
-        form.get_by_label(name).fill(str(won))
-    return form.get_by_role("button")
+def tap(page: Any, name: str) -> None:
+    """Tap a button of a player's page, which stays and shows what follows."""
+    page.wait_for_timeout(650)  # two taps within 0.6 s are one that came twice
+    before = page.inner_text("main")
+    page.get_by_role("button", name=name).click()
+    page.wait_for_function("text => document.querySelector('main').innerText != text", arg=before)
+
+
+def tap_result(page: Any, within: str, match: int, winner: int, games: int) -> Any:
+    """Tap a match's winner, and return the button of the loser's games."""
+    form = page.locator(f"{within} form.taps:has(label[for$='{match}-{winner}'])")
+    form.locator("label.seat").nth(winner).click()
+    return form.locator(f".after{winner} .pad button[value='{games}']")
 
 
 def call_all(page: Any, site: Site) -> None:
     """Call every match that has a table."""
     settled(page, site, "/desk")
-    while (call := page.get_by_role("button", name="Call", exact=True)).count():
+    while (call := page.get_by_role("button", name=re.compile("^Call( |$)"))).count():
         press(page, call.first)
         settled(page, site, "/desk")
+
+
+def begun(desk: Any, site: Site, clock: Clock, folder: Path) -> None:
+    """Paste the list, tick off who is here and draw."""
+    desk.goto(f"{site.address}/new")
+    rows = [line.split(",")[:2] for line in ENTRANTS.read_text("utf-8").splitlines()[1:]]
+    lines = [f"{k}. {name} {rating}" for k, (name, rating) in enumerate(rows[:PLAYERS], 1)]
+    for name, value in (("name", "Saturday 9-Ball"), ("race", "5"), ("tables", "2")):
+        desk.fill(f"[name={name}]", value)
+    desk.fill("[name=entrants]", "\n".join(lines))
+    kept(shot(desk, first="h1", last="#tables-how"), folder / "begin.png")
+    desk.get_by_text("More choices").click()
+    desk.fill("[name=losers_race]", "4")
+    desk.select_option("[name=seeding]", label="Seeded by rating")
+    press(desk, desk.get_by_role("button", name="Go to check-in"))
+    for k, (name, _) in enumerate(rows[:PLAYERS]):
+        for what in ("is here", "has paid") if k % 3 else ("is here",):
+            press(desk, desk.get_by_role("button", name=f"{name} {what}"))
+        if k == PLAYERS - 3:
+            kept(shot(desk, first="h1", last=".check-in"), folder / "check_in.png")
+    clock.at = "19:00"
+    press(desk, desk.get_by_role("button", name=f"Draw {PLAYERS} players"))
 
 
 def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
@@ -136,53 +174,50 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
     desk.goto(f"{site.address}/pin")
     desk.get_by_label("PIN").fill(site.pin)
     press(desk, desk.get_by_role("button", name="Go"))
-
-    desk.goto(f"{site.address}/new")
-    lines = ENTRANTS.read_text("utf-8").splitlines()[1 : 1 + PLAYERS]
-    desk.locator("[name=entrants]").fill("\n".join(",".join(line.split(",")[:2]) for line in lines))
-    for name, value in (("race", "5"), ("losers_race", "4"), ("tables", "2")):
-        desk.fill(f"[name={name}]", value)
-    desk.select_option("[name=seeding]", label="Seeded by rating")
-    kept(shot(desk, first="h1", last="label:has([name=losers_race])"), folder / "begin.png")
-    press(desk, desk.get_by_role("button", name="Start", exact=True))
-    clock.at = "19:00"
-    press(desk, desk.get_by_role("button", name="Make the draw"))
+    begun(desk, site, clock, folder)
     settled(desk, site, "/desk")
-    kept(shot(desk, first="h1", last="details.card"), folder / "call.png")
+    kept(shot(desk, first="h1", last=".desk-grid"), folder / "call.png")
 
     clock.at = "19:05"
     call_all(desk, site)
     clock.at = "19:40"
-    enter = result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (5, 4))
-    kept(shot(desk, first="h2", last="section.card"), folder / "result.png")
+    enter = tap_result(desk, ".desk-grid", 1, 0, 4)
+    kept(shot(desk, first="section.table", last="section.table"), folder / "result.png")
     press(desk, enter)
-    kept(shot(desk, first=".said", last=".said"), folder / "said.png")
+    settled(desk, site, "/desk")
+    kept(shot(desk, first=".entered", last=".entered"), folder / "said.png")
     call_all(desk, site)
-    settled(desk, site, "/")
-    kept(shot(desk, first="h1", last="main"), folder / "tonight.png")
+    guest = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
+    settled(guest, site, "/")
+    kept(shot(guest, first="h1", last="main"), folder / "tonight.png")
 
     player = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
     player.goto(f"{site.address}/c/{site.player_code('Tomasz Wierzba')}")
-    press(player, player.get_by_role("button", name="I'm coming"))
+    tap(player, "I'm coming")
     for name in ("Tomasz Wierzba", "Tomasz Wierzba", "Priya Vandermeer"):
-        press(player, player.get_by_role("button", name=f"Game for {name}"))
-    kept(shot(player, first="h1", last="main .mine > *:last-child"), folder / "match.png")
+        tap(player, f"Game for {name}")
+    kept(shot(player, first=".mine-top", last="main .odds"), folder / "match.png")
 
     clock.at = "20:15"
     desk.goto(f"{site.address}/desk")
-    press(desk, result(desk, ("Ruben Castellan", "Fatou Ndiaye-Roy"), (5, 3)))
-    clock.at = "20:20"
-    desk.goto(f"{site.address}/desk")
-    desk.get_by_text("Correct a result").click()
-    press(desk, result(desk, ("Fatou Ndiaye-Roy", "Lars Hedqvist"), (4, 5)))
+    press(desk, tap_result(desk, ".desk-grid", 2, 0, 2))
+    call_all(desk, site)
+    clock.at = "20:35"
+    desk.goto(f"{site.address}/desk?match=4#sheet")
+    desk.get_by_text("Type the score").click()
+    typed = desk.locator(".sheet form.typed:visible")
+    for name, games in (("a", "3"), ("b", "0")):
+        typed.locator(f"[name={name}]").fill(games)
+    press(desk, typed.get_by_role("button", name="Still playing"))
+    clock.at = "20:40"
+    desk.goto(f"{site.address}/bracket?match=1#sheet")
+    press(desk, tap_result(desk, ".sheet", 1, 1, 4))
     kept(shot(desk, first="h1", last="main form"), folder / "correct.png")
-    press(desk, desk.get_by_role("button", name="Yes, do it"))
-    settled(desk, site, "/desk")
-    press(desk, desk.get_by_role("button", name="Undo: ").first)
+    press(desk, desk.locator(".bottom button:visible").first)
 
     wall = browser.new_context(viewport=WALL).new_page()
-    settled(wall, site, "/screen")
-    kept(shot(wall, last="h2:has-text('Who will win') + *"), folder / "screen.png")
+    settled(wall, site, "/screen?only=tables")
+    kept(shot(wall), folder / "screen.png")
 
 
 def front_page(browser: Any, path: Path, clock: Clock, file: Path) -> None:
@@ -191,14 +226,11 @@ def front_page(browser: Any, path: Path, clock: Clock, file: Path) -> None:
     state = write_demo_evening(path, datetime.fromisoformat(clock()))
     with served(path, clock) as site:
         wall = browser.new_context(viewport=BIG_WALL).new_page()
-        settled(wall, site, "/screen")
+        settled(wall, site, "/screen?only=tables")
         phone = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
         first = min(state.on_tables, key=lambda match: state.on_tables[match].call.table)
         phone.goto(f"{site.address}/c/{site.player_code(state.pair(first)[0])}")
-        pictures = (
-            shot(wall, last="h2:has-text('Who will win') + *"),
-            shot(phone, first="h1", last="main .odds"),
-        )
+        pictures = (shot(wall), shot(phone, first=".mine-top", last="main .odds"))
     both = browser.new_page()
     both.set_content(BOTH.format(*(base64.b64encode(one).decode() for one in pictures)))
     kept(both.locator("body").screenshot(), file)
@@ -211,7 +243,7 @@ def main() -> None:
         browser = play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
         with served(Path(folder, "tonight.db"), clock) as site:
             story(browser, site, clock, HERE / "page")
-        front_page(browser, Path(folder, "demo.db"), clock, HERE / "front_page.png")
+        front_page(browser, Path(folder, "Tuesday 9-Ball.db"), clock, HERE / "front_page.png")
         browser.close()
 
 
