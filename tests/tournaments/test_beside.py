@@ -18,7 +18,8 @@ from evenbreak.files.store.tournament import (
     read_night,
     read_tournament,
 )
-from evenbreak.tournaments.evening import beside, moves, undoing
+from evenbreak.tournaments.evening import beside, moves, roster, undoing
+from evenbreak.tournaments.evening.calling import calls_after
 from evenbreak.tournaments.evening.events import (
     Called,
     Changed,
@@ -177,3 +178,62 @@ def test_a_second_chance_is_for_those_who_are_out(tmp_path):
     taken = read_tournament(path, 1).elsewhere
     assert list(taken.values()) == [read_tournament(path, 2).pair(ready[0])]
     assert isinstance(read_tournament(path, 2).events[-1].what, Called)
+
+
+def test_a_result_calls_the_next_match_of_whichever_event_and_takes_it_back(tmp_path):
+    path = tmp_path / "tonight.db"
+    begun(path, tables=2)
+    begin_beside(path, lambda _: [Event(AT, Opened(Plan("single", 3), entrants(20, 24)))])
+    enter(path, 2, lambda state: moves.draw_next(state, np.random.default_rng(1)))
+    for match in ("W1.1", "W1.2"):
+        enter(path, 1, lambda state, m=match: [moves.call(state, m, None)])
+    first_of_two = [(2, name) for name in read_tournament(path, 2).standing.to_play]
+
+    def over(match: str, *, event: int = 1):
+        return add_events(
+            path,
+            lambda state: [Event(AT, moves.result(state, match, (3, 0)))],
+            event=event,
+            calls=lambda before, after: calls_after(before, after, first_of_two),
+        )
+
+    seats = night_of(path, read_night(path))
+    over("W1.1")
+    (name,) = read_tournament(path, 2).on_tables
+    assert (2, name) == first_of_two[0]
+    assert read_tournament(path, 2).on_tables[name].call.table == 1
+    assert undoing.own_last(read_tournament(path, 2)) == 2, "its director called nothing"
+    enter(path, 1, undoing.undo)
+    again = night_of(path, read_night(path))
+    assert [one.on_tables.keys() for one in again.values()] == [
+        one.on_tables.keys() for one in seats.values()
+    ]
+    enter(path, 1, undoing.redo)
+    assert list(read_tournament(path, 2).on_tables) == [name]
+    pair = read_tournament(path, 2).pair(name)
+    enter(path, 2, lambda state: [moves.score(state, name, (1, 0))])
+    enter(path, 1, undoing.undo)
+    assert read_tournament(path, 2).pair(name) == pair, "what has begun stays on its table"
+    assert list(read_tournament(path, 2).on_tables) == [name]
+    over(name, event=2)
+    assert sorted(seated(path)[0]) == [1, 2], "the table goes to the other event's match"
+
+
+def test_a_person_has_one_name_in_all_events_of_the_night(tmp_path):
+    path = tmp_path / "tonight.db"
+    begun(path)
+    begin_beside(path, lambda _: [Event(AT, Opened(Plan("single", 3), entrants(4, 12)))])
+    enter(path, 1, lambda state: [roster.rename(state, "Player 5", "Zoë")])
+    assert all("Zoë" in read_tournament(path, n).entrants for n in (1, 2))
+    enter(path, 2, lambda state: [roster.rename(state, "Player 9", "Yves")])
+    enter(path, 1, undoing.undo)
+    assert all("Player 5" in read_tournament(path, n).entrants for n in (1, 2))
+    enter(path, 1, undoing.redo)
+    assert all("Zoë" in read_tournament(path, n).entrants for n in (1, 2))
+    entries = [len(each) for each in read_night(path).values()]
+    enter(path, 1, lambda state: [roster.rename(state, "Player 0", "Ann")])
+    assert [len(each) for each in read_night(path).values()] == [entries[0] + 1, entries[1]]
+    enter(path, 2, lambda state: [roster.rename(state, "Player 10", "Bo")])
+    with pytest.raises(EvenbreakError):  # somebody in the other event is called so
+        enter(path, 1, lambda state: [roster.rename(state, "Player 4", "Bo")])
+    assert "Player 4" in read_tournament(path, 1).entrants

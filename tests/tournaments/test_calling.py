@@ -62,13 +62,13 @@ class Night:
         found = moves.result(before, match, score)
         after = evening([*self.events, self._at(len(self.events), found)])
         self.add(found)
-        for one in calls_after(before, after):
+        for _, one in calls_after({1: before}, {1: after}):
             self.events.append(replace(self._at(len(self.events), one), by=BY_ITSELF))
         return self.state
 
 
 def called(night: Night) -> Night:
-    for one in proposed_calls(night.state):
+    for _, one in proposed_calls({1: night.state}):
         night.add(one)
     return night
 
@@ -90,7 +90,7 @@ def test_a_whole_evening_needs_no_call_after_the_first(form: str) -> None:
 def test_tables_that_somebody_keeps_free_stay_free() -> None:
     night = called(Night(tables=2))
     state = night.add(CalledBack("W1.2", night.state.pair("W1.2")))
-    assert [one.table for one in proposed_calls(state)] == [2]
+    assert [one.table for _, one in proposed_calls({1: state})] == [2]
     after = night.enter("W1.1")
     assert [one.call.table for one in after.on_tables.values()] == [1]
 
@@ -100,7 +100,7 @@ def test_a_reserved_table_and_a_match_that_waits_are_left_alone() -> None:
     night.add(Changed(reserved=(1, 2)), Waits("W1.1", night.state.pair("W1.1"), reason="late"))
     state = night.state
     assert tables_to_give(state) == [3, 4]
-    assert [(c.match, c.table) for c in proposed_calls(state)] == [("W1.2", 3), ("W1.3", 4)]
+    assert [(c.match, c.table) for _, c in proposed_calls({1: state})] == [("W1.2", 3), ("W1.3", 4)]
     state = night.add(Called("W1.1", 1, state.pair("W1.1")))
     assert "W1.1" in state.on_tables
 

@@ -282,7 +282,7 @@ def last_act(state: Evening, read: int) -> LastAct | None:
         the number of the last entry that the director has read.
     """
     entries = list(zip(state.numbers, state.events, strict=True))
-    told = (one for one in entries[:0:-1] if one[1].by != BY_ITSELF)
+    told = (one for one in entries[:0:-1] if not one[1].by.startswith(BY_ITSELF))
     last = next((one for one in told if not one[1].by_phones or _is_act(one[1])), None)
     if last is None or not _is_act(last[1]) or entries[-1][0] <= read:
         return None

@@ -60,8 +60,8 @@ class Known:
         when, in seconds of the event loop's clock.
     data
         as the answer about the evening has it for JSON; `calls` besides, each a table and a match.
-    order
-        the matches that can be called, the best first.
+    queue
+        the matches of all events that can be called, the best first, each with its event.
     start
         when the evening began, in minutes after midnight.
     odds
@@ -81,13 +81,18 @@ class Known:
     at: float
     data: dict[str, Any] = field(default_factory=dict)
     calls: list[tuple[int, str]] = field(default_factory=list)
-    order: tuple[str, ...] = ()
+    queue: tuple[tuple[int, str], ...] = ()
     start: int = 0
     odds: PlaceOdds | None = None
     next_starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
     chances: Mapping[str, float] = field(default_factory=dict)
     starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
     problem: str = ""
+
+    @property
+    def order(self) -> tuple[str, ...]:
+        """The matches of this event that can be called, the best first."""
+        return tuple(match for event, match in self.queue if event == self.of.event)
 
 
 class Night:
@@ -230,12 +235,12 @@ class Night:
             data = night_answer(night).to_dict()
             to_play = bool(state.standing.to_play)
             calls = next_calls(night) if to_play else []
-            order = tuple(one.match for one in night.calls) if to_play else ()
+            queue = tuple(night.queue) if to_play and state.plan.form != "chips" else ()
             starts = _next_starts(night) if to_play else {}
             chances = match_chances(night)
             later = _starts(night) if to_play else {}
             begun = begun_at(night)
-            return Known(state, 0.0, data, calls, order, begun, night.odds, starts, chances, later)
+            return Known(state, 0.0, data, calls, queue, begun, night.odds, starts, chances, later)
 
         try:
             found = await self.beside.run(work)

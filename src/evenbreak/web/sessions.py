@@ -175,7 +175,7 @@ def author_words(kept: str) -> str:
     """
     if not kept:
         return say("a terminal")
-    if kept == BY_ITSELF:
+    if kept.startswith(BY_ITSELF):
         return say("by itself")
     if kept == DIRECTORS_PAGE:
         return say("director's page")

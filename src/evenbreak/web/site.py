@@ -6,7 +6,7 @@ import hashlib
 import hmac
 import itertools
 import secrets
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -19,7 +19,7 @@ from evenbreak.files.store.desk import change_secrets, kept_secrets, new_pin
 from evenbreak.files.store.evening_file import is_there
 from evenbreak.files.store.tournament import event_numbers
 from evenbreak.tournaments.evening.calling import calls_after
-from evenbreak.tournaments.evening.events import BY_ITSELF, Event
+from evenbreak.tournaments.evening.events import Called
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.beside import Made
 from evenbreak.web.codes import codes_of
@@ -167,16 +167,17 @@ class Site:
         if is_there(self.path):
             change_secrets(self.path, found)
 
-    def with_calls(self, state: Evening, events: Sequence[Event]) -> list[Event]:
-        """Return a result with the calls that it makes by itself, unless they are made by hand.
+    @property
+    def queue(self) -> Sequence[tuple[int, str]]:
+        """The matches of all events in the order that ends the night soonest, as worked out."""
+        known = [night.known for night in self.nights if night.known and night.known.queue]
+        return max(known, key=lambda one: one.at).queue if known else ()
 
-        Where several events share the tables, they are: the next match may be another event's.
-        """
-        if not events or not self.calls_itself or state.beside:
-            return list(events)
-        order = self.night.known.order if self.night.known else ()
-        found = calls_after(state, state.then(*events), order)
-        return [*events, *(Event(events[0].at, one, BY_ITSELF) for one in found)]
+    def next_calls(
+        self, before: Mapping[int, Evening], after: Mapping[int, Evening]
+    ) -> list[tuple[int, Called]]:
+        """Return the calls that a result makes by itself, unless they are made by hand."""
+        return calls_after(before, after, self.queue) if self.calls_itself else []
 
     @property
     def pin(self) -> str:

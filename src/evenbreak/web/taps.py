@@ -89,10 +89,10 @@ def result(request: Request, tap: Tap, by: str, check: Callable[[Evening], None]
     def decide(now: Evening) -> list[Event]:
         _check(now, tap)
         check(now)
-        found = Event(site_of(request).clock(), moves.result(now, tap.match, tap.score))
-        return site_of(request).with_calls(now, [found])
+        return [Event(site_of(request).clock(), moves.result(now, tap.match, tap.score))]
 
-    add_events(site_of(request).path, decide, by=by, form=tap.key)
+    site = site_of(request)
+    add_events(site.path, decide, by=by, form=tap.key, calls=site.next_calls)
 
 
 def propose(request: Request, tap: Tap, me: str) -> str:
@@ -118,10 +118,9 @@ def propose(request: Request, tap: Tap, me: str) -> str:
     def settle(now: Evening) -> list[Event]:
         if _entered(now, tap):  # the other phone was faster
             return []
-        found = Event(site.clock(), moves.result(now, tap.match, tap.score))
-        return site.with_calls(now, [found])
+        return [Event(site.clock(), moves.result(now, tap.match, tap.score))]
 
-    add_events(site.path, settle, by=phones_of(tap.pair))
+    add_events(site.path, settle, by=phones_of(tap.pair), calls=site.next_calls)
     enter(site.path, state, lambda _: Entry(site.clock(), tap.match, ENTERED))
     return say("You both agree: the result is in.")
 

@@ -95,11 +95,16 @@ def _result_words(state: Evening, result: Result) -> Sentence:
 def shout(state: Evening, match: str) -> Sentence:
     """Return what to call out when a match is called to its table."""
     call = state.on_tables[match].call
-    return say(
-        "Table {table}: {pair}.",
-        table=state.plan.table_name(call.table),
-        pair=against(call.players),
-    )
+    table, pair = state.plan.table_name(call.table), against(call.players)
+    if state.beside:
+        name = event_name(state)
+        return say("Table {table}, {event}: {pair}.", table=table, event=name, pair=pair)
+    return say("Table {table}: {pair}.", table=table, pair=pair)
+
+
+def event_name(state: Evening) -> Sentence | str:
+    """Return what an event of the night is called."""
+    return state.plan.name or say("Event {n}", n=state.event)
 
 
 def called_words(before: Evening, after: Evening) -> list[Sentence]:

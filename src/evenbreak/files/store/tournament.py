@@ -11,6 +11,7 @@ import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeAlias
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.store.desk import TABLE as PHONES
@@ -20,12 +21,14 @@ from evenbreak.files.store.log import Rules, TakenBeforeError, add, entries, tou
 from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import text_of
 from evenbreak.tournaments.clock.event_pace import EarlierNight
-from evenbreak.tournaments.evening.beside import together
+from evenbreak.tournaments.evening.beside import called_with, carried, together
 from evenbreak.tournaments.evening.earlier import nights_until
-from evenbreak.tournaments.evening.events import KINDS, Changed, Event, Opened
+from evenbreak.tournaments.evening.events import KINDS, Called, Changed, Event, Opened
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.words import Command, say
 
+Night: TypeAlias = Mapping[int, Evening]
+"""The events of a night by their numbers, each knowing of the others."""
 TAKEN = say("that was entered before; nothing was entered a second time")
 
 
@@ -225,8 +228,11 @@ def add_events(
     by: str = "",
     form: str | None = None,
     check: Callable[[Evening, Evening], None] | None = None,
+    calls: Callable[[Night, Night], Sequence[tuple[int, Called]]] | None = None,
 ) -> tuple[Evening, Evening]:
     """Add events to a tournament, and return its state before and after.
+
+    What follows from them in other events of its night is added to those at once, or nothing is.
 
     Parameters
     ----------
@@ -244,6 +250,9 @@ def add_events(
         nothing is added.
     check
         gets the state before and after; if it raises an error, nothing is added.
+    calls
+        returns the calls that come by themselves, each with the number of its event, given all
+        events of the night before and after.
 
     Raises
     ------
@@ -256,17 +265,29 @@ def add_events(
         if was_taken(base, str(event), form):
             raise TakenBeforeError(TAKEN)
         strands = _strands(base, path, event)
-        states = night_of(path, strands)
-        before, earlier = states[event], strands[event]
-        added = [replace(one, by=one.by or by) for one in decide(before)]
-        _refuse_tables(added, event)
-        alone = _shown(evening([*earlier, *added]))
-        others = {n: _RULES.state(path, rest) for n, rest in strands.items() if n != event}
-        after = together({event: alone, **others})[event]
+        before = night_of(path, strands)
+        own = [replace(one, by=one.by or by) for one in decide(before[event])]
+        _refuse_tables(own, event)
+        alone = {n: _RULES.state(path, rest) for n, rest in strands.items()}
+        added: dict[int, list[Event]] = {n: [] for n in strands}
+
+        def then(more: Mapping[int, Sequence[Event]]) -> dict[int, Evening]:
+            for n, events in more.items():
+                added[n] += events
+                alone[n] = _shown(evening([*strands[n], *added[n]]))
+            return together(alone)
+
+        after = then({event: own})
+        after = then(carried(before, after, event)) if len(strands) > 1 else after
+        if calls and own:
+            number = len(strands[event]) + len(own)
+            after = then(called_with(calls(before, after), event, number, own[-1].at))
         if check:
-            check(before, after)
-        add(base, str(event), _RULES, added, count=len(earlier), form=form)
-    return before, after
+            check(before[event], after[event])
+        for n, events in added.items():
+            key = form if n == event else None
+            add(base, str(n), _RULES, events, count=len(strands[n]), form=key)
+    return before[event], after[event]
 
 
 def _shown(state: Evening) -> Evening:

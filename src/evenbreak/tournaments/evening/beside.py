@@ -7,14 +7,24 @@ the match that was called first goes back to the queue.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Source
-from evenbreak.tournaments.evening.events import Opened
+from evenbreak.tournaments.evening.events import (
+    BY_ITSELF,
+    Called,
+    Event,
+    Opened,
+    Redone,
+    Renamed,
+    Undone,
+    What,
+)
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.tournaments.evening.matches import Pairing
+from evenbreak.tournaments.evening.roster import rename
 
 
 def together(states: Mapping[int, Evening]) -> dict[int, Evening]:
@@ -62,6 +72,68 @@ def _doubled(states: Mapping[int, Evening]) -> dict[int, set[Pairing]]:
         else:
             taken |= {call.table, *call.players}
     return gone
+
+
+def with_entry(event: int, number: int) -> str:
+    """Return the author of what came by itself with an entry of another event."""
+    return f"{BY_ITSELF} {event}.{number}"
+
+
+def carried(
+    before: Mapping[int, Evening], after: Mapping[int, Evening], event: int
+) -> dict[int, list[Event]]:
+    """Return what entries of one event enter in the others of the night.
+
+    A person has one name in all of them. What came with an entry is taken back with it, unless it
+    is the call of a match that has begun since, and entered again with it.
+
+    Parameters
+    ----------
+    before, after
+        the events before and after these entries.
+    event
+        the number of the one that they are in.
+    """
+    then, now = before[event], after[event]
+    first = len(then.log) + 1
+    gone = {with_entry(event, n) for n in {*then.numbers} - {*now.numbers}}
+    back = {with_entry(event, n) for n in {*now.numbers} - {*then.numbers} if n < first}
+    found: dict[int, list[Event]] = {}
+    for n, other in after.items() if now.log[len(then.log) :] else ():
+        if n == event:
+            continue
+        events = zip(other.numbers, other.events, strict=True)
+        what: list[tuple[int, What]] = [
+            (first, Undone(k))
+            for k, one in reversed(list(events))
+            if one.by in gone and not _has_begun(other, one)
+        ]
+        what += [(first, Redone(k)) for k, one in other.undone.items() if one.event.by in back]
+        what += [
+            (k, rename(other, one.what.name, one.what.to))
+            for k, one in enumerate(now.log[len(then.log) :], first)
+            if isinstance(one.what, Renamed) and one.what.name in other.entrants
+        ]
+        at = now.log[-1].at
+        found[n] = [Event(at, one, with_entry(event, k)) for k, one in what]
+    return {n: each for n, each in found.items() if each}
+
+
+def _has_begun(state: Evening, event: Event) -> bool:
+    """Return whether an entry calls a match that has begun since."""
+    call = event.what
+    return isinstance(call, Called) and call.match in {*state.live, *state.counted}
+
+
+def called_with(
+    calls: Sequence[tuple[int, Called]], event: int, number: int, at: str
+) -> dict[int, list[Event]]:
+    """Return the calls that come by themselves with an entry of an event, by their events."""
+    found: dict[int, list[Event]] = {}
+    for n, call in calls:
+        by = BY_ITSELF if n == event else with_entry(event, number)
+        found.setdefault(n, []).append(Event(at, call, by))
+    return found
 
 
 def out(state: Evening) -> list[str]:

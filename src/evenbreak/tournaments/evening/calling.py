@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from evenbreak.tournaments.evening.events import Called, CalledBack
 from evenbreak.tournaments.evening.fold import Evening
@@ -28,49 +28,81 @@ def ready_matches(state: Evening, order: Sequence[str] = ()) -> list[str]:
         the matches in the order that ends the evening soonest, as far as worked out; the others
         follow by their numbers.
     """
-    if not state.drawn or state.plan.form == "chips":
-        return []
-    busy = {player for one in state.on_tables.values() for player in one.call.players}
-    busy |= {player for players in state.elsewhere.values() for player in players}
-    last: dict[str, bool] = {}
-    for event in state.events:
-        if isinstance(event.what, Called | CalledBack):
-            last[event.what.match] = isinstance(event.what, CalledBack)
-    place = {name: k for k, name in enumerate(order)}
-    names = [
-        name
-        for name in state.standing.to_play
-        if name not in state.on_tables
-        and name not in state.waiting_for
-        and not busy.intersection(state.pair(name))
-    ]
-    return sorted(
-        names,
-        key=lambda n: (last.get(n, False), place.get(n, len(place)), state.number_of(n)),
-    )
+    return [name for _, name in night_queue({0: state}, [(0, name) for name in order])]
+
+
+def night_queue(
+    states: Mapping[int, Evening], order: Sequence[tuple[int, str]] = ()
+) -> list[tuple[int, str]]:
+    """Return the matches of all events of a night that can be called now, as `ready_matches`.
+
+    Each is the number of its event and its name, and so is `order`.
+    """
+    place = {one: k for k, one in enumerate(order)}
+    found = []
+    for n, state in states.items():
+        if not state.drawn or state.plan.form == "chips":
+            continue
+        busy = {player for one in state.on_tables.values() for player in one.call.players}
+        busy |= {player for players in state.elsewhere.values() for player in players}
+        last: dict[str, bool] = {}
+        for event in state.events:
+            if isinstance(event.what, Called | CalledBack):
+                last[event.what.match] = isinstance(event.what, CalledBack)
+        found += [
+            (
+                last.get(name, False),
+                place.get((n, name), len(place)),
+                state.number_of(name),
+                n,
+                name,
+            )
+            for name in state.standing.to_play
+            if name not in state.on_tables
+            and name not in state.waiting_for
+            and not busy.intersection(state.pair(name))
+        ]
+    return [(n, name) for *_, n, name in sorted(found)]
 
 
 def proposed_calls(
-    state: Evening, order: Sequence[str] = (), tables: Sequence[int] | None = None
-) -> list[Called]:
-    """Return a match for each free table, as far as there are any whose players are free."""
-    given = list(tables_to_give(state) if tables is None else tables)
+    states: Mapping[int, Evening],
+    order: Sequence[tuple[int, str]] = (),
+    tables: Sequence[int] | None = None,
+) -> list[tuple[int, Called]]:
+    """Return a match for each free table, as far as there are any whose players are free.
+
+    Parameters
+    ----------
+    states
+        the events of the night, by number.
+    order
+        as in `night_queue`.
+    tables
+        the tables; None: those that are given out by themselves.
+    """
+    given = list(tables_to_give(states[min(states)]) if tables is None else tables)
     busy: set[str] = set()
-    found: list[Called] = []
-    for name in ready_matches(state, order):
-        pair = state.pair(name)
+    found: list[tuple[int, Called]] = []
+    for n, name in night_queue(states, order):
+        pair = states[n].pair(name)
         if len(found) < len(given) and not busy.intersection(pair):
             busy.update(pair)
-            found.append(Called(name, given[len(found)], pair))
+            found.append((n, Called(name, given[len(found)], pair)))
     return found
 
 
-def calls_after(before: Evening, after: Evening, order: Sequence[str] = ()) -> list[Called]:
-    """Return the calls that follow from a result by themselves.
+def calls_after(
+    before: Mapping[int, Evening],
+    after: Mapping[int, Evening],
+    order: Sequence[tuple[int, str]] = (),
+) -> list[tuple[int, Called]]:
+    """Return the calls that follow from a result by themselves, each with its event.
 
-    They go to the table that it frees. A table that was free before with a match ready for it is
-    left free: somebody keeps it; one that only waited for a match gets one.
+    They go to the table that it frees, and are of whichever event is next. A table that was free
+    before with a match ready for it is left free: somebody keeps it; one that only waited for a
+    match gets one.
     """
-    kept = set(free_tables(before)) if ready_matches(before) else set()
-    tables = [table for table in tables_to_give(after) if table not in kept]
+    kept = set(free_tables(before[min(before)])) if night_queue(before) else set()
+    tables = [one for one in tables_to_give(after[min(after)]) if one not in kept]
     return proposed_calls(after, order, tables)

@@ -356,6 +356,11 @@ class Outlook:
         return [(k, one) for k, one in found if one.match in self._events[k].standing.to_play]
 
     @property
+    def queue(self) -> list[tuple[int, str]]:
+        """The matches of the night that can be called, each with its event, the best first."""
+        return [(self._events[k].event, call.match) for k, call in self._queue]
+
+    @property
     def calls(self) -> list[Call]:
         """The matches that can be called, the best first; of a group round by round."""
         return [call for k, call in self._queue if k == self._part]

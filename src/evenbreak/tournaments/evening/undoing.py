@@ -41,7 +41,7 @@ def own_last(state: Evening, by: str = "") -> int | None:
     for number, event in zip(state.numbers[:0:-1], state.events[:0:-1], strict=True):
         if phone and event.by == by and not isinstance(event.what, Scored):
             return number
-        if not phone and not event.by_phones and event.by != BY_ITSELF:
+        if not phone and not event.by_phones and not event.by.startswith(BY_ITSELF):
             return number
     return None
 

@@ -65,10 +65,10 @@ async def desk(request: Request) -> Response:
 
 def _next(state: Evening, known: Known | None) -> list[tuple[str, int]]:
     """Return the matches to call, each with a table: of several events, as the night goes on."""
-    if state.beside:
-        calls = known.calls if known and known.of is state else []
-        return [(name, table) for table, name in calls]
-    return [(one.match, one.table) for one in proposed_calls(state, known.order if known else ())]
+    every = {state.event: state}
+    return [
+        (one.match, one.table) for _, one in proposed_calls(every, known.queue if known else ())
+    ]
 
 
 def _desk_values(request: Request, state: Evening, known: Known | None) -> dict[str, Any]:

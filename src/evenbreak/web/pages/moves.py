@@ -130,8 +130,7 @@ async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Res
                 events += [Event(at, what) for what in move.decide(now, one, at)]
             except AlreadyError as error:  # the same tap again
                 already.append(error.sentence)
-        calls = move is MOVES["result"]
-        return site_of(request).with_calls(state, events) if calls else events
+        return events
 
     def check(before: Evening, after: Evening) -> None:
         meant = sure and named in ("", _name_of(before, after))
@@ -154,6 +153,7 @@ async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Res
             by=DIRECTORS_PAGE,
             form=key,
             check=check,
+            calls=site_of(request).next_calls if move is MOVES["result"] else None,
         )
     except _AskError as error:
         if move is MOVES["correct"]:
