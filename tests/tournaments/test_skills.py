@@ -1,9 +1,16 @@
 """Players without a rating: as good and as far apart as the field, until their games say more."""
 
 import numpy as np
+import pytest
 
+from evenbreak.answers.tournament.odds import favorites
 from evenbreak.ratings.scale import scale_of
-from evenbreak.tournaments import chances_given, over_ratings, single_elimination
+from evenbreak.tournaments import CHIP_CHARTS, chances_given, over_ratings, single_elimination
+from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.events import Entrant, Event, Plan
+from evenbreak.tournaments.evening.fold import evening
+from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.evening.plan import opened
 from evenbreak.tournaments.evening.skills import Games, skills_before, skills_tonight
 from evenbreak.tournaments.odds.races import Races
 
@@ -58,3 +65,33 @@ def test_a_band_holds_the_average_and_is_none_of_a_sure_rating():
     low, high = found.bands[1]
     assert low < found.averaged.title[1] < high
     assert np.ptp(found.bands[0]) < 0.1 < high - low
+
+
+@pytest.mark.parametrize(
+    ("form", "more"),
+    [
+        ("double", {}),
+        ("swiss", {}),
+        ("chips", {"chips": CHIP_CHARTS["hoboken"]}),
+        ("double", {"qualifiers": 4, "placement": "redraw"}),
+    ],
+)
+def test_nobody_is_the_favorite_for_a_few_games_in_any_format(form, more):
+    plan = Plan(form, 3, scale="fargo", starter=500.0, starter_error=100.0, tables=2, **more)
+    field = [Entrant(f"P{k}", 530.0 - 15.0 * k, 10.0) for k in range(6)]
+    at = "2025-03-01T19:00:00"
+    events = [Event(at, opened(plan, [*field, plan.newcomer("New"), plan.newcomer("Late")]))]
+    draw = moves.draw_next(evening(events), np.random.default_rng(1))
+    state = evening([*events, *(Event(at, what) for what in draw)])
+    for _ in range(2):
+        for name in [one for one in state.standing.to_play if "New" in state.pair(one)][:1]:
+            score = (3, 0) if state.pair(name)[0] == "New" else (0, 3)
+            won = moves.result(state, name, "New" if form == "chips" else score)
+            state = state.then(Event(at, won))
+    night = Outlook(state, at)
+    assert night.bands.keys() == {"New", "Late"}
+    for name, (low, high) in night.bands.items():
+        assert low < night.odds.title[state.order.index(name)] < high
+    best = favorites(night.odds, night.bands)[0]
+    assert state.order[best] not in night.bands
+    assert night.bands["New"][0] < 0.5 * night.odds.title[best]

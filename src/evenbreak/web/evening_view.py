@@ -66,8 +66,6 @@ class EveningView:
         the free tables.
     finish
         when it ends: early, in the middle and late, such as 22:15; None: not known.
-    odds
-        each player's chance of the title, the highest first.
     places
         who finished where, as far as decided.
     older
@@ -83,7 +81,6 @@ class EveningView:
     waiting: list[MatchView]
     free: list[int]
     finish: tuple[str, str, str] | None
-    odds: list[tuple[str, float]]
     places: list[tuple[str, str]]
     older: bool
     chips: Sequence[Mapping[str, Any]] = ()
@@ -133,8 +130,6 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
             for key in ("finish_p10", "finish_p50", "finish_p90")
         )
         finish = early, middle, late
-    listed = data.get("odds") or data.get("players", [])  # of a chip tournament
-    odds = sorted(((one["name"], one["p_title"]) for one in listed), key=lambda each: -each[1])
     places = [(one["place"], one["name"]) for one in data.get("places", [])]
     return EveningView(
         state,
@@ -144,7 +139,6 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
         waiting,
         free_tables(state),
         finish,
-        [one for one in odds if one[1] > 0.0],
         places,
         older,
         [
@@ -184,6 +178,14 @@ def match_view(state: Evening, name: str, table: int | None = None) -> MatchView
     return MatchView(name, pair, state.needed(name, pair), score, table, since)
 
 
+class Favorite(NamedTuple):
+    """A player's chance of the title; of a player without a rating where it may lie."""
+
+    name: str
+    p: float
+    band: tuple[float, float] | None
+
+
 class PlayerView(NamedTuple):
     """A player as the page shows them.
 
@@ -191,8 +193,8 @@ class PlayerView(NamedTuple):
     ----------
     name, rating, error
         the rating and how far off it may be.
-    p_title
-        the chance of the title; None: not known.
+    title
+        the chance of the title; None: not known, or none.
     place
         where they finished; '' if that is open.
     match, other
@@ -207,7 +209,7 @@ class PlayerView(NamedTuple):
     rating: float
     error: float
     provisional: bool
-    p_title: float | None
+    title: Favorite | None
     place: str
     match: str
     other: str
@@ -226,8 +228,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
     known
         what has been worked out, perhaps for an earlier state.
     """
-    listed = (known.data.get("odds") or known.data.get("players", [])) if known else []
-    titles = {one["name"]: one["p_title"] for one in listed}
+    titles = {one.name: one for one in favorites_of(known)}
     calls = {name: at for at, name in known.calls} if known and known.of is state else {}
     places = decided_places(known.odds) if known and known.odds and known.of is state else {}
     playing: dict[str, str] = {}
@@ -242,14 +243,13 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
         if known and on_table is None and name in known.next_starts:
             starts = tuple(time_of_day(known.start + at) for at in known.next_starts[name])
         table = on_table.call.table if on_table else None
-        title = titles.get(name)
         views.append(
             PlayerView(
                 name,
                 entrant.rating,
                 entrant.standard_error,
                 name in provisional,
-                title,
+                titles.get(name),
                 str(places.get(name, "")),
                 match,
                 other,
@@ -259,6 +259,17 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
             )
         )
     return sorted(views, key=lambda one: (one.provisional, -one.rating))
+
+
+def favorites_of(known: Known | None) -> list[Favorite]:
+    """Return who wins it; a player without a rating comes where the low end of the band is."""
+    rows = known.data.get("odds", []) if known else []
+    found = []
+    for row in rows:
+        band = (row["p_title_low"], row["p_title_high"]) if "p_title_low" in row else None
+        if row["p_title"] > 0.0:
+            found.append(Favorite(row["name"], row["p_title"], band))
+    return sorted(found, key=lambda one: (-(one.band[0] if one.band else one.p), -one.p))
 
 
 def decided_places(odds: PlaceOdds) -> dict[str, Place]:

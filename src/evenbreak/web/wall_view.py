@@ -13,7 +13,7 @@ from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.desk_view import progress
-from evenbreak.web.evening_view import EveningView, MatchView, view_of
+from evenbreak.web.evening_view import EveningView, Favorite, MatchView, favorites_of, view_of
 from evenbreak.web.night import Known
 from evenbreak.words import Sentence, say
 
@@ -53,14 +53,6 @@ class NextView(NamedTuple):
     match: MatchView
     number: int
     starts: str
-
-
-class Favorite(NamedTuple):
-    """A player's chance of the title; of a player without a rating where it may lie."""
-
-    name: str
-    p: float
-    band: tuple[float, float] | None
 
 
 class Placed(NamedTuple):
@@ -179,7 +171,7 @@ def wall_view(
         view,
         sorted(tables, key=lambda one: one.match.table or 0),
         later,
-        _favorites(known),
+        favorites_of(known),
         [Placed(place, who, _money(place, prizes)) for place, who in view.places],
         *progress(state),
         prizes,
@@ -203,17 +195,6 @@ def _table(
         kind = "hill" if one.hill else "called" if walking and not one.score else "playing"
         score = one.score or ((0, 0) if kind == "playing" else None)
     return TableView(name, kind, one, state.match_words(one.name), score, chance)
-
-
-def _favorites(known: Known | None) -> list[Favorite]:
-    """Return who wins it; a player without a rating comes where the low end of the band is."""
-    rows = known.data.get("odds", []) if known else []
-    found = []
-    for row in rows:
-        band = (row["p_title_low"], row["p_title_high"]) if "p_title_low" in row else None
-        if row["p_title"] > 0.0:
-            found.append(Favorite(row["name"], row["p_title"], band))
-    return sorted(found, key=lambda one: (-(one.band[0] if one.band else one.p), -one.p))
 
 
 def _money(place: str, prizes: Sequence[float]) -> float:

@@ -224,6 +224,7 @@ def _players(night: Outlook, *, playing: bool) -> Table:
         rows.append([name, state.chips[name], table.get(name), number, None, title[name]])
     if not playing:
         rows = [[name, state.chips[name], None, None, 1, 1.0] for name in state.order]
+    bands = night.bands if playing else {}
     for place, name in enumerate(reversed(state.gone), len(rows) + 1):
         rows.append([name, state.chips[name], None, None, place, 0.0])
     columns = [
@@ -233,6 +234,9 @@ def _players(night: Outlook, *, playing: bool) -> Table:
     ]
     if not playing:
         columns = columns_of("name chips -table -in_line place -p_title")
+    if bands:
+        columns.append(column_of("p_title_band"))
+        rows = [[*row, bands.get(row[0])] for row in rows]
     return Table("players", columns, rows)
 
 

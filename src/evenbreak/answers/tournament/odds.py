@@ -26,7 +26,12 @@ from evenbreak.tournaments.odds.draws import blind_draw_odds, redraw_odds, swiss
 from evenbreak.tournaments.odds.races import chances_given
 from evenbreak.tournaments.odds.rematches import expected_rematches
 from evenbreak.tournaments.odds.title import PlaceOdds, TitleOdds, title_odds
-from evenbreak.tournaments.odds.uncertain import drawn_chances, over_ratings
+from evenbreak.tournaments.odds.uncertain import (
+    drawn_chances,
+    drawn_ratings,
+    over_ratings,
+    title_bands,
+)
 from evenbreak.words import Sentence, joined, say
 
 Bands: TypeAlias = Mapping[str, tuple[float, float]]
@@ -369,16 +374,25 @@ def solved(tournament: Tournament, *, sure: bool, walkovers: float, seed: int) -
         both = over_ratings(bracket, win_of, *tournament.skills, **asked)
         if not tournament.unrated:
             return Solved(both.as_if_sure, both.averaged)
-        seats = {name: bracket.players.index(name) for name in tournament.unrated}
-        bands = {name: (both.bands[k, 0], both.bands[k, 1]) for name, k in seats.items()}
-        return Solved(title_odds(bracket, tournament.laws, **asked), both.averaged, bands)
+        sure_odds = title_odds(bracket, tournament.laws, **asked)
+        return Solved(sure_odds, both.averaged, _of_unrated(tournament, both.bands))
     plug_in = _drawn_later(tournament, tournament.laws, asked)
     if not uncertain:
         return Solved(plug_in, plug_in)
     if tournament.to_draw == "qualifiers":
-        return Solved(plug_in, _redrawn(tournament, win_of, asked))
-    every = drawn_chances(bracket, win_of, *tournament.skills, samples=_RATINGS, **asked)
-    return Solved(plug_in, _drawn_later(tournament, every, {**asked, "walkovers": 0.0}))
+        return Solved(plug_in, *_redrawn(tournament, win_of, asked))
+    drawn = drawn_ratings(*tournament.skills, _RATINGS // 2, asked["rng"])
+    every = drawn_chances(bracket, win_of, drawn, walkovers=walkovers)
+    odds = _drawn_later(tournament, every, {**asked, "walkovers": 0.0})
+    assert odds.by_draw is not None  # noqa: S101  the ratings were drawn
+    bands = title_bands(odds.by_draw, drawn)
+    return Solved(plug_in, odds, _of_unrated(tournament, bands))
+
+
+def _of_unrated(tournament: Tournament, bands: Floats) -> Bands:
+    """Return the bands of the players without a rating."""
+    seats = {name: tournament.bracket.players.index(name) for name in tournament.unrated}
+    return {name: (bands[k, 0], bands[k, 1]) for name, k in seats.items()}
 
 
 def _drawn_later(tournament: Tournament, win: Wins, asked: Any) -> PlaceOdds:
@@ -394,16 +408,18 @@ def _drawn_later(tournament: Tournament, win: Wins, asked: Any) -> PlaceOdds:
     return swiss_odds(swiss(bracket.players, rounds), table, rng=asked["rng"])
 
 
-def _redrawn(tournament: Tournament, win_of: Any, asked: Any) -> PlaceOdds:
+def _redrawn(tournament: Tournament, win_of: Any, asked: Any) -> tuple[PlaceOdds, Bands]:
     """Return the odds averaged over the ratings and over some redraws."""
     bracket = tournament.bracket
     qualifiers = losers_qualifiers(bracket)
-    laws = []
+    laws, bands = [], []
     for _ in range(_REDRAWS):
         order = [qualifiers[k] for k in asked["rng"].permutation(len(qualifiers)).tolist()]
         skills = tournament.skills
         both = over_ratings(redrawn(bracket, order), win_of, *skills, samples=100, **asked)
         laws.append(both.averaged.p_place)
+        bands.append(both.bands)
     # How the redraws differ holds both kinds of luck: theirs, and that of the ratings within each.
     error = np.std(laws, axis=0, ddof=1) / np.sqrt(_REDRAWS)
-    return PlaceOdds(bracket, np.mean(laws, axis=0), error, 100 * _REDRAWS)
+    odds = PlaceOdds(bracket, np.mean(laws, axis=0), error, 100 * _REDRAWS)
+    return odds, _of_unrated(tournament, np.mean(bands, axis=0))

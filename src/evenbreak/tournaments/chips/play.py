@@ -39,6 +39,8 @@ class ChipOdds:
         how many tournaments were played.
     lengths
         how long each tournament lasts, if all racks last equally long: in racks one after another.
+    by_sample
+        P(each player wins) by each sample of the ratings, a column each.
     """
 
     p_place: Floats
@@ -46,6 +48,7 @@ class ChipOdds:
     racks_mean: float
     runs: int
     lengths: Floats
+    by_sample: Floats
 
     @property
     def title(self) -> Floats:
@@ -114,7 +117,8 @@ def play_chips(
         room.play_out()
     while room.running.size:
         room.rack()
-    return ChipOdds(*room.places(), float(room.racks) / runs, runs, room.lengths)
+    law, error, won = room.places()
+    return ChipOdds(law, error, float(room.racks) / runs, runs, room.lengths, won)
 
 
 def tables_in_use(left: int, tables: int) -> int:
@@ -190,8 +194,8 @@ class _Room:
         if out.any():
             self.running = run[self.left[run] > self.last]
 
-    def places(self) -> tuple[Floats, Floats]:
-        """Return P(each player has each place), and the standard errors."""
+    def places(self) -> tuple[Floats, Floats, Floats]:
+        """Return P(each player has each place), the errors, and P(win) by sample of the ratings."""
         count = self.chips.shape[1]
         law = np.zeros((count, count))
         squares = np.zeros((count, count))
@@ -199,13 +203,17 @@ class _Room:
             law[:, place - 1] = squares[:, place - 1] = (self.place == place).sum(axis=0)
         if self.last == 1:
             law[:, 0] = squares[:, 0] = (self.place == 0).sum(axis=0)
+            won = (self.place == 0).astype(float)
         else:
-            self._heads_up(law, squares)
+            won = self._heads_up(law, squares)
+        samples = min(len(self.table), self.runs)
+        by_sample = np.stack([won[k :: len(self.table)].mean(axis=0) for k in range(samples)], 1)
         law, squares = law / self.runs, squares / self.runs
         error = np.sqrt(np.maximum(squares - law**2, 0.0) / self.runs)
-        return law, error
+        return law, error, by_sample
 
-    def _heads_up(self, law: Floats, squares: Floats) -> None:
+    def _heads_up(self, law: Floats, squares: Floats) -> Floats:
+        """Add the last two to the places; return P(each player wins) in each run."""
         rows = np.arange(self.runs)
         last = np.argsort(self.place, axis=1, kind="stable")[:, :2]  # the two without a place
         one, other = last[:, 0], last[:, 1]
@@ -218,6 +226,9 @@ class _Room:
             for place, share in ((0, chance), (1, 1.0 - chance)):
                 law[:, place] += np.bincount(player, share, len(law))
                 squares[:, place] += np.bincount(player, share**2, len(law))
+        won = np.zeros(self.place.shape)
+        won[rows, one], won[rows, other] = p, 1.0 - p
+        return won
 
     def _wait(self, run: Ints, player: Ints) -> None:
         """Send players to the end of the line."""

@@ -24,11 +24,16 @@ _EXACT = 4  # players at most whose odds are exact
 _CELLS, _FEWEST, _MOST = 4e6, 200, 2_000  # draws of the skills
 
 
-def drawn_racks(state: Evening, skills: Floats, covariance: Floats) -> Floats:
-    """Return P(i beats j in a rack) by many draws of the players' skills, the third axis."""
+def drawn_skills(skills: Floats, covariance: Floats) -> Floats:
+    """Return many draws of the players' skills, a row each."""
     count = int(np.clip(_CELLS / len(skills) ** 2, _FEWEST, _MOST))
-    drawn = drawn_ratings(skills, covariance, count // 2, np.random.default_rng(0)).T
-    return np.asarray(state.scale.win_probability(drawn[:, None] - drawn))
+    return drawn_ratings(skills, covariance, count // 2, np.random.default_rng(0))
+
+
+def drawn_racks(state: Evening, drawn: Floats) -> Floats:
+    """Return P(i beats j in a rack) by each draw of the players' skills, the third axis."""
+    each = drawn.T
+    return np.asarray(state.scale.win_probability(each[:, None] - each))
 
 
 def chip_odds(state: Evening, win: Floats) -> PlaceOdds:
@@ -45,6 +50,7 @@ def chip_odds(state: Evening, win: Floats) -> PlaceOdds:
     night = state.chip_night
     count, left = len(night.chips), len(night.order)
     law, error, runs = np.zeros((count, count)), np.zeros((count, count)), 0
+    by_draw = None
     seat = {name: k for k, name in enumerate(state.order)}
     for place, name in enumerate(reversed(night.gone), left):
         law[seat[name], place] = 1.0
@@ -57,8 +63,10 @@ def chip_odds(state: Evening, win: Floats) -> PlaceOdds:
             played = _played(state, win)
             found, runs = played.p_place, played.runs
             error[np.ix_(still, range(left))] = played.error
+            by_draw = np.zeros((count, played.by_sample.shape[1]))
+            by_draw[still] = played.by_sample
         law[np.ix_(still, range(left))] = found
-    return PlaceOdds(state.bracket, law, error, runs)
+    return PlaceOdds(state.bracket, law, error, runs, by_draw=by_draw)
 
 
 def _exactly(night: ChipNight, win: Floats) -> Floats | None:

@@ -22,7 +22,12 @@ from evenbreak.tournaments.clock.evenings import InPlay
 from evenbreak.tournaments.clock.event_pace import Timed, event_pace, learned_pace
 from evenbreak.tournaments.clock.finish import Call, Finish, finish
 from evenbreak.tournaments.clock.shared_tables import SharedTables
-from evenbreak.tournaments.evening.chip_outlook import chip_minutes, chip_odds, drawn_racks
+from evenbreak.tournaments.evening.chip_outlook import (
+    chip_minutes,
+    chip_odds,
+    drawn_racks,
+    drawn_skills,
+)
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import stage_to_draw
@@ -40,11 +45,18 @@ from evenbreak.tournaments.odds.races import (
     race_chance,
 )
 from evenbreak.tournaments.odds.title import PlaceOdds, title_odds
-from evenbreak.tournaments.odds.uncertain import UncertainOdds, drawn_chances, over_ratings
+from evenbreak.tournaments.odds.uncertain import (
+    UncertainOdds,
+    drawn_chances,
+    drawn_ratings,
+    over_ratings,
+    title_bands,
+)
 
 _REDRAWS = 6  # of the qualifiers, if there are more ways than 24
 _SWISSES = 600  # are played out
 _RATINGS = 200  # draws of the ratings among them
+_TAIL = 1.2816  # standard errors from the middle: the tenth and the ninetieth percentile
 
 
 class _InScore(NamedTuple):
@@ -163,24 +175,35 @@ class Outlook:
         if state.plan.form == "chips":
             return chip_odds(state, rack_chances(state.ratings, scale=state.scale))
         if stage_to_draw(state) is not None:
-            return redraw_odds(state.whole, chances, results=state.results, samples=_REDRAWS)
+            return self._redraw_odds()
         return title_odds(state.bracket, chances, results=state.results, rng=rng)
 
     @cached_property
     def odds(self) -> PlaceOdds:
         """The odds from here on, averaged over how far off the ratings may be."""
-        if not self.errors.any() or not self.state.standing.to_play:
+        if not self._is_open:
             return self.as_if_sure
         state = self.state
         if state.plan.form == "chips":
-            return chip_odds(state, drawn_racks(state, *self.skills))
+            return chip_odds(state, drawn_racks(state, self._drawn))
         if state.plan.form == "swiss":
-            asked = state.whole, self.chances, *self.skills
-            rng = np.random.default_rng(0)
-            return self._swiss_odds(drawn_chances(*asked, samples=_RATINGS, rng=rng))
+            return self._swiss_odds(drawn_chances(state.whole, self.chances, self._drawn))
         if stage_to_draw(state) is not None:
             return self.as_if_sure
         return self._over_ratings.averaged
+
+    @property
+    def _is_open(self) -> bool:
+        """Whether something is left to play, among players whose ratings may be off."""
+        to_come = bool(self.state.standing.to_play) or stage_to_draw(self.state) is not None
+        return to_come and bool(self.errors.any())
+
+    @cached_property
+    def _drawn(self) -> Floats:
+        """What the skills may be, a row each, where the rest of the evening is simulated."""
+        if self.state.plan.form == "chips":
+            return drawn_skills(*self.skills)
+        return drawn_ratings(*self.skills, _RATINGS // 2, np.random.default_rng(0))
 
     @cached_property
     def skills(self) -> tuple[Floats, Floats]:
@@ -195,18 +218,36 @@ class Outlook:
         state = self.state
         return over_ratings(state.bracket, self.chances, *self.skills, results=state.results)
 
-    @property
+    @cached_property
     def bands(self) -> dict[str, tuple[float, float]]:
         """The title odds of each unrated player if they are weak, or strong.
 
-        See `UncertainOdds.bands`; nothing where the odds are not averaged like that.
+        See `UncertainOdds.bands`. Where qualifiers are still to be drawn, all without a rating are
+        weak, or strong, together.
         """
         state = self.state
-        simple = state.plan.form not in ("swiss", "chips") and stage_to_draw(state) is None
-        if not (simple and state.unrated and self.errors.any() and state.standing.to_play):
+        if not (state.unrated and self._is_open):
             return {}
-        every = zip(state.order, self._over_ratings.bands.tolist(), strict=True)
+        if state.plan.form in ("swiss", "chips"):
+            by_draw = self.odds.by_draw
+            assert by_draw is not None  # noqa: S101  the ratings were drawn
+            found = title_bands(by_draw, self._drawn)
+        elif stage_to_draw(state) is not None:
+            found = np.stack([self._redraw_odds(tail).title for tail in (-_TAIL, _TAIL)], axis=1)
+        else:
+            found = self._over_ratings.bands
+        every = zip(state.order, found.tolist(), strict=True)
         return {name: (low, high) for name, (low, high) in every if name in state.unrated}
+
+    def _redraw_odds(self, tail: float = 0.0) -> PlaceOdds:
+        """Return the odds if those without a rating are so many standard errors better."""
+        state = self.state
+        mean, covariance = self.skills if tail else (state.ratings, np.zeros((1, 1)))
+        new = np.array([name in state.unrated for name in state.order])
+        skills = mean + tail * new * np.sqrt(np.diag(covariance))
+        return redraw_odds(
+            state.whole, self.chances(skills), results=state.results, samples=_REDRAWS
+        )
 
     def _swiss_odds(self, chances: Mapping[str, Floats]) -> PlaceOdds:
         state = self.state

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from evenbreak.arrays import Floats, Ints
 from evenbreak.checks import floats, whole
 from evenbreak.errors import InputError
-from evenbreak.tournaments.brackets.bracket import Bracket
+from evenbreak.tournaments.brackets.bracket import Bracket, Place
 from evenbreak.tournaments.brackets.double import losers_qualifiers, redrawn
 from evenbreak.tournaments.brackets.standing import Results, standing
 from evenbreak.tournaments.brackets.swiss import (
@@ -145,7 +145,7 @@ def swiss_odds(
     rng = rng or np.random.default_rng(0)
     quick = replace(event, system="casual")
     seat = {player: k for k, player in enumerate(event.players)}
-    law = np.zeros((count, count))
+    law, won = np.zeros((count, count)), np.zeros((count, min(many, len(tables))))
     for run in range(many):
         chances = tables[run % len(tables)]
         rounds = [list(pairings) for pairings in complete]
@@ -159,9 +159,10 @@ def swiss_odds(
         order = sorted(rows, key=lambda row: (-row.score, -row.buchholz, lots[seat[row.player]]))
         for place, row in enumerate(order):
             law[seat[row.player], place] += 1.0 / many
-    return PlaceOdds(
-        swiss_bracket(event), law, np.sqrt(np.maximum(law * (1.0 - law), 0.0) / many), many
-    )
+        won[seat[order[0].player], run % len(tables)] += 1.0
+    error = np.sqrt(np.maximum(law * (1.0 - law), 0.0) / many)
+    by_draw = won / won.sum(axis=0) if len(tables) > 1 else None
+    return PlaceOdds(swiss_bracket(event), law, error, many, by_draw=by_draw)
 
 
 def _begun(
@@ -236,7 +237,8 @@ def blind_draw_odds(
     players = np.tile(np.arange(len(bracket.players)), (many, 1))
     orders = rng.permuted(players, axis=1)
     laws = np.concatenate(list(_laws(bracket, chances, orders, rng)), axis=2)
-    return PlaceOdds(bracket, laws.mean(axis=2), error_of_pairs(laws), many)
+    title = laws[:, bracket.places.index(Place(1, 1))]
+    return PlaceOdds(bracket, laws.mean(axis=2), error_of_pairs(laws), many, by_draw=title)
 
 
 def _laws(

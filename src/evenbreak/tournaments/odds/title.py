@@ -9,7 +9,7 @@ sampled, and the rest of each sample is exact.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -57,12 +57,15 @@ class PlaceOdds:
         the standard errors of `p_place`; zeros if it is exact.
     samples
         the number of samples behind the odds; 0 if they are exact.
+    by_draw
+        P(each player wins) by each draw of the ratings, a column each; None if none were drawn.
     """
 
     bracket: Bracket
     p_place: Floats
     error: Floats
     samples: int
+    by_draw: Floats | None = field(default=None, kw_only=True)
 
     @property
     def exact(self) -> bool:

@@ -134,13 +134,21 @@ def over_ratings(
         laws, meetings = _exactly(now, plan, of_skills(drawn), 2 * pairs)
     odds = TitleOdds(bracket, laws.mean(axis=2), error_of_pairs(laws), 2 * pairs, meetings)
     title = laws[:, bracket.places.index(Place(1, 1))]
-    return UncertainOdds(odds, sure, _bands(title, drawn.T))
+    return UncertainOdds(odds, sure, title_bands(title, drawn))
 
 
-def _bands(title: Floats, drawn: Floats) -> Floats:
-    """Return the title odds where a player's own rating is low, and where it is high."""
-    fifth = max(1, drawn.shape[1] // 5)
-    by_skill = np.take_along_axis(title, np.argsort(drawn, axis=1, kind="stable"), axis=1)
+def title_bands(title: Floats, drawn: Floats) -> Floats:
+    """Return the title odds where a player's own rating is low, and where it is high.
+
+    Parameters
+    ----------
+    title
+        P(each player wins), with a column for each draw of the ratings.
+    drawn
+        the ratings, a row for each draw, as `drawn_ratings` returns them.
+    """
+    fifth = max(1, len(drawn) // 5)
+    by_skill = np.take_along_axis(title, np.argsort(drawn.T, axis=1, kind="stable"), axis=1)
     ends = by_skill[:, :fifth], by_skill[:, -fifth:]
     return np.stack([end.mean(axis=1) for end in ends], axis=1)
 
@@ -202,32 +210,27 @@ def drawn_ratings(mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Ge
 def drawn_chances(
     bracket: Bracket,
     win_of: Callable[[Floats], Wins],
-    ratings: Sequence[float] | ArrayLike,
-    spread: ArrayLike,
+    drawn: Floats,
     *,
-    samples: int,
     walkovers: float | Mapping[str, float] = 0.0,
-    rng: np.random.Generator,
 ) -> dict[str, Floats]:
     """Return the chances of each match by many draws of the ratings, which are the third axis.
 
     Parameters
     ----------
-    samples
-        how many draws: an even number.
+    drawn
+        the draws, a row each, as `drawn_ratings` returns them.
 
     The other parameters are those of `over_ratings`.
 
     >>> def by_points(ratings):
     ...     return 1.0 / (1.0 + 2.0 ** ((ratings - ratings[:, None]) / 100.0))
     >>> from evenbreak.tournaments import single_elimination
-    >>> rng, bracket = np.random.default_rng(0), single_elimination(2)
-    >>> drawn_chances(bracket, by_points, [600, 500], [30, 30], samples=4, rng=rng)["F"].shape
+    >>> drawn = drawn_ratings(np.array([600.0, 500.0]), [30, 30], 2, np.random.default_rng(0))
+    >>> drawn_chances(single_elimination(2), by_points, drawn)["F"].shape
     (2, 2, 4)
     """
     now = standing(bracket)
-    mean = column(ratings, "ratings", len(bracket.players), "players")
-    drawn = drawn_ratings(mean, spread, samples // 2, rng)
     each = (chances_of(now, win_of(row), walkovers=walkovers) for row in drawn)
     every = _stacked(each, len(drawn))
     inner: dict[int, Floats] = {}
