@@ -15,6 +15,7 @@ from evenbreak.tournaments import (
 )
 from evenbreak.tournaments.odds.cut import cut_before
 from evenbreak.tournaments.odds.planning import elimination_order, exact_plan, plan_of
+from evenbreak.tournaments.odds.sampled import slope_of
 from tournaments.fields import by_seed, one_favourite
 
 
@@ -45,6 +46,21 @@ def test_drawn_odds_are_those_that_are_exact(bracket, monkeypatch) -> None:
     assert drawn.matches_mean == pytest.approx(exact.matches_mean, abs=0.02)
     meet = drawn.expected_meetings() - exact.expected_meetings()
     assert np.abs(meet).max() < 0.06
+
+
+@pytest.mark.parametrize("tiny", [1.0, 1e-5, 1e-9, 0.0])
+def test_controls_that_repeat_each_other_or_never_vary_are_no_hindrance(tiny: float) -> None:
+    rng = np.random.default_rng(4)
+    plain = (rng.random((500, 6)) < 0.3).astype(float)
+    y = plain @ rng.random((6, 3)) + 0.1 * rng.random((500, 3))
+    more = [plain[:, :2], 1.0 - plain, np.ones((500, 2)), tiny * plain[:, :1], 0.0 * plain]
+    found = []
+    for x in (plain, np.concatenate([plain, *more], axis=1)):
+        x = x - x.mean(axis=0)
+        slope, rank = slope_of(x.T @ x, x.T @ (y - y.mean(axis=0)), 500)
+        assert rank == 6
+        found.append(x @ slope)
+    np.testing.assert_allclose(found[0], found[1], atol=1e-6)
 
 
 @pytest.mark.slow

@@ -113,7 +113,7 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
         what has been worked out, perhaps for an earlier state.
     """
     if not state.drawn:
-        return EveningView(state, _races(state), [], [], [], [], None, [], [], False)
+        return EveningView(state, _races(state), [], [], [], [], None, [], False)
     data: dict[str, Any] = known.data if known else {}
     older = known is None or known.of is not state
     called = {name: table for table, name in known.calls} if known and not older else {}

@@ -383,10 +383,10 @@ def solved(tournament: Tournament, *, sure: bool, walkovers: float, seed: int) -
         return Solved(plug_in, *_redrawn(tournament, win_of, asked))
     drawn = drawn_ratings(*tournament.skills, _RATINGS // 2, asked["rng"])
     every = drawn_chances(bracket, win_of, drawn, walkovers=walkovers)
-    odds = _drawn_later(tournament, every, {**asked, "walkovers": 0.0})
-    assert odds.by_draw is not None  # noqa: S101  the ratings were drawn
-    bands = title_bands(odds.by_draw, drawn)
-    return Solved(plug_in, odds, _of_unrated(tournament, bands))
+    averaged = _drawn_later(tournament, every, {**asked, "walkovers": 0.0})
+    assert averaged.by_draw is not None  # noqa: S101  the ratings were drawn
+    bands = title_bands(averaged.by_draw, drawn)
+    return Solved(plug_in, averaged, _of_unrated(tournament, bands))
 
 
 def _of_unrated(tournament: Tournament, bands: Floats) -> Bands:

@@ -339,15 +339,40 @@ class Controls:
         if self.expected.size:
             centred = self.squares - self.samples * np.outer(x.mean(axis=0), x.mean(axis=0))
             joint = self.products - self.samples * np.outer(x.mean(axis=0), y.mean(axis=0))
-            slope, _, rank, _ = np.linalg.lstsq(centred, joint, rcond=1e-9)
+            slope, rank = slope_of(centred, joint, self.samples)
             y = y - x @ slope
             # Controls explain some of the noise by chance.
-            spread = 1.0 / np.sqrt(max(1.0 - int(rank) / self.samples, 0.1))
+            spread = 1.0 / np.sqrt(max(1.0 - rank / self.samples, 0.1))
         else:
             spread = 1.0
         error: Floats = spread * y.std(axis=0, ddof=1) / np.sqrt(len(y))
         mean: Floats = np.clip(y.mean(axis=0), 0.0, 1.0)
         return mean, error
+
+
+def slope_of(centred: Floats, joint: Floats, samples: int) -> tuple[Floats, int]:
+    """Return the regression of Y on the controls X, and how many of these say something new.
+
+    Controls that repeat others, or never vary, are no hindrance: the columns are scaled, and
+    solved by a QR factorization with pivots, which needs no iteration that could fail to converge.
+
+    Parameters
+    ----------
+    centred, joint
+        the sums of squares and products of X - mean X with itself, and with Y - mean Y.
+    samples
+        how many were summed.
+    """
+    from scipy.linalg import lstsq
+
+    squares = np.diag(centred)
+    varies = squares > 1e-12 * samples
+    scale = np.sqrt(squares[varies])
+    inner = centred[np.ix_(varies, varies)] / np.outer(scale, scale)
+    found, _, rank, _ = lstsq(inner, joint[varies] / scale[:, None], 1e-9, lapack_driver="gelsy")
+    slope = np.zeros_like(joint)
+    slope[varies] = found / scale[:, None]
+    return slope, int(rank)
 
 
 def controls_of(
