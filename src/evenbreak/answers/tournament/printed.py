@@ -17,8 +17,8 @@ from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.matches import played_matches
 from evenbreak.tournaments.evening.moves import known_match
-from evenbreak.tournaments.evening.outlook import played_matches
 from evenbreak.words import Sentence, say
 
 
@@ -212,7 +212,7 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
     """
     columns = columns_of("date event match pair score_pair race_pair winner forfeit")
     rows = []
-    for result, at in sorted(played_matches(state), key=lambda one: one.at):
+    for result, at in sorted(played_matches(state.records), key=lambda one: one.at):
         score = None if result.forfeit else result.score
         needs = state.needed(result.match, result.players)
         ended = score is None or (score[0] == needs[0]) != (score[1] == needs[1])

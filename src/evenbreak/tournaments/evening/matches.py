@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple, TypeAlias
 
@@ -28,6 +28,16 @@ class Played(NamedTuple):
 
     result: Result
     at: str
+
+
+def played_matches(records: Mapping[str, Sequence[Played]]) -> list[Played]:
+    """Return the last result of each two players in each match, those set aside among them."""
+    found = {
+        (name, frozenset(one.result.players)): one
+        for name, played in records.items()
+        for one in played
+    }
+    return list(found.values())
 
 
 class OnTable(NamedTuple):

@@ -31,7 +31,7 @@ from evenbreak.tournaments.evening.chip_outlook import (
 from evenbreak.tournaments.evening.events import Called, Drawn, Result, Scored
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import stage_to_draw
-from evenbreak.tournaments.evening.matches import Played
+from evenbreak.tournaments.evening.matches import played_matches
 from evenbreak.tournaments.evening.plan import pairings, swiss_of
 from evenbreak.tournaments.evening.skills import Games, skills_before, skills_tonight
 from evenbreak.tournaments.odds.draws import redraw_odds, swiss_odds
@@ -318,7 +318,9 @@ class Outlook:
         """The games that were played tonight, those of matches in play with them."""
         state = self.state
         everything: list[Result | Scored] = [one.what for one in state.live.values()]
-        everything += [one.result for one in played_matches(state) if not one.result.forfeit]
+        everything += [
+            one.result for one in played_matches(state.records) if not one.result.forfeit
+        ]
         seat = state.order.index
         return [
             Games(seat(what.players[0]), seat(what.players[1]), *what.score) for what in everything
@@ -494,13 +496,3 @@ class Outlook:
             if minutes >= 1.0:  # shorter ones were typed in afterwards
                 found.append(Timed(sum(result.score), minutes))
         return found
-
-
-def played_matches(state: Evening) -> list[Played]:
-    """Return the last result of each two players in each match, those set aside among them."""
-    found = {
-        (name, frozenset(one.result.players)): one
-        for name, played in state.records.items()
-        for one in played
-    }
-    return list(found.values())
