@@ -258,7 +258,7 @@ def test_another_tournament_takes_the_place_of_the_first(hall: Hall, tmp_path: P
 def test_the_desk_changes_tables_and_races(hall: Hall) -> None:
     hall.director.send("/desk/call", match="W1.1", table=1)
     shown = hall.director.send("/desk/change", tables=3, race=2)
-    assert "3 tables. Races to 2" in shown.words
+    assert "3 tables: 1, 2, 3. Races to 2" in shown.words
     assert hall.state.plan.tables == 3
     assert hall.state.needed("W1.1", hall.state.pair("W1.1")) == (3, 3)
     assert hall.state.needed("W1.2", hall.state.pair("W1.2")) == (2, 2)

@@ -130,7 +130,7 @@ def test_the_language_is_chosen_where_the_reader_is(standing_hall: Hall) -> None
     asked = {"a": "600", "b": "500", "race": "9"}
     phone = Phone(standing_hall.site)
     back = unescape(phone.open("/fair", **asked).text.split('name="back" value="')[1].split('"')[0])
-    assert "9:" in phone.send("/language", language="de", back=back).words
+    assert "9-" in phone.send("/language", language="de", back=back).words
     refused = phone.send("/desk/undo").text
     back = refused.split('name="back" value="')[1].split('"')[0]
     assert phone.send("/language", language="en", back=back).status == 200
@@ -176,7 +176,7 @@ def test_a_hostile_workbook_ends_no_server(hall: Hall, make: Make) -> None:
     content = make(random.Random(5))
     shown = hall.director.send_files("/new", {"file": content}, entrants="", format="double")
     assert shown.status == 400
-    assert len(shown.text) < 20_000
+    assert len(shown.text) < len(hall.director.open("/new").text) + 2000
     assert str(hall.site.path.parent) not in shown.words
     assert hall.guest.open("/").status == 200
 

@@ -39,8 +39,8 @@ class Hall:
         self.room = Room(Site(path, hosts=frozenset({"localhost"})))
         self.path, site = path, self.room.site
         self.director = Browser(self.room, director=True)
-        for where, fields in (("/new", NEW), ("/desk/draw", {}), ("/team/new", TEAMS)):
-            assert self.director.send(where, **fields).status == 303
+        self.begins()
+        assert self.director.send("/team/new", **TEAMS).status == 303
         (began,) = re.findall(r'name="night" value="(\d+)"', self.director.open("/team").text)[:1]
         self.night = int(began)
         self.pair = site.night.state().pair("W1.1")
@@ -53,9 +53,20 @@ class Hall:
         for side, browser in enumerate(self.players):
             assert browser.claims(self.pair[side]).status == 303
 
+    def begins(self) -> None:
+        """Begin a tournament, if there is none."""
+        if not self.room.site.night.exists:
+            for where, fields in (("/new", NEW), ("/desk/draw", {})):
+                assert self.director.send(where, **fields).status == 303
+
     def entries(self) -> tuple[int, int, int]:
         """Return how many entries there are: of the tournament, the team night, the phones."""
-        files = read_events(self.path), read_team_events(self.path), phone_entries(self.path)
+        there = self.room.site.night.exists
+        files = (
+            read_events(self.path) if there else [],
+            read_team_events(self.path),
+            phone_entries(self.path),
+        )
         return len(files[0]), len(files[1]), len(files[2])
 
     def forms(self) -> dict[str, tuple[Browser, str, dict[str, Any]]]:
@@ -98,6 +109,7 @@ class Hall:
                 ("pin", director, "/desk/pin", {}),
                 ("prizes", director, "/prizes", {"fee": 10, "added": 0, "payout": "60/40"}),
                 ("new", director, "/new", NEW),
+                ("delete", director, "/desk/delete", {"sure": "yes"}),
                 ("team new", director, "/team/new", {**TEAMS, "team_a": "Others"}),
                 ("team undo", director, "/team/undo", {"seen": len(read_team_events(self.path))}),
                 ("hand", self.captains[0], "/team/hand", {**night, "by": 0, **picks}),
@@ -110,6 +122,7 @@ class Hall:
                 ("agree", self.players[1], "/me/score", {**tap, "a": 3, "b": 1}),
                 ("take back", self.players[1], "/me/withdraw", {"match": "W1.1"}),
                 ("coming", self.players[1], "/me/coming", {"match": "W1.1", "minutes": 5}),
+                ("register", self.players[1], "/play", {"name": "Zoe"}),
                 ("claim", self.players[0], "/me/claim", {"name": self.pair[0]}),
                 ("code", self.players[0], "/me/code", {"code": site.player_code(self.pair[0])}),
                 ("leave", self.players[0], "/me/leave", {}),
@@ -152,6 +165,7 @@ def test_a_form_is_entered_once_however_often_it_comes_in(hall: Hall, seed: int)
     luck = random.Random(seed)
     sent: list[tuple[Browser, str, dict[str, Any]]] = []
     for number in range(14):
+        hall.begins()
         name, (browser, path, fields) = luck.choice(list(hall.forms().items()))
         form = {**browser.hidden(), **fields, "once": f"{seed} {number}"}
         before = hall.entries()

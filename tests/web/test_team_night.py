@@ -602,7 +602,7 @@ def test_players_without_a_rating_have_that_of_the_league(tmp_path: Path) -> Non
         assert site.league.sheet is not None
         teams = {"players_a": "Ann\nBo\nNew", "players_b": "Uli,,5\nvic,555,4"}
         shown = director.send("/team/new", **fields(**teams))
-        assert shown.status == 200
+        assert shown.status == 200, shown.words
         assert "1 player without a rating (New)" in shown.words
         now = site.teams._now()
         assert now is not None

@@ -35,7 +35,6 @@ MAY = {
                 "GET /league/sheet.html",
                 "GET /league/sheet.xlsx",
                 "GET /screen",
-                "GET /wall.css",
                 "GET /fair",
             ),
             *("GET /pin", "GET /evenbreak.css", "GET /events", "GET /team"),

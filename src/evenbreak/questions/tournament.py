@@ -43,6 +43,7 @@ class NewTournament(TournamentPlan, Starters):
         Field(
             File("FILE.db"),
             "As that tournament was: the same options and, without a list, the same people.",
+            rare=True,
         ),
     ] = None
     tables: NamedTables = _FOUR
@@ -57,7 +58,11 @@ class NewTournament(TournamentPlan, Starters):
     ] = "tonight.db"
     beside: Annotated[
         bool,
-        Field(Flag(), "Begin it beside the one that is under way in {out}, on the same tables."),
+        Field(
+            Flag(),
+            "Begin it beside the one that is under way in {out}, on the same tables.",
+            rare=True,
+        ),
     ] = False
     at: At = None
 

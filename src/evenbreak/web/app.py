@@ -29,7 +29,7 @@ from evenbreak.errors import EvenbreakError
 from evenbreak.files.store.log import TakenBeforeError
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import Guard, RefusalError
-from evenbreak.web.page import begun_at, done, packed_style, refused, script_hash, site_of, style
+from evenbreak.web.page import begun_at, done, refused, script_hash, site_of, style
 from evenbreak.web.pages import (
     bracket,
     check_in,
@@ -97,7 +97,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
         middleware=[
             Middleware(Guard, hosts=site.hosts, script_hash=script_hash()),
             # A third of the bytes over a bar's Wi-Fi; the stream of events it leaves alone.
-            Middleware(GZipMiddleware, minimum_size=1000, compresslevel=4),
+            Middleware(GZipMiddleware, minimum_size=5000, compresslevel=4),
             Middleware(
                 SessionMiddleware,
                 secret_key=site.cookie_key,
@@ -131,11 +131,8 @@ def cookie_name(site: Site) -> str:
 async def _style(request: Request) -> Response:
     kept = {"cache-control": "max-age=31536000, immutable"}  # another style has another address
     whose = next((one for one in ("guest", "wall") if one in request.query_params), "director")
-    color = site_of(request).color
-    if "gzip" not in request.headers.get("accept-encoding", ""):
-        return PlainTextResponse(style(color, whose), media_type="text/css", headers=kept)
-    packed = {**kept, "content-encoding": "gzip", "vary": "accept-encoding"}
-    return Response(packed_style(color, whose), media_type="text/css", headers=packed)
+    text = style(site_of(request).color, whose)
+    return PlainTextResponse(text, media_type="text/css", headers=kept)
 
 
 async def _refused(request: Request, error: Exception) -> Response:

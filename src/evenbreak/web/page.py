@@ -7,7 +7,6 @@ no folder.
 from __future__ import annotations
 
 import base64
-import gzip
 import hashlib
 import json
 import os
@@ -45,7 +44,6 @@ _LANGUAGE = "language"
 _SAID = "said"
 _CSRF, _ONCE = (f"mark-{secrets.token_hex(12)}" for _ in range(2))
 """What stands in a rendered page for the marks of its reader's forms."""
-_LARGE = 20_000  # letters
 _MOST_SAID = 1500  # letters as JSON writes them: a cookie holds 4 KB
 
 FIELDS = {
@@ -133,12 +131,6 @@ def _short(text: str) -> str:
 
 
 @cache
-def packed_style(color: str | None = None, whose: str = "director") -> bytes:
-    """Return the same style a quarter as large, as browsers take it."""
-    return gzip.compress(style(color, whose).encode(), mtime=0)
-
-
-@cache
 def style_address(color: str | None, whose: str = "director") -> str:
     """Return where the style is: elsewhere after each change, so that phones may keep it."""
     return f"/evenbreak.css?{whose}={hashlib.sha256(style(color, whose).encode()).hexdigest()[:8]}"
@@ -221,7 +213,7 @@ def page(
     key = (template, asked, code, is_director(request), live, quick, site.clock()[:16])
     rendered = site.rendered_of(of) if of and not said else {}
     if key in rendered:
-        return _sent(request, _with(rendered[key], own), status)
+        return HTMLResponse(_with(rendered[key], own), status_code=status)
 
     whose = "director" if is_director(request) else "guest"
     whose = "wall" if request.url.path == "/screen" else whose
@@ -263,15 +255,7 @@ def page(
         )
     )
     rendered[key] = shown
-    return _sent(request, _with(shown, own), status)
-
-
-def _sent(request: Request, shown: str, status: int) -> Response:
-    """Return a page as it is sent: a large one packed, for the air of a full room is thin."""
-    if len(shown) < _LARGE or "gzip" not in request.headers.get("accept-encoding", ""):
-        return HTMLResponse(shown, status_code=status)
-    packed = {"content-encoding": "gzip", "vary": "accept-encoding"}
-    return HTMLResponse(gzip.compress(shown.encode(), 4), status_code=status, headers=packed)
+    return HTMLResponse(_with(shown, own), status_code=status)
 
 
 def _with(shown: str, own: Mapping[str, str]) -> str:

@@ -185,7 +185,7 @@ def test_head_starts_of_cuescore_are_taken_out(tmp_path):
     )
     assert (final.score, final.race) == ((5, 0), (5, 2))
     rows = tournament_matches_answer(state, "cup").to_frame().set_index("match")
-    row = rows.loc["W1.2"]
+    row = rows.loc[state.number_of("W1.2")]
     assert [row[key] for key in ("score_a", "score_b", "race_a", "race_b")] == [4, 3, 5, 3]
     assert moves.correct(state, "W1.2", (5, 2)).winner == second.players[0]
 

@@ -142,6 +142,20 @@ def test_a_list_of_one_form_is_read_as_it_was_meant(tmp_path: Path, seed: int) -
     assert not file.warnings
 
 
+@pytest.mark.parametrize("sign", [",", ";", "\t", " | "])
+def test_two_numbers_behind_a_name_are_its_rating_and_its_level(sign: str) -> None:
+    rows = list(
+        itertools.product(("Ann", "Bo B.", "Player 7"), ("612", "545.5", ""), ("6", "6.5", ""))
+    )
+    lines = [sign.join((f"{name} {chr(97 + k)}", *cells)) for k, (name, *cells) in enumerate(rows)]
+    read = readings(lines, 2)
+    assert [one.doubt for one in read] == [""] * len(rows)
+    for one, (name, *cells) in zip(read, rows, strict=True):
+        (player,) = one.players
+        assert player.name.startswith(name)
+        assert [*player.cells, "", ""][:2] == cells
+
+
 @pytest.mark.parametrize("seed", range(TRIES))
 def test_a_line_of_a_mixed_list_is_read_right_or_doubted(tmp_path: Path, seed: int) -> None:
     rng = np.random.default_rng(1000 + seed)

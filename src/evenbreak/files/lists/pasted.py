@@ -160,7 +160,7 @@ class _Parts:
 
 
 def _value(cell: str) -> float:
-    return float(cell.replace(",", "."))
+    return float(cell.replace(",", ".") or 0.0)
 
 
 def _stem(name: str) -> str:
@@ -227,6 +227,10 @@ def _apart(text: str, most: int) -> tuple[str, tuple[str, ...], str]:
     text = _AROUND.sub("", text.strip())
     if none := _NO_RATING.fullmatch(text):
         return none[1], (), "none"
+    for separator in "\t;|," if most > 1 else "":
+        name, *columns = (cell.strip() for cell in text.split(separator))
+        if 1 < len(columns) <= most and all(re.fullmatch(rf"(?:{_ONE})?", one) for one in columns):
+            return name, tuple(columns), "|"
     cells: list[str] = []
     sign = ""
     for _ in range(most):

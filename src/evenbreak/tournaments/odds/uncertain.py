@@ -14,7 +14,7 @@ from itertools import chain, islice
 import numpy as np
 from numpy.typing import ArrayLike
 
-from evenbreak.arrays import Floats
+from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import column, floats, whole
 from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Place
@@ -41,6 +41,7 @@ _MOST_STATES = 1e6
 _FEWEST, _MOST = 200, 2_000  # draws of the ratings
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False)
 class UncertainOdds:
     """Title odds, averaged over the ratings and as if they were sure.
