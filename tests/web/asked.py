@@ -218,6 +218,7 @@ class _Reader(HTMLParser):
         if not self.inside:
             return
         form, name = self.forms[-1], at.get("name", "")
+        form.words += f" {at.get('aria-label', '')} "
         if tag == "input" and at.get("type") == "hidden":
             form.fields.append((name, at["value"]))
         elif tag == "input" and at.get("type") in ("radio", "checkbox"):

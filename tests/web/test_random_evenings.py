@@ -12,8 +12,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from evenbreak.cli.program import program
 from evenbreak.files.store.tournament import read_events, read_tournament
+from evenbreak.tournaments.evening.events import BY_ITSELF, Called
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.night import Night
 from evenbreak.web.site import Site
@@ -32,16 +35,19 @@ ODD = ("", "x", "-1", "1e3", "²", "9" * 30, "3:2", "<b>", " 2 ")
 
 
 class Played:
-    """An evening in play: the director, two phones, and tabs that were left open."""
+    """An evening in play: a director at two servers on one file and at the command line.
+
+    And two phones, a tablet, and tabs that were left open.
+    """
 
     def __init__(self, path: Path, seed: int) -> None:
         self.luck = random.Random(seed)
         seconds = itertools.count()
         clock = lambda: f"2025-03-01T20:{(n := next(seconds)) // 60 % 60:02d}:{n % 60:02d}"  # noqa: E731
-        self.room = Room(Site(path, hosts=frozenset({"localhost"}), clock=clock))
+        hosts = frozenset({"localhost"})
+        self.room, self.other = (Room(Site(path, hosts=hosts, clock=clock)) for _ in range(2))
         self.path = path
         self.director = Browser(self.room, director=True)
-        self.phones = [Browser(self.room, address=f"10.0.0.{k}") for k in (1, 2)]
         self.stale: list[tuple[Browser, list[tuple[str, str]], Form]] = []
         self.taken: set[str] = set()
         self.last = ""
@@ -58,6 +64,13 @@ class Played:
         got = self.director.send("/new", **plan)
         assert got.status == 303, got.words
         self.about = f"seed {seed}, {form} of {size}"
+        self.phones = [Browser(self.room, address="10.0.0.1"), Browser(self.other, address="10.2")]
+        self.again = Browser(self.other, director=True)
+        self.tablet = Browser(self.room, director=True, address="10.0.0.3")
+
+    def close(self) -> None:
+        for room in (self.room, self.other):
+            room.close()
 
     @property
     def state(self) -> Evening:
@@ -80,6 +93,9 @@ class Played:
     def step(self) -> None:
         """Let somebody send a form that they see, or saw a while ago."""
         luck, before = self.luck, self.state
+        if luck.random() < 0.1:
+            self.command(before)
+            return
         if self.stale and luck.random() < 0.15:
             browser, fields, form = luck.choice(self.stale)
         else:
@@ -107,11 +123,53 @@ class Played:
                     f"/c/{self.room.site.player_code(self.luck.choice(state.pair(match)))}"
                 )
             return browser, browser.open("/me?play=1")
-        pages = ["/desk", "/desk", "/desk", "/desk/more"]
+        pages = ["/desk", "/desk", "/desk", "/desk/more", "/desk/history"]
         if state.drawn:
+            if self.luck.random() < 0.15:
+                return self.tablet, self.tablet.open(f"/table/{state.plan.tables}")
             number = self.luck.randrange(1, len(state.match_numbers) + 2)
             pages += [f"/desk?match={number}", f"/bracket?match={number}"]
-        return self.director, self.director.open(self.luck.choice(pages))
+        browser = self.luck.choice((self.director, self.director, self.again))
+        return browser, browser.open(self.luck.choice(pages))
+
+    def command(self, state: Evening) -> None:
+        """Enter something at the command line, which asks for nothing."""
+        luck, names = self.luck, list(state.entrants)
+        words = luck.choice(
+            [
+                ["draw"],
+                ["undo"],
+                ["redo"],
+                ["late", f"C{luck.randrange(20)}", "480"],
+                ["rename", luck.choice(names), f"R{luck.randrange(20)}"],
+                ["drop", luck.choice(names)],
+                ["change", "--tables", str(luck.choice((2, 3, 4)))],
+                *(
+                    [move, str(luck.randrange(1, 9)), *more]
+                    for move, more in (
+                        ("result", [luck.choice(("3:1", "2:3"))]),
+                        ("call", []),
+                        ("uncall", []),
+                        ("correct", ["1:3"]),
+                        ("wait", ["--reason", "smoking"]),
+                        ("swap-tables", [str(luck.randrange(1, 9))]),
+                    )
+                ),
+            ]
+        )
+        count = len(read_events(self.path))
+        line = ["tournament", *words, "--file", str(self.path)]
+        ran = CliRunner().invoke(program, line)
+        self.last = f"{self.about}: {' '.join(words)} -> {ran.exit_code} {ran.output[-300:]}"
+        assert ran.exit_code in (0, 1, 2, 3), (self.last, ran.exception)
+        assert ran.exit_code == 0 or len(read_events(self.path)) == count, self.last
+        self.sits_once(self.state)
+
+    def sits_once(self, state: Evening) -> None:
+        """Look whether each table has one match, and each player one table."""
+        on = state.on_tables.values() if state.drawn else ()
+        taken = [one for each in on for one in (each.call.table, *each.call.players)]
+        assert len(taken) == len(set(taken)), (self.last, taken)
 
     def chosen(self, shown: list[Form]) -> Form:
         """Choose results more often than anything else."""
@@ -121,9 +179,11 @@ class Played:
 
     def sent(self, browser: Browser, fields: list[tuple[str, str]], form: Form) -> Form | None:
         """Send a form and look at what became of it; return the question that it is asked."""
-        before, count = self.state, len(read_events(self.path))
+        before, earlier = self.state, read_events(self.path)
+        count = len(earlier)
         got = browser.ask("POST", form.action, fields)
         after = self.state
+        assert read_events(self.path)[:count] == earlier  # of what was entered nothing changes
         said = f"{self.about}: {form.action} {fields[2:]} -> {got.status} {got.words[-300:]}"
         assert got.status in (200, 303, 400, 403, 404, 409, 429), said
         if got.status != 303:
@@ -133,7 +193,9 @@ class Played:
             assert question is not None, said
             question.words += got.words
         named = " ".join([form.words, *(value for _, value in fields)])
-        for match in lost(before, after):
+        self.last = said
+        self.sits_once(after)
+        for match in lost(before, after) - called_with(before, after):
             known = {match, str(before.match_words(match))}
             assert any(one in named for one in known), f"{said}: lost {known}"
         entered, key = dict(fields), repr(sorted(fields))
@@ -150,14 +212,17 @@ class Played:
                 assert score == (int(entered["a"]), int(entered["b"])), said
         if got.status == 303:
             self.taken.add(key)
-        self.last = said
         return question if got.status == 200 else None
 
     def look(self) -> None:
         """Compare what the pages show with the file."""
         state = self.state
-        again = Site(self.path).night.state()
-        assert again.events == state.events
+        for other in (self.room.site, self.other.site, Site(self.path)):
+            there = other.night.state()
+            assert there.log == state.log, self.last
+            if state.drawn:
+                assert there.counted == state.counted, self.last
+                assert there.on_tables == state.on_tables, self.last
         history = self.director.open("/desk/history")
         assert history.status == 200
         for page in ("/", "/players", "/screen", "/bracket", "/desk/codes", "/prizes?fee=10"):
@@ -191,18 +256,39 @@ def lost(before: Evening, after: Evening) -> set[str]:
         return set()
     then = dict(played(before))
     now = dict(played(after)) if after.drawn else {}
-    gone = {n for n, one in then.items() if n not in now or now[n].games != one.games}
+    names = {who: name for name, who in after.entries.items()}
+    names = {name: names.get(who, name) for name, who in before.entries.items()}
+
+    def called(games: dict[str, int]) -> dict[str, int]:
+        return {names.get(name, name): won for name, won in games.items()}
+
+    gone = {n for n, one in then.items() if n not in now or now[n].games != called(one.games)}
     if before.plan.form == "chips":  # racks have no score, and a table takes the next in the queue
         return gone
     on, live = (after.on_tables, after.live) if after.drawn else ({}, {})
     for name, one in before.on_tables.items():
-        if name not in on and not (name in now and set(now[name].players) == set(one.call.players)):
+        ended = name in now and set(now[name].players) == {
+            *called(dict.fromkeys(one.call.players, 0))
+        }
+        if name not in on and not ended:
             gone.add(name)
     for name, score in before.live.items():
-        ended = name in now and set(now[name].players) == set(score.what.players)
+        pair = {*called(dict.fromkeys(score.what.players, 0))}
+        ended = name in now and set(now[name].players) == pair
         if any(score.what.score) and name not in live and not ended:
             gone.add(name)
     return gone
+
+
+def called_with(before: Evening, after: Evening) -> set[str]:
+    """Return the matches that were called with a result that is taken back: that is told."""
+    gone = [
+        event
+        for number, event in zip(before.numbers, before.events, strict=True)
+        if number not in after.numbers
+    ]
+    calls = [one.what for one in gone if isinstance(one.what, Called) and one.by == BY_ITSELF]
+    return {call.match for call in calls if call.match not in before.live}
 
 
 @pytest.mark.slow
@@ -217,7 +303,7 @@ def test_an_evening_by_forms_loses_nothing_unsaid(
     monkeypatch.setattr(np.random, "default_rng", lambda *given: drawn(*given) if given else lots)
     monkeypatch.setattr(Night, "outlook", not_yet)
     evening = Played(tmp_path / "tonight.db", seed)
-    with closing(evening.room):
+    with closing(evening):
         for step in range(STEPS):
             evening.step()
             if step % 8 == 7:

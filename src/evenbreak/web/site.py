@@ -233,7 +233,9 @@ class Site:
 def event_of(request: Request) -> int:
     """Return the number of the event that a request names in its form or address; 1 if none."""
     form = getattr(request.state, "form", None)
-    text: str = (form.text("event") if form else "") or request.query_params.get("event", "")
+    # Refusals ask it too, so that it refuses nothing.
+    field = form.fields.get("event") if form else ""
+    text = str(field or request.query_params.get("event", ""))
     return int(text) if text.isascii() and text.isdigit() and len(text) < 3 else 1
 
 

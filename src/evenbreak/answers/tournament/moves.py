@@ -201,7 +201,8 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentenc
     if after.plan.form == "chips":
         return chip_changes(before, after)
     said = []
-    gone = [name for name in before.counted if name not in after.counted and name != besides]
+    there = after.standing.seats  # without those of a round whose draw was taken back
+    gone = [n for n in before.counted if n not in after.counted and n in there and n != besides]
     if gone:
         again = some_of([open_words(after, name) for name in gone])
         said.append(say("Must be replayed: {matches}.", matches=again))

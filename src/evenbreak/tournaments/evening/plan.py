@@ -225,7 +225,8 @@ def pairings(drawn: Drawn, counted: Mapping[str, Result] | None = None) -> list[
     """
     found = []
     for number in range(1, len(drawn) + 1):
-        seats = drawn[f"R{number}"]
+        if (seats := drawn.get(f"R{number}")) is None:
+            raise InputError("round {n} is not drawn, and a later one is", n=number)
         pairs = [(str(one), other) for one, other in zip(seats[::2], seats[1::2], strict=True)]
         pairs.sort(key=lambda pair: pair[1] is None)
         names = [f"R{number}.{k}" for k in range(1, len(pairs) + 1)]

@@ -86,9 +86,20 @@ def is_free(state: Evening, entry: int) -> bool:
         return True
     try:
         after = state.then(*(Event(at, one) for one in _taken_back(state, events, entry)))
-        return not losses(state, after) and (after.drawn or not state.drawn)
+        return not (losses(state, after) or _open_behind(state, after)) and (
+            after.drawn or not state.drawn
+        )
     except InputError:
         return False
+
+
+def _open_behind(before: Evening, after: Evening) -> bool:
+    """Return whether a match of a Swiss is open again after which another round was drawn."""
+    if before.plan.form != "swiss" or not after.drawn:
+        return False
+    last = f"R{len(after.later)}."
+    open_again = before.counted.keys() - after.counted.keys()
+    return any(not name.startswith(last) for name in open_again & after.standing.seats.keys())
 
 
 def _leads_nowhere(state: Evening, what: object) -> bool:

@@ -23,7 +23,7 @@ from evenbreak.web.night import Known
 from evenbreak.web.page import answer_shown, language, page, page_face, site_of
 from evenbreak.web.pages.desk import sheet_values
 from evenbreak.web.sessions import is_director
-from evenbreak.web.site import night_of
+from evenbreak.web.site import event_of, night_of
 from evenbreak.words import Sentence, in_face
 
 
@@ -45,13 +45,13 @@ async def bracket(request: Request) -> Response:
     asked = request.query_params.get("match", "")
     chosen = _chosen(state, panels, asked, known) if asked else None
     face = page_face(language(request))
-    event = request.query_params.get("event", "")
+    event = event_of(request)
 
     def words(text: str) -> str:
         return str(in_face(text, face))
 
     def link(box: Box) -> str:
-        return f"/bracket?{f'event={event}&' if event.isdigit() else ''}match={box.number}"
+        return f"/bracket?{f'event={event}&' if event > 1 else ''}match={box.number}"
 
     standings = swiss_table(state) if state.plan.form == "swiss" else []
     return page(

@@ -45,7 +45,8 @@ async def screen(request: Request) -> Response:
     if not site.night.exists:
         teams = await site.teams.now()
         if teams is None:
-            return page(request, "screen.html", live=True, picture="", code=code(site.address))
+            scan = code(site.address)
+            return page(request, "screen.html", live=True, picture="", wall=None, code=scan)
         shown = await seen_values(request, teams, EVERYBODY)
         clock = site.clock()[11:16]
         return page(request, "team_screen.html", live=True, clock=clock, **shown)
