@@ -60,6 +60,28 @@ def test_the_draw_is_of_those_who_are_here(tmp_path: Path) -> None:
         assert all(name in people for name in ("Cy, 500", "Di, 480", "Eve, 530"))
 
 
+def test_a_tournament_begins_with_nobody_and_players_register_themselves(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director, phones = Phone(site, director=True), [Phone(site) for _ in range(3)]
+        asked = ASKED | {"entrants": "", "scale": "fargo", "tables": 2}
+        shown = director.send("/new", **asked)
+        assert shown.url.endswith("/desk/check-in")
+        for path in ("/", "/players", "/desk", "/desk/more", "/screen"):
+            assert director.open(path).status == 200
+        assert "2 to 256 players" in director.send("/desk/draw").words
+        for phone, name in zip(phones, ("Ann", "Bo", "Cy"), strict=True):
+            phone.send("/play", name=name, rating=530)
+        director.send("/desk/accept", name="Ann")
+        assert "Without the rating" in director.open("/desk/check-in").words
+        director.send("/desk/accept", name="Bo", unrated="yes")
+        director.send("/desk/draw")
+        state = read_tournament(site.path)
+    assert state.drawn
+    assert state.entrants["Ann"].rating == 530
+    assert state.unrated == {"Bo"}
+    assert state.registered == {"Cy": 530}
+
+
 def test_the_director_changes_players_and_everybody_sees_them(hall: Hall) -> None:
     shown = hall.director.open("/players")
     assert len(re.findall(r"Code: \w{4,5}", shown.words)) == 16

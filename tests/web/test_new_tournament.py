@@ -206,7 +206,7 @@ def nothing_begun(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
         ({"tables": "1-3, 2"}, "tables are called 2"),
         ({"fee": "20", "payout": "80/30"}, "100 at most"),
         ({"entrants": "Ann,612\nBYE 2"}, "not a player"),
-        ({"entrants": " \n "}, "Enter at least one player"),
+        ({"entrants": " \n ", "scale": ""}, "Nobody has entered yet"),
     ],
 )
 def test_a_form_that_is_refused_comes_back_as_it_was(

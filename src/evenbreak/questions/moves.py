@@ -385,6 +385,7 @@ class Accept(TimedUnderWay):
     """Let NAME in, who has asked to play or was not here at the draw."""
 
     name: NewName
+    unrated: Annotated[bool, Field(Flag(), "Without the rating that they state.")] = False
 
 
 @dataclass(frozen=True, kw_only=True)

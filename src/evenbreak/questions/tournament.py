@@ -24,9 +24,9 @@ class NewTournament(TournamentPlan, Starters):
     """Start a tournament: write its entrants and what is played to a new file.
 
     Then make the draw, with evenbreak tournament draw. Players may enter until then, and later in
-    place of a bye, or in a chip tournament at the end of the line. The other commands read and
-    write tonight.db unless --file or the environment variable EVENBREAK_TOURNAMENT names another
-    file.
+    place of a bye, or in a chip tournament at the end of the line. Without a list, all of them
+    enter by evenbreak tournament late or from their phones. The other commands read and write
+    tonight.db unless --file or the environment variable EVENBREAK_TOURNAMENT names another file.
     """
 
     examples = """\
@@ -73,8 +73,11 @@ class NewTournament(TournamentPlan, Starters):
                 if one not in ("like", "entrants", "name", "out", "at"):
                     self.refuse("{like} says it already; leave out {part}", part=Parameter(one))
             return None
-        if self.entrants is None:
-            self.refuse("the list of entrants is missing; name it, or give {like}")
+        if self.entrants is None and (self.scale is None or self.seeding == "drawn"):
+            self.refuse(
+                "the list of entrants is missing; name it, or give {like}, or {scale} if nobody "
+                "has entered yet"
+            )
         return refuse_lines(self)
 
     @property

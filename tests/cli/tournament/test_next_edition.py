@@ -43,6 +43,8 @@ def test_the_next_edition_has_the_same_people_and_options(said) -> None:
     assert [one.rating for one in third.entrants.values()] == [612, 480, third.plan.starter]
     assert "leave out --race" in said("new --like tonight.db --out x.db --race 5", code=2)
     assert "the list of entrants is missing" in said("new --race 5", code=2)
+    said("new --race 5 --scale fargo --out empty.db")
+    assert not read_tournament("empty.db").entrants
 
 
 def test_a_doubtful_line_is_refused_with_its_remedy(said) -> None:

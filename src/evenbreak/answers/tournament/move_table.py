@@ -299,7 +299,7 @@ MOVES: dict[str, Move[Evening, What]] = {
     "check-in": Move(CheckIn, _check_in, _said),
     "accept": Move(
         Accept,
-        lambda state, asked, _: [roster.accept(state, asked.name)],
+        lambda state, asked, _: [roster.accept(state, asked.name, unrated=asked.unrated)],
         lambda _, after, asked: [entry_words(after, asked.name)],
     ),
     "decline": Move(Decline, lambda state, asked, _: [roster.decline(state, asked.name)], _said),

@@ -16,6 +16,7 @@ from evenbreak.cli.kit.systems import (
     with_starters,
 )
 from evenbreak.files.charts import chip_chart_of
+from evenbreak.files.lists.entrants import nobody
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.questions.plan import TournamentPlan
 from evenbreak.questions.tournament import NewTournament, OfEntrants, TournamentTime
@@ -70,15 +71,14 @@ def _to_draw(plan: Plan, before_draw: bool) -> str:
 
 def entered_in(asked: NewTournament | OfEntrants) -> Entered:
     """Return what is played and who has entered."""
-    path = asked.entrants or ""
     earlier = earlier_in(asked) if isinstance(asked, NewTournament) else ()
     races = _races(asked)
-    file = files.read_entrants(path)
+    file = nobody() if asked.entrants is None else files.read_entrants(asked.entrants)
     points, warnings = _scale(file, asked.scale, asked.starter)
     warnings += chart_doubts(races.race, points)
     roster = with_starters(file.roster, points, asked.starter, asked.starter_sd)
-    if not 2 <= len(roster) <= MOST_PLAYERS:
-        refuse(f"{path} has {len(roster):,} entrants; a tournament takes 2 to 256")
+    if asked.entrants is not None and not 2 <= len(roster) <= MOST_PLAYERS:
+        refuse(f"{asked.entrants} has {len(roster):,} entrants; a tournament takes 2 to 256")
     plan = Plan(
         asked.form,
         asked.race or asked.race_to or 1,

@@ -56,6 +56,15 @@ def read_entrants(path: str | Path) -> RosterFile:
     return roster_of(ENTRANTS.of(read_players(path, ENTRANTS)), rated=False)
 
 
+def nobody() -> RosterFile:
+    """Return a list of entrants on which nobody is yet.
+
+    >>> len(nobody().roster)
+    0
+    """
+    return RosterFile(Roster([], []), np.empty(0, dtype=np.int64), say("the list"), (), "")
+
+
 @dataclass(frozen=True, eq=False)
 class Entered:
     """Entrants, matched with the players of a list.

@@ -70,7 +70,7 @@ def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
     plan
         what is played.
     entrants
-        who has entered; more may enter later.
+        who has entered; more may enter later, or all of them.
 
     Raises
     ------
@@ -87,7 +87,7 @@ def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
     bracket; it is 4
     """
     names = tuple(one.name for one in entrants)
-    if not 2 <= len(names) <= MOST_PLAYERS:
+    if len(names) == 1 or len(names) > MOST_PLAYERS:
         raise InputError(
             "a tournament takes 2 to {most} players, and {entered:,} entered",
             most=MOST_PLAYERS,
@@ -96,6 +96,8 @@ def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
     for name in names:
         refuse_bye(name)
     refuse_tables(plan)
+    if not names:
+        return Opened(plan, ())
     if plan.chips is not None:
         plan.chips.chips([one.rating for one in entrants])  # refuses ratings below the chart
     elif plan.form == "swiss":

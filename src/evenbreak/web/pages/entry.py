@@ -20,7 +20,7 @@ from evenbreak.answers.tournament.time import venue_words
 from evenbreak.errors import EvenbreakError
 from evenbreak.fields.question import declared
 from evenbreak.files.charts import find_chart
-from evenbreak.files.lists.entrants import read_entrants
+from evenbreak.files.lists.entrants import nobody, read_entrants
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.store.desk import back_up, kept_prizes
 from evenbreak.files.store.tournament import (
@@ -180,9 +180,10 @@ async def begin(request: Request) -> Response:
     check_director(request)
     content = list_of(form, "entrants", "file")
     try:
-        if not content.strip():
-            raise RefusalError("Enter at least one player.")
-        content, listed = await asyncio.to_thread(entered_list, content, form, _league(form, site))
+        listed: Collection[str] = ()
+        if content.strip():
+            asked = content, form, _league(form, site)
+            content, listed = await asyncio.to_thread(entered_list, *asked)
         if form.text("checked"):  # what was answered is not to be asked again
             form = _with_list(form, content, listed)
         money = money_of(form)
@@ -304,8 +305,12 @@ def _begun(
 ) -> tuple[Event, list[str]]:
     """Return what a form begins, what its list makes doubtful, and what sets the pace."""
     league = site.league if form.text("league") else None
-    file = read_upload(content, read_entrants)
     stated = scale_in(form)
+    file = read_upload(content, read_entrants) if content.strip() else nobody()
+    if not (content.strip() or stated or (league and league.sheet)):
+        raise RefusalError(
+            "Nobody has entered yet, so nothing shows the scale of the ratings. Choose it below."
+        )
     if file.levels and stated is None:
         raise RefusalError(
             "The list has skill levels, not ratings. Replace them with ratings, or leave them out."
