@@ -48,7 +48,7 @@ def tournament(path: Path) -> dict[str, Any]:
         **_beside(path),
         "authors": [one.by for one in read_events(path) if one.by],
         "proposals": [
-            [*map(str, (one.match, one.player, one.score))]
+            [*map(str, (one.what.match, one.what.player, one.what.score))]
             for one in phone_entries(path)
             if one.kind == PROPOSED
         ],

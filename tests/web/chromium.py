@@ -30,6 +30,13 @@ def browser() -> Iterator[Any]:
         started.close()
 
 
+def claimed(page: Any, site: Site, name: str) -> None:
+    """Let a page scan a player's code, and say that its phone is theirs."""
+    page.goto(f"{site.address}/c/{site.player_code(name)}")
+    page.click("main form .btn.loud")
+    page.wait_for_url(f"{site.address}/me")
+
+
 def opened(browser: Any, site: Site, *, width: int = 390, **asked: Any) -> Any:
     """Return a page of a browser in which the director's PIN has been entered."""
     context = browser.new_context(viewport={"width": width, "height": 844}, **asked)

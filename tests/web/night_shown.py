@@ -147,7 +147,7 @@ def pictures(folder: Path) -> Iterator[Path]:
 
     from playwright.sync_api import sync_playwright
 
-    from web.chromium import CHROMIUM, opened
+    from web.chromium import CHROMIUM, claimed, opened
     from web.phones import running
 
     folder.mkdir(parents=True, exist_ok=True)
@@ -164,7 +164,7 @@ def pictures(folder: Path) -> Iterator[Path]:
                     "guest": browser.new_context(color_scheme=scheme).new_page(),
                     "player": browser.new_context(color_scheme=scheme).new_page(),
                 }
-                phones["player"].goto(f"{site.address}/c/{site.player_code(ANN)}")
+                claimed(phones["player"], site, ANN)
                 for one in SCREENS:
                     page = phones[one.who]
                     for width in one.widths:

@@ -111,6 +111,12 @@ class Phone:
         """Say that this is a player's phone."""
         return self.send("/me/claim", name=name)
 
+    def claims_by_code(self, name: str) -> Shown:
+        """Scan a player's code, and say that it is theirs."""
+        code = self.site.player_code(name)
+        assert name in self.open(f"/c/{code.lower()}").words
+        return self.send("/me/code", code=code)
+
     def taps(self, match: str, a: int, b: int, **more: object) -> Shown:
         """Tap the score of a match on the player's own page."""
         return self.send("/me/score", match=match, a=a, b=b, **more)

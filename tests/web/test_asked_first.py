@@ -18,7 +18,7 @@ TAPS = 5
 def tap(hall: Hall, phone: Phone, match: str, a: int, b: int) -> Shown:
     """Tap the score of a match in play on a player's phone."""
     if "Who are you?" in phone.open("/me").words:
-        phone.open(f"/c/{hall.site.player_code(hall.state.pair(match)[0])}")
+        phone.claims_by_code(hall.state.pair(match)[0])
     return phone.taps(match, a, b)
 
 
@@ -148,7 +148,7 @@ def test_a_phone_follows_its_player_when_others_play_the_match_now(busy: Hall) -
     before = busy.state.pair("W2.2")
     phones = {name: Phone(busy.site) for name in before}
     for name, phone in phones.items():
-        phone.open(f"/c/{busy.site.player_code(name)}")
+        phone.claims_by_code(name)
         assert "Tap for a game" in phone.open("/me").words
     stale = {"player_a": before[0], "player_b": before[1], "seen": "2:0"}
     busy.director.send("/desk/correct", **WRONG, sure="yes")

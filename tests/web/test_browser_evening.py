@@ -21,7 +21,7 @@ from click.testing import CliRunner
 from evenbreak.cli.program import program
 from evenbreak.files.store.tournament import read_tournament
 from evenbreak.web.site import Site
-from web.chromium import opened
+from web.chromium import claimed, opened
 from web.night_shown import RATED
 from web.phones import running
 
@@ -140,7 +140,7 @@ class Evening:
                 viewport={"width": 390, "height": 844}, java_script_enabled=self.scripts
             )
             self.phones[name] = context.new_page()
-            self.phones[name].goto(f"{self.site.address}/c/{self.site.player_code(name)}")
+            claimed(self.phones[name], self.site, name)
             self.scans += 1
         return self.phones[name]
 

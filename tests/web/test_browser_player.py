@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from evenbreak.tournaments.evening.fold import Evening
+from web.chromium import claimed
 from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running
 
@@ -16,8 +17,7 @@ pytestmark = pytest.mark.slow
 def phone(browser: Any, hall: Hall, name: str, **asked: Any) -> Any:
     """Return a phone that has scanned a player's code, and what it asks for."""
     page = browser.new_context(viewport={"width": 390, "height": 844}, **asked).new_page()
-    page.goto(f"{hall.site.address}/c/{hall.site.player_code(name)}")
-    page.wait_for_url("**/me")
+    claimed(page, hall.site, name)
     return page
 
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from evenbreak.web.site import Site
-from web.chromium import opened
+from web.chromium import claimed, opened
 from web.night_shown import ANN, SCREENS, Screen, half_played
 from web.phones import running
 
@@ -44,7 +44,7 @@ class Room(NamedTuple):
             else:
                 page = self.browser.new_context(color_scheme=scheme).new_page()
                 if who == "player":
-                    page.goto(f"{self.site.address}/c/{self.site.player_code(ANN)}")
+                    claimed(page, self.site, ANN)
                 self.pages[who, scheme] = page
         return self.pages[who, scheme]
 

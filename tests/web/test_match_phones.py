@@ -84,8 +84,7 @@ def test_the_director_or_the_code_takes_a_name_from_a_thief(hall: Hall) -> None:
     assert hall.director.send("/desk/release", player=name).status == 200
     assert not said(hall).proposed  # what the thief sent is void
     assert thief.claims(0).status == 200
-    code = hall.site.player_code(name)
-    assert name in owner.phone.open(f"/c/{code.lower()}").words
+    assert name in owner.phone.claims_by_code(name).words
     assert thief.sends(0, 3).status == 403
     assert thief.claims(0).status == 409
     history = hall.director.open("/desk/history").words
@@ -121,7 +120,13 @@ def test_a_guessed_code_is_refused_and_guessing_is_slow(hall: Hall) -> None:
     assert statuses == [404] * 10 + [429] * 4
     assert guesser.open(f"/c/{codes.pop()}").status == 429
     assert phone_entries(hall.site.path) == []
-    assert "tells you" not in Phone(hall.site, address="127.0.0.8").open(f"/c/{codes.pop()}").words
+    other = Phone(hall.site, address="127.0.0.8")
+    code = codes.pop()
+    assert "This is me" in other.open(f"/c/{code}").words
+    assert phone_entries(hall.site.path) == []  # opening a page claims nothing
+    assert other.send("/me/code", code=code).url.endswith("/me")
+    assert other.open(f"/c/{code}").url.endswith("/me")  # and the code leads there from now on
+    assert [one.kind for one in phone_entries(hall.site.path)] == ["claimed"]
 
 
 def test_a_phone_that_waits_in_a_match_that_nobody_is_in_any_more_is_told_so(hall: Hall) -> None:

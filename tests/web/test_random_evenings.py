@@ -119,9 +119,8 @@ class Played:
             match = self.luck.choice(list(state.standing.to_play)[:3])
             browser = self.luck.choice(self.phones)
             if self.luck.random() < 0.4:
-                browser.open(
-                    f"/c/{self.room.site.player_code(self.luck.choice(state.pair(match)))}"
-                )
+                name = self.luck.choice(state.pair(match))
+                browser.send("/me/code", code=self.room.site.player_code(name))
             return browser, browser.open("/me?play=1")
         pages = ["/desk", "/desk", "/desk", "/desk/more", "/desk/history"]
         if state.drawn:

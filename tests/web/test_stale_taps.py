@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from starlette.requests import Request
 
-from evenbreak.files.store.desk import RELEASED, Entry, enter, phone_entries
+from evenbreak.files.store.desk import RELEASED, Act, enter, phone_entries
 from evenbreak.files.store.tournament import add_events, read_tournament
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Event
@@ -129,8 +129,7 @@ def test_what_happens_while_a_tap_comes_in_counts(
             scored = moves.score(state, "F", (0, 1))
             add_events(path, lambda _: [Event("2025-03-01T20:00:00", scored)])
         else:
-            gone = Entry("2025-03-01T20:00:00", "", RELEASED, "Ann")
-            enter(path, state, lambda _: gone)
+            enter(path, state, lambda _: Act(RELEASED, "Ann"), at="2025-03-01T20:00:00")
         return found
 
     monkeypatch.setattr(taps, "tap_in", late)

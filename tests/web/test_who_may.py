@@ -291,6 +291,20 @@ def test_no_other_method_is_answered(rooms: Rooms, method: str) -> None:
     assert held(rooms.site.path) == before
 
 
+@pytest.mark.slow_after(3)
+def test_no_page_changes_anything_when_it_is_opened(rooms: Rooms) -> None:
+    before, opened = held(rooms.site.path), 0
+    for asked in MAY:
+        method, route = asked.split()
+        for role in ("guest", "player", "tablet", "director") if method == "GET" else ():
+            whose = "opponent" if role == "player" else role  # scans somebody else's code
+            path = rooms.path(route, whose)
+            assert rooms.who[role].open(path).status < 500
+            assert held(rooms.site.path) == before, (asked, role)
+            opened += 1
+    assert opened > 100
+
+
 def test_a_form_in_an_address_changes_nothing(rooms: Rooms) -> None:
     """A picture or a link on another page asks with the director's cookie."""
     director, before = rooms.who["director"], held(rooms.site.path)

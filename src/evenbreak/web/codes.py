@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+from collections.abc import Mapping
 
 from evenbreak.tournaments.evening.fold import Evening
 
@@ -17,7 +18,7 @@ LETTERS = "CDFGHJKMNPQRTVWXY3469"
 LENGTH = 5
 
 
-def codes_of(state: Evening, key: str) -> dict[str, str]:
+def codes_of(state: Evening, key: str, before: Mapping[str, str] | None = None) -> dict[str, str]:
     """Return the code of each player who is in the tournament.
 
     Parameters
@@ -26,6 +27,9 @@ def codes_of(state: Evening, key: str) -> dict[str, str]:
         the state of the evening.
     key
         the secret from which codes are drawn.
+    before
+        the codes of other events of the night, which are returned too: whoever is in one of them
+        has a code already.
 
     >>> from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, Renamed
     >>> from evenbreak.tournaments.evening.fold import evening
@@ -39,13 +43,17 @@ def codes_of(state: Evening, key: str) -> dict[str, str]:
     True
     """
     begun = state.events[0].at
-    found: dict[str, str] = {}
+    found = {code: name for name, code in (before or {}).items()}
     for name, (number, place) in state.entries.items():
         again = 0
+        if name in (before or {}):
+            continue
         while (code := _code(key, f"{begun} {number}.{place} {again}")) in found:
             again += 1
         found[code] = name
-    return {name: code for code, name in found.items() if name in state.entrants}
+    return {
+        name: code for code, name in found.items() if name in {**state.entrants, **(before or {})}
+    }
 
 
 def code_in(text: str) -> str:

@@ -22,10 +22,9 @@ from typing import Any
 from evenbreak.answers.tournament.night import begun_at, next_calls, night_answer
 from evenbreak.answers.tournament.prizes import payers_of
 from evenbreak.errors import EvenbreakError, InputError
-from evenbreak.files.store.desk import TABLE as PHONES
 from evenbreak.files.store.desk import Phones, keep_prizes, kept_prizes, phone_entries, phones_in
 from evenbreak.files.store.evening_file import holds
-from evenbreak.files.store.formats import has_table, size_of
+from evenbreak.files.store.formats import size_of
 from evenbreak.files.store.tournament import night_of, read_night
 from evenbreak.tournaments.evening.events import Event, Late, Opened
 from evenbreak.tournaments.evening.fold import Evening
@@ -154,7 +153,7 @@ class Night:
         """Return whose phones are whose, and what they propose."""
         mark, state, read = mark_of(self.path), self.state(), self._phones
         if read is None or read[0] != mark or read[1] is not state:
-            phones = phones_in(phone_entries(self.path), state)
+            phones = phones_in(phone_entries(self.path), state, self.event)
             read = self._phones = mark, state, phones
         return read[2]
 
@@ -315,9 +314,7 @@ def version_of(path: Path) -> int:
     except sqlite3.Error:
         return 0
     try:
-        last = f"SELECT COALESCE(MAX(number), 0) FROM {PHONES}"  # noqa: S608
-        sent = int(base.execute(last).fetchone()[0]) if has_table(base, PHONES) else 0
-        return (size_of(base) << 20) + sent
+        return size_of(base)
     except sqlite3.Error:
         return 0
     finally:

@@ -246,7 +246,7 @@ def page(
             once=_ONCE,
             of_league=values.pop("of_league", {}),
             begun=begun_at(request),
-            event=event_of(request),
+            event=values.pop("event", event_of(request)),
             said=said,
             live=live,
             quick=quick,

@@ -83,7 +83,7 @@ class Site:
         }
         self._secrets = dict(self._first)
         self._read_at: tuple[int, int, int] | None = None
-        self._codes: tuple[Evening, dict[str, str]] | None = None
+        self._codes: tuple[list[Evening], dict[str, str]] | None = None
 
     @property
     def nights(self) -> list[Night]:
@@ -216,27 +216,42 @@ class Site:
         return self._token(f"captain {night} {team} {again}")
 
     def player_codes(self) -> dict[str, str]:
-        """Return the code of each player of the tournament; `/c/CODE` claims their phone."""
-        state = self.night.state()
-        if self._codes is None or self._codes[0] is not state:
-            self._codes = state, codes_of(state, self._secret("match"))
+        """Return the code of each player of the night; `/c/CODE` claims their phone.
+
+        Whoever plays in two events has one, that of the first.
+        """
+        states = [night.state() for night in self.nights if night.exists]
+        if self._codes is None or list(map(id, self._codes[0])) != list(map(id, states)):
+            found: dict[str, str] = {}
+            for state in states:
+                found = codes_of(state, self._secret("match"), found)
+            self._codes = states, found
         return self._codes[1]
 
     def player_code(self, name: str) -> str:
-        """Return the short code of a player; '' of somebody who is not in the tournament."""
-        return self.player_codes().get(name, "") if self.night.exists else ""
+        """Return the short code of a player; '' of somebody who does not play tonight."""
+        return self.player_codes().get(name, "")
 
     def _token(self, what: str) -> str:
         return _token(self._secret("match"), what)
 
 
+def names_event(request: Request) -> bool:
+    """Return whether a request names an event of the night."""
+    return bool(_event_text(request))
+
+
 def event_of(request: Request) -> int:
     """Return the number of the event that a request names in its form or address; 1 if none."""
+    text = _event_text(request)
+    return int(text) if text.isascii() and text.isdigit() and len(text) < 3 else 1
+
+
+def _event_text(request: Request) -> str:
     form = getattr(request.state, "form", None)
     # Refusals ask it too, so that it refuses nothing.
     field = form.fields.get("event") if form else ""
-    text = str(field or request.query_params.get("event", ""))
-    return int(text) if text.isascii() and text.isdigit() and len(text) < 3 else 1
+    return str(field or request.query_params.get("event", ""))
 
 
 def night_of(request: Request) -> Night:

@@ -7,20 +7,22 @@ so that a phone that was out of reach takes no game away.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from starlette.requests import Request
 
-from evenbreak.files.store.desk import ENTERED, PROPOSED, Entry, Phones, enter
+from evenbreak.files.store.desk import ENTERED, PROPOSED, Act, Phones, by_phone, enter
 from evenbreak.files.store.tournament import add_events, read_tournament
 from evenbreak.tournaments.evening import moves
-from evenbreak.tournaments.evening.events import Event
+from evenbreak.tournaments.evening.events import BY_ITSELF, Event
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.evening_view import match_view
 from evenbreak.web.forms import Form
 from evenbreak.web.guard import MovedOnError, RefusalError
+from evenbreak.web.night import Night
 from evenbreak.web.page import site_of
 from evenbreak.web.sessions import address_of, phone_of, phones_of
+from evenbreak.web.site import night_of
 from evenbreak.words import Sentence, say
 
 
@@ -70,6 +72,37 @@ def tap_in(request: Request, form: Form, state: Evening) -> Tap:
     return Tap(match, pair, score, form.text("seen"), form.key(request.url.path))
 
 
+def note(
+    request: Request,
+    night: Night,
+    key: str | None,
+    decide: Callable[[Phones], Act | None],
+    by: str = "",
+) -> Phones:
+    """Keep what the phone that asks does, or somebody else, and return what is known after it.
+
+    Parameters
+    ----------
+    request, night
+        where it was entered, and in which event.
+    key
+        what the form is known by: one that comes in again adds nothing.
+    decide
+        returns what is done, given the phones as they are.
+    by
+        who does it, if it is not the phone.
+    """
+    return enter(
+        night.path,
+        night.state(),
+        decide,
+        at=site_of(request).clock(),
+        by=by or by_phone(phone_of(request), address_of(request)),
+        event=night.event,
+        form=key,
+    )
+
+
 def score(request: Request, tap: Tap, by: str, check: Callable[[Evening], None]) -> None:
     """Enter the score of a match in play."""
 
@@ -80,7 +113,8 @@ def score(request: Request, tap: Tap, by: str, check: Callable[[Evening], None])
             return []
         return [Event(site_of(request).clock(), moves.score(now, tap.match, tap.score))]
 
-    add_events(site_of(request).path, decide, by=by, form=tap.key)
+    night = night_of(request)
+    add_events(night.path, decide, event=night.event, by=by, form=tap.key)
 
 
 def result(request: Request, tap: Tap, by: str, check: Callable[[Evening], None]) -> None:
@@ -89,39 +123,42 @@ def result(request: Request, tap: Tap, by: str, check: Callable[[Evening], None]
     def decide(now: Evening) -> list[Event]:
         _check(now, tap)
         check(now)
-        return [Event(site_of(request).clock(), moves.result(now, tap.match, tap.score))]
+        return _result(request, now, tap)
 
-    site = site_of(request)
-    add_events(site.path, decide, by=by, form=tap.key, calls=site.next_calls)
+    night, calls = night_of(request), site_of(request).next_calls
+    add_events(night.path, decide, event=night.event, by=by, form=tap.key, calls=calls)
+
+
+def _result(request: Request, now: Evening, tap: Tap) -> list[Event]:
+    return [Event(site_of(request).clock(), moves.result(now, tap.match, tap.score))]
 
 
 def propose(request: Request, tap: Tap, me: str) -> str:
     """Keep a proposed result, and enter it if the opponent proposed the same from elsewhere."""
-    site = site_of(request)
-    phone, address, state = phone_of(request), address_of(request), site.night.state()
-    moves.result(state, tap.match, tap.score)  # refuses what cannot be a result
+    night, phone = night_of(request), phone_of(request)
+    moves.result(night.state(), tap.match, tap.score)  # refuses what cannot be a result
 
-    def decide(phones: Phones) -> Entry | None:
-        _check(read_tournament(site.path), tap)
+    def decide(phones: Phones) -> Act | None:
+        _check(read_tournament(night.path, night.event), tap)
         if phones.of(phone) != me:
             raise RefusalError(
                 "{name}'s phone is another one now. Open your page again.", status=409, name=me
             )
-        entry = Entry(site.clock(), tap.match, PROPOSED, me, tap.games, phone, address)
         last = phones.sides(tap.match, tap.pair).proposed.get(me)
-        return None if last and replace(last, at=entry.at) == entry else entry
+        again = last is not None and (last.what.score, last.by) == (tap.games, sender)
+        return None if again else Act(PROPOSED, me, tap.match, tap.games)
 
-    sides = enter(site.path, state, decide).sides(tap.match, tap.pair)
+    sender = by_phone(phone, address_of(request))
+    sides = note(request, night, tap.key, decide).sides(tap.match, tap.pair)
     if not (sides.agree and sides.apart):
         return ""  # the page says for whom it waits
 
-    def settle(now: Evening) -> list[Event]:
-        if _entered(now, tap):  # the other phone was faster
-            return []
-        return [Event(site.clock(), moves.result(now, tap.match, tap.score))]
+    def settle(now: Evening) -> list[Event]:  # unless the other phone was faster
+        return [] if _entered(now, tap) else _result(request, now, tap)
 
-    add_events(site.path, settle, by=phones_of(tap.pair), calls=site.next_calls)
-    enter(site.path, state, lambda _: Entry(site.clock(), tap.match, ENTERED))
+    calls = site_of(request).next_calls
+    add_events(night.path, settle, event=night.event, by=phones_of(tap.pair), calls=calls)
+    note(request, night, None, lambda _: Act(ENTERED, match=tap.match), BY_ITSELF)
     return say("You both agree: the result is in.")
 
 

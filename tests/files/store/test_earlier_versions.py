@@ -13,7 +13,15 @@ from click.testing import CliRunner
 from earlier_files import NIGHT, TOURNAMENTS, held
 from evenbreak.cli.program import program
 from evenbreak.errors import DataError
-from evenbreak.files.store.desk import change_secrets, keep_prizes, kept_secrets
+from evenbreak.files.store.desk import (
+    CLAIMED,
+    Act,
+    change_secrets,
+    enter,
+    keep_prizes,
+    kept_secrets,
+    phone_entries,
+)
 from evenbreak.files.store.team_night import add_team_events, read_team_events
 from evenbreak.files.store.tournament import add_events, read_tournament
 from evenbreak.teams.evening.events import Undone as TeamUndone
@@ -26,6 +34,9 @@ CHANGES = {
     "events": lambda path: add_events(path, lambda _: [Event(AT, Undone())]),
     "secrets": lambda path: change_secrets(path, {"pin": "000000"}),
     "prizes": lambda path: keep_prizes(path, PrizeMoney(5.0)),
+    "phones": lambda path: enter(
+        path, read_tournament(path), lambda _: Act(CLAIMED, "Hui"), at=AT, form="f"
+    ),
     "team events": lambda path: add_team_events(
         path, lambda *_: [TeamUndone()], at=AT, by="director's page"
     ),
@@ -78,6 +89,25 @@ def test_an_earlier_file_is_copied_before_its_first_change(
         assert pragma(copy, "user_version") == written < pragma(path, "user_version") == 3
         copy.replace(path)
     assert held(earlier) == expected
+
+
+def test_what_phones_did_is_the_same_in_the_log(earlier: Path) -> None:
+    path = earlier / "tournament.db"
+    with closing(sqlite3.connect(path)) as base:
+        rows = base.execute("SELECT game, player, score, phone, at FROM proposal").fetchall()
+        later = "SELECT game, player, score, phone, at, kind, address FROM phone ORDER BY number"
+        rows = [(*row, "proposed", "") for row in rows]
+        if base.execute("SELECT 1 FROM sqlite_master WHERE name = 'phone'").fetchone():
+            rows += base.execute(later).fetchall()
+    before = phone_entries(path)
+    assert rows == [
+        (e.what.match, e.what.player, json.dumps(e.what.score), e.phone, e.at, e.kind, e.address)
+        for e in before
+    ]
+    for _ in range(2):  # the same form
+        CHANGES["phones"](path)
+    assert [*before, phone_entries(path)[-1]] == phone_entries(path)
+    assert phone_entries(path)[-1].what == Act(CLAIMED, "Hui")
 
 
 def test_a_copy_that_cannot_be_made_keeps_the_file_as_it_was(

@@ -7,8 +7,9 @@ from evenbreak.files.store.desk import (
     CLAIMED,
     PROPOSED,
     RELEASED,
-    Entry,
+    Act,
     Sides,
+    by_phone,
     enter,
     phone_entries,
     phones_in,
@@ -26,10 +27,14 @@ def begun(path):
     new_tournament(path, [Event(AT, Opened(Plan("single", 3, scale="fargo"), entrants))])
 
 
-def entered(path, *entries) -> Sides:
+def did(kind, player, phone="", address="", match="", score=None) -> tuple[Act, str]:
+    return Act(kind, player, match, score or {}), by_phone(phone, address) if phone else ""
+
+
+def entered(path, *acts) -> Sides:
     state = read_tournament(path)
-    for entry in entries:
-        phones = enter(path, state, lambda _, entry=entry: entry)
+    for act, by in acts:
+        phones = enter(path, state, lambda _, act=act: act, at=AT, by=by)
     return phones.sides("W1.1", PAIR)
 
 
@@ -39,11 +44,11 @@ def test_what_phones_did_is_never_overwritten(tmp_path):
     sides = entered(
         path,
         *(
-            Entry(AT, "W1.1", PROPOSED, player, {"Ann": 3, "Bo": won}, "phone", "10.0.0.7")
+            did(PROPOSED, player, "phone", "10.0.0.7", "W1.1", {"Ann": 3, "Bo": won})
             for player, won in (("Bo", 1), ("Ann", 1), ("Bo", 2))
         ),
     )
-    assert [(one.player, one.score["Bo"]) for one in phone_entries(path)] == [
+    assert [(one.what.player, one.what.score["Bo"]) for one in phone_entries(path)] == [
         ("Bo", 1),
         ("Ann", 1),
         ("Bo", 2),
@@ -56,10 +61,10 @@ def test_a_phone_that_takes_the_other_player_gives_up_its_own_and_what_it_propos
     begun(path)
     sides = entered(
         path,
-        Entry(AT, "", CLAIMED, "Ann", phone="x", address="10.0.0.7"),
-        Entry(AT, "W1.1", PROPOSED, "Ann", GAMES, "x", "10.0.0.7"),
-        Entry(AT, "", CLAIMED, "Bo", phone="x", address="10.0.0.7"),
-        Entry(AT, "W1.1", PROPOSED, "Bo", GAMES, "x", "10.0.0.7"),
+        did(CLAIMED, "Ann", "x", "10.0.0.7"),
+        did(PROPOSED, "Ann", "x", "10.0.0.7", "W1.1", GAMES),
+        did(CLAIMED, "Bo", "x", "10.0.0.7"),
+        did(PROPOSED, "Bo", "x", "10.0.0.7", "W1.1", GAMES),
     )
     assert (list(sides.claims), list(sides.proposed)) == (["Bo"], ["Bo"])
 
@@ -67,11 +72,11 @@ def test_a_phone_that_takes_the_other_player_gives_up_its_own_and_what_it_propos
 def test_what_a_phone_proposed_goes_with_it(tmp_path):
     path = tmp_path / "tonight.db"
     begun(path)
-    claimed = Entry(AT, "", CLAIMED, "Ann", phone="x", address="10.0.0.7")
-    proposed = Entry(AT, "W1.1", PROPOSED, "Ann", GAMES, "x", "10.0.0.7")
+    claimed = did(CLAIMED, "Ann", "x", "10.0.0.7")
+    proposed = did(PROPOSED, "Ann", "x", "10.0.0.7", "W1.1", GAMES)
     for gone in (
-        Entry(AT, "", RELEASED, "Ann"),
-        Entry(AT, "", CLAIMED, "Ann", phone="y", address="10.0.0.9"),
+        did(RELEASED, "Ann"),
+        did(CLAIMED, "Ann", "y", "10.0.0.9"),
     ):
         assert entered(path, claimed, proposed).proposed
         assert not entered(path, gone).proposed
@@ -82,10 +87,10 @@ def test_a_phone_that_changes_its_address_does_not_become_two(tmp_path):
     begun(path)
     sides = entered(
         path,
-        Entry(AT, "", CLAIMED, "Ann", phone="x", address="10.0.0.7"),
-        Entry(AT, "", CLAIMED, "Bo", phone="private tab", address="10.0.0.7"),
-        Entry(AT, "W1.1", PROPOSED, "Ann", GAMES, "x", "10.0.0.7"),
-        Entry(AT, "W1.1", PROPOSED, "Bo", GAMES, "private tab", "10.0.0.8"),
+        did(CLAIMED, "Ann", "x", "10.0.0.7"),
+        did(CLAIMED, "Bo", "private tab", "10.0.0.7"),
+        did(PROPOSED, "Ann", "x", "10.0.0.7", "W1.1", GAMES),
+        did(PROPOSED, "Bo", "private tab", "10.0.0.8", "W1.1", GAMES),
     )
     assert (sides.agree, sides.apart) == (True, False)
 
@@ -93,7 +98,7 @@ def test_a_phone_that_changes_its_address_does_not_become_two(tmp_path):
 def test_a_claim_for_a_match_of_an_earlier_version_is_the_player_s(tmp_path):
     path = tmp_path / "tonight.db"
     begun(path)
-    entered(path, Entry(AT, "W1.1", CLAIMED, "Ann", phone="x", address="10.0.0.7"))
+    entered(path, did(CLAIMED, "Ann", "x", "10.0.0.7", "W1.1"))
     assert phones_in(phone_entries(path), read_tournament(path)).of("x") == "Ann"
 
 
@@ -108,5 +113,5 @@ def test_a_proposal_that_an_earlier_version_kept_waits_for_the_director(tmp_path
         row = "W1.1", "Ann", json.dumps(GAMES), "x", AT
         base.execute("INSERT INTO proposal VALUES (?, ?, ?, ?, ?)", row)
     base.close()
-    sides = entered(path, Entry(AT, "W1.1", PROPOSED, "Bo", GAMES, "y", "10.0.0.8"))
+    sides = entered(path, did(PROPOSED, "Bo", "y", "10.0.0.8", "W1.1", GAMES))
     assert (sides.agree, sides.apart) == (True, False)

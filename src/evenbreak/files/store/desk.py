@@ -1,12 +1,11 @@
 """What the file of an evening holds besides its events: secrets, prizes, what phones did.
 
-Of what phones did entries are only ever added: who claimed which player, who proposed which result.
-Who has whose phone, and what is proposed now, are a fold of them.
+What phones did is a strand of the log: who claimed which player, who proposed which result. Who has
+whose phone, and what is proposed now, are a fold of it.
 """
 
 from __future__ import annotations
 
-import json
 import secrets
 import sqlite3
 from collections.abc import Callable, Iterable, Mapping
@@ -15,9 +14,10 @@ from datetime import datetime
 from pathlib import Path
 
 from evenbreak.errors import DataError
-from evenbreak.evenings.log import read_json
+from evenbreak.evenings.log import Event, Kinds
 from evenbreak.files.store.evening_file import changing, copied, damaged, named, opened
-from evenbreak.files.store.formats import has_table
+from evenbreak.files.store.formats import PHONES, has_table
+from evenbreak.files.store.log import Rules, add, entries, was_taken
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.words import say
@@ -112,26 +112,17 @@ def back_up(path: str | Path, now: datetime) -> Path:
 CLAIMED, RELEASED, COMING = "claimed", "released", "coming"
 PROPOSED, WITHDRAWN, ENTERED, OBJECTED = "proposed", "withdrawn", "entered", "objected"
 TABLET, NO_TABLET = "tablet", "no tablet"
-TABLE = "phone"
-
-_TABLE = f"""
-CREATE TABLE IF NOT EXISTS {TABLE} (
-    number INTEGER PRIMARY KEY, at TEXT NOT NULL, game TEXT NOT NULL, kind TEXT NOT NULL,
-    player TEXT NOT NULL, score TEXT NOT NULL, phone TEXT NOT NULL, address TEXT NOT NULL
-)
-"""
+_FOR_ALL = CLAIMED, RELEASED, TABLET, NO_TABLET
+_OF_A_MATCH = COMING, PROPOSED, WITHDRAWN, ENTERED, OBJECTED
+_BY = "phone "
 
 
 @dataclass(frozen=True)
-class Entry:
+class Act:
     """Something that a phone did, or that the director did about one.
 
     Parameters
     ----------
-    at
-        when, such as 2025-03-01T19:30:00.
-    match
-        its name; '' for what is about no match.
     kind
         claimed: the phone is this player's from now on; released: the player has none;
         coming: the player is on the way to the table, in `score['minutes']`;
@@ -140,19 +131,53 @@ class Entry:
         tablet: the phone belongs to the table that `player` names; no tablet: it no longer does.
     player
         who did it, or whom it is about; the number of a table for what a tablet did.
+    match
+        its name; '' for what is about no match.
     score
         the games of each player by name, of a proposal or of the result that is objected to.
-    phone, address
-        the session, and where it came from.
+    event
+        the number of the event of the night whose match it is; a claim is for all of them.
     """
 
-    at: str
-    match: str
-    kind: str
+    kind: str = ""
     player: str = ""
+    match: str = ""
     score: Mapping[str, int] = field(default_factory=dict)
-    phone: str = ""
-    address: str = ""
+    event: int = 1
+
+
+@dataclass(frozen=True)
+class Entry(Event):
+    """An entry of what phones did; its author is the phone, by its session and its address."""
+
+    what: Act
+
+    @property
+    def kind(self) -> str:
+        """What was done."""
+        return self.what.kind
+
+    @property
+    def phone(self) -> str:
+        """The session that did it; '' if the director did."""
+        return self._author[0]
+
+    @property
+    def address(self) -> str:
+        """Where the phone was."""
+        return self._author[1]
+
+    @property
+    def _author(self) -> tuple[str, str]:
+        if not self.by.startswith(_BY):
+            return "", ""
+        phone, _, address = self.by.removeprefix(_BY).rpartition(" ")
+        return phone, address
+
+
+def by_phone(phone: str, address: str) -> str:
+    """Return the author of what a phone does."""
+    return f"{_BY}{phone} {address}"
 
 
 class Phones:
@@ -161,49 +186,52 @@ class Phones:
     A phone has one player. Whoever claims another one gives up the first, and with it what they
     proposed: nobody answers for both. So does a player's proposal go with the phone it came from.
 
-    >>> ann = Entry("19:30", "", CLAIMED, "Ann", phone="x", address="10.0.0.7")
-    >>> bo = Entry("19:31", "", CLAIMED, "Bo", phone="y", address="10.0.0.8")
+    >>> ann = Entry("19:30", Act(CLAIMED, "Ann"), by_phone("x", "10.0.0.7"))
+    >>> bo = Entry("19:31", Act(CLAIMED, "Bo"), by_phone("y", "10.0.0.8"))
     >>> phones = Phones([ann, bo])
     >>> phones.of("x"), phones.sides("F", ("Ann", "Bo")).apart
     ('Ann', True)
-    >>> Phones([ann, bo, Entry("19:32", "", CLAIMED, "Bo", phone="x")]).of("y")
+    >>> Phones([ann, bo, Entry("19:32", Act(CLAIMED, "Bo"), ann.by)]).of("y")
     ''
     """
 
-    def __init__(self, entries: Iterable[Entry] = ()) -> None:
+    def __init__(self, did: Iterable[Entry] = ()) -> None:
         self.claims: dict[str, Entry] = {}
         self.coming: dict[str, Entry] = {}
         self.objections: dict[str, Entry] = {}
         self.tablets: dict[str, Entry] = {}
         self._proposed: dict[str, dict[str, Entry]] = {}
-        for entry in entries:
+        for entry in did:
             self.add(entry)
 
     def add(self, entry: Entry) -> None:
         """Add the next entry."""
+        player, match = entry.what.player, entry.what.match
         match entry.kind:
             case "claimed":
-                before = self.claims.get(entry.player)
+                before = self.claims.get(player)
                 if before is None or before.phone != entry.phone:
-                    self._free(entry.player)
+                    self._free(player)
                     self._free(self.of(entry.phone))
-                self.claims[entry.player] = entry
+                self.claims[player] = entry
             case "released":
-                self._free(entry.player)
+                self._free(player)
             case "coming":
-                self.coming[entry.player] = entry
+                self.coming[player] = entry
             case "proposed":
-                self._proposed.setdefault(entry.match, {})[entry.player] = entry
+                self._proposed.setdefault(match, {})[player] = entry
             case "withdrawn":
-                self._proposed.get(entry.match, {}).pop(entry.player, None)
+                self._proposed.get(match, {}).pop(player, None)
             case "objected":
-                self.objections[entry.match] = entry
+                self.objections[match] = entry
             case "tablet":
                 self.tablets[entry.phone] = entry
             case "no tablet":
-                self.tablets.pop(entry.phone, None)
+                self.tablets = {
+                    k: one for k, one in self.tablets.items() if one.what.player != player
+                }
             case _:
-                self._proposed.pop(entry.match, None)
+                self._proposed.pop(match, None)
 
     def _free(self, player: str) -> None:
         self.claims.pop(player, None)
@@ -216,24 +244,24 @@ class Phones:
 
     def table_of(self, phone: str) -> int:
         """Return the table that a tablet belongs to; 0 if it is none."""
-        return int(self.tablets[phone].player) if phone in self.tablets else 0
+        return int(self.tablets[phone].what.player) if phone in self.tablets else 0
 
     def answer(self, player: str, match: str, since: str) -> int | None:
         """Return in how many minutes a player who was called comes; None: they have not said."""
         note = self.coming.get(player)
-        if note is None or note.match != match or note.at < since:
+        if note is None or note.what.match != match or note.at < since:
             return None
-        return note.score.get("minutes", 0)
+        return note.what.score.get("minutes", 0)
 
     def tablets_of(self, table: int) -> list[str]:
         """Return the tablets of a table."""
-        return [phone for phone, one in self.tablets.items() if one.player == str(table)]
+        return [phone for phone, one in self.tablets.items() if one.what.player == str(table)]
 
     def sides(self, match: str, pair: tuple[str, str]) -> Sides:
         """Return what the players of a match propose, without others who were in it before."""
         proposed = self._proposed.get(match, {})
         there = {name: proposed[name] for name in pair if name in proposed}
-        now = {name: one for name, one in there.items() if set(one.score) == set(pair)}
+        now = {name: one for name, one in there.items() if set(one.what.score) == set(pair)}
         claims = {name: self.claims[name] for name in pair if name in self.claims}
         return Sides(match, pair, claims, now)
 
@@ -261,7 +289,9 @@ class Sides:
     def scores(self) -> dict[str, tuple[int, int]]:
         """What each of them says, the games of the first player first."""
         one, other = self.pair
-        return {who: (its.score[one], its.score[other]) for who, its in self.proposed.items()}
+        return {
+            who: (its.what.score[one], its.what.score[other]) for who, its in self.proposed.items()
+        }
 
     @property
     def agree(self) -> bool:
@@ -290,22 +320,37 @@ def objected(state: Evening, phones: Phones) -> list[str]:
     found = []
     for match, entry in phones.objections.items():
         result = state.counted.get(match) if state.drawn else None
-        if result is not None and result.games == dict(entry.score):
+        if result is not None and result.games == dict(entry.what.score):
             found.append(match)
     return found
 
 
-def phones_in(entries: Iterable[Entry], state: Evening) -> Phones:
-    """Return what is known of the phones, each player called what they are called now."""
+def phones_in(did: Iterable[Entry], state: Evening, event: int = 1) -> Phones:
+    """Return what is known of the phones in an event of the night.
+
+    Claims are for all events; each player is called what this event calls them now.
+    """
 
     def now(entry: Entry) -> Entry:
-        score = {state.former.get(who, who): games for who, games in entry.score.items()}
-        return replace(entry, player=state.former.get(entry.player, entry.player), score=score)
+        act = entry.what
+        score = {state.former.get(who, who): games for who, games in act.score.items()}
+        player = state.former.get(act.player, act.player)
+        return replace(entry, what=replace(act, player=player, score=score))
 
-    return Phones(map(now, entries) if state.former else entries)
+    own = (one for one in did if one.what.event == event or one.kind in _FOR_ALL)
+    return Phones(map(now, own) if state.former else own)
 
 
-def enter(path: str | Path, state: Evening, decide: Callable[[Phones], Entry | None]) -> Phones:
+def enter(
+    path: str | Path,
+    state: Evening,
+    decide: Callable[[Phones], Act | None],
+    *,
+    at: str,
+    by: str = "",
+    event: int = 1,
+    form: str | None = None,
+) -> Phones:
     """Add what a phone does to the log, and return what is known of the phones after that.
 
     Parameters
@@ -315,43 +360,44 @@ def enter(path: str | Path, state: Evening, decide: Callable[[Phones], Entry | N
     state
         its state, which knows what the players are called now.
     decide
-        returns the entry, given the phones as they are; None: nothing is new. Nobody else can add
-        any in the meantime.
+        returns what is done, given the phones as they are; None: nothing is new. Nobody else can
+        add anything in the meantime.
+    at, by
+        when, and which phone does it: `by_phone`.
+    event
+        the number of the event of the night.
+    form
+        what the form is known by that it comes from. If it was taken before, nothing is asked and
+        nothing is added.
     """
     with changing(path) as base:
-        phones = phones_in(_read(base, path), state)
-        entry = decide(phones)
-        if entry is None:
-            return phones
-        base.execute(_TABLE)
-        values = entry.at, entry.match, entry.kind, entry.player, json.dumps(dict(entry.score))
-        base.execute(
-            f"INSERT INTO {TABLE} VALUES (NULL, ?, ?, ?, ?, ?, ?, ?)",  # noqa: S608
-            (*values, entry.phone, entry.address),
-        )
-        phones.add(entry)
+        earlier = entries(base, path, PHONES, _RULES)
+        phones = phones_in(earlier, state, event)
+        act = None if was_taken(base, PHONES, form) else decide(phones)
+        if act is not None:
+            entry = Entry(at, replace(act, event=event), by)
+            add(base, PHONES, _RULES, [entry], count=len(earlier), form=form)
+            phones.add(entry)
         return phones
 
 
 def phone_entries(path: str | Path) -> list[Entry]:
     """Return what phones did, in the order in which it came in."""
     with opened(path) as base:
-        return _read(base, path)
+        return entries(base, path, PHONES, _RULES)
 
 
-def _read(base: sqlite3.Connection, path: str | Path) -> list[Entry]:
-    """Return all entries, those that 0.2.0 kept first."""
-    names = "at, game, kind, player, score, phone, address"
-    kept = {
-        "proposal": "SELECT at, game, 'proposed', player, score, phone, '' FROM proposal "
-        "ORDER BY rowid",
-        TABLE: f"SELECT {names} FROM {TABLE} ORDER BY number",  # noqa: S608
-    }
-    entries = []
-    for table, asked in kept.items():
-        for row in base.execute(asked).fetchall() if has_table(base, table) else ():
-            with named(path, say("what the phones entered")):
-                values = dict(zip(names.replace("game", "match").split(", "), row, strict=True))
-                values["score"] = json.loads(values["score"])
-                entries.append(read_json(Entry, json.dumps(values)))
-    return entries
+class _Acts(Kinds[Act]):
+    """What phones do is kept in one class, whatever its kind."""
+
+    def __init__(self) -> None:
+        super().__init__(dict.fromkeys((*_FOR_ALL, *_OF_A_MATCH), Act))
+
+    def name(self, what: Act) -> str:
+        return what.kind
+
+    def read(self, kind: str, text: str) -> Act:
+        return replace(super().read(kind, text), kind=kind)
+
+
+_RULES: Rules[Entry, Phones] = Rules(_Acts(), Entry, Phones)

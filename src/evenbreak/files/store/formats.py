@@ -1,8 +1,9 @@
 """The tables in which the file of an evening keeps its entries, now and in earlier formats.
 
 Format 3 has one table for all that is entered, in strands: 1, 2, ... are the tournaments of the
-night, `team` its team nights. Format 1 (version 0.2.0) and format 2 had a table for a tournament,
-with its authors and its forms beside it, and another for team nights.
+night, `team` its team nights, `phones` what phones did. Format 1 (version 0.2.0) and format 2 had a
+table for a tournament, with its authors and its forms beside it, another for team nights, and one
+or two for phones.
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ import sqlite3
 
 FORMAT = 3
 ENTRIES = "entry"
-TOURNAMENT, TEAM_NIGHT = "1", "team"
-"""The strand of the first tournament of the night, and that of its team nights."""
+TOURNAMENT, TEAM_NIGHT, PHONES = "1", "team", "phones"
+"""The strands of the first tournament of the night, of its team nights, and of phones."""
 
 _COLUMNS = "strand, number, at, kind, what, author, form"
 _TABLE = f"""
@@ -28,7 +29,18 @@ CREATE TABLE IF NOT EXISTS {ENTRIES} (
     UNIQUE (strand, form)
 )
 """
-_EARLIER = ("event", "author", "once", "team_event")
+_EARLIER = ("event", "author", "once", "team_event", "proposal", "phone")
+_PROPOSED = (  # by version 0.2.0, which kept no address
+    f"SELECT '{PHONES}' AS strand, rowid AS number, at, 'proposed' AS kind, "  # noqa: S608
+    "json_object('player', player, 'match', game, 'score', json(score)) AS what, "
+    "'phone ' || phone || ' ' AS author, NULL AS form FROM proposal"
+)
+_PHONE = (
+    f"SELECT '{PHONES}' AS strand, number + {{after}} AS number, at, kind, "  # noqa: S608
+    "json_object('player', player, 'match', game, 'score', json(score)) AS what, "
+    "CASE phone WHEN '' THEN '' ELSE 'phone ' || phone || ' ' || address END AS author, "
+    "NULL AS form FROM phone"
+)
 
 
 def has_table(base: sqlite3.Connection, table: str) -> bool:
@@ -39,26 +51,41 @@ def has_table(base: sqlite3.Connection, table: str) -> bool:
 
 def source(base: sqlite3.Connection) -> str:
     """Return what entries are selected from, in whatever format they were written."""
+    parts = _earlier(base)
     if has_table(base, ENTRIES):
-        return ENTRIES
+        if not parts:
+            return ENTRIES
+        parts.append(f"SELECT {_COLUMNS} FROM {ENTRIES}")  # noqa: S608
+    none = "SELECT '' AS strand, 0 AS number, '' AS at, '' AS kind, '' AS what, '' AS author, "
+    return f"({' UNION ALL '.join(parts) or none + 'NULL AS form WHERE 0'})"
+
+
+def _earlier(base: sqlite3.Connection) -> list[str]:
+    """Return what selects the entries in the tables of earlier formats."""
+    names = base.execute("SELECT name FROM sqlite_master WHERE type = 'table'")
+    there = {name for (name,) in names} & {*_EARLIER}
     parts = []
-    if has_table(base, "event"):
+    if "event" in there:
         author, form = "''", "NULL"
-        if has_table(base, "author"):
+        if "author" in there:
             author = "COALESCE((SELECT name FROM author WHERE number = event.number), '')"
-        if has_table(base, "once"):
+        if "once" in there:
             form = "(SELECT MAX(form) FROM once WHERE number = event.number)"
         parts.append(
             f"SELECT '{TOURNAMENT}' AS strand, number, at, kind, what, {author} AS author, "  # noqa: S608
             f"{form} AS form FROM event"
         )
-    if has_table(base, "team_event"):
+    if "team_event" in there:
         parts.append(
             f"SELECT '{TEAM_NIGHT}' AS strand, number, at, kind, what, author, form "  # noqa: S608
             "FROM team_event"
         )
-    none = "SELECT '' AS strand, 0 AS number, '' AS at, '' AS kind, '' AS what, '' AS author, "
-    return f"({' UNION ALL '.join(parts) or none + 'NULL AS form WHERE 0'})"
+    if "proposal" in there:
+        parts.append(_PROPOSED)
+    if "phone" in there:
+        after = "COALESCE((SELECT MAX(rowid) FROM proposal), 0)" if "proposal" in there else "0"
+        parts.append(_PHONE.format(after=after))
+    return parts
 
 
 def size_of(base: sqlite3.Connection) -> int:
@@ -68,10 +95,9 @@ def size_of(base: sqlite3.Connection) -> int:
 
 def bring_up_to_date(base: sqlite3.Connection) -> None:
     """Make the table of the entries, and move those of an earlier format into it."""
-    earlier = source(base)
     base.execute(_TABLE)
-    if earlier != ENTRIES:
-        base.execute(f"INSERT INTO {ENTRIES} SELECT {_COLUMNS} FROM {earlier}")  # noqa: S608
+    for earlier in _earlier(base):
+        base.execute(f"INSERT INTO {ENTRIES} SELECT {_COLUMNS} FROM ({earlier})")  # noqa: S608
     for table in _EARLIER:
         base.execute(f"DROP TABLE IF EXISTS {table}")
     base.execute(f"PRAGMA user_version = {FORMAT}")

@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import TypeAlias
 
 from evenbreak.errors import DataError, InputError
-from evenbreak.files.store.desk import TABLE as PHONES
 from evenbreak.files.store.evening_file import begin, changing, is_there, opened, refused
 from evenbreak.files.store.formats import ENTRIES, TEAM_NIGHT, TOURNAMENT, bring_up_to_date
 from evenbreak.files.store.log import Rules, TakenBeforeError, add, entries, tournaments, was_taken
@@ -75,8 +74,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
 
 def _clear(base: sqlite3.Connection) -> None:
     """Take a tournament out of a file, with what phones sent and its prizes."""
-    for table in ("proposal", PHONES, "prize"):
-        base.execute(f"DROP TABLE IF EXISTS {table}")
+    base.execute("DROP TABLE IF EXISTS prize")
     bring_up_to_date(base)
     base.execute(f"DELETE FROM {ENTRIES} WHERE strand != ?", (TEAM_NIGHT,))  # noqa: S608
 

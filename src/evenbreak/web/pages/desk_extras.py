@@ -166,6 +166,7 @@ def _entries(path: Path) -> tuple[list[tuple[int, str, str, str, str]], set[int]
         (one.at, 0, phone_words(one, state), phone_label(one), "")
         for one in phone_entries(path)
         if one.kind != ENTERED  # it is among the events
+        and (one.what.event == state.event or not one.what.match)
     ]
     rows.sort(key=lambda row: row[0])
     redo = redoable(state)

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 from starlette.requests import Request
-from starlette.responses import Response
+from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
 from evenbreak.files.store.desk import (
@@ -25,9 +25,9 @@ from evenbreak.files.store.desk import (
     RELEASED,
     TABLET,
     WITHDRAWN,
+    Act,
     Entry,
     Phones,
-    enter,
 )
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.web import taps
@@ -35,6 +35,7 @@ from evenbreak.web.codes import code_in
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import MovedOnError, RefusalError
 from evenbreak.web.my_night import (
+    MyMatch,
     after,
     chances,
     first_name,
@@ -45,6 +46,7 @@ from evenbreak.web.my_night import (
     way_of,
     why_words,
 )
+from evenbreak.web.night import Known, Night
 from evenbreak.web.page import done, page, reason, site_of
 from evenbreak.web.sessions import (
     DIRECTORS_PAGE,
@@ -54,6 +56,7 @@ from evenbreak.web.sessions import (
     phone_of,
     phones_of,
 )
+from evenbreak.web.site import event_of, names_event, night_of
 from evenbreak.words import say
 
 
@@ -64,30 +67,31 @@ async def me(request: Request) -> Response:
 
 async def _shown(request: Request, why: RefusalError | None = None) -> Response:
     """Return a player's page as it is now, and why a tap was refused."""
-    night = site_of(request).night
-    if not night.exists:
+    site = site_of(request)
+    if not any(night.exists for night in site.nights):
         return page(request, "begin.html")
-    known = await night.outlook()
-    state = await asyncio.to_thread(night.state)
-    phones = await asyncio.to_thread(night.phones)
-    name = phones.of(phone_of(request))
+    plays = [one for night in site.nights if (one := await _place_in(request, night))]
     status = why.status if why else 200
     words = reason(request, why) if why else ""
-    if name not in state.entrants:
-        return page(request, "who.html", state=state, phones=phones, why=words, status=status)
-    mine = match_of(state, name, known)
-    step = step_of(state, name, mine, phones)
+    if not plays:
+        who = await asyncio.to_thread(_who_plays, request)
+        return page(request, "who.html", who=who, why=words, status=status)
+    asked = [one for one in plays if one.night.event == event_of(request)]
+    place = asked[0] if asked and (why or names_event(request)) else min(plays, key=_urgent)
+    night, state, phones, name, known, mine, step = place
     ready = mine is not None and mine.pair is not None and mine.name in state.standing.to_play
     if step in ("waits", "up") and ready and (why or request.query_params.get("play")):
         step = "playing"
     played = state.counted.values() if state.drawn else ()
     shown: dict[str, Any] = {
+        "event": night.event,
+        "others": [one for one in plays if one is not place],
         "me": name,
         "mine": mine,
         "step": step,
         "why": words,
-        "now": site_of(request).clock()[11:16],
-        "code": site_of(request).player_code(name),
+        "now": site.clock()[11:16],
+        "code": site.player_code(name),
         "older": known is None or known.of is not state,
         "way": way_of(state, name, mine),
         "won": sum(one.winner == name for one in played),
@@ -108,23 +112,86 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
     return page(request, "me.html", live=True, status=status, **shown)
 
 
+class Place(NamedTuple):
+    """Where a player is in an event of the night: their match and what their page shows of it."""
+
+    night: Night
+    state: Evening
+    phones: Phones
+    name: str
+    known: Known | None
+    mine: MyMatch | None
+    step: str
+
+
+async def _place_in(request: Request, night: Night) -> Place | None:
+    """Return where the player whose phone asks is in an event; None: they are not in it."""
+    if not night.exists:
+        return None
+    known = await night.outlook()
+    state = await asyncio.to_thread(night.state)
+    phones = await asyncio.to_thread(night.phones)
+    name = phones.of(phone_of(request))
+    if name not in state.entrants:
+        return None
+    mine = match_of(state, name, known)
+    return Place(night, state, phones, name, known, mine, step_of(state, name, mine, phones))
+
+
+def _urgent(place: Place) -> tuple[bool, bool, bool, bool, str]:
+    """Return by what an event comes first on a player's page: a match on a table before others."""
+    mine, busy = place.mine, place.step not in ("waits", "before", "rests")
+    starts = mine.starts[1] if mine and mine.starts else "~"
+    at_table = mine is not None and mine.table is not None
+    called = mine is not None and mine.called is not None
+    return not (busy or at_table), not called, mine is None, place.step == "rests", starts
+
+
+def _who_plays(request: Request) -> dict[str, bool]:
+    """Return who plays tonight, in any event, and whether they have a phone."""
+    nights = [night for night in site_of(request).nights if night.exists]
+    states = [(night.state(), night.phones().claims) for night in nights]
+    return {
+        name: name in claims
+        for state, claims in states
+        for name in state.entrants
+        if name not in state.dropped
+    }
+
+
 async def claim(request: Request) -> Response:
     """Keep that this phone is a player's, unless another one is."""
     form = await form_of(request)
-    state, name = await _state(request), form.text("name")
-    if name not in state.entrants:
-        raise RefusalError("{name} isn't playing tonight.", status=404, name=name)
-    await asyncio.to_thread(_claim, request, state, name, False)
+    await asyncio.to_thread(_claim, request, form.text("name"), form.key(request.url.path))
     return done(request, "/me")
+
+
+async def shown_by_code(request: Request) -> Response:
+    """Ask whether this is the player who has a code; if their phone it is already, go on."""
+    await _nights(request)
+    if request.method == "HEAD":
+        return Response()
+    code = code_in(request.path_params["code"])
+    name = _with_code(request, code)
+    phone = phone_of(request)
+    for night in site_of(request).nights:
+        phones = await asyncio.to_thread(night.phones)
+        if phones.of(phone) == name:
+            return RedirectResponse("/me", status_code=303)
+    return page(request, "this_is_me.html", name=name, code=code)
 
 
 async def claim_by_code(request: Request) -> Response:
     """Keep that this phone is the player's who has this code, whichever was before."""
-    state = await _state(request)
-    if request.method == "HEAD":
-        return Response()
-    typed = request.path_params.get("code")
-    code = code_in((await form_of(request)).text("code") if typed is None else typed)
+    form = await form_of(request)
+    await _nights(request)
+    name = _with_code(request, code_in(form.text("code")))
+    await asyncio.to_thread(_claim, request, name, form.key(request.url.path), by_code=True)
+    return done(request, "/me")
+
+
+def _with_code(request: Request, code: str) -> str:
+    """Return the player who has a code; refuse whoever guesses."""
     site, address = site_of(request), address_of(request)
     if site.codes.full(address) or site.all_codes.full(""):
         raise RefusalError("Too many wrong codes. Wait a minute.", status=429)
@@ -133,14 +200,13 @@ async def claim_by_code(request: Request) -> Response:
         site.codes.count(address)
         site.all_codes.count("")
         raise RefusalError("Nobody has this code tonight. Check it on your score card.", status=404)
-    await asyncio.to_thread(_claim, request, state, players[code], True)
-    return done(request, "/me")
+    return players[code]
 
 
-def _claim(request: Request, state: Evening, name: str, by_code: bool) -> None:
-    site, phone = site_of(request), phone_of(request)
+def _claim(request: Request, name: str, key: str, *, by_code: bool = False) -> None:
+    phone = phone_of(request)
 
-    def decide(phones: Phones) -> Entry | None:
+    def decide(phones: Phones) -> Act | None:
         holder = phones.claims.get(name)
         if holder and holder.phone == phone:
             return None
@@ -151,23 +217,34 @@ def _claim(request: Request, state: Evening, name: str, by_code: bool) -> None:
                 status=409,
                 name=name,
             )
-        return Entry(site.clock(), "", CLAIMED, name, phone=phone, address=address_of(request))
+        return Act(CLAIMED, name)
 
+    night = _night_with(request, name)
     _count(request, f"claims {address_of(request)}")
-    enter(site.path, state, decide)
+    taps.note(request, night, key, decide)
+
+
+def _night_with(request: Request, name: str) -> Night:
+    """Return the first event of the night that somebody plays in."""
+    nights = [night for night in site_of(request).nights if night.exists]
+    if not nights:
+        raise RefusalError("No tournament is running yet.", status=404)
+    for night in nights:
+        if name in night.state().entrants:
+            return night
+    raise RefusalError("{name} isn't playing tonight.", status=404, name=name)
 
 
 async def leave(request: Request) -> Response:
     """Give a phone up, for another player to have it."""
-    await form_of(request)
-    state = await _state(request)
-    site, phone = site_of(request), phone_of(request)
+    key = (await form_of(request)).key(request.url.path)
+    night, phone = (await _nights(request))[0], phone_of(request)
 
-    def decide(phones: Phones) -> Entry | None:
-        name, address = phones.of(phone), address_of(request)
-        return Entry(site.clock(), "", RELEASED, name, {}, phone, address) if name else None
+    def decide(phones: Phones) -> Act | None:
+        name = phones.of(phone)
+        return Act(RELEASED, name) if name else None
 
-    await asyncio.to_thread(enter, site.path, state, decide)
+    await asyncio.to_thread(taps.note, request, night, key, decide)
     return done(request, "/me")
 
 
@@ -175,12 +252,15 @@ async def release(request: Request) -> Response:
     """Take a player's phone from whoever has it."""
     form = await form_of(request)
     check_director(request)
-    state, site, name = await _state(request), site_of(request), form.text("player")
+    name, key = form.text("player"), form.key(request.url.path)
 
-    def decide(phones: Phones) -> Entry | None:
-        return Entry(site.clock(), "", RELEASED, name) if name in phones.claims else None
+    def decide(phones: Phones) -> Act | None:
+        return Act(RELEASED, name) if name in phones.claims else None
 
-    await asyncio.to_thread(enter, site.path, state, decide)
+    def work() -> None:
+        taps.note(request, _night_with(request, name), key, decide, DIRECTORS_PAGE)
+
+    await asyncio.to_thread(work)
     words = say("{name} has no phone now. The next one that claims the name gets it.", name=name)
     return done(request, "/desk/codes", words)
 
@@ -189,7 +269,8 @@ async def tap(request: Request) -> Response:
     """Take the score of the player's match; a full score is proposed as the result."""
     form = await form_of(request)
     try:
-        state = await _state(request)
+        await _nights(request)
+        state = await asyncio.to_thread(night_of(request).state)
         one = taps.tap_in(request, form, state)
 
         def work() -> str:
@@ -202,19 +283,25 @@ async def tap(request: Request) -> Response:
         said = await asyncio.to_thread(work)
     except MovedOnError as error:
         return await _shown(request, error)
-    return done(request, "/me" if one.ends(state) else "/me?play=1", *filter(None, [said]))
+    return done(request, "/me" if one.ends(state) else _at_play(request), *filter(None, [said]))
+
+
+def _at_play(request: Request) -> str:
+    """Return the page of a match that is being played, of whichever event it is."""
+    event = night_of(request).event
+    return "/me?play=1" + (f"&event={event}" if event > 1 else "")
 
 
 def _mine(request: Request, pair: tuple[str, str]) -> str:
     """Return which of two players this phone is; refuse everybody else."""
-    name = site_of(request).night.phones().of(phone_of(request))
+    name = night_of(request).phones().of(phone_of(request))
     if name not in pair:
         raise RefusalError("Only the players of a match keep its score.", status=403)
     return name
 
 
 def _still(request: Request, name: str) -> None:
-    if site_of(request).night.phones().of(phone_of(request)) != name:
+    if night_of(request).phones().of(phone_of(request)) != name:
         raise RefusalError("Only the players of a match keep its score.", status=403)
 
 
@@ -231,20 +318,21 @@ async def coming(request: Request) -> Response:
 
 async def _noted(request: Request, kind: str, what: dict[str, int] | None = None) -> Response:
     form = await form_of(request)
-    state, site, match = await _state(request), site_of(request), form.text("match")
-    if match not in state.standing.to_play:
+    await _nights(request)
+    night, match, key = night_of(request), form.text("match"), form.key(request.url.path)
+    state = await asyncio.to_thread(night.state)
+    if not state.drawn or match not in state.standing.to_play:
         raise MovedOnError("Your match has moved on. Open your page again.", status=409)
     name = await asyncio.to_thread(_mine, request, state.pair(match))
-    phone, address = phone_of(request), address_of(request)
 
-    def decide(phones: Phones) -> Entry | None:
+    def decide(phones: Phones) -> Act | None:
         if kind == WITHDRAWN and name not in phones.sides(match, state.pair(match)).proposed:
             return None
-        return Entry(site.clock(), match, kind, name, what or {}, phone, address)
+        return Act(kind, name, match, what or {})
 
     _count(request, match)
-    await asyncio.to_thread(enter, site.path, state, decide)
-    return done(request, "/me?play=1" if kind == WITHDRAWN else "/me")
+    await asyncio.to_thread(taps.note, request, night, key, decide)
+    return done(request, _at_play(request) if kind == WITHDRAWN else "/me")
 
 
 def _count(request: Request, what: str) -> None:
@@ -254,11 +342,12 @@ def _count(request: Request, what: str) -> None:
     tries.count(what)
 
 
-async def _state(request: Request) -> Evening:
-    night = site_of(request).night
-    if not night.exists:
+async def _nights(request: Request) -> list[Night]:
+    """Return the events of the night; refuse if none has begun."""
+    nights = [night for night in site_of(request).nights if night.exists]
+    if not nights:
         raise RefusalError("No tournament is running yet.", status=404)
-    return await asyncio.to_thread(night.state)
+    return nights
 
 
 _DID: dict[str, Callable[..., str]] = {
@@ -283,9 +372,10 @@ _DID: dict[str, Callable[..., str]] = {
 
 def phone_words(entry: Entry, state: Evening) -> str:
     """Return what a phone did, for the history."""
-    match = state.match_words(entry.match) if state.drawn else entry.match
-    score = ", ".join(f"{name} {games}" for name, games in entry.score.items())
-    return _DID[entry.kind](name=entry.player, match=match, score=score)
+    act = entry.what
+    match = state.match_words(act.match) if state.drawn else act.match
+    score = ", ".join(f"{name} {games}" for name, games in act.score.items())
+    return _DID[entry.kind](name=act.player, match=match, score=score)
 
 
 def phone_label(entry: Entry) -> str:
@@ -298,7 +388,7 @@ def phone_label(entry: Entry) -> str:
 
 ROUTES = [
     Route("/me", me, methods=["GET"]),
-    Route("/c/{code}", claim_by_code, methods=["GET"]),
+    Route("/c/{code}", shown_by_code, methods=["GET"]),
     Route("/me/code", claim_by_code, methods=["POST"]),
     Route("/me/score", me, methods=["GET"]),  # the page of a tap that was refused
     Route("/me/score", tap, methods=["POST"]),

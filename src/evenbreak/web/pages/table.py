@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import asyncio
 import urllib.parse
+from collections.abc import Sequence
+from datetime import datetime
 from typing import Any
 
 import segno
@@ -15,24 +17,29 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
-from evenbreak.files.store.desk import NO_TABLET, OBJECTED, TABLET, Entry, Phones, enter, objected
+from evenbreak.files.store.desk import NO_TABLET, OBJECTED, TABLET, Act, Phones, objected
 from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web import taps
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import MovedOnError, RefusalError
 from evenbreak.web.my_night import chances, match_at
+from evenbreak.web.night import Night
 from evenbreak.web.page import done, page, reason, site_of
 from evenbreak.web.sessions import (
     DIRECTOR,
-    address_of,
+    DIRECTORS_PAGE,
     check_director,
     is_director,
     let_out,
     phone_of,
     tablet_of,
 )
+from evenbreak.web.site import night_of
 from evenbreak.words import say
+
+_JUST_NOW = 60.0  # seconds in which "That's wrong" stays in reach, whatever comes next
+_moment = datetime.fromisoformat
 
 
 async def table(request: Request) -> Response:
@@ -42,9 +49,12 @@ async def table(request: Request) -> Response:
 
 async def _shown(request: Request, why: RefusalError | None = None) -> Response:
     """Return the page of a table as it is now, and why a tap was refused."""
-    state, number = await _table(request)
-    night = site_of(request).night
-    known = await night.outlook()
+    nights = await _nights(request)
+    house = await asyncio.to_thread(nights[0].state)
+    number = house.plan.table_number(request.path_params["table"])
+    night = await asyncio.to_thread(_night_at, nights, number)
+    await night.outlook()
+    state = await asyncio.to_thread(night.state)
     phones = await asyncio.to_thread(night.phones)
     on = [name for name, one in state.on_tables.items() if one.call.table == number]
     name, phone = (on or [""])[0], phone_of(request)
@@ -52,10 +62,11 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
         return RedirectResponse("/me", status_code=303)
     one = match_at(state, name) if name else None
     tablet = phones.table_of(phone) == number
-    calls = known.calls if known and known.of is state else []
-    last = _last_on(state, number)
+    last, at = _last_on(state, number)
+    now = site_of(request).clock()
     begun = why or request.query_params.get("play") == name or state.plan.form == "chips"
     shown: dict[str, Any] = {
+        "event": night.event,
         "state": state,
         "at": f"/table/{number}",
         "label": state.plan.table_name(number),
@@ -66,25 +77,46 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
         "playing": one is not None and bool(begun or any(one.score)),
         "phones": phones,
         "sides": phones.sides(name, one.pair) if one and one.pair else None,
-        "next": [state.pair(match) for table, match in calls if table == number],
+        "next": _next_on(nights, number),
         "last": last,
+        "just_now": bool(at) and (_moment(now) - _moment(at)).total_seconds() < _JUST_NOW,
         "objected": last is not None and last.match in objected(state, phones),
-        "now": site_of(request).clock()[11:16],
+        "now": now[11:16],
         "why": reason(request, why) if why else "",
     }
     return page(request, "table.html", live=True, status=why.status if why else 200, **shown)
 
 
-def _last_on(state: Evening, number: int) -> Result | None:
-    """Return the result of the last match that was played on a table."""
-    found = None
+def _night_at(nights: Sequence[Night], number: int) -> Night:
+    """Return the event whose match is on a table, or else that of the last match on it."""
+    states = [(night, night.state()) for night in nights]
+    for night, state in states:
+        if number in {on.call.table for on in state.on_tables.values()}:
+            return night
+    return max(states, key=lambda one: _last_on(one[1], number)[1])[0]
+
+
+def _next_on(nights: Sequence[Night], number: int) -> list[tuple[str, str]]:
+    """Return who plays next on a table, as far as that is worked out."""
+    return [
+        night.known.of.pair(match)
+        for night in nights
+        if night.known and night.known.of is night.state()
+        for table, match in night.known.calls
+        if table == number
+    ]
+
+
+def _last_on(state: Evening, number: int) -> tuple[Result | None, str]:
+    """Return the result of the last match that was played on a table, and when it came in."""
+    found: tuple[Result | None, str] = None, ""
     for event in state.events:
         what = event.what
         if not isinstance(what, Result) or state.counted.get(what.match) != what:
             continue
         on = state.calls.get((what.match, frozenset(what.players)))
         if on is not None and on.call.table == number:
-            found = what
+            found = what, event.at
     return found
 
 
@@ -94,7 +126,7 @@ async def tap(request: Request) -> Response:
     state, number = await _table(request)
 
     def check(now: Evening) -> None:
-        if site_of(request).night.phones().table_of(phone_of(request)) != number:
+        if night_of(request).phones().table_of(phone_of(request)) != number:
             raise RefusalError("This is no longer the table's tablet.", status=403)
         on = now.on_tables.get(one.match)
         if on is None or on.call.table != number:
@@ -115,20 +147,19 @@ async def wrong(request: Request) -> Response:
     """Keep that the last result of a table is wrong, for the director to see."""
     form = await form_of(request)
     state, number = await _table(request)
-    site, phone, match = site_of(request), phone_of(request), form.text("match")
+    phone, match, key = phone_of(request), form.text("match"), form.key(request.url.path)
     result = state.counted.get(match)
     if result is None:
         raise MovedOnError("Your match has moved on. Open your page again.", status=409)
 
-    def decide(phones: Phones) -> Entry | None:
+    def decide(phones: Phones) -> Act | None:
         if phones.table_of(phone) != number and phones.of(phone) not in result.players:
             raise RefusalError("This is no longer the table's tablet.", status=403)
         if match in objected(state, phones):
             return None
-        address = address_of(request)
-        return Entry(site.clock(), match, OBJECTED, str(number), result.games, phone, address)
+        return Act(OBJECTED, str(number), match, result.games)
 
-    await asyncio.to_thread(enter, site.path, state, decide)
+    await asyncio.to_thread(taps.note, request, night_of(request), key, decide)
     return done(request, f"/table/{number}")
 
 
@@ -137,21 +168,13 @@ async def tablet(request: Request) -> Response:
     form = await form_of(request)
     check_director(request)
     state, number = await _table(request)
-    site, phone = site_of(request), phone_of(request)
-    give = form.one_of("give", ("yes", "no")) == "yes"
+    give, key = form.one_of("give", ("yes", "no")) == "yes", form.key(request.url.path)
+    act, by = Act(TABLET if give else NO_TABLET, str(number)), "" if give else DIRECTORS_PAGE
 
-    def work() -> None:
-        def decide(phones: Phones) -> Entry | None:
-            at, address = site.clock(), address_of(request)
-            if give:
-                return Entry(at, "", TABLET, str(number), {}, phone, address)
-            held = phones.tablets_of(number)
-            return Entry(at, "", NO_TABLET, str(number), {}, held[0]) if held else None
+    def decide(phones: Phones) -> Act | None:
+        return act if give or phones.tablets_of(number) else None
 
-        while enter(site.path, state, decide).tablets_of(number) and not give:
-            pass
-
-    await asyncio.to_thread(work)
+    await asyncio.to_thread(taps.note, request, night_of(request), key, decide, by)
     if not give:
         return done(request, f"/table/{number}")
     await asyncio.to_thread(let_out, request, DIRECTOR)
@@ -166,15 +189,20 @@ async def codes(request: Request) -> Response:
     site = site_of(request)
     to: list[tuple[str, str]] = [(say("Tonight"), site.address)]
     shown: dict[str, Any] = {"players": {}, "claims": {}}
-    if site.night.exists:
-        state = await asyncio.to_thread(site.night.state)
+    nights = [night for night in site.nights if night.exists]
+    if nights:
+        state = await asyncio.to_thread(nights[0].state)
         names = [state.plan.table_name(k) for k in range(1, state.plan.tables + 1)]
         to += [
             (say("Table {n}", n=name), f"{site.address}/table/{urllib.parse.quote(name, safe='')}")
             for name in names
         ]
-        phones = await asyncio.to_thread(site.night.phones)
-        shown = {"players": site.player_codes(), "claims": phones.claims}
+        claims = {
+            name: claim
+            for night in nights
+            for name, claim in (await asyncio.to_thread(night.phones)).claims.items()
+        }
+        shown = {"players": site.player_codes(), "claims": claims}
 
     def work() -> list[tuple[str, str, str]]:
         return [(words, address, _code(address)) for words, address in to]
@@ -187,11 +215,21 @@ def _code(text: str) -> str:
     return svg
 
 
-async def _table(request: Request) -> tuple[Evening, int]:
-    night = site_of(request).night
-    if not night.exists:
+async def _nights(request: Request) -> list[Night]:
+    """Return the events of the night that are drawn; refuse if none is."""
+    begun = [night for night in site_of(request).nights if night.exists]
+    if not begun:
         raise RefusalError("No tournament is running yet.", status=404)
-    state = await asyncio.to_thread(night.state)
+    drawn = [night for night in begun if (await asyncio.to_thread(night.state)).drawn]
+    if not drawn:
+        raise RefusalError("The draw has not been made yet.", status=404)
+    return drawn
+
+
+async def _table(request: Request) -> tuple[Evening, int]:
+    """Return the event that a form is about, and its table."""
+    await _nights(request)
+    state = await asyncio.to_thread(night_of(request).state)
     if not state.drawn:
         raise RefusalError("The draw has not been made yet.", status=404)
     return state, state.plan.table_number(request.path_params["table"])
