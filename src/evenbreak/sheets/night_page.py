@@ -126,10 +126,13 @@ def _results(state: Evening, said: Callable[[str], str]) -> Markup:
     lines = ['<table class="results">']
     for match, one in state.counted.items():
         number = state.match_numbers.get(match, "")
-        loser, forfeit = one.loser, escape(said(say("forfeit")))
-        score = forfeit if one.forfeit else f"{one.games[one.winner]}-{one.games[loser]}"
+        # After a correction the loser may have been let play on.
+        winner, loser = (one.loser, one.winner) if one.stands else (one.winner, one.loser)
+        played_on = f" ({escape(said(say('played on')))})" if one.stands else ""
+        forfeit = escape(said(say("forfeit")))
+        score = forfeit if one.forfeit else f"{one.games[winner]}-{one.games[loser]}"
         lines.append(
-            f'<tr><td class="number">{number}</td><th><bdi>{_text(one.winner)}</bdi></th>'
-            f'<td class="score">{score}</td><td><bdi>{_text(loser)}</bdi></td></tr>'
+            f'<tr><td class="number">{number}</td><th><bdi>{_text(winner)}</bdi></th>'
+            f'<td class="score">{score}</td><td><bdi>{_text(loser)}</bdi>{played_on}</td></tr>'
         )
     return Markup("\n".join([*lines, "</table>"]))  # noqa: S704 - every name is escaped

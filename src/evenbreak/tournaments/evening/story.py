@@ -78,6 +78,11 @@ class Story:
         return sorted(best, key=lambda name: (-last[name], -best[name]))
 
     @property
+    def over(self) -> bool:
+        """Whether somebody has won the title."""
+        return max(self.steps[-1].title.values()) > 1.0 - 1e-9
+
+    @property
     def highest(self) -> dict[str, float]:
         """The best chance of the title that each player has had."""
         names = self.steps[-1].title
@@ -106,8 +111,7 @@ class Story:
     @property
     def turn(self) -> Step | None:
         """The match that moved most of the title odds, without the last one of the night."""
-        over = max(self.steps[-1].title.values()) > 1.0 - 1e-9
-        moved = [(self.moved(k), k) for k in range(1, len(self.steps) - over)]
+        moved = [(self.moved(k), k) for k in range(1, len(self.steps) - self.over)]
         return self.steps[max(moved)[1]] if moved else None
 
     def moved(self, step: int) -> float:

@@ -33,10 +33,13 @@ async def as_page(request: Request) -> Response:
     state, places = await _finished(request)
     face, name = page_face(language(request)), site_of(request).path.stem
 
-    def make() -> bytes:
-        return night_html(state, places, story_of(state, within=_PATIENCE), name, face)
+    told = await night_of(request).story()
+    story = await asyncio.to_thread(story_of, state, told, within=_PATIENCE)
 
-    file = f"night-{language(request)}-{len(places)}.html"
+    def make() -> bytes:
+        return night_html(state, places, story if story.whole else None, name, face)
+
+    file = f"night-{language(request)}-{len(places)}-{story.whole}.html"
     content = await site_of(request).made.file(file, state, make)
     answer = _file(request, content, "html", "text/html; charset=utf-8")
     answer.headers["content-security-policy"] = f"{OF_DRAWINGS}; frame-ancestors 'none'"

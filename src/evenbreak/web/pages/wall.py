@@ -75,7 +75,7 @@ def _picture(
 ) -> dict[str, Any]:
     site, face = site_of(request), page_face(language(request))
     values: dict[str, Any] = {"picture": picture, "wall": view, "code": code(site.address)}
-    values |= {"drawn": "", "remarks": [], "since": ""}
+    values |= {"drawn": "", "remarks": [], "since": "", "until": view.clock}
     if picture == "bracket":
         two = {one.match.name: "two" for one in view.tables if one.state == "two"}
         panels = bracket_panels(view.state, view.chances, two)
@@ -88,13 +88,17 @@ def _picture(
         if len(view.state.order) > _WHOLE:
             panels = (_open_part(panels, turn),)
         values["drawn"] = bracket_svg(panels, words=words, within=room)
+    if picture == "end" and story and not (story.whole and story.over):
+        story = None  # the last matches are still being added to it
     if story and picture in ("story", "end"):
         size = (1140, 430) if picture == "story" else (880, 380)
         values["drawn"] = Markup(story_svg(story, face, size=size, alone=False))  # noqa: S704 - escaped there
         values["remarks"] = [
-            (one.kind, unbroken(in_face(one.what, face)), one.why) for one in remarks(story)
+            (one.kind, unbroken(in_face(one.what, face)), one.why)
+            for one in (remarks(story) if story.whole else ())
         ]
         values["since"] = clock_words(story.steps[0].at)
+        values["until"] = clock_words(story.steps[-1].at)
     return values
 
 
