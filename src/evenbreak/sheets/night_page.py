@@ -124,13 +124,15 @@ def _story(story: Story, face: Face, said: Callable[[str], str]) -> Markup:
 
 def _results(state: Evening, said: Callable[[str], str]) -> Markup:
     lines = ['<table class="results">']
-    for match, one in state.counted.items():
+    for match, result in state.counted.items():
         number = state.match_numbers.get(match, "")
         # After a correction the loser may have been let play on.
-        winner, loser = (one.loser, one.winner) if one.stands else (one.winner, one.loser)
-        played_on = f" ({escape(said(say('played on')))})" if one.stands else ""
-        forfeit = escape(said(say("forfeit")))
-        score = forfeit if one.forfeit else f"{one.games[winner]}-{one.games[loser]}"
+        winner, loser = (
+            (result.loser, result.winner) if result.stands else (result.winner, result.loser)
+        )
+        forfeit, on = (escape(said(one)) for one in (say("forfeit"), say("played on")))
+        played_on = f" ({on})" if result.stands else ""
+        score = forfeit if result.forfeit else f"{result.games[winner]}-{result.games[loser]}"
         lines.append(
             f'<tr><td class="number">{number}</td><th><bdi>{_text(winner)}</bdi></th>'
             f'<td class="score">{score}</td><td><bdi>{_text(loser)}</bdi>{played_on}</td></tr>'
