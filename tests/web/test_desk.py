@@ -232,3 +232,25 @@ def test_more_has_everything_once(full: Hall) -> None:
     full.director.send("/desk/change", slower="1.3")
     assert full.state.plan.slower == 1.3
     assert PLAYERS[0] in full.director.open("/desk/more").text
+
+
+def test_a_table_is_closed_from_its_match_and_only_that_match_leaves(hall: Hall) -> None:
+    assert hall.director.send("/desk/change", tables="1-2, TV, 4").status == 200
+    for table in range(1, 5):
+        match = hall.state.standing.to_play[table - 1]
+        assert hall.director.send("/desk/call", match=match, table=table).status == 200
+    before = hall.state
+    gone = on(hall, 3)
+    sheet = hall.director.open(f"/desk?match={before.number_of(gone)}").text
+    close = next(form for form in forms_in(sheet) if "Close table TV" in form.words)
+    # More sends the tables that were kept for calls by hand too, as they were.
+    fields = dict(close.fields) | {"reserved": "TV", "streamed": "TV, 4"}
+    assert hall.director.send_raw("/desk/change", fields | {"sure": "yes"}).status == 200
+    names = hall.state.plan.table_name
+    assert {names(one.call.table): n for n, one in hall.state.on_tables.items()} == {
+        before.plan.table_name(one.call.table): n
+        for n, one in before.on_tables.items()
+        if n != gone
+    }
+    assert hall.state.plan.streamed == (3,)
+    assert not hall.state.plan.reserved

@@ -60,6 +60,7 @@ from evenbreak.tournaments.evening import moves, roster, settling, tables, undoi
 from evenbreak.tournaments.evening.events import BY_ITSELF, Entrant, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
+from evenbreak.tournaments.evening.plan import table_places
 from evenbreak.words import Command, Parameter, Sentence, say, say_count
 
 _GAMES = Parameter("games")
@@ -126,8 +127,17 @@ def _change(state: Evening, asked: Change, _: str) -> Sequence[What]:
     then = replace(state.plan, tables=count or state.plan.tables)
     then = replace(then, labels=then.labels if labels is None else labels)
 
+    places = table_places(state.plan, then)
+    old = {state.plan.table_name(k).casefold(): k for k in range(1, state.plan.tables + 1)}
+    new = {then.table_name(k).casefold() for k in range(1, then.tables + 1)}
+
     def numbers(names: tuple[str, ...] | None) -> tuple[int, ...] | None:
-        return None if names is None else tuple(map(then.table_number, names))
+        if names is None:
+            return None
+        # A form that closes a table still names it where it was: it is of no account there.
+        gone = {name for name in names if name.casefold() in old.keys() - new}
+        moved = [places[old[name.casefold()]] for name in gone if old[name.casefold()] in places]
+        return (*map(then.table_number, [name for name in names if name not in gone]), *moved)
 
     return [
         moves.change(

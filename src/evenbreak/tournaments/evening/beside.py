@@ -37,9 +37,10 @@ def together(states: Mapping[int, Evening]) -> dict[int, Evening]:
     """
     if len(states) < 2:
         return dict(states)
-    house = states[min(states)].plan
+    first = min(states)
     found = {
-        n: replace(one, plan=one.plan.at_tables_of(house), event=n) for n, one in states.items()
+        n: replace(one if n == first else one.at_tables_of(states[first]), event=n)
+        for n, one in states.items()
     }
     for n, gone in _doubled(found).items():
         calls = {pairing: one for pairing, one in found[n].calls.items() if pairing not in gone}

@@ -51,6 +51,7 @@ from evenbreak.tournaments.evening.plan import (
     changed,
     groups_of,
     races_of,
+    table_places,
     whole_bracket,
 )
 from evenbreak.tournaments.evening.players import People
@@ -304,8 +305,25 @@ class Evening:
         """Return the state after more events; this one stays as it is, and so do others beside."""
         after = evening([*self.log, *events])
         elsewhere, beside, event = self.elsewhere, self.beside, self.event
-        plan = after.plan.at_tables_of(self.plan) if event > 1 else after.plan
-        return replace(after, plan=plan, elsewhere=elsewhere, beside=beside, event=event)
+        if event > 1:
+            house = min((self, *beside), key=lambda one: one.event)
+            after = replace(after.at_tables_of(house), plan=after.plan.at_tables_of(self.plan))
+        return replace(after, elsewhere=elsewhere, beside=beside, event=event)
+
+    def at_tables_of(self, house: Evening) -> Evening:
+        """Return the state with the tables of another event, wherever those have moved since."""
+        calls = dict(self.calls)
+        for at, places in _table_changes(house.events):
+            for pairing in list(calls):
+                one = calls[pairing]
+                called = (e.at for e in self.events if e.what == one.call)
+                if at <= max(called, default=one.at):
+                    continue
+                if table := places.get(one.call.table):
+                    calls[pairing] = one._replace(call=replace(one.call, table=table))
+                else:
+                    del calls[pairing]
+        return replace(self, plan=self.plan.at_tables_of(house.plan), calls=calls)
 
     def pair(self, match: str) -> tuple[str, str]:
         """Return the players of a match that can be played or was."""
@@ -388,8 +406,8 @@ def evening(events: Iterable[Event]) -> Evening:
         people.take(event.what, in_pairs=in_pairs)
         if isinstance(event.what, Changed):
             bracket = bracket_of(plan, *people.drawn_up) if people.order else None
-            plan = changed(plan, event.what, bracket, matches.begun)
-            matches.close(plan.tables)
+            before, plan = plan, changed(plan, event.what, bracket, matches.begun)
+            matches.move(table_places(before, plan))
         else:
             matches.take(event, in_pairs=in_pairs)
     order, lines = people.drawn_up
@@ -429,6 +447,18 @@ def _as_named_now(event: Event, plan: Plan, order: Sequence[str]) -> Event:
         last = final_of_groups(groups_of(plan, len(order)))
         return replace(event, what=replace(what, match=last))
     return event
+
+
+def _table_changes(events: Sequence[Event]) -> list[tuple[str, dict[int, int]]]:
+    """Return when tables were opened, closed or renamed, and the number of each from then on."""
+    found = []
+    first = events[0].what
+    plan = first.plan if isinstance(first, Opened) else None
+    for one in events:
+        if plan is not None and isinstance(one.what, Changed):
+            before, plan = plan, changed(plan, one.what, None, ())
+            found.append((one.at, table_places(before, plan)))
+    return found
 
 
 def tied_ranks(now: Standing, group: Group) -> list[int]:

@@ -103,9 +103,13 @@ class Matches:
             moved = earlier is not None and call.match not in self.records
             self.calls[pairing] = OnTable(call, earlier.at if earlier and moved else at)
 
-    def close(self, tables: int) -> None:
-        """Take matches off tables that there are no more."""
-        self.calls = {key: one for key, one in self.calls.items() if one.call.table <= tables}
+    def move(self, places: Mapping[int, int]) -> None:
+        """Let matches stay on tables that have other numbers now, and leave those that are gone."""
+        self.calls = {
+            key: one._replace(call=replace(one.call, table=places[one.call.table]))
+            for key, one in self.calls.items()
+            if one.call.table in places
+        }
 
     def trade(self, names: Mapping[str, str]) -> None:
         """Let players stand where others stood, in the last round and in what is called."""

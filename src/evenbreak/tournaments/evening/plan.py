@@ -27,7 +27,7 @@ from evenbreak.tournaments.brackets.laid_out import laid_out
 from evenbreak.tournaments.brackets.swiss import Pairing, Swiss, swiss, swiss_bracket, swiss_round
 from evenbreak.tournaments.evening.chip_night import rack_bracket
 from evenbreak.tournaments.evening.events import Changed, Entrant, Opened, Plan, Result
-from evenbreak.tournaments.evening.format import MOST_PLAYERS, Format
+from evenbreak.tournaments.evening.format import MOST_PLAYERS, Format, Occasion
 from evenbreak.tournaments.odds.races import Fairest, Races
 
 FORMATS = (
@@ -256,6 +256,29 @@ def races_of(plan: Plan) -> Races:
     return Races(Fairest(plan.race), losers, last, by_match)
 
 
+def table_places(before: Occasion, after: Occasion) -> dict[int, int]:
+    """Return the number now of each table that there still is, by its number before.
+
+    A table is known by its name. Where there are as many as before, one whose name is gone has
+    been given the new name that stands in its place.
+
+    >>> house = Plan("double", 5, tables=4, labels=("1", "2", "TV", "4"))
+    >>> table_places(house, replace(house, tables=3, labels=("1", "2", "4")))
+    {1: 1, 2: 2, 4: 3}
+    """
+    old, new = (
+        [plan.table_name(table).casefold() for table in range(1, plan.tables + 1)]
+        for plan in (before, after)
+    )
+    found = {}
+    for table, name in enumerate(old, 1):
+        if name in new:
+            found[table] = new.index(name) + 1
+        elif len(old) == len(new) and new[table - 1] not in old:
+            found[table] = table
+    return found
+
+
 def changed(plan: Plan, change: Changed, bracket: Bracket | None, begun: Iterable[str]) -> Plan:
     """Return a plan with other tables or races; matches that have begun keep their race.
 
@@ -272,9 +295,11 @@ def changed(plan: Plan, change: Changed, bracket: Bracket | None, begun: Iterabl
     4
     """
     given = {name: value for name, value in asdict(change).items() if value is not None}
-    if change.tables is not None:  # of those that are closed, none is kept
+    if {"tables", "labels"} & given.keys():  # of those that are closed, none is kept
+        house = {name: given[name] for name in ("tables", "labels") if name in given}
+        places = table_places(plan, replace(plan, **house))
         for name, those in (("reserved", plan.reserved), ("streamed", plan.streamed)):
-            given.setdefault(name, tuple(table for table in those if table <= change.tables))
+            given.setdefault(name, tuple(places[table] for table in those if table in places))
     if bracket is None or not set(given) & {"race", "losers_race", "final_race"}:
         return replace(plan, **given)
     races, by_match = races_of(plan), dict(plan.by_match)

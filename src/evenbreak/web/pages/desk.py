@@ -21,6 +21,7 @@ from evenbreak.tournaments.evening.calling import (
 )
 from evenbreak.tournaments.evening.events import Result, score_words
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.format import names_text
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.settling import tied_groups
 from evenbreak.tournaments.evening.undoing import is_free, own_last, undoable
@@ -182,8 +183,17 @@ def sheet_values(request: Request, state: Evening) -> dict[str, Any]:
                 if one.table and name != match
             ],
             "undo": _undo_of(state, one),
+            "open": _tables_without(state, one.table),
         },
     }
+
+
+def _tables_without(state: Evening, table: int | None) -> str:
+    """Return the tables that stay open when one closes, as they are typed; "" for the last."""
+    plan = state.plan
+    names = [plan.table_name(k) for k in range(1, plan.tables + 1) if k != table]
+    lone = len(names) == 1 and names[0].isdecimal() and names[0] != "1"
+    return "" if table is None or state.event > 1 or lone or not names else names_text(names)
 
 
 def _undo_of(state: Evening, one: DeskMatch) -> dict[str, Any] | None:
