@@ -17,6 +17,7 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.evening.fold import evening
 from evenbreak.web.evening_view import EveningView
+from evenbreak.web.night import Known
 from evenbreak.web.wall_view import WallView, just_called, pictures_of, turn_at, wall_view
 from web.phones import Phone, running
 
@@ -41,6 +42,15 @@ def test_a_called_match_is_amber_until_it_is_scored_and_a_disputed_score_is_not_
     ]
     later = wall(*BEGUN, *CALLS, SCORE, now="2025-03-01T20:06:00", disputed={"W1.2"})
     assert [(one.state, one.score) for one in later.tables] == [("playing", (0, 0)), ("two", None)]
+
+
+def test_shared_places_are_rounded_as_on_the_page_that_is_sent_on() -> None:
+    state = wall(*BEGUN).state
+    rows = [{"place": "3-4", "name": name} for name in ("Bo", "Di")]
+    known = Known(state, 0.0, data={"places": rows})
+    money = {"prizes": [50.0, 30.0, 15.0, 10.0], "unit": 5.0}
+    shown = wall_view(state, known, name="", now=AT, **money)  # type: ignore[arg-type]
+    assert [tuple(one) for one in shown.places] == [("3-4", "Bo", 10.0), ("3-4", "Di", 10.0)]
 
 
 def test_the_tables_come_at_once_when_a_match_is_called_and_the_champion_at_the_end() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from html import escape
 
@@ -16,27 +15,7 @@ from evenbreak.sheets.html_page import Section, html_page, own_file, shown_name
 from evenbreak.sheets.story_drawing import story_svg
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.story import Story
-from evenbreak.tournaments.money.payouts import shared_prize
 from evenbreak.words import PYTHON, Face, in_face, say
-
-Places = Sequence[tuple[str, str]]
-"""Who finished where: a place such as 5-6, and a name."""
-
-
-def with_prizes(
-    places: Places, prizes: Sequence[float], unit: float = 0.0
-) -> list[tuple[str, str, float]]:
-    """Return places with what each is paid; who share places share their money.
-
-    >>> with_prizes([("1", "Ann"), ("2-3", "Bo"), ("2-3", "Cy")], [100.0, 60.0, 30.0])
-    [('1', 'Ann', 100.0), ('2-3', 'Bo', 45.0), ('2-3', 'Cy', 45.0)]
-    """
-    found = []
-    for place, name in places:
-        ends = [int(part) for part in re.findall(r"\d+", place)] if place[:1].isdigit() else []
-        paid = shared_prize(prizes, ends[0], ends[-1], unit) if ends else 0.0
-        found.append((place, name, paid))
-    return found
 
 
 def night_html(

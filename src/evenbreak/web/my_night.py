@@ -14,6 +14,7 @@ from evenbreak.tournaments.brackets.bracket import Match, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import Scored
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.money.payouts import shared_prize
 from evenbreak.tournaments.odds.races import race_chance
 from evenbreak.web.evening_view import decided_places, provisional_in
 from evenbreak.web.night import Known
@@ -317,7 +318,7 @@ def after(state: Evening, mine: MyMatch, outcome: str, known: Known | None) -> A
 
 
 def place_of(
-    state: Evening, me: str, known: Known | None, prizes: list[float]
+    state: Evening, me: str, known: Known | None, prizes: list[float], unit: float = 0.0
 ) -> tuple[str, float | None]:
     """Return where a player finished, and their share of the prizes; '' while that is open."""
     if known is None or known.of is not state or known.odds is None:
@@ -325,8 +326,8 @@ def place_of(
     place = decided_places(known.odds).get(me)
     if place is None:
         return "", None
-    paid = [*prizes, *[0.0] * place.last][place.first - 1 : place.last]
-    return str(place), None if place.event else sum(paid) / len(paid)
+    paid = shared_prize(prizes, place.first, place.last, unit)
+    return str(place), None if place.event else paid
 
 
 def round_words(match: Match) -> Sentence | str:

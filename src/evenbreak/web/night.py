@@ -185,6 +185,11 @@ class Night:
         except InputError:
             return []
 
+    @property
+    def unit(self) -> float:
+        """What prizes are rounded down to, as `prizes` last read it."""
+        return self._money.unit if self._money else 0.0
+
     def keep_prizes(self, money: PrizeMoney) -> None:
         """Keep the prize money with the tournament."""
         keep_prizes(self.path, money)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
@@ -12,6 +11,7 @@ from typing import NamedTuple
 from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.money.payouts import with_prizes
 from evenbreak.web.desk_view import progress
 from evenbreak.web.evening_view import EveningView, Favorite, MatchView, favorites_of, view_of
 from evenbreak.web.night import Known
@@ -121,7 +121,10 @@ class WallView:
     @property
     def marks(self) -> str:
         """What a rendered page depends on besides the state: calls, disputes, prizes."""
-        return " ".join(f"{one.name} {one.state}" for one in self.tables) + str(self.prizes)
+        return (
+            " ".join(f"{one.name} {one.state}" for one in self.tables)
+            + f"{self.prizes} {self.places}"
+        )
 
 
 def wall_view(
@@ -131,6 +134,7 @@ def wall_view(
     name: str,
     now: str,
     prizes: Sequence[float] = (),
+    unit: float = 0.0,
     disputed: Collection[str] = (),
 ) -> WallView:
     """Return a night as everybody sees it.
@@ -145,6 +149,8 @@ def wall_view(
         what time it is, such as 2025-03-01T19:30:00.
     prizes
         the money for each place.
+    unit
+        what it is rounded down to where places share it.
     disputed
         the matches of which the players have sent different scores.
     """
@@ -172,7 +178,7 @@ def wall_view(
         sorted(tables, key=lambda one: one.match.table or 0),
         later,
         favorites_of(known),
-        [Placed(place, who, _money(place, prizes)) for place, who in view.places],
+        [Placed(*one) for one in with_prizes(view.places, prizes, unit)],
         *progress(state),
         prizes,
         now[11:16],
@@ -195,18 +201,6 @@ def _table(
         kind = "hill" if one.hill else "called" if walking and not one.score else "playing"
         score = one.score or ((0, 0) if kind == "playing" else None)
     return TableView(name, kind, one, state.match_words(one.name), score, chance)
-
-
-def _money(place: str, prizes: Sequence[float]) -> float:
-    """Return what a place is paid; who share places share their money.
-
-    >>> _money("1", [200.0, 100.0]), _money("2-3", [200.0, 100.0]), _money("4", [200.0])
-    (200.0, 50.0, 0.0)
-    """
-    ends = [int(part) for part in re.findall(r"\d+", place)]
-    if not ends or not place[0].isdigit():
-        return 0.0
-    return sum(prizes[ends[0] - 1 : ends[-1]]) / (ends[-1] - ends[0] + 1)
 
 
 def pictures_of(view: WallView, *, told: int) -> list[str]:

@@ -92,8 +92,9 @@ def _night_page(asked: Export) -> Answer:
     from evenbreak.answers.tournament.night import night_answer
     from evenbreak.answers.tournament.prizes import payers_of
     from evenbreak.files.store.desk import kept_prizes
-    from evenbreak.sheets.night_page import night_html, with_prizes
+    from evenbreak.sheets.night_page import night_html
     from evenbreak.tournaments.evening.story import story_of
+    from evenbreak.tournaments.money.payouts import with_prizes
 
     outlook = outlook_of(asked.path, moment(None, asked.path))
     state, money = outlook.state, kept_prizes(asked.path)

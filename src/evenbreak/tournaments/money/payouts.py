@@ -263,6 +263,31 @@ def shared_prize(amounts: Sequence[float], first: int, last: int, unit: float = 
     return shared // (last - first + 1) // step * step / 100.0
 
 
+def with_prizes(
+    places: Sequence[tuple[str, str]], prizes: Sequence[float], unit: float = 0.0
+) -> list[tuple[str, str, float]]:
+    """Return places, such as 5-6, with what each is paid; who share places share their money.
+
+    Parameters
+    ----------
+    places
+        who finished where: a place and a name each.
+    prizes
+        the money for first place, second, ...
+    unit
+        what prizes are rounded down to.
+
+    >>> with_prizes([("1", "Ann"), ("2-3", "Bo"), ("2-3", "Cy")], [100.0, 60.0, 30.0])
+    [('1', 'Ann', 100.0), ('2-3', 'Bo', 45.0), ('2-3', 'Cy', 45.0)]
+    """
+    found = []
+    for place, name in places:
+        ends = [int(part) for part in re.findall(r"\d+", place)] if place[:1].isdigit() else []
+        paid = shared_prize(prizes, ends[0], ends[-1], unit) if ends else 0.0
+        found.append((place, name, paid))
+    return found
+
+
 def _payouts(text: str) -> Payouts:
     if text in PAYOUTS:
         return PAYOUTS[text]

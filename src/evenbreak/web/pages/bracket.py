@@ -18,6 +18,7 @@ from evenbreak.answers.tournament.printed import onward_words, paper_words, scor
 from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.sheets.bracket_page import bracket_both
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.desk_view import progress
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.night import Known
 from evenbreak.web.page import answer_shown, language, page, page_face, site_of
@@ -53,6 +54,7 @@ async def bracket(request: Request) -> Response:
     def link(box: Box) -> str:
         return f"/bracket?{f'event={event}&' if event > 1 else ''}match={box.number}"
 
+    played, matches = progress(state)
     standings = swiss_table(state) if state.plan.form == "swiss" else []
     return page(
         request,
@@ -62,8 +64,8 @@ async def bracket(request: Request) -> Response:
             panels, words=words, link=link, chosen=chosen.box.match if chosen else ""
         ),
         chosen=chosen,
-        played=len(state.counted),
-        matches=sum(box.beside >= 0 or box.state != "waits" for p in panels for box in p.boxes),
+        played=played,
+        matches=matches,
         clock=night_of(request).clock()[11:16],
         standings=[answer_shown(request, Answer("", [one])) for one in standings],
         state=state,

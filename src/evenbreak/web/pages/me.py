@@ -98,7 +98,7 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
         "lost": sum(one.loser == name for one in played),
         "eliminates": state.plan.form in ELIMINATIONS,
         "dropped": name in state.dropped,
-        "finished": place_of(state, name, known, night.prizes()),
+        "finished": place_of(state, name, known, night.prizes(), night.unit),
         "state": state,
     }
     if mine and mine.pair:

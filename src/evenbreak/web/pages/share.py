@@ -10,8 +10,8 @@ from starlette.routing import Route
 
 from evenbreak.answers.faces.to_csv import to_csv
 from evenbreak.answers.tournament.printed import paper_words, tournament_matches_answer
-from evenbreak.files.store.desk import kept_prizes
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.money.payouts import with_prizes
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import language, page, page_face, site_of
@@ -80,17 +80,14 @@ def _file(request: Request, content: bytes, ending: str, kind: str) -> Response:
 
 async def _finished(request: Request) -> tuple[Evening, list[tuple[str, str, float]]]:
     """Return a night that is drawn, and who finished where for how much, as far as decided."""
-    from evenbreak.sheets.night_page import with_prizes
-
     night = night_of(request)
     state = await asyncio.to_thread(night.state) if night.exists else None
     if state is None or not state.drawn:
         raise RefusalError("The draw has not been made yet.", status=404)
     known = await night.outlook()
     places = view_of(state, known).places if known and known.of is state else []
-    money = await asyncio.to_thread(kept_prizes, night.path)
     prizes = await asyncio.to_thread(night.prizes)
-    return state, with_prizes(places, prizes, money.unit if money else 0.0)
+    return state, with_prizes(places, prizes, night.unit)
 
 
 _PATIENCE = 20.0  # seconds for the story of a large bracket

@@ -129,7 +129,7 @@ async def view_for(request: Request, night: Night, now: str) -> tuple[WallView, 
     """
     known = await night.outlook()
     views, prizes = request.app.state.__dict__.setdefault("walls", {}), night.prizes()
-    key = (mark_of(night.path), now[:16], tuple(prizes))
+    key = (mark_of(night.path), now[:16], tuple(prizes), night.unit)
     kept = views.get(id(night))
     if kept is None or kept[0] != key or kept[1] is not known:
 
@@ -137,6 +137,7 @@ async def view_for(request: Request, night: Night, now: str) -> tuple[WallView, 
             state = night.state()
             found = {one.match for one in disputes(state, night.phones())} if state.drawn else set()
             asked: Any = {"name": night.path.stem, "now": now, "prizes": prizes}
+            asked["unit"] = night.unit
             return wall_view(state, known, disputed=found, **asked), state
 
         kept = views[id(night)] = key, known, await asyncio.to_thread(work)
