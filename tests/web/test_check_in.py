@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 
 from evenbreak.files.store.tournament import read_tournament
-from web.conftest import Hall
+from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running
 from web.test_new_tournament import ASKED
 
@@ -98,25 +98,29 @@ def test_the_director_changes_players_and_everybody_sees_them(hall: Hall) -> Non
     assert "has left" in words
 
 
-def test_the_night_to_take_home_needs_nobody_else(hall: Hall) -> None:
-    assert "not over yet" in hall.guest.open("/share").words
-    hall.director.send("/prizes", fee=10, house=10, unit=5)
-    while hall.state.standing.to_play:
-        match = hall.state.standing.to_play[0]
-        need = hall.state.needed(match, hall.state.pair(match))
-        hall.director.send("/desk/result", match=match, a=need[0], b=1)
-    for _ in range(200):
-        shown = hall.guest.open("/share")
-        if "Champion" in shown.words:
-            break
-    champion = hall.state.counted[list(hall.state.counted)[-1]].winner
-    assert f"Champion · 65 {champion}" in shown.words
-    page = hall.guest.open("/share.html")
-    assert page.headers["content-security-policy"].startswith("default-src 'none'")
-    assert not re.findall(r"(?:src|href|url)\s*[=(]\s*[\"']?(?!#)[^\"'# >]", page.text)
-    assert "<script" not in page.text
-    for name in hall.state.entrants:
-        assert name in page.text
-    assert page.text.count("<polyline") > 2
-    rows = list(csv.DictReader(io.StringIO(hall.guest.open("/share.csv").text)))
-    assert len(rows) == len(hall.state.counted)
+def test_the_night_to_take_home_needs_nobody_else(tmp_path: Path) -> None:
+    with running(tmp_path / "tonight.db") as site:
+        director = Phone(site, director=True)
+        begun(director, PLAYERS[:4])
+        hall = Hall(site, director, Phone(site))
+        assert "not over yet" in hall.guest.open("/share").words
+        hall.director.send("/prizes", fee=10, house=10, unit=5)
+        while hall.state.standing.to_play:
+            match = hall.state.standing.to_play[0]
+            need = hall.state.needed(match, hall.state.pair(match))
+            hall.director.send("/desk/result", match=match, a=need[0], b=1)
+        for _ in range(200):
+            shown = hall.guest.open("/share")
+            if "Champion" in shown.words:
+                break
+        champion = hall.state.counted[list(hall.state.counted)[-1]].winner
+        assert f"Champion · 25 {champion}" in shown.words
+        page = hall.guest.open("/share.html")
+        assert page.headers["content-security-policy"].startswith("default-src 'none'")
+        assert not re.findall(r"(?:src|href|url)\s*[=(]\s*[\"']?(?!#)[^\"'# >]", page.text)
+        assert "<script" not in page.text
+        for name in hall.state.entrants:
+            assert name in page.text
+        assert page.text.count("<polyline") > 2
+        rows = list(csv.DictReader(io.StringIO(hall.guest.open("/share.csv").text)))
+        assert len(rows) == len(hall.state.counted)
