@@ -76,7 +76,7 @@ def accent(color: str) -> Accent:
         if it is not a color like #1b6e53.
 
     >>> accent("#1b6e53").light, accent("#ffee00").light, accent("#ffee00").changed
-    ('#1b6e53', '#787000', True)
+    ('#1b6e53', '#736b00', True)
     """
     asked = COLOR.read(color)
     light, dark = (
