@@ -37,6 +37,7 @@ from evenbreak.tournaments.evening.events import (
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.undoing import losses, undoable
 from evenbreak.tournaments.odds.races import race_chance
+from evenbreak.web.sessions import author_words
 from evenbreak.words import Sentence, listed, say
 
 
@@ -259,6 +260,8 @@ class LastAct(NamedTuple):
         the number of its match; 0 if it is about none.
     over
         whether it is a result.
+    by
+        the phones or the tablet that entered it; '' if the director did.
     """
 
     number: int
@@ -269,6 +272,7 @@ class LastAct(NamedTuple):
     undo: Sentence | str
     match: int = 0
     over: bool = False
+    by: Sentence | str = ""
 
 
 def last_act(state: Evening, read: int) -> LastAct | None:
@@ -305,6 +309,7 @@ def last_act(state: Evening, read: int) -> LastAct | None:
         undo,
         state.number_of(match) if match else 0,
         isinstance(event.what, Result),
+        author_words(event.by) if event.by_phones else "",
     )
 
 

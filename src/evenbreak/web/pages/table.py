@@ -62,7 +62,8 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
         return RedirectResponse("/me", status_code=303)
     one = match_at(state, name) if name else None
     tablet = phones.table_of(phone) == number
-    last, at = _last_on(state, number)
+    told = await asyncio.to_thread(_last_at, nights, number)
+    last, at = _last_on(told.state(), number)
     now = site_of(request).clock()
     begun = why or request.query_params.get("play") == name or state.plan.form == "chips"
     shown: dict[str, Any] = {
@@ -80,7 +81,8 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
         "next": _next_on(nights, number),
         "last": last,
         "just_now": bool(at) and (_moment(now) - _moment(at)).total_seconds() < _JUST_NOW,
-        "objected": last is not None and last.match in objected(state, phones),
+        "last_event": told.event,
+        "objected": last is not None and last.match in objected(told.state(), told.phones()),
         "now": now[11:16],
         "why": reason(request, why) if why else "",
     }
@@ -89,11 +91,15 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
 
 def _night_at(nights: Sequence[Night], number: int) -> Night:
     """Return the event whose match is on a table, or else that of the last match on it."""
-    states = [(night, night.state()) for night in nights]
-    for night, state in states:
-        if number in {on.call.table for on in state.on_tables.values()}:
+    for night in nights:
+        if number in {on.call.table for on in night.state().on_tables.values()}:
             return night
-    return max(states, key=lambda one: _last_on(one[1], number)[1])[0]
+    return _last_at(nights, number)
+
+
+def _last_at(nights: Sequence[Night], number: int) -> Night:
+    """Return the event whose match was the last to end on a table; the first if none has."""
+    return max(nights, key=lambda night: _last_on(night.state(), number)[1])
 
 
 def _next_on(nights: Sequence[Night], number: int) -> list[tuple[str, str]]:
