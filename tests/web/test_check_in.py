@@ -33,7 +33,7 @@ def test_the_draw_is_of_those_who_are_here(tmp_path: Path) -> None:
         assert "2 here, of 4" in shown.words
         assert "2 paid" in shown.words
         assert "50 in the pot" in shown.words
-        assert "Draw 2 players 2 are not here · 1 has not paid" in shown.words
+        assert "Draw 2 players 2 are not here · 1 hasn't paid" in shown.words
         rows = shown.words.partition("Missing first")[2]
         order = [rows.index(f" {name} ") for name in ("Cy", "Di", "Bo", "Ann")]
         assert order == sorted(order)  # who is missing comes first

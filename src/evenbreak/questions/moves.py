@@ -222,7 +222,7 @@ class Change(Entry):
     date: Annotated[str | None, Field(Text("DATE"), "Its date.")] = None
     reserved: Annotated[
         tuple[str, ...] | None,
-        Field(Named(names_in, "TABLE,..."), "Tables that are given out by name alone, or none."),
+        Field(Named(names_in, "TABLE,..."), "Tables assigned only by name, or none."),
     ] = None
     streamed: Annotated[
         tuple[str, ...] | None,
@@ -332,10 +332,10 @@ class Wait(TimedUnderWay):
 """
     match: Match
     absent: Annotated[
-        tuple[str, ...], Field(PLAYER, "Who of its players is not here.", many=True)
+        tuple[str, ...], Field(PLAYER, "Which of its players isn't here.", many=True)
     ] = ()
     until: Annotated[
-        int | None, Field(TIME_OF_DAY, "When they are to forfeit it.", usual="not at all")
+        int | None, Field(TIME_OF_DAY, "When they forfeit it.", usual="not at all")
     ] = None
     reason: Annotated[str, Field(Text("TEXT"), "Another reason.")] = ""
 
@@ -375,7 +375,7 @@ class CheckIn(TimedUnderWay):
     player: Player
     arrived: Annotated[
         bool | None,
-        Field(YES, "Whether they are here.", usual="yes, if {paid} is not given"),
+        Field(YES, "Whether they're here.", usual="yes, if {paid} is not given"),
     ] = None
     paid: Annotated[bool | None, Field(YES, "Whether they have paid.", usual="as before")] = None
 

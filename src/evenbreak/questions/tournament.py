@@ -42,7 +42,7 @@ class NewTournament(TournamentPlan, Starters):
         str | None,
         Field(
             File("FILE.db"),
-            "As that tournament was: the same options and, without a list, the same people.",
+            "The same options as that tournament and, without a list, the same people.",
             rare=True,
         ),
     ] = None
@@ -59,9 +59,7 @@ class NewTournament(TournamentPlan, Starters):
     beside: Annotated[
         bool,
         Field(
-            Flag(),
-            "Begin it beside the one that is under way in {out}, on the same tables.",
-            rare=True,
+            Flag(), "Start it alongside the one under way in {out}, on the same tables.", rare=True
         ),
     ] = False
     at: At = None

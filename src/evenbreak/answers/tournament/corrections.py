@@ -58,7 +58,7 @@ def correction_choices(before: Evening, stop: Evening, match: str) -> list[Choic
     )
     if not in_play:
         stopped = say_count("Open {n} match again.", "Open {n} matches again.", many)
-        stop_button = say("Change it, open again what follows")
+        stop_button = say("Change it, reopen what follows")
         kept, keep_button = say("Let everything stand."), say("Change it, let everything stand")
     elif many == 1:
         stopped, stop_button = say("Stop it."), say("Change it, stop it")

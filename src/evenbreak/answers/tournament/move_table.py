@@ -167,7 +167,7 @@ def _change_words(before: Evening, after: Evening, _: Change) -> list[Sentence]:
         )
     if now.reserved != then.reserved:
         tables = ", ".join(map(now.table_name, now.reserved)) or say("none")
-        said.append(say("Given out by hand only: {tables}.", tables=tables))
+        said.append(say("Assigned by hand only: {tables}.", tables=tables))
     if before.races != after.races:
         said.append(say("{races}.", races=races_words(after.races)))
     if (then.name, then.date) != (now.name, now.date):

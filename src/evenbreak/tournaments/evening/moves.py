@@ -330,7 +330,7 @@ def call(state: Evening, match: str, table: int | None) -> Called:
     if table is None and not (free := free_tables(state)):
         if kept := [names(k) for k in state.plan.reserved if _on_table(state, k) is None]:
             raise InputError(
-                "no table is free but those kept for calls by hand ({tables}); name one of them",
+                "the only free tables are those called by hand ({tables}); name one of them",
                 tables=", ".join(kept),
             )
         raise InputError("no table is free (there are {tables})", tables=state.plan.tables)

@@ -47,7 +47,7 @@ def swap(state: Evening, one: str, other: str) -> Swapped:
         raise InputError("there is no draw yet in which players could trade places")
     names = entered(state, one), entered(state, other)
     if one == other:
-        raise InputError("name two players who are to trade places")
+        raise InputError("name two players to trade places")
     for name in names:
         _refuse_begun(state, name, this_round=state.plan.form == "swiss")
         for match, on in state.on_tables.items():

@@ -18,7 +18,7 @@ def swap_tables(state: Evening, one: str, other: str) -> list[Called]:
         if name not in state.on_tables:
             raise InputError("{match} is not on a table", match=state.match_words(name))
     if names[0] == names[1]:
-        raise InputError("name two matches that are to trade tables")
+        raise InputError("name two matches to trade tables")
     calls = [state.on_tables[name].call for name in names]
     return [
         replace(calls[0], table=calls[1].table),

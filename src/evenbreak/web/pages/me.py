@@ -296,13 +296,13 @@ def _mine(request: Request, pair: tuple[str, str]) -> str:
     """Return which of two players this phone is; refuse everybody else."""
     name = night_of(request).phones().of(phone_of(request))
     if name not in pair:
-        raise RefusalError("Only the players of a match keep its score.", status=403)
+        raise RefusalError("Only a match's players keep its score.", status=403)
     return name
 
 
 def _still(request: Request, name: str) -> None:
     if night_of(request).phones().of(phone_of(request)) != name:
-        raise RefusalError("Only the players of a match keep its score.", status=403)
+        raise RefusalError("Only a match's players keep its score.", status=403)
 
 
 async def withdraw(request: Request) -> Response:
