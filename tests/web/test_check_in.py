@@ -20,7 +20,7 @@ def test_the_draw_is_of_those_who_are_here(tmp_path: Path) -> None:
         director.send("/new", **ASKED, fee=20, added=10)
         shown = director.open("/desk/check-in")
         assert "Draw 4 players" in shown.words
-        assert "everybody plays" in shown.words
+        assert "everyone plays" in shown.words
         assert guest.open("/desk/check-in").status == 403
         for name, fields in {
             "Ann": {"arrived": "yes", "paid": "yes"},
@@ -43,7 +43,7 @@ def test_the_draw_is_of_those_who_are_here(tmp_path: Path) -> None:
         other = Phone(site)
         other.send("/play", name="Fox")
         director.send("/desk/decline", name="Fox", back="/desk/check-in")
-        assert "not on the list" in other.open("/play").words
+        assert "isn't on tonight's list" in other.open("/play").words
         assert "Eve has entered" in director.send("/desk/accept", name="Eve").words
         assert guest.open("/play").url.rstrip("/") == site.address
         director.send("/desk/check-in", player="Eve", arrived="yes")
