@@ -371,6 +371,16 @@ def test_undo_is_the_directors_own_and_redo_brings_it_back() -> None:
     )
 
 
+def test_nobody_comes_to_a_second_table_when_it_is_undone_that_they_left_one() -> None:
+    night = Night("round-robin", 4, 1)
+    one, other = [n for n in night.state.standing.to_play if "P1" in night.state.pair(n)][:2]
+    night.add(moves.call(night.state, one, 1))
+    night.add(moves.call_back(night.state, one))
+    night.add(moves.call(night.state, other, 2))
+    _, after = night.add(*undo(night.state, 4))
+    assert {name: on.call.table for name, on in after.on_tables.items()} == {other: 2}
+
+
 def test_a_match_waits_until_it_is_called() -> None:
     night = Night("double", 8, 1)
     night.add(moves.call(night.state, "W1.1", 1))

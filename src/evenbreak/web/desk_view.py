@@ -8,9 +8,6 @@ from datetime import datetime
 from functools import lru_cache
 from typing import NamedTuple
 
-import numpy as np
-from scipy.special import logit
-
 from evenbreak.answers.tournament.bracket_view import source_words
 from evenbreak.answers.tournament.moves import (
     called_words,
@@ -36,7 +33,7 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.undoing import losses, undoable
-from evenbreak.tournaments.odds.races import race_chance
+from evenbreak.web.evening_view import progress_of, win_chance
 from evenbreak.web.sessions import author_words
 from evenbreak.words import Sentence, listed, say
 
@@ -143,13 +140,9 @@ def desk_match(
         return DeskMatch(name, state.number_of(name), part_words(state, name), (), places, "waits")
     pair, result = state.pair(name), state.counted.get(name)
     needs = state.needed(name, pair)
+    won = state.score_of(name) or (0, 0)
     if result is not None:
-        won = tuple(result.games[one] for one in pair)
-    elif name in state.live:
-        by = dict(zip(state.live[name].what.players, state.live[name].what.score, strict=True))
-        won = tuple(by[one] for one in pair)
-    else:
-        won = (0, 0)
+        won = result.games[pair[0]], result.games[pair[1]]
     its = (sides or {}).get(name)
     sent = None
     if its is not None and result is None:
@@ -159,17 +152,12 @@ def desk_match(
     if on is not None:
         passed = datetime.fromisoformat(now) - datetime.fromisoformat(on.at)
         minutes = max(0, int(passed.total_seconds() // 60))
-    hill = all(need - games == 1 for need, games in zip(needs, won, strict=True))
     if result is not None:
         what = "forfeit" if result.forfeit else "done"
     elif sent:
         what = "two" if len(sent) == 2 and not agreed else "sent"
-    elif on is None:
-        what = "ready"
-    elif hill and needs != (1, 1):
-        what = "hill"
     else:
-        what = "playing" if any(won) or minutes >= 5 else "called"
+        what = "ready" if on is None else progress_of(state, name, now)
     found = tuple(
         Side(
             one,
@@ -389,12 +377,9 @@ def waiting(state: Evening, now: str) -> tuple[list[Late], list[Late]]:
 
 def chance(state: Evening, one: DeskMatch) -> float:
     """Return the chance of a match's first player, from its score on."""
-    ratings = [state.entrants[side.name].rating for side in one.sides]
-    p = float(state.scale.win_probability(ratings[0] - ratings[1]))
-    needs, won = (
-        (getattr(one.sides[0], what), getattr(one.sides[1], what)) for what in ("needs", "won")
-    )
-    return float(race_chance(np.asarray(logit(p)), needs, state.plan.match_form, won))
+    first, other = one.sides
+    needs, won = (first.needs, other.needs), (first.won, other.won)
+    return win_chance(state, (first.name, other.name), needs, won)
 
 
 def next_words(state: Evening, name: str) -> list[Sentence]:

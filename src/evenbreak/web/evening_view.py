@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import datetime, timedelta
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,8 +15,11 @@ from evenbreak.tournaments.brackets.bracket import Place
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.moves import free_tables
+from evenbreak.tournaments.odds.races import race_chance
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.night import Known
+
+_WALKING = timedelta(minutes=5)  # since the call, that a match without a score counts as called
 
 
 @dataclass(frozen=True)
@@ -41,13 +44,6 @@ class MatchView:
     score: tuple[int, int] | None
     table: int | None
     since: str = ""
-
-    @property
-    def hill(self) -> bool:
-        """Whether both players need one more game."""
-        return self.score is not None and all(
-            need - won == 1 for need, won in zip(self.needs, self.score, strict=True)
-        )
 
 
 @dataclass(frozen=True)
@@ -165,17 +161,46 @@ def match_view(state: Evening, name: str, table: int | None = None) -> MatchView
     table
         the one to call it to, unless it is on one.
     """
-    pair = state.pair(name)
-    score = None
-    if name in state.live:
-        games = state.live[name].what
-        by_name = dict(zip(games.players, games.score, strict=True))
-        score = by_name[pair[0]], by_name[pair[1]]
-    since = ""
+    pair, since = state.pair(name), ""
     if name in state.on_tables:
         table = state.on_tables[name].call.table
         since = f"{datetime.fromisoformat(state.on_tables[name].at):%H:%M}"
-    return MatchView(name, pair, state.needed(name, pair), score, table, since)
+    return MatchView(name, pair, state.needed(name, pair), state.score_of(name), table, since)
+
+
+def is_hill(needs: tuple[int, int], won: tuple[int, int]) -> bool:
+    """Return whether both players need one more game of several.
+
+    >>> is_hill((5, 4), (4, 3)), is_hill((1, 1), (0, 0))
+    (True, False)
+    """
+    return max(needs) > 1 and all(n - games == 1 for n, games in zip(needs, won, strict=True))
+
+
+def progress_of(state: Evening, name: str, now: str) -> str:
+    """Return how far a match on a table is: called, playing or hill."""
+    won = state.score_of(name) or (0, 0)
+    if is_hill(state.needed(name, state.pair(name)), won):
+        return "hill"
+    since = datetime.fromisoformat(now) - datetime.fromisoformat(state.on_tables[name].at)
+    return "playing" if any(won) or since >= _WALKING else "called"
+
+
+def win_chance(
+    state: Evening,
+    pair: tuple[str, str],
+    needs: tuple[int, int],
+    won: tuple[int, int],
+    *,
+    off: float = 0.0,
+) -> float:
+    """Return the first of two players' chance of a match, from its score on.
+
+    With `off` their rating is so many points higher than it is.
+    """
+    one, other = (state.entrants[name].rating for name in pair)
+    gap = state.scale.log_odds(one - other + off)
+    return float(race_chance(np.asarray(gap), needs, state.plan.match_form, won))
 
 
 class Favorite(NamedTuple):

@@ -14,7 +14,6 @@ from starlette.datastructures import ImmutableMultiDict, QueryParams, UploadFile
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 
-from evenbreak.answers.kit.scales import far_doubts
 from evenbreak.errors import DataError
 from evenbreak.fields.kinds import NUMBER, Choice, Flag, Number, Whole
 from evenbreak.fields.question import Declared, declared
@@ -22,7 +21,6 @@ from evenbreak.files.lists.roster import LARGEST, RosterFile
 from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.files.tables.problems import of_list
 from evenbreak.ratings.scale import SCALES, Scale
-from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.guard import MOST_BYTES, RefusalError
 from evenbreak.web.sessions import check_form
 from evenbreak.words import Parameter, say
@@ -320,13 +318,6 @@ def entered_rating(form: Form) -> float | None:
     if not abs(rating) <= LARGEST:
         raise RefusalError("{value!r} is not a rating. Enter a number, such as 520.", value=stated)
     return rating
-
-
-def rating_doubts(state: Evening) -> list[str]:
-    """Return whose ratings are far from those of all others."""
-    entrants = state.entrants.values()
-    ratings = [one.rating for one in entrants]
-    return far_doubts(state.scale, ratings, [one.name for one in entrants])
 
 
 def list_of(form: Form, text: str, file: str, *, longest: int = LONGEST_LIST) -> bytes:

@@ -15,8 +15,7 @@ from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import Scored
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import shared_prize
-from evenbreak.tournaments.odds.races import race_chance
-from evenbreak.web.evening_view import decided_places, provisional_in
+from evenbreak.web.evening_view import decided_places, is_hill, provisional_in, win_chance
 from evenbreak.web.night import Known
 from evenbreak.words import Sentence, say, say_count
 
@@ -114,8 +113,7 @@ class MyMatch:
     @property
     def hill(self) -> bool:
         """Whether both players need one more game of several."""
-        left = [need - won for need, won in zip(self.needs, self.score, strict=True)]
-        return left == [1, 1] and max(self.needs) > 1
+        return is_hill(self.needs, self.score)
 
     @property
     def seen(self) -> str:
@@ -174,16 +172,13 @@ def match_at(state: Evening, match: str) -> MyMatch:
 def _under_way(state: Evening, match: str, mine: int, known: Known | None) -> dict[str, Any]:
     """Return what there is to see of a match whose players are known."""
     pair = state.pair(match)
-    score, on = (0, 0), state.on_tables.get(match)
-    if live := state.live.get(match):
-        games = dict(zip(live.what.players, live.what.score, strict=True))
-        score = games[pair[0]], games[pair[1]]
+    on = state.on_tables.get(match)
     calls = {one: table for table, one in known.calls} if known and known.of is state else {}
     return {
         "pair": pair,
         "other": pair[1 - mine],
         "needs": state.needed(match, pair),
-        "score": score,
+        "score": state.score_of(match) or (0, 0),
         "table": on.call.table if on else None,
         "since": on.at if on else "",
         "called": calls.get(match),
@@ -238,8 +233,7 @@ def chances(state: Evening, mine: MyMatch) -> tuple[float, float, tuple[float, f
     def win(off: float, score: tuple[int, int]) -> float:
         if score[1] >= needs[1]:
             return 0.0
-        gap = state.scale.log_odds(one.rating - two.rating + off)
-        return float(race_chance(np.asarray(gap), needs, state.plan.match_form, score))
+        return win_chance(state, (me, other), needs, score, off=off)
 
     band = None
     if {me, other} & set(provisional_in(state)):
@@ -348,16 +342,6 @@ def _from_words(state: Evening, slot: Source) -> Sentence | str:
     if slot.outcome == "loser":
         return say("loser of {match}", match=state.match_words(slot.match))
     return source_words(slot, state.match_numbers)
-
-
-def first_name(name: str, other: str) -> str:
-    """Return a player's first name, or the whole name where the other has the same.
-
-    >>> first_name("Ann Lee", "Bo Ray"), first_name("Ann Lee", "Ann Ray")
-    ('Ann', 'Ann Lee')
-    """
-    first = name.split(" ")[0]
-    return name if first == other.split(" ")[0] else first
 
 
 def sides_of(mine: MyMatch, phones: Phones) -> Sides | None:

@@ -44,6 +44,7 @@ _LANGUAGE = "language"
 _SAID = "said"
 _CSRF, _ONCE = (f"mark-{secrets.token_hex(12)}" for _ in range(2))
 """What stands in a rendered page for the marks of its reader's forms."""
+_MOST_RENDERED = 100
 _MOST_SAID = 1500  # letters as JSON writes them: a cookie holds 4 KB
 
 FIELDS = {
@@ -254,7 +255,8 @@ def page(
             **values,
         )
     )
-    rendered[key] = shown
+    if len(rendered) < _MOST_RENDERED:  # addresses may be made up without end
+        rendered[key] = shown
     return HTMLResponse(_with(shown, own), status_code=status)
 
 

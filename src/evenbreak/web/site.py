@@ -30,7 +30,7 @@ from evenbreak.web.sessions import Tries
 from evenbreak.web.team_night import TeamNights
 
 _ENDED, _CALLS, _BY_HAND = "ended", "calls", "by hand"
-_MOST_RENDERED = 5  # kinds of pages besides, each for whoever reads it
+_MOST_KINDS = 5  # kinds of pages besides, each for whoever reads it
 
 
 @dataclass(eq=False)
@@ -113,7 +113,7 @@ class Site:
                 a is b or (isinstance(a, str) and a == b) for a, b in zip(of, what, strict=True)
             ):
                 return pages
-        self._rendered = [(what, {}), *self._rendered[:_MOST_RENDERED]]
+        self._rendered = [(what, {}), *self._rendered[:_MOST_KINDS]]
         return self._rendered[0][1]
 
     def keep_secrets(self) -> None:

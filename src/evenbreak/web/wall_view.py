@@ -13,11 +13,17 @@ from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import with_prizes
 from evenbreak.web.desk_view import progress
-from evenbreak.web.evening_view import EveningView, Favorite, MatchView, favorites_of, view_of
+from evenbreak.web.evening_view import (
+    EveningView,
+    Favorite,
+    MatchView,
+    favorites_of,
+    progress_of,
+    view_of,
+)
 from evenbreak.web.night import Known
 from evenbreak.words import Sentence, say
 
-_WALKING = timedelta(minutes=5)  # since the call, that a match without a score counts as called
 _TURN = 15  # seconds that each picture of the wall is shown
 _JUST_CALLED = timedelta(seconds=25)
 
@@ -194,11 +200,9 @@ def _table(
     if disputed:
         kind, score, chance = "two", None, None
     elif one.since:
-        since = datetime.fromisoformat(state.on_tables[one.name].at)
-        walking = datetime.fromisoformat(now) - since < _WALKING
         if state.plan.form == "chips":
             return TableView(name, "playing", one, state.match_words(one.name), None, None)
-        kind = "hill" if one.hill else "called" if walking and not one.score else "playing"
+        kind = progress_of(state, one.name, now)
         score = one.score or ((0, 0) if kind == "playing" else None)
     return TableView(name, kind, one, state.match_words(one.name), score, chance)
 

@@ -179,9 +179,10 @@ def _undo_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
     gone = [
         event
         for number, event in zip(before.numbers, before.events, strict=True)
-        if number not in after.numbers and event.by != BY_ITSELF
+        if number not in after.numbers
     ]
-    return [undone_words(gone[-1].what, after), *reopened(before, after)]
+    last = [event for event in gone if event.by != BY_ITSELF] or gone
+    return [undone_words(last[-1].what, after), *reopened(before, after)]
 
 
 def name_in(text: str) -> str:

@@ -257,7 +257,11 @@ class Evening:
 
     @cached_property
     def on_tables(self) -> dict[str, OnTable]:
-        """The matches that are being played: a table is left when it is called for another."""
+        """The matches that are being played.
+
+        A table is left when it is called for another match, and a match when one of its players is
+        called to another, as when it is undone that a match left its table.
+        """
         if self.plan.form == "chips":
             return {
                 one.name: OnTable(Called(one.name, one.table, one.players), one.since)
@@ -265,11 +269,14 @@ class Evening:
             }
         called = {n: one for (n, who), one in self.calls.items() if self.sitting(n) == who}
         last = {one.call.table: name for name, one in called.items()}
-        return {
-            name: one
-            for name, one in called.items()
-            if last[one.call.table] == name and name in self.standing.to_play
-        }
+        found: dict[str, OnTable] = {}
+        taken: set[str] = set()
+        for name, one in reversed(called.items()):
+            there = last[one.call.table] == name and name in self.standing.to_play
+            if there and not taken.intersection(one.call.players):
+                found[name] = one
+                taken.update(one.call.players)
+        return dict(reversed(found.items()))
 
     @cached_property
     def live(self) -> dict[str, LiveScore]:
@@ -329,6 +336,13 @@ class Evening:
         """Return the players of a match that can be played or was."""
         one, other = (self.order[k] for k in self.standing.seats[match] if k is not None)
         return one, other
+
+    def score_of(self, match: str) -> tuple[int, int] | None:
+        """Return the games so far of the players of a match in play; None: none was entered."""
+        if match not in self.live:
+            return None
+        what, pair = self.live[match].what, self.pair(match)
+        return what.score if what.players == pair else what.score[::-1]
 
     def needed(self, match: str, players: tuple[str, str]) -> tuple[int, int]:
         """Return the games that each of two players needs in a match, or needed in it."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from evenbreak.errors import InputError
-from evenbreak.tournaments.evening.events import Called, Result, Waits
+from evenbreak.tournaments.evening.events import Called, Waits
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.known import refuse_stranger, undecided
 
@@ -62,19 +62,3 @@ def wait(
             match=state.match_words(name),
         )
     return found
-
-
-def forfeits_due(state: Evening, at: str) -> list[Result]:
-    """Return the forfeits of matches that have waited long enough for one of their players.
-
-    They are only proposed: nothing is forfeited until the director says so.
-    """
-    if not state.drawn:
-        return []
-    return [
-        Result(
-            name, one.players, (0, 0), one.players[one.absent[0] == one.players[0]], forfeit=True
-        )
-        for name, one in state.waiting_for.items()
-        if one.until and one.until <= at and len(one.absent) == 1
-    ]

@@ -82,10 +82,12 @@ def is_free(state: Evening, entry: int) -> bool:
     own = [number for number in act if events[number].by != BY_ITSELF] or [entry]
     if (isinstance(what, Scored) and events[entry].by_phones) or own[-1] != entry:
         return False
+    if not (back := _taken_back(state, events, entry)):  # a call whose match has begun
+        return False
     if len(own) == 1 and (isinstance(what, _LIGHT) or _leads_nowhere(state, what)):
         return True
     try:
-        after = state.then(*(Event(at, one) for one in _taken_back(state, events, entry)))
+        after = state.then(*(Event(at, one) for one in back))
         return not (losses(state, after) or _open_behind(state, after)) and (
             after.drawn or not state.drawn
         )
