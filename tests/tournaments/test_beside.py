@@ -194,7 +194,7 @@ def test_a_result_calls_the_next_match_of_whichever_event_and_takes_it_back(tmp_
             path,
             lambda state: [Event(AT, moves.result(state, match, (3, 0)))],
             event=event,
-            calls=lambda before, after: calls_after(before, after, first_of_two),
+            more=lambda before, after: calls_after(before, after, first_of_two),
         )
 
     seats = night_of(path, read_night(path))

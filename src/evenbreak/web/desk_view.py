@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from evenbreak.answers.tournament.bracket_view import source_words
 from evenbreak.answers.tournament.moves import (
     called_words,
+    event_name,
     event_words,
     forfeited,
     happened,
@@ -21,7 +22,7 @@ from evenbreak.answers.tournament.tournament import place_words
 from evenbreak.files.store.desk import Sides
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.standing import NOBODY
-from evenbreak.tournaments.evening.calling import ready_matches
+from evenbreak.tournaments.evening.calling import night_queue
 from evenbreak.tournaments.evening.events import (
     BY_ITSELF,
     Called,
@@ -83,6 +84,8 @@ class DeskMatch:
         the games of each player that the phone of a player sent, by that player.
     agreed
         whether both sent the same, but perhaps from one phone.
+    event, tag
+        the number of its event of the night, and what that is called; '' if there is only one.
     """
 
     name: str
@@ -95,6 +98,13 @@ class DeskMatch:
     minutes: int = 0
     sent: Mapping[str, tuple[int, int]] | None = None
     agreed: bool = False
+    event: int = 1
+    tag: Sentence | str = ""
+
+    @property
+    def key(self) -> str:
+        """What it is known by on a page: no other match of the night is."""
+        return self.name if self.event == 1 else f"{self.event}-{self.name}"
 
     @property
     def one_rack(self) -> bool:
@@ -132,12 +142,14 @@ def desk_match(
     """
     match = state.bracket.match(name)
     seats = state.standing.seats[name]
+    of: dict[str, Any] = {"event": state.event, "tag": event_name(state) if state.beside else ""}
+    number, part = state.number_of(name), part_words(state, name)
     places = tuple(
         state.order[seat] if seat is not None and seat >= 0 else _from(state, slot)
         for slot, seat in zip(match.slots, seats, strict=True)
     )
     if any(seat is None or seat == NOBODY for seat in seats):
-        return DeskMatch(name, state.number_of(name), part_words(state, name), (), places, "waits")
+        return DeskMatch(name, number, part, (), places, "waits", **of)
     pair, result = state.pair(name), state.counted.get(name)
     needs = state.needed(name, pair)
     won = state.score_of(name) or (0, 0)
@@ -172,18 +184,8 @@ def desk_match(
         for k, one in enumerate(pair)
     )
     table = on.call.table if on else None
-    return DeskMatch(
-        name,
-        state.number_of(name),
-        part_words(state, name),
-        found,
-        places,
-        what,
-        table,
-        minutes,
-        sent,
-        agreed,
-    )
+    both: dict[str, Any] = {"table": table, "minutes": minutes, "sent": sent, "agreed": agreed}
+    return DeskMatch(name, number, part, found, places, what, **both, **of)
 
 
 def _from(state: Evening, slot: int | Source) -> Sentence | str:
@@ -236,12 +238,10 @@ class LastAct(NamedTuple):
 
     Parameters
     ----------
-    number, at
-        of the entry, and when it was made.
+    event, number, at
+        of the entry: its event and number, and when it was made.
     title, lines
         what it was, and what follows from it.
-    shouts
-        what to call out: the matches that were called and have not begun.
     undo
         what is taken back; '' if something follows from it.
     match
@@ -252,11 +252,11 @@ class LastAct(NamedTuple):
         the phones or the tablet that entered it; '' if the director did.
     """
 
+    event: int
     number: int
     at: str
     title: Sentence | str
     lines: Sequence[Sentence | str]
-    shouts: Sequence[Sentence]
     undo: Sentence | str
     match: int = 0
     over: bool = False
@@ -279,26 +279,33 @@ def last_act(state: Evening, read: int) -> LastAct | None:
     if last is None or not _is_act(last[1]) or entries[-1][0] <= read:
         return None
     number, event = last
-    shouts = [
-        shout(state, name)
-        for name in sorted(state.on_tables, key=lambda name: state.on_tables[name].call.table)
-        if name not in state.live and _called_at(entries, name) > read
-    ]
     title, lines = _told(state, number)
     match, undo = getattr(event.what, "match", ""), ""
     if number in undoable(state):
         undo = undo_words(state, event)
     return LastAct(
+        state.event,
         number,
-        time_words(event.at),
+        event.at,
         title,
         lines,
-        shouts,
         undo,
         state.number_of(match) if match else 0,
         isinstance(event.what, Result),
         author_words(event.by) if event.by_phones else "",
     )
+
+
+def shouts(states: Mapping[int, Evening], read: Mapping[int, int]) -> list[Sentence]:
+    """Return what to call out, by table: the matches called since that have not begun."""
+    found = [
+        (on.call.table, shout(state, name))
+        for n, state in states.items()
+        for name, on in state.on_tables.items()
+        if name not in state.live
+        and _called_at(list(zip(state.numbers, state.events, strict=True)), name) > read.get(n, 0)
+    ]
+    return [words for _, words in sorted(found, key=lambda one: one[0])]
 
 
 def time_words(at: str) -> str:
@@ -414,22 +421,24 @@ def waits_words(state: Evening, one: DeskMatch) -> Sentence | str:
     return say("waits for {matches}", matches=listed(numbers)) if numbers else ""
 
 
-def soon(state: Evening, now: str, order: Sequence[str], most: int = 6) -> list[DeskMatch]:
+def soon(
+    states: Mapping[int, Evening], now: str, order: Sequence[tuple[int, str]], most: int = 6
+) -> list[DeskMatch]:
     """Return the matches that come next: those ready, then those that wait for another one."""
-    ready = ready_matches(state, order)
+    ready = night_queue(states, order)
     open_ones = [
-        name
+        (n, name)
+        for n, state in states.items()
         for name in sorted(state.bracket.by_name, key=state.number_of)
         if name not in state.counted
         and name not in state.on_tables
-        and name not in ready
+        and (n, name) not in ready
         and name not in state.waiting_for
         and any(seat is not None and seat >= 0 for seat in state.standing.seats[name])
         and NOBODY not in state.standing.seats[name]
     ]
-    return [
-        desk_match(state, name, now) for name in [*ready, *open_ones[: max(0, most - len(ready))]]
-    ]
+    more = open_ones[: max(0, most - len(ready))]
+    return [desk_match(states[n], name, now) for n, name in [*ready, *more]]
 
 
 class Lost(NamedTuple):

@@ -177,7 +177,7 @@ class Night:
         The file is asked at most once in a while.
         """
         if time.monotonic() - self._money_at > _MONEY_STALE:
-            self._know(kept_prizes(self.path))
+            self._know(kept_prizes(self.path, self.event))
         try:
             state = self.state()
             known = self._money
@@ -192,7 +192,7 @@ class Night:
 
     def keep_prizes(self, money: PrizeMoney) -> None:
         """Keep the prize money with the tournament."""
-        keep_prizes(self.path, money)
+        keep_prizes(self.path, money, self.event)
         self._know(money)
 
     def _know(self, money: PrizeMoney | None) -> None:

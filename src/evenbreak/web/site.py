@@ -19,7 +19,7 @@ from evenbreak.files.store.desk import change_secrets, kept_secrets, new_pin
 from evenbreak.files.store.evening_file import is_there
 from evenbreak.files.store.tournament import event_numbers
 from evenbreak.tournaments.evening.calling import calls_after
-from evenbreak.tournaments.evening.events import Called
+from evenbreak.tournaments.evening.events import What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.beside import Made
 from evenbreak.web.codes import codes_of
@@ -175,7 +175,7 @@ class Site:
 
     def next_calls(
         self, before: Mapping[int, Evening], after: Mapping[int, Evening]
-    ) -> list[tuple[int, Called]]:
+    ) -> Sequence[tuple[int, What]]:
         """Return the calls that a result makes by itself, unless they are made by hand."""
         return calls_after(before, after, self.queue) if self.calls_itself else []
 
@@ -252,6 +252,15 @@ def _event_text(request: Request) -> str:
     # Refusals ask it too, so that it refuses nothing.
     field = form.fields.get("event") if form else ""
     return str(field or request.query_params.get("event", ""))
+
+
+def of_event(path: str, event: int) -> str:
+    """Return the address of a page of an event.
+
+    >>> of_event("/prizes", 1), of_event("/prizes", 2)
+    ('/prizes', '/prizes?event=2')
+    """
+    return f"{path}?event={event}" if event > 1 else path
 
 
 def night_of(request: Request) -> Night:

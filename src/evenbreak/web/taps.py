@@ -126,7 +126,7 @@ def result(request: Request, tap: Tap, by: str, check: Callable[[Evening], None]
         return _result(request, now, tap)
 
     night, calls = night_of(request), site_of(request).next_calls
-    add_events(night.path, decide, event=night.event, by=by, form=tap.key, calls=calls)
+    add_events(night.path, decide, event=night.event, by=by, form=tap.key, more=calls)
 
 
 def _result(request: Request, now: Evening, tap: Tap) -> list[Event]:
@@ -157,7 +157,7 @@ def propose(request: Request, tap: Tap, me: str) -> str:
         return [] if _entered(now, tap) else _result(request, now, tap)
 
     calls = site_of(request).next_calls
-    add_events(night.path, settle, event=night.event, by=phones_of(tap.pair), calls=calls)
+    add_events(night.path, settle, event=night.event, by=phones_of(tap.pair), more=calls)
     note(request, night, None, lambda _: Act(ENTERED, match=tap.match), BY_ITSELF)
     return say("You both agree: the result is in.")
 

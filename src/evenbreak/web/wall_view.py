@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from typing import NamedTuple
 
+from evenbreak.answers.tournament.moves import event_name
 from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
@@ -43,6 +44,8 @@ class TableView(NamedTuple):
         games won; none is shown while the players disagree.
     chance
         of the first player; None: not known.
+    tag
+        its event, if there are several; else ''.
     """
 
     name: str
@@ -51,14 +54,19 @@ class TableView(NamedTuple):
     number: Sentence | str
     score: tuple[int, int] | None
     chance: float | None
+    tag: Sentence | str = ""
 
 
 class NextView(NamedTuple):
-    """A match that waits for a table, and about when it starts; '' if that is not known."""
+    """A match that waits for a table, and about when it starts; '' if that is not known.
+
+    Where there are several events, `tag` is what its own is called.
+    """
 
     match: MatchView
     number: int
     starts: str
+    tag: Sentence | str = ""
 
 
 class Placed(NamedTuple):
@@ -93,9 +101,11 @@ class WallView:
         what time it is, such as 21:29.
     chances
         of the first player of each match that is played or ready.
+    parts
+        the events of a night that has several, of which this is the whole.
     """
 
-    name: str
+    name: Sentence | str
     view: EveningView
     tables: Sequence[TableView]
     next: Sequence[NextView]
@@ -106,6 +116,17 @@ class WallView:
     prizes: Sequence[float]
     clock: str
     chances: Mapping[str, float]
+    parts: Sequence[WallView] = ()
+
+    @property
+    def players(self) -> int:
+        """How many play tonight."""
+        return len({name for one in self.parts or [self] for name in one.state.entrants})
+
+    @property
+    def tag(self) -> Sentence | str:
+        """What its event is called, if there are several; else ''."""
+        return event_name(self.state) if self.state.beside else ""
 
     @property
     def state(self) -> Evening:
@@ -131,6 +152,30 @@ class WallView:
             " ".join(f"{one.name} {one.state}" for one in self.tables)
             + f"{self.prizes} {self.places}"
         )
+
+
+def whole_night(views: Sequence[WallView]) -> WallView:
+    """Return all events of a night as one: its tables, who is next, when it ends.
+
+    A table that is free has the match of the first event that would take it.
+    """
+    going = [one for one in views if one.state.drawn and not one.view.over]
+    if len(views) < 2 or not going:
+        return views[0]
+    every = [table for one in views for table in one.tables]
+    tables = {
+        one.match.table: one for one in sorted(every, key=lambda one: one.state != "ready")[::-1]
+    }
+    return replace(
+        going[0],
+        name=say("Tonight"),
+        tables=[one for _, one in sorted(tables.items(), key=lambda one: one[0] or 0)],
+        next=sorted((n for one in views for n in one.next), key=lambda n: (not n.starts, n.starts)),
+        played=sum(one.played for one in views),
+        matches=sum(one.matches for one in views),
+        prizes=(),
+        parts=tuple(views),
+    )
 
 
 def wall_view(
@@ -175,11 +220,12 @@ def wall_view(
             one,
             state.number_of(one.name),
             time_of_day(begun + starts[one.name]) if one.name in starts else "",
+            event_name(state) if state.beside else "",
         )
         for one in waiting
     ]
     return WallView(
-        state.plan.name or name,
+        event_name(state) if state.beside else state.plan.name or name,
         view,
         sorted(tables, key=lambda one: one.match.table or 0),
         later,
@@ -204,7 +250,8 @@ def _table(
             return TableView(name, "playing", one, state.match_words(one.name), None, None)
         kind = progress_of(state, one.name, now)
         score = one.score or ((0, 0) if kind == "playing" else None)
-    return TableView(name, kind, one, state.match_words(one.name), score, chance)
+    tag = event_name(state) if state.beside else ""
+    return TableView(name, kind, one, state.match_words(one.name), score, chance, tag)
 
 
 def pictures_of(view: WallView, *, told: int) -> list[str]:

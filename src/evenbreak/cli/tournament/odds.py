@@ -116,7 +116,7 @@ def prizes(asked: PayOut) -> Answer:
         bids = _bids(asked, state.order)
         table = money.payouts(entrants)
         return calcutta_answer(odds, table, bids, house=house, source=name)
-    kept = kept_prizes(file)
+    kept = kept_prizes(file, asked.event)
     if kept and not has_money:
         money = replace(
             kept,
@@ -129,7 +129,7 @@ def prizes(asked: PayOut) -> Answer:
     now = outlook_of(file, moment(asked.at, file), asked.event).odds if state.drawn else None
     answer = tournament_prizes_answer(state, money, now, source=name)
     if asked.keep:
-        keep_prizes(file, money)
+        keep_prizes(file, money, asked.event)
     return answer
 
 

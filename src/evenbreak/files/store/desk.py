@@ -24,11 +24,12 @@ from evenbreak.words import say
 
 _SECRETS = "CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL)"
 _PRIZES = """
-CREATE TABLE IF NOT EXISTS prize (
-    one INTEGER PRIMARY KEY CHECK (one = 1), fee REAL NOT NULL, added REAL NOT NULL,
-    house REAL NOT NULL, payout TEXT NOT NULL, unit REAL NOT NULL DEFAULT 0
+CREATE TABLE IF NOT EXISTS prizes (
+    event INTEGER PRIMARY KEY, fee REAL NOT NULL, added REAL NOT NULL, house REAL NOT NULL,
+    payout TEXT NOT NULL, unit REAL NOT NULL
 )
 """
+_EARLIER_PRIZES = "prize"  # of the one tournament that a file had
 
 
 def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
@@ -76,27 +77,33 @@ def new_pin() -> str:
     return f"{secrets.randbelow(10**6):06d}"
 
 
-def keep_prizes(path: str | Path, money: PrizeMoney) -> None:
-    """Keep the prize money of a tournament, instead of what was kept before."""
+def keep_prizes(path: str | Path, money: PrizeMoney, event: int = 1) -> None:
+    """Keep the prize money of an event, instead of what was kept before."""
     with changing(path) as base:
         base.execute(_PRIZES)
-        if "unit" not in _columns(base):  # of an earlier version
-            base.execute("ALTER TABLE prize ADD COLUMN unit REAL NOT NULL DEFAULT 0")
-        row = 1, money.fee, money.added, money.house, money.payout, money.unit
-        base.execute("INSERT OR REPLACE INTO prize VALUES (?, ?, ?, ?, ?, ?)", row)
+        if (earlier := _prizes(base, 1)) and has_table(base, _EARLIER_PRIZES):
+            base.execute("INSERT OR IGNORE INTO prizes VALUES (1, ?, ?, ?, ?, ?)", earlier)
+            base.execute(f"DROP TABLE {_EARLIER_PRIZES}")
+        row = event, money.fee, money.added, money.house, money.payout, money.unit
+        base.execute("INSERT OR REPLACE INTO prizes VALUES (?, ?, ?, ?, ?, ?)", row)
 
 
-def _columns(base: sqlite3.Connection) -> list[str]:
-    return [str(row[1]) for row in base.execute("PRAGMA table_info(prize)")]
+def _prizes(base: sqlite3.Connection, event: int) -> tuple[float, float, float, str, float] | None:
+    names, row = "fee, added, house, payout", None
+    if has_table(base, "prizes"):
+        asked = f"SELECT {names}, unit FROM prizes WHERE event = ?"  # noqa: S608
+        row = base.execute(asked, (event,)).fetchone()
+    if row is None and event == 1 and has_table(base, _EARLIER_PRIZES):
+        there = {one[1] for one in base.execute(f"PRAGMA table_info({_EARLIER_PRIZES})")}
+        unit = "unit" if "unit" in there else "0.0"
+        row = base.execute(f"SELECT {names}, {unit} FROM {_EARLIER_PRIZES}").fetchone()  # noqa: S608
+    return None if row is None else tuple(row)
 
 
-def kept_prizes(path: str | Path) -> PrizeMoney | None:
-    """Return the prize money of a tournament; None: none was kept."""
+def kept_prizes(path: str | Path, event: int = 1) -> PrizeMoney | None:
+    """Return the prize money of an event; None: none was kept."""
     with opened(path) as base:
-        if not has_table(base, "prize"):
-            return None
-        unit = "unit" if "unit" in _columns(base) else "0.0"
-        row = base.execute(f"SELECT fee, added, house, payout, {unit} FROM prize").fetchone()  # noqa: S608
+        row = _prizes(base, event)
     with named(path, say("its prizes")):
         return PrizeMoney(*row) if row else None
 

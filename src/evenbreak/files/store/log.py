@@ -136,9 +136,15 @@ def entries(
 
 
 def was_taken(base: sqlite3.Connection, strand: str, form: str | None) -> bool:
-    """Return whether a form has added something to a strand."""
-    asked = f"SELECT 1 FROM {source(base)} WHERE strand = ? AND form = ?"  # noqa: S608
-    return bool(form) and base.execute(asked, (strand, form)).fetchone() is not None
+    """Return whether a form was taken for a strand, even if it added nothing."""
+    asked = f"SELECT 1 FROM {source(base)} WHERE strand IN (?, ?) AND form = ?"  # noqa: S608
+    found = base.execute(asked, (strand, _taken(strand), form)) if form else None
+    return found is not None and found.fetchone() is not None
+
+
+def _taken(strand: str) -> str:
+    """Return the strand of the forms that added nothing to another."""
+    return f"{strand} taken"
 
 
 def add(
@@ -160,6 +166,12 @@ def add(
             for row in rules.rows(events, count + 1)
         ],
     )
+    if form and not events:
+        base.execute(
+            f"INSERT INTO {ENTRIES} SELECT ?, COUNT(*) + 1, '', '', '', '', ? "  # noqa: S608
+            f"FROM {ENTRIES} WHERE strand = ?",
+            (_taken(strand), form, _taken(strand)),
+        )
 
 
 def tournaments(base: sqlite3.Connection) -> list[int]:

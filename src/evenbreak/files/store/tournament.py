@@ -20,9 +20,9 @@ from evenbreak.files.store.log import Rules, TakenBeforeError, add, entries, tou
 from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import text_of
 from evenbreak.tournaments.clock.event_pace import EarlierNight
-from evenbreak.tournaments.evening.beside import called_with, carried, together
+from evenbreak.tournaments.evening.beside import carried, coming_with, together
 from evenbreak.tournaments.evening.earlier import nights_until
-from evenbreak.tournaments.evening.events import KINDS, Called, Changed, Event, Opened
+from evenbreak.tournaments.evening.events import KINDS, Changed, Event, Opened, What
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.words import Command, say
 
@@ -74,7 +74,8 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
 
 def _clear(base: sqlite3.Connection) -> None:
     """Take a tournament out of a file, with what phones sent and its prizes."""
-    base.execute("DROP TABLE IF EXISTS prize")
+    for table in ("prize", "prizes"):
+        base.execute(f"DROP TABLE IF EXISTS {table}")
     bring_up_to_date(base)
     base.execute(f"DELETE FROM {ENTRIES} WHERE strand != ?", (TEAM_NIGHT,))  # noqa: S608
 
@@ -226,7 +227,7 @@ def add_events(
     by: str = "",
     form: str | None = None,
     check: Callable[[Evening, Evening], None] | None = None,
-    calls: Callable[[Night, Night], Sequence[tuple[int, Called]]] | None = None,
+    more: Callable[[Night, Night], Sequence[tuple[int, What]]] | None = None,
 ) -> tuple[Evening, Evening]:
     """Add events to a tournament, and return its state before and after.
 
@@ -248,9 +249,9 @@ def add_events(
         nothing is added.
     check
         gets the state before and after; if it raises an error, nothing is added.
-    calls
-        returns the calls that come by themselves, each with the number of its event, given all
-        events of the night before and after.
+    more
+        returns what comes with them by itself, such as calls, each with the number of its event,
+        given all events of the night before and after.
 
     Raises
     ------
@@ -269,17 +270,17 @@ def add_events(
         alone = {n: _RULES.state(path, rest) for n, rest in strands.items()}
         added: dict[int, list[Event]] = {n: [] for n in strands}
 
-        def then(more: Mapping[int, Sequence[Event]]) -> dict[int, Evening]:
-            for n, events in more.items():
+        def then(new: Mapping[int, Sequence[Event]]) -> dict[int, Evening]:
+            for n, events in new.items():
                 added[n] += events
                 alone[n] = _shown(evening([*strands[n], *added[n]]))
             return together(alone)
 
         after = then({event: own})
         after = then(carried(before, after, event)) if len(strands) > 1 else after
-        if calls and own:
+        if more and own:
             number = len(strands[event]) + len(own)
-            after = then(called_with(calls(before, after), event, number, own[-1].at))
+            after = then(coming_with(more(before, after), event, number, own[-1].at))
         if check:
             check(before[event], after[event])
         for n, events in added.items():

@@ -126,14 +126,14 @@ def _has_begun(state: Evening, event: Event) -> bool:
     return isinstance(call, Called) and call.match in {*state.live, *state.counted}
 
 
-def called_with(
-    calls: Sequence[tuple[int, Called]], event: int, number: int, at: str
+def coming_with(
+    more: Sequence[tuple[int, What]], event: int, number: int, at: str
 ) -> dict[int, list[Event]]:
-    """Return the calls that come by themselves with an entry of an event, by their events."""
+    """Return what comes by itself with an entry of an event, such as calls, by events."""
     found: dict[int, list[Event]] = {}
-    for n, call in calls:
+    for n, what in more:
         by = BY_ITSELF if n == event else with_entry(event, number)
-        found.setdefault(n, []).append(Event(at, call, by))
+        found.setdefault(n, []).append(Event(at, what, by))
     return found
 
 
@@ -152,7 +152,7 @@ def out(state: Evening) -> list[str]:
     return [name for name in dict.fromkeys(names) if name in losers - {*state.dropped}]
 
 
-def second_chance(state: Evening, *, race: int | None = None) -> Opened:
+def second_chance(state: Evening, *, race: int | None = None, name: str = "") -> Opened:
     """Return the beginning of a second event for those who are out of an elimination by now.
 
     It is a single elimination. Whoever went out last is the first seed; more can enter until its
@@ -164,6 +164,8 @@ def second_chance(state: Evening, *, race: int | None = None) -> Opened:
         the first event.
     race
         the games of a race; None: those of the losers' side.
+    name
+        what it is called.
 
     Raises
     ------
@@ -187,6 +189,6 @@ def second_chance(state: Evening, *, race: int | None = None) -> Opened:
         qualifiers=None,
         layout=(),
         by_match={},
-        name="",
+        name=name,
     )
     return Opened(plan, tuple(state.entrants[name] for name in names))

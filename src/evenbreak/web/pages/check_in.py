@@ -28,7 +28,7 @@ async def check_in(request: Request) -> Response:
     check_director(request)
     night = night_of(request)
     state = await _state(night)
-    money = await asyncio.to_thread(kept_prizes, night.path)
+    money = await asyncio.to_thread(kept_prizes, night.path, night.event)
     names = sorted(state.entrants, key=lambda one: (one in state.arrived, one in state.paid))
     # Where nobody is ticked off, everybody plays: a house that needs no check-in just draws.
     drawn = [name for name in names if name in state.arrived] or names

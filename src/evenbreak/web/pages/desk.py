@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Mapping, Sequence
 from datetime import datetime
 from typing import Any
 
@@ -11,17 +12,19 @@ from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
 from evenbreak.answers.tournament.bracket_view import group_words
+from evenbreak.answers.tournament.moves import event_name
 from evenbreak.answers.tournament.time import time_of_day
-from evenbreak.files.store.desk import Sides, objected
+from evenbreak.files.store.desk import Phones, Sides, objected
 from evenbreak.tournaments.evening import moves
+from evenbreak.tournaments.evening.beside import out
 from evenbreak.tournaments.evening.calling import (
+    night_queue,
     proposed_calls,
-    ready_matches,
     tables_to_give,
 )
 from evenbreak.tournaments.evening.events import Result, score_words
-from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.evening.format import names_text
+from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
+from evenbreak.tournaments.evening.format import MOST_TABLES, names_text
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.settling import tied_groups
 from evenbreak.tournaments.evening.undoing import is_free, own_last, undoable
@@ -32,21 +35,23 @@ from evenbreak.web.desk_view import (
     last_act,
     next_words,
     progress,
+    shouts,
     soon,
     undo_words,
     waiting,
     waits_words,
 )
-from evenbreak.web.evening_view import view_of
+from evenbreak.web.evening_view import EveningView, view_of
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import RefusalError
-from evenbreak.web.night import Known
+from evenbreak.web.night import Known, Night
 from evenbreak.web.page import page, site_of
 from evenbreak.web.sessions import check_director, is_director
 from evenbreak.web.site import night_of
 from evenbreak.words import say
 
 _READ = "read"
+_SECOND_CHANCE = 4  # players out, from which one is offered
 
 
 async def desk(request: Request) -> Response:
@@ -57,84 +62,114 @@ async def desk(request: Request) -> Response:
         if await site.teams.now() is not None:
             return RedirectResponse("/team", status_code=303)
         raise RefusalError("No tournament is running yet.", status=404)
-    night = night_of(request)
-    known = await night.outlook()
-    state = await asyncio.to_thread(night.state)
-    shown = await asyncio.to_thread(_desk_values, request, state, known)
+    event, nights = night_of(request).event, site.nights
+    knowns = [await night.outlook() for night in nights]
+    states = {night.event: await asyncio.to_thread(night.state) for night in nights}
+    shown = await asyncio.to_thread(_desk_values, request, event, states, knowns)
     return page(request, "desk.html", live=True, **shown)
 
 
-def _next(state: Evening, known: Known | None) -> list[tuple[str, int]]:
-    """Return the matches to call, each with a table: of several events, as the night goes on."""
-    every = {state.event: state}
-    return [
-        (one.match, one.table) for _, one in proposed_calls(every, known.queue if known else ())
+def _desk_values(
+    request: Request, event: int, states: Mapping[int, Evening], knowns: Sequence[Known | None]
+) -> dict[str, Any]:
+    """Return what the desk shows of all events of the night."""
+    site, state = site_of(request), states[event]
+    now, queue, read = site.clock(), site.queue, _read_of(request)
+    views = [view_of(*pair) for pair in zip(states.values(), knowns, strict=True)]
+    ends = [view.finish[1] for view in views if view.finish and not view.over]
+    acts = [act for n, one in states.items() if (act := last_act(one, read.get(n, 0)))]
+    drawn = {n: one for n, one in states.items() if one.drawn}
+    each = [
+        _event_values(night, states[night.event], now)
+        for night in site.nights
+        if night.event in drawn
     ]
-
-
-def _desk_values(request: Request, state: Evening, known: Known | None) -> dict[str, Any]:
-    """Return what the desk shows."""
-    site = site_of(request)
-    now, order = site.clock(), known.order if known else ()
-    over, played = progress(state)
-    view = view_of(state, known)
-    read = request.session.get(_READ)
-    shown: dict[str, Any] = {
+    both = [match for one in each for match in one["both"]]
+    tables = sorted((one for one in both if one.table), key=lambda one: one.table or 0)
+    called = proposed_calls(drawn, queue) if drawn else []
+    calls = [(desk_match(states[n], one.match, now), one.table) for n, one in called]
+    free = tables_to_give(drawn[min(drawn)]) if drawn else []
+    keys = {one.key for one, _ in calls}
+    nexts = [one for one in soon(drawn, now, queue) if one.key not in keys]
+    late, still = ([one for its in each for one in its[name]] for name in ("late", "still"))
+    return {
         "state": state,
-        "name": state.plan.name or say("Tonight"),
+        "name": say("Tonight") if len(states) > 1 else state.plan.name or say("Tonight"),
         "clock": _clock(now),
-        "nights": [one.event for one in site.nights],
-        "over": over,
-        "all": played,
-        "finish": view.finish[1] if view.finish and not view.over else "",
-        "last": last_act(state, read if isinstance(read, int) else 0),
-        "newest": state.numbers[-1],
-        "mine": own_act(state),
-        "over_now": view.over,
-        "places": view.places,
-        "warnings": _warnings(known),
-    }
-    lists = "calls disputes sent late aside tables soon still ready tied objected"
-    shown |= {name: [] for name in lists.split()} | {"waits": {}, "drawable": False}
-    shown |= {"next_call": None, "next_table": 0, "free_table": None, "answers": {}}
-    shown |= sheet_values(request, state)
-    if not state.drawn:
-        return shown
-    sides, phones = sides_now(request, state), night_of(request).phones()
-    on = sorted(state.on_tables, key=lambda name: state.on_tables[name].call.table)
-    tables = [desk_match(state, name, now, sides) for name in on]
-    off = [name for name in sides if name not in on]
-    both = [*tables, *(desk_match(state, name, now, sides) for name in off)]
-    calls = [(desk_match(state, name, now), table) for name, table in _next(state, known)]
-    free = tables_to_give(state)
-    called = [one.name for one, _ in calls]
-    late, still = waiting(state, now)
-    nexts = [one for one in soon(state, now, order) if one.name not in called]
-    return shown | {
+        "drawn": bool(drawn),
+        "over": sum(progress(one)[0] for one in states.values()),
+        "all": sum(progress(one)[1] for one in states.values()),
+        "finish": ends[0] if ends else "",
+        "last": max(acts, key=lambda one: (one.at, one.event == event)) if acts else None,
+        "shouts": shouts(drawn, read),
+        "newest": {n: one.numbers[-1] for n, one in states.items()},
+        "mine": own_act(states, event),
+        "events": [_event_row(one, view) for one, view in zip(states.values(), views, strict=True)],
+        "each": each,
+        "warnings": list(dict.fromkeys(line for one in knowns for line in _warnings(one))),
         "disputes": [one for one in both if one.state == "two"],
         "sent": [one for one in both if one.state == "sent"],
-        "answers": {
-            name: [(who, phones.answer(who, name, on.at)) for who in on.call.players]
-            for name, on in state.on_tables.items()
-        },
+        "answers": {key: one for its in each for key, one in its["answers"].items()},
         "tables": [one for one in tables if one.state not in ("two", "sent")],
         "calls": calls,
         "next_call": calls[0][0] if len(calls) == 1 else None,
         "next_table": calls[0][1] if calls else 0,
         "free_table": free[len(calls)] if len(free) > len(calls) else None,
-        "ready": [desk_match(state, name, now) for name in ready_matches(state, order)],
+        "ready": [desk_match(states[n], name, now) for n, name in night_queue(drawn, queue)],
         "soon": nexts,
-        "waits": {one.name: waits_words(state, one) for one in nexts if not one.sides},
+        "waits": {one.key: waits_words(states[one.event], one) for one in nexts if not one.sides},
+        "objected": [one for its in each for one in its["objected"]],
+        "late": late,
+        "still": still,
+        **sheet_values(request, state),
+    }
+
+
+def _event_row(state: Evening, view: EveningView) -> dict[str, Any]:
+    """Return what an event has on the desk of its own: its draw, its ties, its end."""
+    return {
+        "event": state.event,
+        "tag": event_name(state) if state.beside else "",
+        "state": state,
+        "progress": progress(state),
+        "over": view.over,
+        "places": view.places,
+        "tied": [group_words(name) for name in tied_groups(state)] if state.drawn else [],
+        "drawable": state.drawn and can_draw(state),
+        "out": _out(state),
+    }
+
+
+def _out(state: Evening) -> list[str]:
+    """Return who could play a second chance: from four on who are out, unless they do already."""
+    if not state.drawn or state.plan.form not in ELIMINATIONS or state.event > 1:
+        return []
+    found = out(state)
+    begun = any({*one.entrants} & {*found} for one in state.beside)
+    return [] if begun or len(found) < _SECOND_CHANCE else found
+
+
+def _event_values(night: Night, state: Evening, now: str) -> dict[str, Any]:
+    """Return what the desk shows of the matches of an event that is drawn."""
+    phones = night.phones()
+    sides = sides_now(phones, state)
+    late, still = waiting(state, now)
+    matches = {name: desk_match(state, name, now, sides) for name in {*state.on_tables, *sides}}
+    return {
+        "both": sorted(matches.values(), key=lambda one: (one.table or MOST_TABLES, one.number)),
+        "answers": {
+            matches[name].key: [(who, phones.answer(who, name, on.at)) for who in on.call.players]
+            for name, on in state.on_tables.items()
+        },
         "objected": [desk_match(state, name, now) for name in objected(state, phones)],
         "late": late,
         "still": still,
+        "event": state.event,
         "aside": [
             (one.result.match, state.number_of(one.result.match), score_words(one.result))
             for one in state.aside
             if one.result.match in state.standing.seats
         ],
-        "tied": [group_words(name) for name in tied_groups(state)],
-        "drawable": can_draw(state),
     }
 
 
@@ -149,9 +184,8 @@ def _warnings(known: Known | None) -> list[str]:
     return known.data.get("warnings", []) if known else []
 
 
-def sides_now(request: Request, state: Evening) -> dict[str, Sides]:
+def sides_now(phones: Phones, state: Evening) -> dict[str, Sides]:
     """Return what phones sent for the matches that can be played."""
-    phones = site_of(request).night.phones()
     sides = (phones.sides(name, state.pair(name)) for name in state.standing.to_play)
     return {one.match: one for one in sides if one.proposed}
 
@@ -166,7 +200,7 @@ def sheet_values(request: Request, state: Evening) -> dict[str, Any]:
     if match is None:
         return none
     now = site_of(request).clock()
-    one = desk_match(state, match, now, sides_now(request, state))
+    one = desk_match(state, match, now, sides_now(night_of(request).phones(), state))
     to_play = match in state.standing.to_play
     tables = [*dict.fromkeys([*tables_to_give(state), *moves.free_tables(state)])]
     return {
@@ -205,20 +239,38 @@ def _undo_of(state: Evening, one: DeskMatch) -> dict[str, Any] | None:
     return None
 
 
-def own_act(state: Evening) -> dict[str, Any] | None:
-    """Return the director's last act, and what its undo says."""
-    number = own_last(state)
-    if number is None:
+def own_act(states: Mapping[int, Evening], event: int) -> dict[str, Any] | None:
+    """Return the director's last act in any event, and what its undo says.
+
+    Of several at one time it is that in `event`.
+    """
+    found = [
+        (one.events[one.numbers.index(number)], n, number)
+        for n, one in states.items()
+        if (number := own_last(one)) is not None
+    ]
+    if not found:
         return None
-    event = state.events[state.numbers.index(number)]
-    return {"number": number, "undo": undo_words(state, event)}
+    act, n, number = max(found, key=lambda one: (one[0].at, one[1] == event))
+    return {"number": number, "event": n, "undo": undo_words(states[n], act)}
+
+
+def _read_of(request: Request) -> dict[int, int]:
+    """Return the last entry of each event that the director has read."""
+    kept = request.session.get(_READ)
+    found = kept if isinstance(kept, dict) else {}
+    return {int(event): n for event, n in found.items() if str(event).isdecimal()}
 
 
 async def read(request: Request) -> Response:
     """Keep that the director has read what was entered last."""
     form = await form_of(request)
     check_director(request)
-    request.session[_READ] = form.whole("entry", 0, 10**7)
+    entries = [text.partition(".") for text in form.texts("entry")]
+    numbers = [(event, rest) if rest else ("1", event) for event, _, rest in entries]
+    request.session[_READ] = {
+        event: int(n) for event, n in numbers if n.isdecimal() and len(n) < 8 and len(event) < 3
+    }
     return RedirectResponse("/desk", status_code=303)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 from dataclasses import replace
 from datetime import datetime
-from pathlib import Path
 
 from starlette.requests import Request
 from starlette.responses import Response
@@ -16,10 +15,9 @@ from evenbreak.answers.tournament.moves import history_words
 from evenbreak.answers.tournament.night import played_words
 from evenbreak.answers.tournament.under_way import time_under_way
 from evenbreak.files.store.desk import ENTERED, back_up, phone_entries
-from evenbreak.files.store.tournament import read_events
 from evenbreak.tournaments.evening.edition import tables_text
 from evenbreak.tournaments.evening.events import Called, CalledBack, Plan, Scored
-from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.format import names_text
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.outlook import Outlook
@@ -27,9 +25,11 @@ from evenbreak.tournaments.evening.plan import FORMATS, FORMATS_WITH
 from evenbreak.tournaments.evening.undoing import free_entries, redoable
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import RefusalError
+from evenbreak.web.night import Night
 from evenbreak.web.page import answer_shown, done, page, site_of
 from evenbreak.web.pages.me import phone_label, phone_words
 from evenbreak.web.sessions import DIRECTOR, author_words, check_director, let_in
+from evenbreak.web.site import event_of, night_of, of_event
 from evenbreak.words import say
 
 RACES = {
@@ -43,10 +43,10 @@ RACES = {
 async def more(request: Request) -> Response:
     """Show what the desk itself does not: settings, lists, prints."""
     check_director(request)
-    site = site_of(request)
-    if not site.night.exists:
+    site, night = site_of(request), night_of(request)
+    if not night.exists:
         raise RefusalError("No tournament is running yet.", status=404)
-    state = await asyncio.to_thread(site.night.state)
+    state = await asyncio.to_thread(night.state)
     plan = state.plan
     return page(
         request,
@@ -81,7 +81,7 @@ async def calling(request: Request) -> Response:
     itself = bool(form.text("itself"))
     await asyncio.to_thread(site_of(request).let_call, itself)
     said = say("A result now calls the next match.") if itself else say("You call each match.")
-    return done(request, "/desk/more", said)
+    return done(request, of_event("/desk/more", event_of(request)), said)
 
 
 async def save(request: Request) -> Response:
@@ -91,7 +91,7 @@ async def save(request: Request) -> Response:
     copy = await asyncio.to_thread(back_up, site_of(request).path, datetime.now())
     return done(
         request,
-        "/desk/more",
+        of_event("/desk/more", event_of(request)),
         say("Saved as {name}, next to the tournament's file.", name=copy.name),
     )
 
@@ -105,7 +105,7 @@ async def change_pin(request: Request) -> Response:
     let_in(request, DIRECTOR, site.director_mark)
     return done(
         request,
-        "/desk/more",
+        of_event("/desk/more", event_of(request)),
         say(
             "The director's PIN is now {pin}. Other phones have to enter it before they "
             "can change anything.",
@@ -117,10 +117,10 @@ async def change_pin(request: Request) -> Response:
 async def time(request: Request) -> Response:
     """Show when it ends, and what would change that."""
     check_director(request)
-    site = site_of(request)
-    if not site.night.exists:
+    site, night = site_of(request), night_of(request)
+    if not night.exists:
         raise RefusalError("No tournament is running yet.", status=404)
-    state = await asyncio.to_thread(site.night.state)
+    state = await asyncio.to_thread(night.state)
     if not state.drawn:
         raise RefusalError("There is no draw yet.", status=409)
 
@@ -128,28 +128,28 @@ async def time(request: Request) -> Response:
         answer = time_under_way(Outlook(state, site.clock()))
         return replace(answer, heading=played_words(state))
 
-    answer = await site.night.beside.run(work)
+    answer = await night.beside.run(work)
     return page(request, "time.html", answer=answer_shown(request, answer))
 
 
 async def history(request: Request) -> Response:
     """Show who entered what, and when; what nothing follows from can be taken back there."""
     check_director(request)
-    path = site_of(request).path
-    if not path.exists():
+    night = night_of(request)
+    if not night.path.exists():
         raise RefusalError("No tournament is running yet.", status=404)
-    rows, again = await asyncio.to_thread(_entries, path)
+    rows, again = await asyncio.to_thread(_entries, night)
     return page(request, "history.html", rows=rows, again=again, undo=True)
 
 
-def _entries(path: Path) -> tuple[list[tuple[int, str, str, str, str]], set[int]]:
+def _entries(night: Night) -> tuple[list[tuple[int, str, str, str, str]], set[int]]:
     """Return the entries, the last first, and which can be done again.
 
     Each is its number (0: of a phone), when, what, by whom, and 'free' if it can be taken back,
     'gone' if it has been. Taps of the score are not among them.
     """
-    found = read_events(path)
-    state = evening(found)
+    state = night.state()
+    found = state.log
     free = free_entries(state) - _old_calls(state)
     rows: list[tuple[str, int, str, str, str]] = [
         (
@@ -164,7 +164,7 @@ def _entries(path: Path) -> tuple[list[tuple[int, str, str, str, str]], set[int]
     ]
     rows += [
         (one.at, 0, phone_words(one, state), phone_label(one), "")
-        for one in phone_entries(path)
+        for one in phone_entries(night.path)
         if one.kind != ENTERED  # it is among the events
         and (one.what.event == state.event or not one.what.match)
     ]

@@ -22,7 +22,7 @@ from evenbreak.fields.question import declared
 from evenbreak.files.charts import find_chart
 from evenbreak.files.lists.entrants import nobody, read_entrants
 from evenbreak.files.lists.roster import refuse_to_read
-from evenbreak.files.store.desk import back_up, kept_prizes
+from evenbreak.files.store.desk import back_up, keep_prizes, kept_prizes
 from evenbreak.files.store.tournament import (
     begin_beside,
     delete_tournament,
@@ -191,6 +191,8 @@ async def begin(request: Request) -> Response:
         if form.text("beside") and site.night.exists:
             key = form.key(request.url.path)
             number = await asyncio.to_thread(begin_beside, site.path, lambda _: [event], form=key)
+            if money is not None:
+                await asyncio.to_thread(keep_prizes, site.path, money, number)
             return done(request, f"/desk?event={number}", *warnings)
         if await asyncio.to_thread(_is_there, site, event):  # the same tap again
             return done(request, CHECK_IN)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import asyncio
 import hashlib
 import secrets
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from http import HTTPStatus
 from typing import Any
 
 from starlette.requests import Request
@@ -15,14 +16,15 @@ from starlette.routing import Route
 
 from evenbreak.answers.tournament.corrections import correction_choices
 from evenbreak.answers.tournament.move_table import MOVES
-from evenbreak.answers.tournament.moves import lost_words
+from evenbreak.answers.tournament.moves import event_name, lost_words
 from evenbreak.evenings.move import AlreadyError, Move
 from evenbreak.fields.kinds import Text
 from evenbreak.fields.question import AskedError, Declared, declared
+from evenbreak.files.store.tournament import Night as Evenings
 from evenbreak.files.store.tournament import add_events, begin_beside
-from evenbreak.questions.moves import PLAYER, Correct
+from evenbreak.questions.moves import PLAYER, Correct, Drop
 from evenbreak.tournaments.evening import beside
-from evenbreak.tournaments.evening.events import Event, What
+from evenbreak.tournaments.evening.events import Dropped, Event, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.format import LONGEST_RACE
 from evenbreak.tournaments.evening.moves import known_match
@@ -38,9 +40,10 @@ from evenbreak.web.forms import (
     value_of,
 )
 from evenbreak.web.guard import RefusalError
+from evenbreak.web.night import Night
 from evenbreak.web.page import can_be_opened, done, in_words, page, site_of
 from evenbreak.web.sessions import DIRECTORS_PAGE, check_director
-from evenbreak.web.site import event_of, night_of
+from evenbreak.web.site import event_of, night_of, of_event
 from evenbreak.words import Parameter
 
 OF_COMMANDS = ("file", "at", "yes", "seed")
@@ -106,17 +109,50 @@ def _route(name: str, move: Move[Evening, What]) -> Route:
         form = await form_of(request)
         if move.by == "director":
             check_director(request)
-        return await _enter(request, form, move)
+        for night, part in _by_event(request, form):
+            answer = await _enter(request, night, part, move)
+            if answer.status_code != HTTPStatus.SEE_OTHER:
+                break
+        return answer
 
     return Route(f"{_DESK}/{name}", enter, methods=["POST"])
 
 
-async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Response:
+def _by_event(request: Request, form: Form) -> list[tuple[Night, Form]]:
+    """Return what a form enters in each event: all calls of a night may come in one, each `of` its.
+
+    Raises
+    ------
+    RefusalError
+        if there is no such event, or not as many matches as events and tables.
+    """
+    rows = list(zip(form.texts("of"), form.texts("match"), form.texts("table"), strict=False))
+    if not rows:
+        return [(night_of(request), form)]
+    nights = {str(night.event): night for night in site_of(request).nights}
+    if not {of for of, _, _ in rows} <= {*nights}:
+        raise RefusalError("There is no such page.", status=404)
+    found = []
+    for event in dict.fromkeys(of for of, _, _ in rows):
+        mine = [(match, table) for of, match, table in rows if of == event]
+        others = [one for one in form.fields.multi_items() if one[0] not in ("match", "table")]
+        fields = [
+            *others,
+            *(
+                (name, text)
+                for row in mine
+                for name, text in zip(("match", "table"), row, strict=True)
+            ),
+        ]
+        found.append((nights[event], Form(Fields(fields))))
+    return found
+
+
+async def _enter(request: Request, night: Night, form: Form, move: Move[Evening, What]) -> Response:
     """Enter what a form asks; if it takes something away, ask first, and name it.
 
     The answer is for what was named: if that has changed by then, it is asked again.
     """
-    night = night_of(request)
     asked, at = asked_in(move.question, form), site_of(request).clock()
     named, sure, key = form.text("named"), form.text("sure"), form.key(request.url.path)
     already: list[str] = []
@@ -153,13 +189,14 @@ async def _enter(request: Request, form: Form, move: Move[Evening, What]) -> Res
             by=DIRECTORS_PAGE,
             form=key,
             check=check,
-            calls=site_of(request).next_calls if move is MOVES["result"] else None,
+            more=_coming_with(request, night.event, form, move, asked),
         )
     except _AskError as error:
         if move is MOVES["correct"]:
             return _ask_what(request, form, asked[0], error.before)
         stays = False
-        return _ask(request, form, said(error.before, error.after), error)
+        others = _others(error.before, asked[0]) if move is MOVES["drop"] else []
+        return _ask(request, form, said(error.before, error.after), error, others)
     return done(request, _back(request, form), *said(before, after))
 
 
@@ -168,16 +205,38 @@ def _back(request: Request, form: Form) -> str:
     back = form.text("back")
     is_page = back.startswith("/") and can_be_opened(request, back.partition("?")[0])
     event = event_of(request)
-    desk = f"{_DESK}?event={event}" if event > 1 else _DESK
+    desk = of_event(_DESK, event)
     return back if is_page and not back.startswith("//") else desk
 
 
-def _ask(request: Request, form: Form, said: Sequence[str], asked: _AskError) -> Response:
-    """Ask whether it is meant."""
+def _coming_with(
+    request: Request, event: int, form: Form, move: Move[Evening, What], asked: Sequence[Any]
+) -> Callable[[Evenings, Evenings], Sequence[tuple[int, What]]] | None:
+    """Return what a move brings with it: calls, or that a player goes home from all events."""
+    if move is MOVES["result"]:
+        return site_of(request).next_calls
+    if move is not MOVES["drop"] or not form.text("everywhere"):
+        return None
+    return lambda before, _: [
+        (n, Dropped(asked[0].player)) for n in _others(before[event], asked[0])
+    ]
+
+
+def _others(state: Evening, asked: Drop) -> list[int]:
+    """Return the other events of the night in which a player is who goes home."""
+    events = [one for one in state.beside if asked.player in one.entrants]
+    return [one.event for one in events if asked.player not in one.dropped]
+
+
+def _ask(
+    request: Request, form: Form, said: Sequence[str], asked: _AskError, others: Sequence[int] = ()
+) -> Response:
+    """Ask whether it is meant, and whether it is so in other events of the night too."""
     lost = lost_words(asked.before, asked.after)
     lines = [in_words(request, one) for one in (*lost, *said)]
     fields, back = _asked_about(form, asked.before, asked.after), _back(request, form)
-    return page(request, "sure.html", fields=fields, lines=lines, lost=lost, back=back)
+    only = event_name(asked.before) if others else ""
+    return page(request, "sure.html", fields=fields, lines=lines, lost=lost, back=back, only=only)
 
 
 def _ask_what(request: Request, form: Form, asked: Correct, before: Evening) -> Response:
@@ -199,7 +258,7 @@ def _ask_what(request: Request, form: Form, asked: Correct, before: Evening) -> 
 
 def _asked_about(form: Form, before: Evening, after: Evening) -> list[tuple[str, Any]]:
     """Return the fields of a form that is asked about: its number too, so that it counts once."""
-    own = ("csrf", "sure", "named", "follow", "way")
+    own = ("csrf", "sure", "named", "follow", "way", "everywhere")
     fields = [(name, value) for name, value in form.fields.multi_items() if name not in own]
     return [*fields, ("named", _name_of(before, after))]
 
@@ -218,11 +277,12 @@ async def second_chance(request: Request) -> Response:
     at, race = site_of(request).clock(), form.whole("race", 1, LONGEST_RACE, default=0)
 
     def begin(state: Evening) -> list[Event]:
-        return [Event(at, beside.second_chance(state, race=race or None), DIRECTORS_PAGE)]
+        found = beside.second_chance(state, race=race or None, name=form.text("name"))
+        return [Event(at, found, DIRECTORS_PAGE)]
 
     key = form.key(request.url.path)
     number = await asyncio.to_thread(begin_beside, night_of(request).path, begin, form=key)
-    return done(request, f"{_DESK}?event={number}")
+    return done(request, of_event(_DESK, number))
 
 
 ROUTES = [

@@ -11,6 +11,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
+from evenbreak.answers.tournament.moves import event_name
 from evenbreak.answers.tournament.prizes import payers_of, tournament_prizes_answer
 from evenbreak.errors import InputError
 from evenbreak.files.store.desk import kept_prizes
@@ -21,7 +22,7 @@ from evenbreak.web.forms import Form, form_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import answer_shown, done, page, reason, site_of
 from evenbreak.web.sessions import check_director, is_director
-from evenbreak.web.site import night_of
+from evenbreak.web.site import night_of, of_event
 from evenbreak.words import Parameter, say
 
 _MONEY = re.compile(r"[0-9]{1,7}(\.[0-9]{1,2})?", re.ASCII)
@@ -74,7 +75,7 @@ async def prizes(request: Request) -> Response:
     night = night_of(request)
     if not night.exists:
         raise RefusalError("No tournament is running yet.", status=404)
-    kept = await asyncio.to_thread(kept_prizes, night.path) or PrizeMoney()
+    kept = await asyncio.to_thread(kept_prizes, night.path, night.event) or PrizeMoney()
     query = Form(request.query_params)
     asked = money_of(query) or kept if "fee" in request.query_params else kept
     state = await asyncio.to_thread(night.state)
@@ -97,6 +98,7 @@ async def prizes(request: Request) -> Response:
         answer=shown,
         why=why,
         kept=asked == kept,
+        tag=event_name(state) if state.beside else "",
     )
 
 
@@ -110,7 +112,7 @@ async def keep(request: Request) -> Response:
     await asyncio.to_thread(night.keep_prizes, money)
     return done(
         request,
-        "/prizes",
+        of_event("/prizes", night.event),
         say("The prizes are saved, and shown on tonight's page and on the screen."),
     )
 

@@ -31,7 +31,14 @@ from evenbreak.tournaments.evening.story import Story
 from evenbreak.web.night import Night, mark_of
 from evenbreak.web.page import language, page, page_face, site_of
 from evenbreak.web.pages.team import seen_values
-from evenbreak.web.wall_view import WallView, just_called, pictures_of, turn_at, wall_view
+from evenbreak.web.wall_view import (
+    WallView,
+    just_called,
+    pictures_of,
+    turn_at,
+    wall_view,
+    whole_night,
+)
 from evenbreak.words import in_face
 
 _WHOLE = 32  # players whose whole bracket can be read on the wall
@@ -52,21 +59,20 @@ async def screen(request: Request) -> Response:
         return page(request, "team_screen.html", live=True, clock=clock, **shown)
     now = site.clock()
     only = request.query_params.get("only", "")
-    turns: list[tuple[Night, WallView, str]] = []
-    told: dict[int, Story | None] = {}
-    for night in site.nights:
-        view, _ = await view_for(request, night, now)
-        story = told[id(night)] = await night.story()
-        steps = len(story.steps) if story else 0
-        if just_called(view.state, now) and not only:
-            turns = [(night, view, "tables")]
-            break
-        pictures = pictures_of(view, told=steps)
-        turns += [(night, view, one) for one in ([only] if only in PICTURES else pictures)]
+    views = [(await view_for(request, night, now))[0] for night in site.nights]
+    stories = [await night.story() for night in site.nights]
+    whole, turns = whole_night(views), list[tuple[WallView, Story | None, str]]()
+    for view, story in zip(views, stories, strict=True):
+        pictures = pictures_of(view, told=len(story.steps) if story else 0)
+        for one in [only] if only in PICTURES else pictures:
+            turns.append((whole if one == "tables" else view, story, one))
+    if any(just_called(view.state, now) for view in views) and not only:
+        turns = [(whole, None, "tables")]
     turn, left = turn_at(now)
-    night, view, picture = turns[turn % len(turns)]
-    shown = _picture(request, view, picture, told.get(id(night)), turn)
-    of = (view.state, night.known or "", told.get(id(night)) or "", picture, view.marks, str(turn))
+    view, story, picture = turns[turn % len(turns)]
+    shown = _picture(request, view, picture, story, turn)
+    known = [one for night in site.nights for one in (night.state(), night.known or "")]
+    of = (*known, story or "", picture, view.marks, str(turn))
     return page(request, "screen.html", live=True, of=of, left=left, only=only, **shown)
 
 
