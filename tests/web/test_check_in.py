@@ -103,7 +103,7 @@ def test_the_night_to_take_home_needs_nobody_else(tmp_path: Path) -> None:
         director = Phone(site, director=True)
         begun(director, PLAYERS[:4])
         hall = Hall(site, director, Phone(site))
-        assert "not over yet" in hall.guest.open("/share").words
+        assert "isn't over yet" in hall.guest.open("/share").words
         hall.director.send("/prizes", fee=10, house=10, unit=5)
         while hall.state.standing.to_play:
             match = hall.state.standing.to_play[0]
