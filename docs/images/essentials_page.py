@@ -43,7 +43,7 @@ PAGES = (
             Step("Enter a result", RESULT, (1, 2)),
         ),
         (
-            ("The score was wrong", "tournament correct W1.2 4:5"),
+            ("The score was wrong", "tournament correct 3 4:5"),
             ("Take back the last entry", "tournament undo"),
             (
                 "A late player takes a bye, if one is open",
