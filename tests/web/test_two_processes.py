@@ -140,7 +140,7 @@ def server(path: Path, code: str = SERVE) -> Iterator[Site]:
 
 def until_it_answers(phone: Phone) -> None:
     """Wait for a server that starts."""
-    for _ in range(300):
+    for _ in range(1500):  # a busy machine starts a program in ten seconds
         try:
             phone.open("/pin")
         except OSError:
