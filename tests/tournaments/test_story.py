@@ -6,6 +6,7 @@ import pytest
 
 from evenbreak.answers.tournament.story import remarks, story_answer
 from evenbreak.sheets.story_drawing import story_svg
+from evenbreak.tournaments.evening import story as telling
 from evenbreak.tournaments.evening.events import (
     Called,
     Drawn,
@@ -81,3 +82,11 @@ def test_it_is_said_and_drawn_without_markup_of_names():
     assert "Di &amp; &lt;Sons&gt;" in drawn
     assert "<Sons>" not in drawn
     assert drawn.count("<polyline") == 4
+
+
+def test_of_a_long_night_each_result_adds_a_step_or_two(monkeypatch):
+    monkeypatch.setattr(telling, "MOST_STEPS", 2)
+    final = Result("F", ("Di & <Sons>", "Bo"), (5, 1), "Di & <Sons>")
+    earlier, later = (story_of(night(*HAPPENED, *more)) for more in ((), (final,)))
+    assert set(earlier.folded) <= set(later.folded)
+    assert len(later.folded) == len(earlier.folded) + 1 == 3

@@ -36,7 +36,7 @@ def started(path: Path, port: int) -> subprocess.Popen[bytes]:
     """Start the server, and wait until it answers."""
     words = [sys.executable, "-m", "evenbreak", "serve", str(path), "--port", str(port)]
     server = subprocess.Popen(words, cwd=path.parent)
-    for _ in range(600):
+    for _ in range(3000):
         with socket.socket() as probe:
             if probe.connect_ex(("127.0.0.1", port)) == 0:
                 return server

@@ -5,17 +5,21 @@ from __future__ import annotations
 import asyncio
 import queue
 import threading
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, TypeVar
 
 Found = TypeVar("Found")
+_LONG = 0.25  # seconds of work after which the pages have as long to themselves
+_MOST_REST = 3.0  # seconds
 
 
 class Beside:
     """One thread that works things out, one after another; the end of the program ends it too.
 
-    It is always the same thread: each new one would keep memory of its own.
+    It is always the same thread: each new one would keep memory of its own. After long work it
+    rests as long, for a page waits whenever it is the thread's turn.
     """
 
     def __init__(self) -> None:
@@ -47,7 +51,11 @@ class Beside:
 
     def _serve(self) -> None:
         while True:
-            self._asked.get()()
+            job = self._asked.get()
+            begun = time.monotonic()
+            job()
+            if (took := time.monotonic() - begun) > _LONG:
+                time.sleep(min(took, _MOST_REST))
 
 
 class Made:

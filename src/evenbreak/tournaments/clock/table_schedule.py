@@ -18,6 +18,8 @@ import numpy as np
 from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.tournaments.brackets.bracket import Bracket, Match, Source
 
+_AT_ONCE = 500  # runs: their arrays then stay in the processor's cache
+
 
 class Schedule(NamedTuple):
     """When matches begin and end, in each run; a match that is not needed takes no time."""
@@ -80,20 +82,41 @@ def schedule(
     under_way
         the matches that are on the first tables now, by position.
     """
-    runs, count = minutes.shape
-    row = np.arange(runs)
     taken = np.where(needed, minutes, 0.0)
     if priority is None:
         priority = longest_paths(waits, taken.mean(axis=0))
+    count = minutes.shape[1]
     rank = np.empty(count)
     # Of matches of the same priority the first of the list.
     order = np.lexsort((-np.arange(count), priority))
     rank[order] = np.arange(count, dtype=float)
+    free = np.maximum(tables, now)
+    found = Schedule(np.zeros(taken.shape), np.zeros(taken.shape))
+    for begin in range(0, len(taken), _AT_ONCE):
+        rows = slice(begin, begin + _AT_ONCE)
+        some = Schedule(found.start[rows], found.end[rows])
+        of_some = taken[rows], needed[rows], turnover[rows], free[rows]
+        _fill(some, waits, of_some, now, rank, first, under_way)
+    return found
+
+
+def _fill(
+    found: Schedule,
+    waits: Waiting,
+    of_some: tuple[Floats, Bools, Floats, Floats],
+    now: float,
+    rank: Floats,
+    first: Sequence[int],
+    under_way: Sequence[int],
+) -> None:
+    """Schedule some runs: their minutes, what is needed, turnover, from when tables are free."""
+    start, end = found
+    taken, needed, turnover, free = of_some
+    runs, count = taken.shape
+    row = np.arange(runs)
     missing = np.tile(waits.after.sum(axis=0), (runs, 1))
     ready = np.full((runs, count), now)
     open_ = np.ones((runs, count), dtype=bool)
-    free = np.maximum(tables, now)
-    start, end = np.zeros((runs, count)), np.zeros((runs, count))
 
     def take(match: Ints, table: Ints, begin: Floats) -> None:
         played, over = needed[row, match], begin + taken[row, match]
@@ -122,7 +145,6 @@ def schedule(
         waiting = can & (ready <= moment[:, None])
         match = np.where(waiting, rank, -1.0).argmax(axis=1)
         take(match, table, np.where(needed[row, match], moment, ready[row, match]))
-    return Schedule(start, end)
 
 
 # What a schedule needs to know of a bracket: which match waits for which others.

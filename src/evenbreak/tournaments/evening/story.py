@@ -185,8 +185,11 @@ def _prefixes(state: Evening) -> list[tuple[Event, ...]]:
         events.append(event)
         if isinstance(what, Result) or (isinstance(what, Drawn) and not ends):
             ends.append(len(events))
-    every = -(-len(ends) // MOST_STEPS) or 1
-    kept = [end for k, end in enumerate(ends) if (len(ends) - 1 - k) % every == 0 or k == 0]
+    # A later story has the steps of an earlier one, which need not be worked out again.
+    every = 1
+    while len(ends) > every * MOST_STEPS:
+        every *= 2
+    kept = [end for k, end in enumerate(ends) if k % every == 0 or k == len(ends) - 1]
     return [tuple(events[:end]) for end in kept]
 
 

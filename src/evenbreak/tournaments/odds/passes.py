@@ -12,7 +12,7 @@ answers follow from these chances.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
@@ -129,24 +129,23 @@ def joined(parts: list[Floats]) -> Floats:
 
 def passed_on(step: MatchStep, mass: Floats, p: Floats) -> Floats:
     """Return the probabilities of the states after a match."""
-    won, lost = split(step, mass, p)
+    sides = split(step, mass, p)
     if step.distinct:
-        return np.concatenate([won, lost])
-    after = gathered(step, 0, won)
-    after += gathered(step, 1, lost)
+        return np.concatenate([*sides])
+    after = gathered(step, 0, next(sides))
+    after += gathered(step, 1, next(sides))
     return after
 
 
-def split(step: MatchStep, mass: Floats, p: Floats) -> tuple[Floats, Floats]:
-    """Return the probability of each state and a win of slot 1, and of slot 2.
+def split(step: MatchStep, mass: Floats, p: Floats) -> Iterator[Floats]:
+    """Yield the probability of each state and a win of slot 1, and of slot 2.
 
     The second is a product too: the difference would lose the digits of a rare win.
     """
     whole = mass[..., None] if p.ndim > mass.ndim else mass
-    won, lost = p, 1.0 - p
-    if step.pair is not None:
-        won, lost = won.take(step.pair, axis=0), lost.take(step.pair, axis=0)
-    return whole * won, whole * lost
+    for side in (0, 1):  # one after the other: of many samples each is megabytes
+        won = 1.0 - p if side else p
+        yield whole * (won if step.pair is None else won.take(step.pair, axis=0))
 
 
 def gathered(step: MatchStep, side: int, mass: Floats) -> Floats:

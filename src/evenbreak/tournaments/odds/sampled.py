@@ -330,8 +330,8 @@ class Controls:
         x = np.concatenate(columns, axis=1) - self.expected
         self.batches.append((x.mean(axis=0), places.mean(axis=0)))
         self.samples += len(places)
-        self.squares = self.squares + x.T @ x
-        self.products = self.products + x.T @ places
+        self.squares += x.T @ x
+        self.products += x.T @ places
 
     def estimate(self) -> tuple[Floats, Floats]:
         """Return the mean of the places and its standard error."""
@@ -369,7 +369,8 @@ def slope_of(centred: Floats, joint: Floats, samples: int) -> tuple[Floats, int]
     varies = squares > 1e-12 * samples
     scale = np.sqrt(squares[varies])
     inner = centred[np.ix_(varies, varies)] / np.outer(scale, scale)
-    found, _, rank, _ = lstsq(inner, joint[varies] / scale[:, None], 1e-9, lapack_driver="gelsy")
+    sides, in_place = joint[varies] / scale[:, None], {"overwrite_a": True, "overwrite_b": True}
+    found, _, rank, _ = lstsq(inner, sides, 1e-9, lapack_driver="gelsy", **in_place)
     slope = np.zeros_like(joint)
     slope[varies] = found / scale[:, None]
     return slope, int(rank)
