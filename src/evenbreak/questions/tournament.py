@@ -32,7 +32,6 @@ class NewTournament(TournamentPlan, Starters):
     examples = """\
   evenbreak tournament new entrants.csv --race 7 --losers-race 5 --tables 1-3,TV
   evenbreak tournament new entrants.csv --format single --race-to 5 --out saturday.db
-  evenbreak tournament new entrants.csv --format chips --chips hoboken
   evenbreak tournament new --like tonight.db --out next.db
 """
     entrants: Annotated[
