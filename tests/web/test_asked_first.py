@@ -174,3 +174,11 @@ def test_another_event_has_a_desk_of_its_own_on_the_same_tables(hall: Hall) -> N
     assert 'name="event" value="2"' in hall.director.open("/desk?event=2").text
     assert list(hall.state.elsewhere) == [2]
     assert hall.director.open("/desk?event=3").status == 404
+    for path in ("/", "/bracket", "/players", "/desk/check-in", "/desk/more"):
+        shown = hall.director.open(f"{path}?event=2")
+        assert "Zoe" in shown.text, path
+        assert f'href="{path}">Event 1' in shown.text
+        links = re.findall(r'href="(/(?:desk|bracket|players|prizes|share|me)\b[^"]*)"', shown.text)
+        lost = [one for one in links if "event=2" not in one and one != path]
+        assert set(lost) <= {"/players"}, (path, lost)  # the footer's
+        assert 'class="row" aria-label="Events"' in shown.text

@@ -37,7 +37,7 @@ from evenbreak.sheets.story_drawing import story_style
 from evenbreak.site.look import accent
 from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.sessions import form_token, is_director
-from evenbreak.web.site import Site, event_of
+from evenbreak.web.site import Site, event_of, of_event
 from evenbreak.words import Face, Figure, capital_in_face, in_face, say, say_as, say_count
 
 _LANGUAGE = "language"
@@ -209,6 +209,9 @@ def page(
     face = page_face(code)
     said = request.session.pop(_SAID, [])
     site = site_of(request)
+    nights = [one.event for one in site.nights]
+    event = values.pop("event", event_of(request))
+    event = event if event in nights else 1
     own = {_CSRF: form_token(request), _ONCE: secrets.token_urlsafe(9)}
     asked = f"{request.url.path}?{request.url.query}"
     key = (template, asked, code, is_director(request), live, quick, site.clock()[:16])
@@ -247,7 +250,9 @@ def page(
             once=_ONCE,
             of_league=values.pop("of_league", {}),
             begun=begun_at(request),
-            event=values.pop("event", event_of(request)),
+            event=event,
+            nights=nights,
+            of_event=partial(of_event, event=event),
             said=said,
             live=live,
             quick=quick,

@@ -255,12 +255,15 @@ def _event_text(request: Request) -> str:
 
 
 def of_event(path: str, event: int) -> str:
-    """Return the address of a page of an event.
+    """Return the address of a page of an event of the night.
 
-    >>> of_event("/prizes", 1), of_event("/prizes", 2)
-    ('/prizes', '/prizes?event=2')
+    >>> of_event("/desk?match=3#sheet", 2), of_event("/players", 1)
+    ('/desk?match=3&event=2#sheet', '/players')
     """
-    return f"{path}?event={event}" if event > 1 else path
+    if event < 2 or "event=" in path:
+        return path
+    page, mark, place = path.partition("#")
+    return f"{page}{'&' if '?' in page else '?'}event={event}{mark}{place}"
 
 
 def night_of(request: Request) -> Night:

@@ -24,7 +24,7 @@ from evenbreak.web.night import Known
 from evenbreak.web.page import answer_shown, language, page, page_face, site_of
 from evenbreak.web.pages.desk import sheet_values
 from evenbreak.web.sessions import is_director
-from evenbreak.web.site import event_of, night_of
+from evenbreak.web.site import event_of, night_of, of_event
 from evenbreak.words import Sentence, in_face
 
 
@@ -52,7 +52,7 @@ async def bracket(request: Request) -> Response:
         return str(in_face(text, face))
 
     def link(box: Box) -> str:
-        return f"/bracket?{f'event={event}&' if event > 1 else ''}match={box.number}"
+        return of_event(f"/bracket?match={box.number}", event)
 
     played, matches = progress(state)
     standings = swiss_table(state) if state.plan.form == "swiss" else []

@@ -19,6 +19,7 @@ from evenbreak.web.night import version_of
 from evenbreak.web.page import choose_language, done, page, site_of
 from evenbreak.web.pages.wall import view_for
 from evenbreak.web.sessions import DIRECTOR, address_of, check_tries, let_in, let_out, wrong_pin
+from evenbreak.web.site import night_of
 
 _LOOK = 0.7  # seconds between two looks at the file
 _ALIVE = 20.0  # seconds after which something is sent in any case
@@ -26,7 +27,7 @@ _ALIVE = 20.0  # seconds after which something is sent in any case
 
 async def tonight(request: Request) -> Response:
     """Show the evening, or how one begins."""
-    night = site_of(request).night
+    night = night_of(request)
     if not night.exists:
         if await site_of(request).teams.now() is not None:
             return RedirectResponse("/team", status_code=303)
