@@ -12,7 +12,6 @@ from evenbreak.tournaments.evening.calling import (
     calls_after,
     proposed_calls,
     ready_matches,
-    tables_to_give,
 )
 from evenbreak.tournaments.evening.events import (
     BY_ITSELF,
@@ -82,7 +81,7 @@ def test_a_whole_evening_needs_no_call_after_the_first(form: str) -> None:
             state = night.state
             busy = [name for one in state.on_tables.values() for name in one.call.players]
             assert len(set(busy)) == len(busy)
-            assert not (tables_to_give(state) and ready_matches(state))
+            assert not (state.free_tables and ready_matches(state))
             night.enter(rng.choice(list(state.on_tables)), rng.choice([(3, 1), (0, 3)]))
         assert not night.state.standing.to_play
 
@@ -99,7 +98,7 @@ def test_a_reserved_table_and_a_match_that_waits_are_left_alone() -> None:
     night = Night(tables=4)
     night.add(Changed(reserved=(1, 2)), Waits("W1.1", night.state.pair("W1.1"), reason="late"))
     state = night.state
-    assert tables_to_give(state) == [3, 4]
+    assert state.free_tables == [3, 4]
     assert [(c.match, c.table) for _, c in proposed_calls({1: state})] == [("W1.2", 3), ("W1.3", 4)]
     state = night.add(Called("W1.1", 1, state.pair("W1.1")))
     assert "W1.1" in state.on_tables

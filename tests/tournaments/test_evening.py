@@ -142,7 +142,7 @@ class Night(RuleBasedStateMachine):
         loser = data.draw(st.sampled_from(self.state.pair(name)))
         self.add(moves.forfeit(self.state, loser, name))
 
-    @precondition(lambda self: self.state.standing.to_play and moves.free_tables(self.state))
+    @precondition(lambda self: self.state.standing.to_play and self.state.free_tables)
     @rule(data=st.data())
     def call(self, data: st.DataObject) -> None:
         ready = [n for n in self.state.standing.to_play if n not in self.state.on_tables]

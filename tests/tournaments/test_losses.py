@@ -68,7 +68,7 @@ class Night:
             )
         if not name and what < 0.3:
             return self.add(moves.draw_next(state, self.rng)[0])
-        if name and what < 0.5 and moves.free_tables(state) and name not in state.on_tables:
+        if name and what < 0.5 and state.free_tables and name not in state.on_tables:
             return self.add(moves.call(state, name, None))
         if name and what < 0.65:
             return self.add(moves.score(state, name, (1, int(self.rng.integers(3)))), PHONE)
@@ -191,7 +191,7 @@ def test_a_match_called_back_keeps_its_score_and_may_be_called_again() -> None:
     before, after = night.add(moves.call_back(night.state, "w1.1"))
     assert not after.on_tables
     assert after.live == before.live
-    assert moves.free_tables(after) == [1, 2, 3]
+    assert after.free_tables == [1, 2, 3]
     with pytest.raises(InputError, match="is not on a table"):
         moves.call_back(after, "W1.1")
     _, again = night.add(moves.call(after, "W1.1", 2))

@@ -458,10 +458,10 @@ def test_tables_have_names_and_some_are_given_out_by_hand() -> None:
     plan = Plan("double", 3, scale="fargo", labels=("5", "6", "TV"), reserved=(3,), tables=4)
     night = Night("double", 8, 1)
     night.events[0] = Event(AT, Opened(plan, night.events[0].what.entrants))
-    assert moves.free_tables(night.state) == [1, 2, 4]
+    assert night.state.free_tables == [1, 2, 4]
     assert moves.call(night.state, "1", 3).table == 3
     away = replace(night.state, elsewhere={1: ("P9", night.state.pair("W1.2")[0])})
-    assert moves.free_tables(away) == [2, 4]
+    assert away.free_tables == [2, 4]
     with pytest.raises(InputError, match="table 5 is taken by P9"):
         moves.call(away, "1", 1)
     with pytest.raises(InputError, match="is playing on table 5"):

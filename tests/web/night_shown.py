@@ -111,7 +111,7 @@ def half_played(path: Path, played: int = 17, day: str = "2026-11-24") -> Evenin
 
     def fill() -> None:
         state = read_tournament(path)
-        for table in moves.free_tables(state):
+        for table in state.free_tables:
             now = read_tournament(path)
             ready = [name for name in now.standing.to_play if name not in now.on_tables]
             if ready:

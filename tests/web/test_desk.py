@@ -221,6 +221,16 @@ def test_the_sheet_of_a_match_has_its_acts_for_the_director_alone(full: Hall, pa
         assert "Take it off" not in full.director.open(page, match=odd).words
 
 
+def test_a_reserved_table_is_given_out_from_the_sheet_of_a_match(hall: Hall) -> None:
+    hall.director.send("/desk/change", tables="1-3, TV", reserved="TV")
+    match = hall.state.standing.to_play[0]
+    words = hall.director.open("/desk", match=str(hall.state.number_of(match))).words
+    assert "Call to table 1" in words
+    assert "Table TV" in words
+    hall.director.send("/desk/call", match=match, table="TV")
+    assert hall.state.on_tables[match].call.table == 4
+
+
 def test_more_has_everything_once(full: Hall) -> None:
     shown = full.director.open("/desk/more")
     for words in ("History and undo", "Someone came late", "Tables: 4", "Save a copy"):

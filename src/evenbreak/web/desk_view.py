@@ -34,7 +34,7 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.undoing import losses, undoable
-from evenbreak.web.evening_view import progress_of, win_chance
+from evenbreak.web.evening_view import progress_of, score_of, win_chance
 from evenbreak.web.sessions import author_words
 from evenbreak.words import Sentence, listed, say
 
@@ -152,7 +152,7 @@ def desk_match(
         return DeskMatch(name, number, part, (), places, "waits", **of)
     pair, result = state.pair(name), state.counted.get(name)
     needs = state.needed(name, pair)
-    won = state.score_of(name) or (0, 0)
+    won = score_of(state, name) or (0, 0)
     if result is not None:
         won = result.games[pair[0]], result.games[pair[1]]
     its = (sides or {}).get(name)

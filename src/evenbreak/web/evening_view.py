@@ -14,7 +14,6 @@ from evenbreak.answers.tournament.tournament import races_words
 from evenbreak.tournaments.brackets.bracket import Place
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
-from evenbreak.tournaments.evening.moves import free_tables
 from evenbreak.tournaments.odds.races import race_chance
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.night import Known
@@ -133,7 +132,7 @@ def view_of(state: Evening, known: Known | None) -> EveningView:
         sorted(playing, key=lambda one: one.table or 0),
         sorted(calls, key=lambda one: one.table or 0),
         waiting,
-        free_tables(state),
+        state.free_tables,
         finish,
         places,
         older,
@@ -165,7 +164,15 @@ def match_view(state: Evening, name: str, table: int | None = None) -> MatchView
     if name in state.on_tables:
         table = state.on_tables[name].call.table
         since = f"{datetime.fromisoformat(state.on_tables[name].at):%H:%M}"
-    return MatchView(name, pair, state.needed(name, pair), state.score_of(name), table, since)
+    return MatchView(name, pair, state.needed(name, pair), score_of(state, name), table, since)
+
+
+def score_of(state: Evening, match: str) -> tuple[int, int] | None:
+    """Return the games so far in a match in play; None: none was entered."""
+    if match not in state.live:
+        return None
+    what = state.live[match].what
+    return what.score if what.players == state.pair(match) else what.score[::-1]
 
 
 def is_hill(needs: tuple[int, int], won: tuple[int, int]) -> bool:
@@ -179,7 +186,7 @@ def is_hill(needs: tuple[int, int], won: tuple[int, int]) -> bool:
 
 def progress_of(state: Evening, name: str, now: str) -> str:
     """Return how far a match on a table is: called, playing or hill."""
-    won = state.score_of(name) or (0, 0)
+    won = score_of(state, name) or (0, 0)
     if is_hill(state.needed(name, state.pair(name)), won):
         return "hill"
     since = datetime.fromisoformat(now) - datetime.fromisoformat(state.on_tables[name].at)

@@ -15,7 +15,7 @@ from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import Scored
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import shared_prize
-from evenbreak.web.evening_view import decided_places, is_hill, provisional_in, win_chance
+from evenbreak.web.evening_view import decided_places, is_hill, provisional_in, score_of, win_chance
 from evenbreak.web.night import Known
 from evenbreak.words import Sentence, say, say_count
 
@@ -178,7 +178,7 @@ def _under_way(state: Evening, match: str, mine: int, known: Known | None) -> di
         "pair": pair,
         "other": pair[1 - mine],
         "needs": state.needed(match, pair),
-        "score": state.score_of(match) or (0, 0),
+        "score": score_of(state, match) or (0, 0),
         "table": on.call.table if on else None,
         "since": on.at if on else "",
         "called": calls.get(match),

@@ -139,7 +139,7 @@ def style_address(color: str | None, whose: str = "director") -> str:
 
 def _style_order(sheet: Traversable) -> tuple[bool, bool, str]:
     """Return where a style sheet comes: what all pages share first, then each page's by name."""
-    return sheet.name != "parts.css", sheet.name != "old.css", sheet.name
+    return sheet.name != "parts.css", sheet.name != "forms.css", sheet.name
 
 
 @cache

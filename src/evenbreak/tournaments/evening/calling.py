@@ -6,12 +6,6 @@ from collections.abc import Mapping, Sequence
 
 from evenbreak.tournaments.evening.events import Called, CalledBack
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.evening.moves import free_tables
-
-
-def tables_to_give(state: Evening) -> list[int]:
-    """Return the free tables that are given out by themselves: those not reserved."""
-    return [table for table in free_tables(state) if table not in state.plan.reserved]
 
 
 def ready_matches(state: Evening, order: Sequence[str] = ()) -> list[str]:
@@ -81,7 +75,7 @@ def proposed_calls(
     tables
         the tables; None: those that are given out by themselves.
     """
-    given = list(tables_to_give(states[min(states)]) if tables is None else tables)
+    given = list(states[min(states)].free_tables if tables is None else tables)
     busy: set[str] = set()
     found: list[tuple[int, Called]] = []
     for n, name in night_queue(states, order):
@@ -103,6 +97,6 @@ def calls_after(
     before with a match ready for it is left free: somebody keeps it; one that only waited for a
     match gets one.
     """
-    kept = set(free_tables(before[min(before)])) if night_queue(before) else set()
-    tables = [one for one in tables_to_give(after[min(after)]) if one not in kept]
+    kept = set(before[min(before)].free_tables) if night_queue(before) else set()
+    tables = [one for one in after[min(after)].free_tables if one not in kept]
     return proposed_calls(after, order, tables)

@@ -257,11 +257,7 @@ class Evening:
 
     @cached_property
     def on_tables(self) -> dict[str, OnTable]:
-        """The matches that are being played.
-
-        A table is left when it is called for another match, and a match when one of its players is
-        called to another, as when it is undone that a match left its table.
-        """
+        """The matches in play: a table is left when it, or one of its players, is called away."""
         if self.plan.form == "chips":
             return {
                 one.name: OnTable(Called(one.name, one.table, one.players), one.since)
@@ -269,11 +265,10 @@ class Evening:
             }
         called = {n: one for (n, who), one in self.calls.items() if self.sitting(n) == who}
         last = {one.call.table: name for name, one in called.items()}
-        found: dict[str, OnTable] = {}
-        taken: set[str] = set()
+        found, taken = dict[str, OnTable](), set[str]()
         for name, one in reversed(called.items()):
             there = last[one.call.table] == name and name in self.standing.to_play
-            if there and not taken.intersection(one.call.players):
+            if there and taken.isdisjoint(one.call.players):
                 found[name] = one
                 taken.update(one.call.players)
         return dict(reversed(found.items()))
@@ -290,9 +285,17 @@ class Evening:
     @property
     def free_tables(self) -> list[int]:
         """The tables on which nobody plays, but for those that are given out by hand only."""
-        taken = {one.call.table for one in self.on_tables.values()}
-        taken |= {*self.elsewhere, *self.plan.reserved}
-        return [table for table in range(1, self.plan.tables + 1) if table not in taken]
+        return [table for table in self._unused if table not in self.plan.reserved]
+
+    @property
+    def kept_tables(self) -> list[int]:
+        """The tables on which nobody plays that are given out by hand only."""
+        return sorted({*self.plan.reserved} & {*self._unused})
+
+    @property
+    def _unused(self) -> list[int]:
+        taken = {*self.elsewhere, *(one.call.table for one in self.on_tables.values())}
+        return sorted({*range(1, self.plan.tables + 1)} - taken)
 
     @property
     def waiting_for(self) -> dict[str, Waits]:
@@ -336,13 +339,6 @@ class Evening:
         """Return the players of a match that can be played or was."""
         one, other = (self.order[k] for k in self.standing.seats[match] if k is not None)
         return one, other
-
-    def score_of(self, match: str) -> tuple[int, int] | None:
-        """Return the games so far of the players of a match in play; None: none was entered."""
-        if match not in self.live:
-            return None
-        what, pair = self.live[match].what, self.pair(match)
-        return what.score if what.players == pair else what.score[::-1]
 
     def needed(self, match: str, players: tuple[str, str]) -> tuple[int, int]:
         """Return the games that each of two players needs in a match, or needed in it."""

@@ -327,8 +327,8 @@ def call(state: Evening, match: str, table: int | None) -> Called:
             match=state.match_words(name),
             table=names(on.call.table),
         )
-    if table is None and not (free := free_tables(state)):
-        if kept := [names(k) for k in state.plan.reserved if _on_table(state, k) is None]:
+    if table is None and not (free := state.free_tables):
+        if kept := [names(k) for k in state.kept_tables]:
             raise InputError(
                 "the only free tables are those called by hand ({tables}); name one of them",
                 tables=", ".join(kept),
@@ -449,11 +449,6 @@ def edit(state: Evening, player: str, *, name: str = "", rating: float | None = 
         )
     check_entrant(state, after, besides=player)
     return Edited(player, after)
-
-
-def free_tables(state: Evening) -> list[int]:
-    """Return the tables on which nobody plays, but for those that are given out by hand only."""
-    return state.free_tables
 
 
 def _rival(state: Evening, line: int) -> int:

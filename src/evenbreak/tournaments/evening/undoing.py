@@ -82,8 +82,7 @@ def is_free(state: Evening, entry: int) -> bool:
     own = [number for number in act if events[number].by != BY_ITSELF] or [entry]
     if (isinstance(what, Scored) and events[entry].by_phones) or own[-1] != entry:
         return False
-    if not (back := _taken_back(state, events, entry)):  # a call whose match has begun
-        return False
+    back = _taken_back(state, events, entry)
     if len(own) == 1 and (isinstance(what, _LIGHT) or _leads_nowhere(state, what)):
         return True
     try:
@@ -152,7 +151,9 @@ def _taken_back(state: Evening, events: Mapping[int, Event], entry: int) -> list
     return [
         Undone(number)
         for number in reversed(_act(events, entry))
-        if events[number].by != BY_ITSELF or events[number].what.match not in begun  # type: ignore[union-attr]
+        if number == entry
+        or events[number].by != BY_ITSELF
+        or events[number].what.match not in begun  # type: ignore[union-attr]
     ]
 
 

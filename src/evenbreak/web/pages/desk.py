@@ -15,12 +15,10 @@ from evenbreak.answers.tournament.bracket_view import group_words
 from evenbreak.answers.tournament.moves import event_name
 from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.files.store.desk import Phones, Sides, objected
-from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.beside import out
 from evenbreak.tournaments.evening.calling import (
     night_queue,
     proposed_calls,
-    tables_to_give,
 )
 from evenbreak.tournaments.evening.events import Result, score_words
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
@@ -88,7 +86,7 @@ def _desk_values(
     tables = sorted((one for one in both if one.table), key=lambda one: one.table or 0)
     called = proposed_calls(drawn, queue) if drawn else []
     calls = [(desk_match(states[n], one.match, now), one.table) for n, one in called]
-    free = tables_to_give(drawn[min(drawn)]) if drawn else []
+    free = drawn[min(drawn)].free_tables if drawn else []
     keys = {one.key for one, _ in calls}
     nexts = [one for one in soon(drawn, now, queue) if one.key not in keys]
     late, still = ([one for its in each for one in its[name]] for name in ("late", "still"))
@@ -202,7 +200,7 @@ def sheet_values(request: Request, state: Evening) -> dict[str, Any]:
     now = site_of(request).clock()
     one = desk_match(state, match, now, sides_now(night_of(request).phones(), state))
     to_play = match in state.standing.to_play
-    tables = [*dict.fromkeys([*tables_to_give(state), *moves.free_tables(state)])]
+    tables = [*state.free_tables, *state.kept_tables]
     return {
         "one_match": one,
         "its": {
