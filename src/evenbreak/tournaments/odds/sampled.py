@@ -38,7 +38,7 @@ _STATES_PER_SAMPLE = 1e5
 
 _BATCHES = 40  # of samples
 
-_CELLS = 200_000
+_CELLS = 80_000
 """The largest number of states times samples that are processed at once."""
 
 
@@ -339,8 +339,9 @@ class Controls:
         if self.expected.size:
             centred = self.squares - self.samples * np.outer(x.mean(axis=0), x.mean(axis=0))
             joint = self.products - self.samples * np.outer(x.mean(axis=0), y.mean(axis=0))
-            slope, rank = slope_of(centred, joint, self.samples)
-            y = y - x @ slope
+            # x times the slope; the other way around the solver would need a copy of `joint`.
+            weights, rank = slope_of(centred, x.T, self.samples)
+            y = y - weights.T @ joint
             # Controls explain some of the noise by chance.
             spread = 1.0 / np.sqrt(max(1.0 - rank / self.samples, 0.1))
         else:
