@@ -44,5 +44,5 @@ def opened(browser: Any, site: Site, *, width: int = 390, **asked: Any) -> Any:
     page.goto(f"{site.address}/pin")
     page.fill("input[name=pin]", site.pin)
     page.keyboard.press("Enter")
-    page.wait_for_url(f"{site.address}/")
+    page.wait_for_url(lambda url: not url.endswith("/pin"))
     return page

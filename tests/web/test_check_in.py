@@ -34,9 +34,9 @@ def test_the_draw_is_of_those_who_are_here(tmp_path: Path) -> None:
         assert "2 paid" in shown.words
         assert "50 in the pot" in shown.words
         assert "Draw 2 players 2 are not here · 1 hasn't paid" in shown.words
-        rows = shown.words.partition("Missing first")[2]
-        order = [rows.index(f" {name} ") for name in ("Cy", "Di", "Bo", "Ann")]
-        assert order == sorted(order)  # who is missing comes first
+        rows = shown.words.partition("Player Here Paid")[2]
+        order = [rows.index(f" {name} ") for name in ("Ann", "Bo", "Cy", "Di")]
+        assert order == sorted(order)  # no tap moves a row
 
         assert "The director will let you in" in guest.send("/play", name="Eve", rating=530).words
         assert "asks to play · says 530" in director.open("/desk/check-in").words
@@ -55,7 +55,7 @@ def test_the_draw_is_of_those_who_are_here(tmp_path: Path) -> None:
         assert set(state.registered) == {"Cy", "Di"}
         shown = director.open("/desk/check-in")
         assert "Cy asks to play" in shown.words
-        assert "Draw" not in shown.words.partition("Missing first")[2]
+        assert "Draw" not in shown.words.partition("Player Here Paid")[2]
         people = director.open("/next").text
         assert all(name in people for name in ("Cy, 500", "Di, 480", "Eve, 530"))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import pytest
@@ -105,7 +106,8 @@ def test_calls_are_made_by_hand_where_the_director_wants_it(full: Hall) -> None:
     match = on(full, 4)
     words = taps(full, match, 2)
     assert 4 not in [one.call.table for one in full.state.on_tables.values()]
-    assert "to table 4" in words  # one loud button in the card
+    assert words.count("Table 4 is free") == 1  # it is offered once
+    assert "Call" in words
     full.director.send("/desk/calling", itself="yes")
     taps(full, on(full, 1), 2)
     assert 1 in [one.call.table for one in full.state.on_tables.values()]
@@ -264,3 +266,40 @@ def test_a_table_is_closed_from_its_match_and_only_that_match_leaves(hall: Hall)
     }
     assert hall.state.plan.streamed == (3,)
     assert not hall.state.plan.reserved
+
+
+def test_the_card_of_an_act_has_that_act_alone(full: Hall) -> None:
+    taps(full, on(full, 1), 1)
+    time.sleep(1.1)  # entries are timed to the second
+    words = taps(full, on(full, 2), 1)
+    card = words[words.index("is in") : words.index("OK")]
+    called = full.state.on_tables[on(full, 2)].call.players
+    assert card.count("Table 2: ") == 1
+    assert f"Table 2: {called[0]} against {called[1]}." in card
+    assert "Table 1: " not in card
+    assert "Winner to match" in card
+
+
+def test_an_undo_can_be_redone_from_the_desk(full: Hall) -> None:
+    match = on(full, 2)
+    taps(full, match, 1)
+    undo = next(f for f in forms_in(full.director.open("/desk").text) if f.action == "/desk/undo")
+    full.director.send_raw("/desk/undo", dict(undo.fields))
+    redo = next(f for f in forms_in(full.director.open("/desk").text) if f.action == "/desk/redo")
+    assert redo.words.strip().startswith("Redo: ")
+    assert full.director.send_raw("/desk/redo", dict(redo.fields)).status == 200
+    assert match in full.state.counted
+    assert "Redo: " not in full.director.open("/desk").words
+
+
+def test_a_match_that_waits_says_for_whom_and_ends_its_wait_by_one_tap(full: Hall) -> None:
+    match = on(full, 2)
+    name, number = full.state.pair(match)[0], full.state.number_of(match)
+    full.director.send("/desk/wait", match=match, absent=name, until="23:59")
+    sheet = full.director.open(f"/desk?match={number}")
+    assert f"Waits for {name} until 23:59" in sheet.words
+    here = next(form for form in forms_in(sheet.text) if form.words.strip() == "They're here")
+    assert full.director.send_raw("/desk/wait", dict(here.fields)).status == 200
+    assert not full.state.waiting_for
+    words = full.director.send("/desk/forfeit", player=name, match=match, sure="yes").words
+    assert f"{name} goes home" in words

@@ -18,6 +18,8 @@ from evenbreak.answers.tournament.moves import (
     reopened,
     shout,
 )
+from evenbreak.answers.tournament.short_names import first_name
+from evenbreak.answers.tournament.story import clock_words
 from evenbreak.answers.tournament.tournament import place_words
 from evenbreak.files.store.desk import Sides
 from evenbreak.tournaments.brackets.bracket import Source
@@ -36,7 +38,7 @@ from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.undoing import losses, undoable
 from evenbreak.web.evening_view import progress_of, score_of, win_chance
 from evenbreak.web.sessions import author_words
-from evenbreak.words import Sentence, listed, say
+from evenbreak.words import Sentence, joined, listed, say
 
 
 class Side(NamedTuple):
@@ -117,13 +119,6 @@ class DeskMatch:
         return any(side.won for side in self.sides)
 
 
-def short_of(state: Evening, name: str) -> str:
-    """Return the first name of a player, or the whole where somebody else has it too."""
-    first = name.split()[0]
-    others = [one for one in state.entrants if one != name]
-    return name if any(one.split()[0].casefold() == first.casefold() for one in others) else first
-
-
 def desk_match(
     state: Evening, name: str, now: str, sides: Mapping[str, Sides] | None = None
 ) -> DeskMatch:
@@ -173,7 +168,7 @@ def desk_match(
     found = tuple(
         Side(
             one,
-            short_of(state, one),
+            first_name(one, state.entrants),
             won[k],
             needs[k],
             any(won) and needs[k] - won[k] > needs[1 - k] - won[1 - k]
@@ -195,6 +190,7 @@ def _from(state: Evening, slot: int | Source) -> Sentence | str:
     return source_words(slot, state.match_numbers)
 
 
+FINALS = ("final", "second final")
 _SIDES = {
     "winners": say("winners' side"),
     "losers": say("losers' side"),
@@ -250,6 +246,8 @@ class LastAct(NamedTuple):
         whether it is a result.
     by
         the phones or the tablet that entered it; '' if the director did.
+    absent
+        whoever forfeited it, and has not gone home.
     """
 
     event: int
@@ -261,6 +259,7 @@ class LastAct(NamedTuple):
     match: int = 0
     over: bool = False
     by: Sentence | str = ""
+    absent: str = ""
 
 
 def last_act(state: Evening, read: int) -> LastAct | None:
@@ -280,9 +279,8 @@ def last_act(state: Evening, read: int) -> LastAct | None:
         return None
     number, event = last
     title, lines = _told(state, number)
-    match, undo = getattr(event.what, "match", ""), ""
-    if number in undoable(state):
-        undo = undo_words(state, event)
+    match = getattr(event.what, "match", "")
+    undo = undo_words(state, event) if number in undoable(state) else ""
     return LastAct(
         state.event,
         number,
@@ -293,24 +291,33 @@ def last_act(state: Evening, read: int) -> LastAct | None:
         state.number_of(match) if match else 0,
         isinstance(event.what, Result),
         author_words(event.by) if event.by_phones else "",
+        _absent(state, event),
     )
 
 
-def shouts(states: Mapping[int, Evening], read: Mapping[int, int]) -> list[Sentence]:
-    """Return what to call out, by table: the matches called since that have not begun."""
+def _absent(state: Evening, event: Event) -> str:
+    if (
+        not isinstance(what := event.what, Result)
+        or not what.forfeit
+        or what.loser in state.dropped
+    ):
+        return ""
+    seat = state.order.index(what.loser)
+    to_come = (seats for name, seats in state.standing.seats.items() if name not in state.counted)
+    return what.loser if any(seat in seats for seats in to_come) else ""
+
+
+def shouts(states: Mapping[int, Evening], read: Mapping[int, int], since: str) -> list[Sentence]:
+    """Return what to call out, by table: the matches called by the last act, not begun."""
     found = [
         (on.call.table, shout(state, name))
         for n, state in states.items()
         for name, on in state.on_tables.items()
         if name not in state.live
-        and _called_at(list(zip(state.numbers, state.events, strict=True)), name) > read.get(n, 0)
+        and _called(state, name)[0] >= since
+        and _called(state, name)[1] > read.get(n, 0)
     ]
     return [words for _, words in sorted(found, key=lambda one: one[0])]
-
-
-def time_words(at: str) -> str:
-    """Return the time of day of an entry, such as 19:40."""
-    return f"{datetime.fromisoformat(at):%H:%M}"
 
 
 def _is_act(event: Event) -> bool:
@@ -320,8 +327,14 @@ def _is_act(event: Event) -> bool:
     return isinstance(event.what, Result | Called | CalledBack | Waits | Dropped)
 
 
-def _called_at(entries: Sequence[tuple[int, Event]], match: str) -> int:
-    return max((n for n, one in entries if getattr(one.what, "match", "") == match), default=0)
+def _called(state: Evening, match: str) -> tuple[str, int]:
+    """Return when a match was called last, and by which entry."""
+    its = [
+        (one.at, n)
+        for n, one in zip(state.numbers, state.events, strict=True)
+        if getattr(one.what, "match", "") == match
+    ]
+    return max(its, default=("", 0))
 
 
 @lru_cache(maxsize=4)
@@ -332,8 +345,13 @@ def _told(state: Evening, number: int) -> tuple[Sentence | str, tuple[Sentence |
     before, after = evening(state.events[:k]), evening(state.events[: k + 1])
     title = event_words(event.what, state)
     if isinstance(event.what, Result) and not event.what.stands:
+        result = event.what
         said = happened(before, after, event)
-        return (said[0] if said else title), tuple(said[1:])
+        full = after.plan.form in ("chips", "swiss")
+        if full or after.bracket.match(result.match).side in FINALS:
+            return (said[0] if said else title), tuple(said[1:])
+        again = reopened(before, after, result.match)
+        return after.result_words(result), (joined(next_words(after, result.match)), *again)
     if isinstance(event.what, CalledBack | Waits) and (said := called_words(before, after)):
         return said[0], tuple(said[1:])
     if isinstance(event.what, Dropped):
@@ -347,7 +365,10 @@ def undo_words(state: Evening, event: Event) -> Sentence:
     what = event.what
     if isinstance(what, Result) and not what.forfeit:
         won, lost = what.games[what.winner], what.games[what.loser]
-        names = {"a": short_of(state, what.winner), "b": short_of(state, what.loser)}
+        names = {
+            "a": first_name(what.winner, state.entrants),
+            "b": first_name(what.loser, state.entrants),
+        }
         return say(
             "Undo: {a} {won}-{lost} {b} ({match})",
             **names,
@@ -365,6 +386,7 @@ class Late(NamedTuple):
     absent: tuple[str, ...]
     until: str
     reason: str
+    missing: tuple[str, ...]
 
 
 def waiting(state: Evening, now: str) -> tuple[list[Late], list[Late]]:
@@ -375,8 +397,9 @@ def waiting(state: Evening, now: str) -> tuple[list[Late], list[Late]]:
         one = Late(
             desk_match(state, name, now),
             waits.absent or waits.players,
-            time_words(waits.until) if waits.until else "",
+            clock_words(waits.until) if waits.until else "",
             waits.reason,
+            waits.absent,
         )
         (over if waits.until and waits.until <= now else still).append(one)
     return over, still

@@ -12,7 +12,7 @@ from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.files.store.desk import Phones, Sides
 from evenbreak.tournaments.brackets.bracket import Match, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
-from evenbreak.tournaments.evening.events import Scored
+from evenbreak.tournaments.evening.events import Scored, race_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import shared_prize
 from evenbreak.web.evening_view import decided_places, is_hill, provisional_in, score_of, win_chance
@@ -273,6 +273,9 @@ def way_of(state: Evening, me: str, mine: MyMatch | None) -> list[Step]:
         score: Sentence | str = f"{result.games[me]}-{result.games[other]}"
         if result.forfeit:
             score = say("forfeit")
+        elif needs := state.uneven_race(result):
+            race = race_words(needs if result.players[0] == me else needs[::-1])
+            score = say("{score} ({race})", score=score, race=race)
         steps.append(Step("done" if result.winner == me else "forfeit", other, score))
     if mine is not None:
         steps.append(Step("playing", mine.other, mine.starts[1] if mine.starts else ""))

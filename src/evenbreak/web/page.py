@@ -22,7 +22,7 @@ from pathlib import PurePath
 from typing import Any
 
 import jinja2
-from markupsafe import Markup
+from markupsafe import Markup, escape
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.routing import Match
@@ -233,6 +233,7 @@ def page(
             say=say,
             say_as=say_as,
             say_count=say_count,
+            whole=_whole,
             percent=share_at_a_glance,
             share=share,
             number=_number,
@@ -386,3 +387,9 @@ def page_face(language: str) -> Face:
     return replace(
         plain, parameter=parameter, command=command, file=lambda path: PurePath(path).name
     )
+
+
+def _whole(text: str) -> Markup:
+    """Return a text whose scores, such as 5-1, are not broken over lines."""
+    shown = re.sub(r"\d+-\d+", r"<b class=whole>\g<0></b>", str(escape(text)))
+    return Markup(f"<span>{shown}</span>")  # noqa: S704

@@ -65,7 +65,8 @@ class Sentence(str):
         """Return the sentence; its text is that of `PYTHON`."""
         template = wording.said(PYTHON)
         filled = _Values(values)
-        sentence = super().__new__(cls, template.format_map(filled) if values else template)
+        text = _ended(template, template.format_map(filled)) if values else template
+        sentence = super().__new__(cls, text)
         sentence.wording, sentence.values = wording, filled
         return sentence
 
@@ -77,7 +78,9 @@ class Sentence(str):
     def said(self, face: Face) -> str:
         """Return the text as a face says it."""
         template = self.wording.said(face)
-        return _InFace(face).vformat(template, (), self.values) if self.values else template
+        if not self.values:
+            return template
+        return _ended(template, _InFace(face).vformat(template, (), self.values))
 
     def is_ours(self, face: Face) -> bool:
         """Return whether it begins with a word of ours in a face, and not with a value."""
@@ -99,6 +102,12 @@ class Sentence(str):
     def __reduce__(self) -> tuple[Any, ...]:
         """Return what a copy in another process is made from."""
         return type(self), (self.wording, dict(self.values))
+
+
+def _ended(template: str, text: str) -> str:
+    """Return a text with one period at its end where the last value, such as 'Jr.', has one too."""
+    twice = template.endswith("}.") and text.endswith("..") and not text.endswith("...")
+    return text[:-1] if twice else text
 
 
 class _InFace(Formatter):

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from typing import NamedTuple
 
 from evenbreak.answers.tournament.moves import and_words, open_words
+from evenbreak.answers.tournament.short_names import first_name
 from evenbreak.answers.tournament.tournament import against
 from evenbreak.tournaments.evening.events import race_words
 from evenbreak.tournaments.evening.fold import Evening
@@ -115,6 +115,5 @@ def _stop_details(stop: Evening, lost: Sequence[Loss]) -> list[Sentence]:
 
 
 def _first_names(state: Evening, names: Sequence[str]) -> list[str]:
-    """Return what players are called in short: by their first name, unless others have it too."""
-    first = Counter(name.split()[0].casefold() for name in state.entrants)
-    return [name.split()[0] if first[name.split()[0].casefold()] == 1 else name for name in names]
+    """Return what players are called in short."""
+    return [first_name(name, state.entrants) for name in names]

@@ -38,7 +38,6 @@ from evenbreak.tournaments.evening.events import (
     Undone,
     Waits,
     What,
-    score_words,
 )
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.history import as_read
@@ -88,7 +87,9 @@ def happened(before: Evening, after: Evening, event: Event) -> list[Sentence]:
 
 def _result_words(state: Evening, result: Result) -> Sentence:
     return say(
-        "{result} in {match}.", result=score_words(result), match=state.match_words(result.match)
+        "{result} in {match}.",
+        result=state.result_words(result),
+        match=state.match_words(result.match),
     )
 
 
@@ -207,7 +208,7 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentenc
         again = some_of([open_words(after, name) for name in gone])
         said.append(say("Must be replayed: {matches}.", matches=again))
     back = [
-        say("{result} in {match}", result=score_words(result), match=after.match_words(name))
+        say("{result} in {match}", result=after.result_words(result), match=after.match_words(name))
         for name, result in after.counted.items()
         if name not in before.counted and name != besides and name in after.records
     ]
@@ -235,7 +236,7 @@ def lost_words(before: Evening, after: Evening) -> list[Sentence]:
         at = "" if one.score is None or not any(one.score) else "{}-{}".format(*one.score)
         table = None if one.table is None else before.plan.table_name(one.table)
         if one.result is not None:
-            match = say("{result} ({match})", match=name, result=score_words(one.result))
+            match = say("{result} ({match})", match=name, result=before.result_words(one.result))
             said.append(say("{match} would no longer count.", match=match))
         elif table is None:
             said.append(say("{match} would end at {score}.", match=match, score=at))
@@ -369,7 +370,7 @@ def event_words(what: What, state: Evening) -> Sentence:
         case Result(corrects=corrects, stands=stands):
             found = say(
                 "{result} ({match})",
-                result=score_words(what) if what.forfeit or what.ended else _short_words(what),
+                result=_short_words(state, what),
                 match=state.match_words(what.match),
             )
             return say("correction: {result}", result=found) if corrects and not stands else found
@@ -405,12 +406,12 @@ def event_words(what: What, state: Evening) -> Sentence:
             return _entry_words(what)
 
 
-def _short_words(result: Result) -> str:
+def _short_words(state: Evening, result: Result) -> str:
     """Return a result as it is written on a sheet: Ann 5-3 Bo."""
     won, lost = result.games[result.winner], result.games[result.loser]
     names = {"winner": result.winner, "loser": result.loser}
-    if result.stands:
-        return score_words(result)
+    if result.stands or result.forfeit or result.ended or state.uneven_race(result):
+        return state.result_words(result)
     return say("{winner} {won}-{lost} {loser}", won=won, lost=lost, **names)
 
 

@@ -33,7 +33,7 @@ from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.brackets.swiss import swiss_standings
 from evenbreak.tournaments.clock.finish import Call
 from evenbreak.tournaments.evening.chip_night import chips_of
-from evenbreak.tournaments.evening.events import Result, score_words
+from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw, stage_to_draw
 from evenbreak.tournaments.evening.outlook import Outlook
@@ -252,7 +252,7 @@ def _aside_words(state: Evening, result: Result) -> str:
     return say(
         "{result} in {match}, but {now}, so that result is on hold. {settle} or undo the "
         "correction",
-        result=score_words(result),
+        result=state.result_words(result),
         match=words,
         now=now,
         settle=play,

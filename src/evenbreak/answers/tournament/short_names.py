@@ -69,6 +69,18 @@ def short_names(names: Iterable[str], fits: Callable[[str], bool]) -> dict[str, 
     return written
 
 
+def first_name(name: str, everybody: Iterable[str]) -> str:
+    """Return the first name of a player; the whole where another has it, or it may be none.
+
+    >>> names = ["Frank Russo", "Big Tony", "Li Wei"]
+    >>> [first_name(name, names) for name in names]
+    ['Frank', 'Big Tony', 'Li Wei']
+    """
+    first = name.split()[0]
+    others = (one.split()[0].casefold() for one in everybody if one != name)
+    return name if len(first) < 4 or first.casefold() in others else first
+
+
 def _told_apart(names: list[str], shorten: Callable[[str, int], str]) -> dict[str, str]:
     """Return a short form of each name that nobody else's name or form is."""
     found = {name: shorten(name, 1) for name in names}

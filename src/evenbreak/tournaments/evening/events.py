@@ -408,20 +408,29 @@ class Event(log.Event):
     what: What
 
 
-def score_words(found: Result) -> Sentence:
-    """Return a result in words.
+def score_words(found: Result, needs: tuple[int, int] | None = None) -> Sentence:
+    """Return a result in words, with what its players needed where that was not the same.
 
     >>> score_words(Result("W1.1", ("Ann", "Bo"), (5, 7), "Bo"))
     'Bo beat Ann 7-5'
     >>> score_words(Result("W1.1", ("Ann", "Bo"), (3, 2), "Ann", ended="time"))
     'Ann beat Bo 3-2 on time'
+    >>> score_words(Result("W1.1", ("Ann", "Bo"), (2, 2), "Bo"), (4, 2))
+    'Bo beat Ann 2-2 (race 2-4)'
     """
     names: dict[str, Any] = {"winner": found.winner, "loser": found.loser}
     if found.forfeit:
         return say("{loser} forfeited to {winner}", **names)
     if found.stands:
         beaten = replace(found, winner=found.loser, stands=False)
-        return say("{result}, but {winner} has played on", result=score_words(beaten), **names)
+        return say(
+            "{result}, but {winner} has played on", result=score_words(beaten, needs), **names
+        )
+    if needs is not None and needs[0] != needs[1] and not found.ended:
+        each = dict(zip(found.players, needs, strict=True))
+        race = race_words((each[found.winner], each[found.loser]))
+        even = score_words(found)
+        return say("{result} ({race})", result=even, race=race)
     names |= {"won": found.games[found.winner], "lost": found.games[found.loser]}
     if found.ended == "time":
         return say("{winner} beat {loser} {won}-{lost} on time", **names)

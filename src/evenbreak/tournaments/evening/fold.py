@@ -36,6 +36,7 @@ from evenbreak.tournaments.evening.events import (
     Result,
     Scored,
     Waits,
+    score_words,
 )
 from evenbreak.tournaments.evening.history import read
 from evenbreak.tournaments.evening.matches import (
@@ -51,6 +52,7 @@ from evenbreak.tournaments.evening.plan import (
     changed,
     groups_of,
     races_of,
+    table_changes,
     table_places,
     whole_bracket,
 )
@@ -323,9 +325,8 @@ class Evening:
     def at_tables_of(self, house: Evening) -> Evening:
         """Return the state with the tables of another event, wherever those have moved since."""
         calls = dict(self.calls)
-        for at, places in _table_changes(house.events):
-            for pairing in list(calls):
-                one = calls[pairing]
+        for at, places in table_changes(house.events):
+            for pairing, one in list(calls.items()):
                 called = (e.at for e in self.events if e.what == one.call)
                 if at <= max(called, default=one.at):
                     continue
@@ -353,6 +354,18 @@ class Evening:
         race = self.races.of(self.bracket.match(match))
         m, n = games_needed(np.array([one - other]), race, self.scale)
         return int(m[0]), int(n[0])
+
+    def result_words(self, result: Result) -> Sentence:
+        """Return a result in words, with what its players needed where that was not the same."""
+        return score_words(result, self.uneven_race(result))
+
+    def uneven_race(self, result: Result) -> tuple[int, int] | None:
+        """Return the games that each player of a result needed; None: as many."""
+        known = self.drawn and result.match in self.bracket.by_name
+        if not known or not self.entrants.keys() >= {*result.players}:
+            return None
+        needs = self.needed(result.match, result.players)
+        return needs if needs[0] != needs[1] else None
 
     @cached_property
     def _settled(self) -> tuple[dict[str, Result], Standing, dict[str, str | tuple[str, ...]]]:
@@ -457,18 +470,6 @@ def _as_named_now(event: Event, plan: Plan, order: Sequence[str]) -> Event:
         last = final_of_groups(groups_of(plan, len(order)))
         return replace(event, what=replace(what, match=last))
     return event
-
-
-def _table_changes(events: Sequence[Event]) -> list[tuple[str, dict[int, int]]]:
-    """Return when tables were opened, closed or renamed, and the number of each from then on."""
-    found = []
-    first = events[0].what
-    plan = first.plan if isinstance(first, Opened) else None
-    for one in events:
-        if plan is not None and isinstance(one.what, Changed):
-            before, plan = plan, changed(plan, one.what, None, ())
-            found.append((one.at, table_places(before, plan)))
-    return found
 
 
 def tied_ranks(now: Standing, group: Group) -> list[int]:

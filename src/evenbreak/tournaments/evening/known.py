@@ -10,7 +10,7 @@ from evenbreak.errors import InputError
 from evenbreak.ratings.results_frame import folded
 from evenbreak.tournaments.brackets.bracket import some_of
 from evenbreak.tournaments.evening.chip_night import chips_of
-from evenbreak.tournaments.evening.events import Entrant, race_words, score_words
+from evenbreak.tournaments.evening.events import Entrant, race_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.plan import refuse_bye
 from evenbreak.words import listed, say
@@ -138,7 +138,7 @@ def undecided(state: Evening, match: str) -> str:
         raise InputError(
             "{match} already has a result: {result}",
             match=state.match_words(name),
-            result=score_words(before),
+            result=state.result_words(before),
         )
     refuse_waiting(state, name)
     return name

@@ -28,7 +28,6 @@ from evenbreak.tournaments.evening.events import (
     Result,
     Scored,
     race_words,
-    score_words,
 )
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
@@ -136,7 +135,7 @@ def result(
         why = say(
             "{match} already has a result ({result}); to change it: {correct}",
             match=state.match_words(name),
-            result=score_words(before),
+            result=state.result_words(before),
             correct=correct_it,
         )
         raise AlreadyError(why) if again else InputError(why)
@@ -198,7 +197,7 @@ def correct(
         raise AlreadyError(
             "{match} already has that result: {result}",
             match=state.match_words(name),
-            result=score_words(before),
+            result=state.result_words(before),
         )
     return found
 

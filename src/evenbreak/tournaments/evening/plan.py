@@ -26,7 +26,7 @@ from evenbreak.tournaments.brackets.knockout import (
 from evenbreak.tournaments.brackets.laid_out import laid_out
 from evenbreak.tournaments.brackets.swiss import Pairing, Swiss, swiss, swiss_bracket, swiss_round
 from evenbreak.tournaments.evening.chip_night import rack_bracket
-from evenbreak.tournaments.evening.events import Changed, Entrant, Opened, Plan, Result
+from evenbreak.tournaments.evening.events import Changed, Entrant, Event, Opened, Plan, Result
 from evenbreak.tournaments.evening.format import MOST_PLAYERS, Format, Occasion
 from evenbreak.tournaments.odds.races import Fairest, Races
 
@@ -307,3 +307,15 @@ def changed(plan: Plan, change: Changed, bracket: Bracket | None, begun: Iterabl
         race = races.of(bracket.match(name))
         by_match[name] = race.race_to if isinstance(race, Fairest) else int(race)  # type: ignore[arg-type]
     return replace(plan, **given, by_match=by_match)
+
+
+def table_changes(events: Sequence[Event]) -> list[tuple[str, dict[int, int]]]:
+    """Return when tables were opened, closed or renamed, and the number of each from then on."""
+    found = []
+    first = events[0].what
+    plan = first.plan if isinstance(first, Opened) else None
+    for one in events:
+        if plan is not None and isinstance(one.what, Changed):
+            before, plan = plan, changed(plan, one.what, None, ())
+            found.append((one.at, table_places(before, plan)))
+    return found

@@ -12,7 +12,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
 from evenbreak.answers.tournament.bracket_view import group_words
-from evenbreak.answers.tournament.moves import event_name
+from evenbreak.answers.tournament.moves import event_name, event_words
 from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.files.store.desk import Phones, Sides, objected
 from evenbreak.tournaments.evening.beside import out
@@ -20,12 +20,12 @@ from evenbreak.tournaments.evening.calling import (
     night_queue,
     proposed_calls,
 )
-from evenbreak.tournaments.evening.events import Result, score_words
+from evenbreak.tournaments.evening.events import BY_ITSELF, Result, Undone
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.tournaments.evening.format import MOST_TABLES, names_text
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.settling import tied_groups
-from evenbreak.tournaments.evening.undoing import is_free, own_last, undoable
+from evenbreak.tournaments.evening.undoing import is_free, own_last, redoable, undoable
 from evenbreak.web.desk_view import (
     DeskMatch,
     chance,
@@ -76,6 +76,7 @@ def _desk_values(
     views = [view_of(*pair) for pair in zip(states.values(), knowns, strict=True)]
     ends = [view.finish[1] for view in views if view.finish and not view.over]
     acts = [act for n, one in states.items() if (act := last_act(one, read.get(n, 0)))]
+    last = max(acts, key=lambda one: (one.at, one.event == event)) if acts else None
     drawn = {n: one for n, one in states.items() if one.drawn}
     each = [
         _event_values(night, states[night.event], now)
@@ -98,8 +99,9 @@ def _desk_values(
         "over": sum(progress(one)[0] for one in states.values()),
         "all": sum(progress(one)[1] for one in states.values()),
         "finish": ends[0] if ends else "",
-        "last": max(acts, key=lambda one: (one.at, one.event == event)) if acts else None,
-        "shouts": shouts(drawn, read),
+        "last": last,
+        "again": _undone_last(states[event]),
+        "shouts": shouts(drawn, read, last.at if last else ""),
         "newest": {n: one.numbers[-1] for n, one in states.items()},
         "mine": own_act(states, event),
         "events": [_event_row(one, view) for one, view in zip(states.values(), views, strict=True)],
@@ -110,8 +112,6 @@ def _desk_values(
         "answers": {key: one for its in each for key, one in its["answers"].items()},
         "tables": [one for one in tables if one.state not in ("two", "sent")],
         "calls": calls,
-        "next_call": calls[0][0] if len(calls) == 1 else None,
-        "next_table": calls[0][1] if calls else 0,
         "free_table": free[len(calls)] if len(free) > len(calls) else None,
         "ready": [desk_match(states[n], name, now) for n, name in night_queue(drawn, queue)],
         "soon": nexts,
@@ -164,7 +164,7 @@ def _event_values(night: Night, state: Evening, now: str) -> dict[str, Any]:
         "still": still,
         "event": state.event,
         "aside": [
-            (one.result.match, state.number_of(one.result.match), score_words(one.result))
+            (one.result.match, state.number_of(one.result.match), state.result_words(one.result))
             for one in state.aside
             if one.result.match in state.standing.seats
         ],
@@ -200,6 +200,7 @@ def sheet_values(request: Request, state: Evening) -> dict[str, Any]:
     now = site_of(request).clock()
     one = desk_match(state, match, now, sides_now(night_of(request).phones(), state))
     to_play = match in state.standing.to_play
+    waits = waiting(state, now)
     tables = [*state.free_tables, *state.kept_tables]
     return {
         "one_match": one,
@@ -215,6 +216,9 @@ def sheet_values(request: Request, state: Evening) -> dict[str, Any]:
                 if one.table and name != match
             ],
             "undo": _undo_of(state, one),
+            "let": next(
+                (late for late in (*waits[0], *waits[1]) if late.match.name == match), None
+            ),
             "open": _tables_without(state, one.table),
         },
     }
@@ -258,6 +262,19 @@ def _read_of(request: Request) -> dict[int, int]:
     kept = request.session.get(_READ)
     found = kept if isinstance(kept, dict) else {}
     return {int(event): n for event, n in found.items() if str(event).isdecimal()}
+
+
+def _undone_last(state: Evening) -> dict[str, Any] | None:
+    """Return what was undone last, where nothing has been entered since."""
+    last = next((one for one in reversed(state.log) if not one.by.startswith(BY_ITSELF)), None)
+    number = redoable(state)
+    if last is None or number is None or not isinstance(last.what, Undone):
+        return None
+    return {
+        "event": state.event,
+        "number": number,
+        "what": event_words(state.undone[number].event.what, state),
+    }
 
 
 async def read(request: Request) -> Response:

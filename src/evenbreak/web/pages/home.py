@@ -51,7 +51,7 @@ async def enter_pin(request: Request) -> Response:
     if not site.is_pin(form.text("pin")):
         raise wrong_pin(request)
     let_in(request, DIRECTOR, site.director_mark)
-    return done(request, "/")
+    return done(request, "/desk" if site.night.exists else "/")
 
 
 async def leave(request: Request) -> Response:

@@ -16,6 +16,7 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
+from evenbreak.answers.tournament.short_names import first_name
 from evenbreak.files.store.desk import (
     CLAIMED,
     COMING,
@@ -32,7 +33,6 @@ from evenbreak.files.store.desk import (
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.web import taps
 from evenbreak.web.codes import code_in
-from evenbreak.web.desk_view import short_of
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import MovedOnError, RefusalError
 from evenbreak.web.my_night import (
@@ -105,7 +105,7 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
         shown["sides"] = sides_of(mine, phones)
         shown["odds"] = chances(state, mine)
         shown["race_why"] = why_words(state, mine)
-        shown["other"] = short_of(state, str(mine.other))
+        shown["other"] = first_name(str(mine.other), state.entrants)
         shown["minutes"] = phones.answer(name, mine.name, mine.since)
     if mine:
         shown["onward"] = [(word, after(state, mine, word, known)) for word in ("winner", "loser")]

@@ -12,6 +12,11 @@
   let seen = null, asking = null, more = false, leaving = false, stream = null;
   const main = () => document.getElementById("main");
 
+  // What a tap opens is in view, above the bar at the bottom.
+  const into = (part) => requestAnimationFrame(() => part?.scrollIntoView({ block: "nearest" }));
+  addEventListener("change", ({ target }) => { if (target.matches?.(".taps [type=radio]")) into(target.form.querySelector(`.after${/pick(\d)/.exec(target.className)[1]}`)); });
+  addEventListener("click", ({ target }) => { const all = target.closest?.("summary")?.parentElement; if (all && !all.open) into([...all.querySelectorAll(".btn")].pop()); });
+
   // Whatever is being filled in stays as it is: a form in which somebody is, or has typed.
   const changed = (field) => field.tagName === "SELECT"
     ? field.selectedIndex !== Math.max(0, [...field.options].findIndex((one) => one.defaultSelected))
