@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from evenbreak.answers.tournament.moves import event_name
 from evenbreak.answers.tournament.time import time_of_day
+from evenbreak.tournaments.evening.calling import ready_matches
 from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import with_prizes
@@ -214,7 +215,12 @@ def wall_view(
     ]
     starts = {name: at[1] for name, at in fresh.starts.items()} if fresh else {}
     begun = fresh.start if fresh else 0
-    waiting = sorted(view.waiting, key=lambda one: starts.get(one.name, math.inf))
+    ready = ready_matches(state, known.order if known else ())  # as on the desk
+    place = {name: k for k, name in enumerate(ready)}
+    waiting = sorted(
+        view.waiting,
+        key=lambda one: (place.get(one.name, len(place)), starts.get(one.name, math.inf)),
+    )
     later = [
         NextView(
             one,
