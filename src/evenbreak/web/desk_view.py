@@ -36,7 +36,8 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.undoing import losses, undoable
-from evenbreak.web.evening_view import progress_of, score_of, win_chance
+from evenbreak.web.evening_view import progress_of
+from evenbreak.web.night import score_of, win_chance
 from evenbreak.web.sessions import author_words
 from evenbreak.words import Sentence, joined, listed, say
 
@@ -405,11 +406,11 @@ def waiting(state: Evening, now: str) -> tuple[list[Late], list[Late]]:
     return over, still
 
 
-def chance(state: Evening, one: DeskMatch) -> float:
+def chance(state: Evening, one: DeskMatch, means: Mapping[str, float]) -> float:
     """Return the chance of a match's first player, from its score on."""
     first, other = one.sides
     needs, won = (first.needs, other.needs), (first.won, other.won)
-    return win_chance(state, (first.name, other.name), needs, won)
+    return win_chance(state, (first.name, other.name), needs, won, means)
 
 
 def next_words(state: Evening, name: str) -> list[Sentence]:

@@ -14,9 +14,8 @@ from evenbreak.answers.tournament.tournament import races_words
 from evenbreak.tournaments.brackets.bracket import Place
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
-from evenbreak.tournaments.odds.races import race_chance
 from evenbreak.tournaments.odds.title import PlaceOdds
-from evenbreak.web.night import Known
+from evenbreak.web.night import Known, score_of
 
 _WALKING = timedelta(minutes=5)  # since the call, that a match without a score counts as called
 
@@ -167,14 +166,6 @@ def match_view(state: Evening, name: str, table: int | None = None) -> MatchView
     return MatchView(name, pair, state.needed(name, pair), score_of(state, name), table, since)
 
 
-def score_of(state: Evening, match: str) -> tuple[int, int] | None:
-    """Return the games so far in a match in play; None: none was entered."""
-    if match not in state.live:
-        return None
-    what = state.live[match].what
-    return what.score if what.players == state.pair(match) else what.score[::-1]
-
-
 def is_hill(needs: tuple[int, int], won: tuple[int, int]) -> bool:
     """Return whether both players need one more game of several.
 
@@ -191,23 +182,6 @@ def progress_of(state: Evening, name: str, now: str) -> str:
         return "hill"
     since = datetime.fromisoformat(now) - datetime.fromisoformat(state.on_tables[name].at)
     return "playing" if any(won) or since >= _WALKING else "called"
-
-
-def win_chance(
-    state: Evening,
-    pair: tuple[str, str],
-    needs: tuple[int, int],
-    won: tuple[int, int],
-    *,
-    off: float = 0.0,
-) -> float:
-    """Return the first of two players' chance of a match, from its score on.
-
-    With `off` their rating is so many points higher than it is.
-    """
-    one, other = (state.entrants[name].rating for name in pair)
-    gap = state.scale.log_odds(one - other + off)
-    return float(race_chance(np.asarray(gap), needs, state.plan.match_form, won))
 
 
 class Favorite(NamedTuple):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -15,8 +16,8 @@ from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import Scored, race_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import shared_prize
-from evenbreak.web.evening_view import decided_places, is_hill, provisional_in, score_of, win_chance
-from evenbreak.web.night import Known
+from evenbreak.web.evening_view import decided_places, is_hill, provisional_in
+from evenbreak.web.night import Known, score_of, win_chance
 from evenbreak.words import Sentence, say, say_count
 
 _MOST_STEPS = 12
@@ -220,7 +221,9 @@ def _goes(state: Evening, me: str, mine: MyMatch, phones: Phones) -> bool:
     return state.plan.form == "chips" or phones.answer(me, mine.name, mine.since) == 0
 
 
-def chances(state: Evening, mine: MyMatch) -> tuple[float, float, tuple[float, float] | None]:
+def chances(
+    state: Evening, mine: MyMatch, means: Mapping[str, float]
+) -> tuple[float, float, tuple[float, float] | None]:
     """Return the player's chance of the match now, and after a lost game.
 
     And the band in which it lies in eight of ten cases, if a rating of the two rests on little.
@@ -233,7 +236,7 @@ def chances(state: Evening, mine: MyMatch) -> tuple[float, float, tuple[float, f
     def win(off: float, score: tuple[int, int]) -> float:
         if score[1] >= needs[1]:
             return 0.0
-        return win_chance(state, (me, other), needs, score, off=off)
+        return win_chance(state, (me, other), needs, score, means, off=off)
 
     band = None
     if {me, other} & set(provisional_in(state)):

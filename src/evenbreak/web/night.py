@@ -19,6 +19,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from evenbreak.answers.tournament.night import begun_at, next_calls, night_answer
 from evenbreak.answers.tournament.prizes import payers_of
 from evenbreak.errors import EvenbreakError, InputError
@@ -31,6 +33,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.story import Story, story_of
 from evenbreak.tournaments.money.payouts import PrizeMoney
+from evenbreak.tournaments.odds.races import race_chance
 from evenbreak.tournaments.odds.title import PlaceOdds
 from evenbreak.web.beside import Beside
 from evenbreak.words import say
@@ -70,6 +73,8 @@ class Known:
         start; only of players who may still play.
     chances
         the first player's of each match that is played or ready.
+    means
+        what each player's rating is on average, given tonight's games.
     starts
         the same of each match that has not begun, given that it is played.
     problem
@@ -85,6 +90,7 @@ class Known:
     odds: PlaceOdds | None = None
     next_starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
     chances: Mapping[str, float] = field(default_factory=dict)
+    means: Mapping[str, float] = field(default_factory=dict)
     starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
     problem: str = ""
 
@@ -170,6 +176,11 @@ class Night:
         late = [one.what.entrant for one in events if isinstance(one.what, Late)]
         return {entrant.name for entrant in (*begun, *late)}
 
+    @property
+    def means(self) -> Mapping[str, float]:
+        """What ratings are on average, given tonight's games, as far as worked out."""
+        return self.known.means if self.known else {}
+
     def prizes(self) -> list[float]:
         """Return the money for first place, second, ...
 
@@ -241,10 +252,12 @@ class Night:
             calls = next_calls(night) if to_play else []
             queue = tuple(night.queue) if to_play and state.plan.form != "chips" else ()
             starts = _next_starts(night) if to_play else {}
-            chances = match_chances(night)
+            chances, means = match_chances(night), means_of(night)
             later = _starts(night) if to_play else {}
             begun = begun_at(night)
-            return Known(state, 0.0, data, calls, queue, begun, night.odds, starts, chances, later)
+            return Known(
+                state, 0.0, data, calls, queue, begun, night.odds, starts, chances, means, later
+            )
 
         try:
             found = await self.beside.run(work)
@@ -267,9 +280,49 @@ def match_chances(night: Outlook) -> dict[str, float]:
     """Return the first player's chance in each match that can be played, from its score on."""
     if night.state.plan.form == "chips":
         return {}
-    win = night.chances(night.skills[0])
-    seats = {name: night.state.standing.seats[name] for name in night.state.standing.to_play}
-    return {name: float(win[name][pair]) for name, pair in seats.items()}
+    state, means = night.state, means_of(night)
+    return {
+        name: win_chance(
+            state,
+            state.pair(name),
+            state.needed(name, state.pair(name)),
+            score_of(state, name) or (0, 0),
+            means,
+        )
+        for name in state.standing.to_play
+    }
+
+
+def win_chance(
+    state: Evening,
+    pair: tuple[str, str],
+    needs: tuple[int, int],
+    won: tuple[int, int],
+    means: Mapping[str, float],
+    *,
+    off: float = 0.0,
+) -> float:
+    """Return the first of two players' chance of a match, from its score on.
+
+    Their ratings are `means`, as tonight's games have moved them, or else as they were entered.
+    With `off` the first one's is so many points higher.
+    """
+    one, other = (means.get(name, state.entrants[name].rating) for name in pair)
+    gap = state.scale.log_odds(one - other + off)
+    return float(race_chance(np.asarray(gap), needs, state.plan.match_form, won))
+
+
+def score_of(state: Evening, match: str) -> tuple[int, int] | None:
+    """Return the games so far in a match in play; None: none was entered."""
+    if match not in state.live:
+        return None
+    what = state.live[match].what
+    return what.score if what.players == state.pair(match) else what.score[::-1]
+
+
+def means_of(night: Outlook) -> dict[str, float]:
+    """Return what each player's rating is on average, given tonight's games."""
+    return dict(zip(night.state.order, night.skills[0].tolist(), strict=True))
 
 
 def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:

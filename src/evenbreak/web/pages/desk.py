@@ -205,7 +205,7 @@ def sheet_values(request: Request, state: Evening) -> dict[str, Any]:
     return {
         "one_match": one,
         "its": {
-            "chance": chance(state, one) if to_play else None,
+            "chance": chance(state, one, night_of(request).means) if to_play else None,
             "nexts": next_words(state, match),
             "waits": "" if one.sides else waits_words(state, one),
             "tables": tables,

@@ -103,7 +103,7 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
     }
     if mine and mine.pair:
         shown["sides"] = sides_of(mine, phones)
-        shown["odds"] = chances(state, mine)
+        shown["odds"] = chances(state, mine, night.means)
         shown["race_why"] = why_words(state, mine)
         shown["other"] = first_name(str(mine.other), state.entrants)
         shown["minutes"] = phones.answer(name, mine.name, mine.since)

@@ -72,7 +72,7 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
         "at": f"/table/{number}",
         "label": state.plan.table_name(number),
         "one": one,
-        "odds": chances(state, one) if one else None,
+        "odds": chances(state, one, night.means) if one else None,
         "tablet": tablet,
         "others": bool(phones.tablets_of(number)) and not tablet,
         "playing": one is not None and bool(begun or any(one.score)),
