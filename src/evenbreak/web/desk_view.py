@@ -408,9 +408,8 @@ def waiting(state: Evening, now: str) -> tuple[list[Late], list[Late]]:
 
 def chance(state: Evening, one: DeskMatch, means: Mapping[str, float]) -> float:
     """Return the chance of a match's first player, from its score on."""
-    first, other = one.sides
-    needs, won = (first.needs, other.needs), (first.won, other.won)
-    return win_chance(state, (first.name, other.name), needs, won, means)
+    both, needs, won = zip(*((side.name, side.needs, side.won) for side in one.sides), strict=True)
+    return win_chance(state, both, needs, won, means)
 
 
 def next_words(state: Evening, name: str) -> list[Sentence]:
