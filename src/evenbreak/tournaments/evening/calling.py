@@ -11,8 +11,8 @@ from evenbreak.tournaments.evening.fold import Evening
 def ready_matches(state: Evening, order: Sequence[str] = ()) -> list[str]:
     """Return the matches that can be called now, the best first.
 
-    One that is waiting for somebody is not among them, and one that was taken off its table comes
-    last.
+    One that is waiting for somebody is not among them, one that is played already comes first, and
+    one that was taken off its table last.
 
     Parameters
     ----------
@@ -46,6 +46,7 @@ def night_queue(
         found += [
             (
                 last.get(name, False),
+                name not in state.live,
                 place.get((n, name), len(place)),
                 state.number_of(name),
                 n,
