@@ -47,7 +47,7 @@ def story_of_the_evening() -> list[tuple[int, What]]:
     while len((state := after(story)).counted) < RESULTS:
         minute = story[-1][0]
         ready = [match for match in state.standing.to_play if match not in on]
-        if ready and moves.free_tables(state):
+        if ready and state.free_tables:
             story.append((minute, moves.call(state, ready[0], None)))
             on[ready[0]] = minute, racks_of(state, ready[0], rng)
             continue
