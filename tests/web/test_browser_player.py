@@ -11,7 +11,7 @@ from web.chromium import claimed
 from web.conftest import PLAYERS, Hall, begun
 from web.phones import Phone, running
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.thorough
 
 
 def phone(browser: Any, hall: Hall, name: str, **asked: Any) -> Any:
