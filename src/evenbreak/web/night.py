@@ -264,7 +264,10 @@ class Night:
         except Exception as error:  # the pages go on without: the director has to mend it there
             _LOG.exception("the odds could not be worked out", exc_info=error)
             found = Known(state, 0.0, problem=problem_of(error))
-        gc.collect()  # what was worked out for earlier states refers to itself, tens of megabytes
+        if gc.get_freeze_count():
+            # What was worked out for earlier states refers to itself, tens of megabytes. To look
+            # for it takes no time where all that was there before is left out, as the command does.
+            gc.collect()
         clock = asyncio.get_running_loop().time()
         self.known = replace(found, at=clock)
 
