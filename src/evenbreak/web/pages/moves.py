@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-import hashlib
 import secrets
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from http import HTTPStatus
 from typing import Any
@@ -16,20 +15,19 @@ from starlette.routing import Route
 
 from evenbreak.answers.tournament.corrections import correction_choices
 from evenbreak.answers.tournament.move_table import MOVES
-from evenbreak.answers.tournament.moves import event_name, lost_words
-from evenbreak.evenings.move import AlreadyError, Move
+from evenbreak.answers.tournament.moves import event_name
+from evenbreak.evenings.move import Move
 from evenbreak.fields.kinds import Text
 from evenbreak.fields.question import AskedError, Declared, declared
-from evenbreak.files.store.tournament import Night as Evenings
-from evenbreak.files.store.tournament import add_events, begin_beside
-from evenbreak.questions.moves import PLAYER, Correct, Drop
+from evenbreak.files.store.tournament import begin_beside
+from evenbreak.questions.moves import PLAYER, Correct
 from evenbreak.tournaments.evening import beside
-from evenbreak.tournaments.evening.events import Dropped, Event, What
+from evenbreak.tournaments.evening.events import Event, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.format import LONGEST_RACE
 from evenbreak.tournaments.evening.moves import known_match
-from evenbreak.tournaments.evening.undoing import losses, matches_of
 from evenbreak.web.desk_view import corrected
+from evenbreak.web.entering import Entered, SureError, enter, other_events
 from evenbreak.web.forms import (
     Fields,
     Form,
@@ -54,13 +52,6 @@ _DESK = "/desk"
 
 STAYS = [MOVES[name] for name in ("result", "correct", "call", "uncall", "wait", "forfeit", "drop")]
 """The moves of which the desk itself says what they did, until that is read."""
-
-
-class _AskError(Exception):
-    """What is entered takes something away, or is to be asked about in any case."""
-
-    def __init__(self, before: Evening, after: Evening) -> None:
-        self.before, self.after = before, after
 
 
 def asked_in(question: type, form: Form) -> list[Any]:
@@ -153,51 +144,25 @@ async def _enter(request: Request, night: Night, form: Form, move: Move[Evening,
 
     The answer is for what was named: if that has changed by then, it is asked again.
     """
-    asked, at = asked_in(move.question, form), site_of(request).clock()
-    named, sure, key = form.text("named"), form.text("sure"), form.key(request.url.path)
-    already: list[str] = []
-    stays = not form.text("back") and move in STAYS
-
-    def decide(state: Evening) -> list[Event]:
-        events: list[Event] = []
-        for one in asked:
-            now = state.then(*events) if events else state
-            try:
-                events += [Event(at, what) for what in move.decide(now, one, at)]
-            except AlreadyError as error:  # the same tap again
-                already.append(error.sentence)
-        return events
-
-    def check(before: Evening, after: Evening) -> None:
-        meant = sure and named in ("", _name_of(before, after))
-        if (move.always_asks or lost_words(before, after)) and not meant:
-            raise _AskError(before, after)
-
-    def said(before: Evening, after: Evening) -> list[str]:
-        if already:
-            return already
-        words = [] if stays else [line for one in asked for line in move.said(before, after, one)]
-        words += [line for one in asked for line in move.doubts(before, after, one)]
-        return list(dict.fromkeys(words))
-
+    asked = asked_in(move.question, form)
     try:
-        before, after = await asyncio.to_thread(
-            add_events,
-            night.path,
-            decide,
-            event=night.event,
+        entered = await enter(
+            site_of(request),
+            night,
+            move,
+            asked,
             by=DIRECTORS_PAGE,
-            form=key,
-            check=check,
-            more=_coming_with(request, night.event, form, move, asked),
+            key=form.key(request.url.path),
+            sure=bool(form.text("sure")),
+            named=form.text("named"),
+            everywhere=move is MOVES["drop"] and bool(form.text("everywhere")),
         )
-    except _AskError as error:
+    except SureError as error:
         if move is MOVES["correct"]:
-            return _ask_what(request, form, asked[0], error.before)
-        stays = False
-        others = _others(error.before, asked[0]) if move is MOVES["drop"] else []
-        return _ask(request, form, said(error.before, error.after), error, others)
-    return done(request, _back(request, form), *said(before, after))
+            return _ask_what(request, form, asked[0], error.would.before)
+        return _ask(request, form, error.would)
+    stays = not form.text("back") and move in STAYS
+    return done(request, _back(request, form), *entered.said(brief=stays))
 
 
 def _back(request: Request, form: Form) -> str:
@@ -209,33 +174,14 @@ def _back(request: Request, form: Form) -> str:
     return back if is_page and not back.startswith("//") else desk
 
 
-def _coming_with(
-    request: Request, event: int, form: Form, move: Move[Evening, What], asked: Sequence[Any]
-) -> Callable[[Evenings, Evenings], Sequence[tuple[int, What]]] | None:
-    """Return what a move brings with it: calls, or that a player goes home from all events."""
-    if move is MOVES["result"]:
-        return site_of(request).next_calls
-    if move is not MOVES["drop"] or not form.text("everywhere"):
-        return None
-    return lambda before, _: [
-        (n, Dropped(asked[0].player)) for n in _others(before[event], asked[0])
-    ]
-
-
-def _others(state: Evening, asked: Drop) -> list[int]:
-    """Return the other events of the night in which a player is who goes home."""
-    events = [one for one in state.beside if asked.player in one.entrants]
-    return [one.event for one in events if asked.player not in one.dropped]
-
-
-def _ask(
-    request: Request, form: Form, said: Sequence[str], asked: _AskError, others: Sequence[int] = ()
-) -> Response:
+def _ask(request: Request, form: Form, would: Entered) -> Response:
     """Ask whether it is meant, and whether it is so in other events of the night too."""
-    lost = lost_words(asked.before, asked.after)
-    lines = [in_words(request, one) for one in (*lost, *said)]
-    fields, back = _asked_about(form, asked.before, asked.after), _back(request, form)
-    only = event_name(asked.before) if others else ""
+    drops = would.move is MOVES["drop"]
+    others = other_events(would.before, would.asked[0].player) if drops else []
+    only = event_name(would.before) if others else ""
+    lines = [in_words(request, one) for one in (*would.lost, *would.said())]
+    fields, back = _asked_about(form, would), _back(request, form)
+    lost = would.lost
     return page(request, "sure.html", fields=fields, lines=lines, lost=lost, back=back, only=only)
 
 
@@ -251,23 +197,16 @@ def _ask_what(request: Request, form: Form, asked: Correct, before: Evening) -> 
         one=corrected(before, after, match),
         plan=before.plan,
         choices=correction_choices(before, after, match),
-        fields=_asked_about(form, before, after),
+        fields=_asked_about(form, Entered(MOVES["correct"], [asked], before, after)),
         back=_back(request, form),
     )
 
 
-def _asked_about(form: Form, before: Evening, after: Evening) -> list[tuple[str, Any]]:
+def _asked_about(form: Form, would: Entered) -> list[tuple[str, Any]]:
     """Return the fields of a form that is asked about: its number too, so that it counts once."""
     own = ("csrf", "sure", "named", "follow", "way", "everywhere")
     fields = [(name, value) for name, value in form.fields.multi_items() if name not in own]
-    return [*fields, ("named", _name_of(before, after))]
-
-
-def _name_of(before: Evening, after: Evening) -> str:
-    """Return what a question is known by: the matches that it is about, and those in play."""
-    lost = sorted((one.match, *sorted(one.players)) for one in losses(before, after))
-    text = repr(lost or sorted(matches_of(before, after)))
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
+    return [*fields, ("named", would.name)]
 
 
 async def second_chance(request: Request) -> Response:

@@ -1,0 +1,154 @@
+"""What a move enters and brings with it, and what is asked about first: one way in for all faces.
+
+The pages' forms and the programs of others both come through here.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from evenbreak.answers.tournament.move_table import MOVES
+from evenbreak.answers.tournament.moves import lost_words
+from evenbreak.evenings.move import AlreadyError, Move
+from evenbreak.files.store.tournament import Night as Evenings
+from evenbreak.files.store.tournament import add_events
+from evenbreak.tournaments.evening.events import Dropped, Event, What
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.undoing import losses, matches_of
+from evenbreak.web.night import Night
+from evenbreak.web.site import Site
+
+
+@dataclass(frozen=True)
+class Entered:
+    """What was entered, or would be.
+
+    Parameters
+    ----------
+    move, asked
+        the move, and what was asked for it: several questions if a form has several matches.
+    before, after
+        the states of the event.
+    already
+        what is said of what was so already.
+    """
+
+    move: Move[Evening, What]
+    asked: Sequence[Any]
+    before: Evening
+    after: Evening
+    already: Sequence[str] = ()
+
+    def said(self, *, brief: bool = False) -> list[str]:
+        """Return what the move says of it, and what may be wrong with it; if brief, only that."""
+        if self.already:
+            return [*self.already]
+        both = self.before, self.after
+        words = [] if brief else [line for one in self.asked for line in self.move.said(*both, one)]
+        words += [line for one in self.asked for line in self.move.doubts(*both, one)]
+        return list(dict.fromkeys(words))
+
+    @property
+    def lost(self) -> list[str]:
+        """What it takes away, in words."""
+        return [*lost_words(self.before, self.after)]
+
+    @property
+    def name(self) -> str:
+        """What a question about it is known by: the matches that it is about, and those in play."""
+        lost = sorted((one.match, *sorted(one.players)) for one in losses(self.before, self.after))
+        text = repr(lost or sorted(matches_of(self.before, self.after)))
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+class SureError(Exception):
+    """What is entered takes something away, or is to be asked about in any case.
+
+    Parameters
+    ----------
+    would
+        what would be entered.
+    """
+
+    def __init__(self, would: Entered) -> None:
+        self.would = would
+
+
+async def enter(
+    site: Site,
+    night: Night,
+    move: Move[Evening, What],
+    asked: Sequence[Any],
+    *,
+    by: str,
+    key: str | None,
+    sure: bool = False,
+    named: str = "",
+    everywhere: bool = False,
+    check: Callable[[Evening], None] | None = None,
+) -> Entered:
+    """Enter what is asked, with the calls that a result makes by itself.
+
+    Parameters
+    ----------
+    site, night
+        where, and in which event.
+    move, asked
+        the move, and what is asked for it.
+    by
+        who enters it, as it is kept.
+    key
+        what the form or the request is known by: it is taken once.
+    sure, named
+        whether what it takes away is meant, and the name of the question that was answered with it;
+        if something else would be lost by now, it is asked again. '' is meant whatever is lost.
+    everywhere
+        whether a player who goes home does so in all events of the night.
+    check
+        gets the state before; if it raises an error, nothing is entered.
+
+    Raises
+    ------
+    SureError
+        if it is not sure, and would take something away.
+    TakenBeforeError
+        if the form was taken before.
+    """
+    at, already = site.clock(), list[str]()
+
+    def decide(state: Evening) -> list[Event]:
+        if check:
+            check(state)
+        events: list[Event] = []
+        for one in asked:
+            now = state.then(*events) if events else state
+            try:
+                events += [Event(at, what) for what in move.decide(now, one, at)]
+            except AlreadyError as error:  # the same tap again
+                already.append(error.sentence)
+        return events
+
+    def ask(before: Evening, after: Evening) -> None:
+        would = Entered(move, asked, before, after, already)
+        if (move.always_asks or would.lost) and not (sure and named in ("", would.name)):
+            raise SureError(would)
+
+    def home(before: Evenings, _: Evenings) -> Sequence[tuple[int, What]]:
+        player = asked[0].player
+        return [(n, Dropped(player)) for n in other_events(before[night.event], player)]
+
+    more = site.next_calls if move is MOVES["result"] else home if everywhere else None
+    before, after = await asyncio.to_thread(
+        add_events, night.path, decide, event=night.event, by=by, form=key, check=ask, more=more
+    )
+    return Entered(move, asked, before, after, already)
+
+
+def other_events(state: Evening, player: str) -> list[int]:
+    """Return the other events of the night in which a player is who goes home."""
+    events = [one for one in state.beside if player in one.entrants]
+    return [one.event for one in events if player not in one.dropped]
