@@ -6,10 +6,10 @@ import click
 
 from evenbreak import handicaps
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.systems import chart_by_difference
 from evenbreak.cli.kit.asked import command_of, spelled
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 from evenbreak.cli.kit.said import refuse, said
-from evenbreak.cli.kit.systems import chart_by_difference
 from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.errors import InputError
 from evenbreak.questions.charts import ChartAudit, ChartDesign, ChartList, ChartShow, ChartTeam
@@ -112,7 +112,7 @@ def design(asked: ChartDesign) -> Answer:
     """Design the fairest chart."""
     from evenbreak.answers.chart.design import DesignTask, chart_design_answer
 
-    charts = tuple(chart_by_difference("--beside", name) for name in asked.beside)
+    charts = tuple(chart_by_difference(name, "beside") for name in asked.beside)
     try:
         task = DesignTask(
             asked.scale,

@@ -7,12 +7,20 @@ from typing import TYPE_CHECKING
 import click
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.systems import (
+    LEAVE_OUT,
+    LEVELS_DOUBLE,
+    SAY_WHICH,
+    refuse_levels,
+    refuse_other_scale,
+    with_starters,
+)
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.groups import Entry, LazyGroup
-from evenbreak.cli.kit.said import SAY_WHICH, refuse
-from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale, with_starters
+from evenbreak.cli.kit.said import refuse
 from evenbreak.questions import chips as questions
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
+from evenbreak.words import Parameter
 
 if TYPE_CHECKING:
     from evenbreak.answers.chips import ChipField
@@ -83,11 +91,9 @@ def _field(asked: questions.ChipField, entrants: str | None) -> tuple[ChipField,
         return spread_field(asked.scale or ratings.SCALES["fargo"], asked.tables), []
     file = files.read_entrants(entrants)
     if asked.scale is not None:
-        refuse_other_scale(
-            file, asked.scale, "--scale", "leave --scale out, or correct the file", stated=True
-        )
+        refuse_other_scale(file, asked.scale, Parameter("scale"), LEAVE_OUT, stated=True)
     else:
-        refuse_levels(file, "say with --scale how many levels double the odds")
+        refuse_levels(file, LEVELS_DOUBLE)
     scale = file.scale_by(asked.scale, SAY_WHICH)
     roster = with_starters(file.roster, scale, asked.starter, asked.starter_sd)
     if not 2 <= len(roster) <= MOST_PLAYERS:

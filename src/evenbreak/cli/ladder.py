@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 from evenbreak import files, handicaps
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.said import SAY_WHICH
-from evenbreak.cli.kit.systems import (
+from evenbreak.answers.kit.systems import (
+    SAY_WHICH,
     chart_for,
     level_system,
     on_scale,
     refuse_other_scale,
     refuse_too_varying,
 )
+from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.terminal import say, write_plot
 from evenbreak.errors import DataError
 from evenbreak.questions.ladders import LadderErrors

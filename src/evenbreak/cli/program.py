@@ -15,14 +15,12 @@ SECTIONS = {
         "demo": Entry("start:demo", "Made-up files, and three commands to try on them."),
     },
     "Run a match": {
-        "odds": Entry("match.odds", "The odds and the length of one match."),
-        "live": Entry("match.odds:live", "The odds of a match under way, game by game."),
-        "fair": Entry("match.odds:fair", "The fairest race for two players."),
-        "compare": Entry("match.compare", "Match formats side by side: which is better for whom."),
-        "breaks": Entry("match.games:breaks", "What each break format is worth, and fair stakes."),
-        "straight": Entry(
-            "match.games:straight", "Straight pool: who wins, and which spot is fair."
-        ),
+        "odds": Entry("", "The odds and the length of one match."),
+        "live": Entry("", "The odds of a match under way, game by game."),
+        "fair": Entry("", "The fairest race for two players."),
+        "compare": Entry("", "Match formats side by side: which is better for whom."),
+        "breaks": Entry("", "What each break format is worth, and fair stakes."),
+        "straight": Entry("", "Straight pool: who wins, and which spot is fair."),
     },
     "Run a tournament": {
         "tournament": Entry("tournament", "Tonight's tournament: title odds, and when it ends."),
@@ -58,9 +56,7 @@ SECTIONS = {
         "practice": Entry("practice:scores", "Practice scores: are you getting better?"),
         "drill": Entry("practice:drill", "A progressive drill: your level, and what to work on."),
         "runs": Entry("practice:runs", "How long runs get, and the score of several innings."),
-        "oneball": Entry(
-            "match.games:oneball", "The one-ball game: who wins, and which shot to play."
-        ),
+        "oneball": Entry("", "The one-ball game: who wins, and which shot to play."),
     },
     "The physics of the table": {
         "physics": Entry("physics", "Ball, cloth and cue: throw, aim, spin, speed."),

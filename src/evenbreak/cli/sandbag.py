@@ -10,10 +10,8 @@ from click.core import ParameterSource
 
 from evenbreak import files, handicaps, league
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.groups import Entry, LazyGroup
-from evenbreak.cli.kit.said import SAY_WHICH, refuse
-from evenbreak.cli.kit.systems import (
+from evenbreak.answers.kit.systems import (
+    SAY_WHICH,
     chart_for,
     level_system,
     on_scale,
@@ -22,6 +20,9 @@ from evenbreak.cli.kit.systems import (
     refuse_other_scale,
     refuse_too_varying,
 )
+from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.groups import Entry, LazyGroup
+from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.questions.ladders import SandbagPay, SandbagWatch
@@ -232,12 +233,14 @@ def _moved(
     own = system.scale.name != DEFAULT_SCALE
     assumed = own and scale is None
     points = system.scale if assumed else first.scale_by(scale, SAY_WHICH)
-    whose = f"the system {system.name}" if scale is None else "--scale"
+    whose = f"the system {system.name}" if scale is None else Parameter("scale")
     remedy = "name the scale of the ratings, or correct the file"
     refuse_other_scale(first, points, whose, remedy, stated=not assumed)
     doubts = far_doubts(points, first.roster.rating)  # a slip does not make another scale
     if not doubts and (against := contradiction(points, first.roster, season.results)):
         if scale is None:
-            refuse(f"{first.source}: {against}; {SAY_WHICH}")
+            refuse(
+                "{file}: {against}; {remedy}", file=first.source, against=against, remedy=SAY_WHICH
+            )
         doubts = [against]
     return on_scale(system, points), doubts

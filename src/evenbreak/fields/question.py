@@ -177,6 +177,11 @@ def worded(template: str, **values: Any) -> Sentence:
     return say(template, **{name: values.get(name, Parameter(name)) for name in names})
 
 
+def refuse(template: str, /, **values: Any) -> NoReturn:
+    """Refuse what is asked; a name in braces without a value is a parameter."""
+    raise AskedError(worded(template, **values))
+
+
 @dataclass(frozen=True, kw_only=True)
 class Question:
     """The base of all questions; see the head of this module."""
@@ -195,10 +200,7 @@ class Question:
         """Return what is typed, where words of several arguments were typed as one."""
         return typed
 
-    @staticmethod
-    def refuse(template: str, **values: Any) -> NoReturn:
-        """Refuse what is asked; a name in braces without a value is a parameter."""
-        raise AskedError(worded(template, **values))
+    refuse = staticmethod(refuse)
 
     @property
     def given(self) -> dict[str, Any]:

@@ -1,10 +1,10 @@
 """--starter and --starter-sd."""
 
-import click
 import numpy as np
 import pytest
 
-from evenbreak.cli.kit.systems import with_starters
+from evenbreak.answers.kit.systems import with_starters
+from evenbreak.fields.question import AskedError
 from evenbreak.ratings import SCALES, Roster, scale_of
 
 CLUB = Roster(["Ann", "Bo"], [600.0, np.nan], games=[100, 0])
@@ -18,7 +18,7 @@ def test_new_players_start_in_the_middle_or_as_stated():
 
 
 def test_a_scale_without_a_middle_needs_a_starter():
-    with pytest.raises(click.UsageError, match="--starter"):
+    with pytest.raises(AskedError, match="starter"):
         with_starters(CLUB, scale_of(70), None, None)
-    with pytest.raises(click.UsageError, match="--starter-sd"):
+    with pytest.raises(AskedError, match="starter_sd"):
         with_starters(CLUB, SCALES["fargo"], None, 1e5)

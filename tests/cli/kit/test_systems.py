@@ -1,11 +1,10 @@
 """--system, --scale and --chart: what goes together, and what is worth a warning."""
 
-import click
 import pytest
 
-from evenbreak.cli.kit.systems import chart_for, on_scale
+from evenbreak.answers.kit.systems import chart_for, on_scale
 from evenbreak.errors import InputError
-from evenbreak.fields.question import declaration
+from evenbreak.fields.question import AskedError, declaration
 from evenbreak.handicaps.systems.catalogue import system_of
 from evenbreak.questions.systems import BySystem
 from evenbreak.ratings.scale import SCALES, scale_of
@@ -29,10 +28,10 @@ def test_the_rule_stays_when_the_scale_is_another():
 
 
 @pytest.mark.parametrize(
-    ("system", "scale", "named"), [("npl", 0.9, "--scale 0.9"), ("elo 16", 30, "--scale")]
+    ("system", "scale", "named"), [("npl", 0.9, "scale 0.9"), ("elo 16", 30, "scale")]
 )
 def test_scales_that_a_system_cannot_have(system, scale, named):
-    with pytest.raises(click.UsageError, match=named):
+    with pytest.raises(AskedError, match=named):
         on_scale(system_of(system), scale_of(scale))
 
 
@@ -46,7 +45,7 @@ def test_a_chart_of_another_scale_is_a_warning_and_one_of_skill_levels_is_refuse
     assert chart.name == "fargo_r6_hot"
     assert "30" in warning
     assert chart_for(on_scale(NPL, SCALES["fargo"]), "fargo_r6_hot")[1] == []
-    with pytest.raises(click.UsageError, match="'apa_8ball'"):
+    with pytest.raises(AskedError, match="'apa_8ball'"):
         chart_for(NPL, "apa_8ball")
 
 

@@ -2,8 +2,8 @@
 
 import pytest
 
+from evenbreak.answers.match.asked import match_of
 from evenbreak.answers.match.odds import TwoPlayers
-from evenbreak.cli.match.odds import match_of
 from evenbreak.fields.question import AskedError
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks
 from evenbreak.questions.match import Odds

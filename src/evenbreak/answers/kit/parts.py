@@ -225,6 +225,8 @@ class Content:
         first of `parts`.
     schema_version
         of its JSON.
+    drawn
+        what a picture of it shows (`evenbreak.plots.asked`).
     """
 
     heading: str
@@ -234,6 +236,7 @@ class Content:
     data: Mapping[str, Any] = field(default_factory=dict)
     csv: Quantities | Table | None = None
     schema_version: int = SCHEMA_VERSION
+    drawn: Any = field(default=None, repr=False, compare=False)
 
     @property
     def sentences(self) -> list[str]:

@@ -67,6 +67,8 @@ class TwoPlayers:
     skills
         how strong the levels are, where the chances come from them: the ratings are then points of
         difference, the second one 0.
+    assumed
+        what is assumed about the errors of their ratings, '' if nothing is.
 
     >>> from evenbreak.ratings import scale_of
     >>> print(TwoPlayers.rated(612, 521, scale_of("fargo")).description)
@@ -85,6 +87,7 @@ class TwoPlayers:
     form: float = 0.0
     levels: tuple[int, int] | None = None
     skills: LevelSkills | None = None
+    assumed: str = ""
 
     @classmethod
     def of_levels(
@@ -184,6 +187,10 @@ class TwoPlayers:
             "Both ratings are taken as right here; evenbreak odds averages over how far they may "
             "be off."
         )
+
+    def noted(self, answer: Answer) -> Answer:
+        """Return an answer about them with what is assumed of them, if anything is."""
+        return replace(answer, warnings=[*answer.warnings, *filter(None, [self.assumed])])
 
     @property
     def doubts(self) -> list[str]:

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import click
 from click.core import ParameterSource
 
+from evenbreak.answers.asked import answer_to, question_of
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.faces import FACES, faces
@@ -23,7 +24,7 @@ from evenbreak.cli.kit.league import (
     show_taken,
 )
 from evenbreak.cli.kit.said import said
-from evenbreak.cli.kit.terminal import say
+from evenbreak.cli.kit.terminal import say, write_plot
 from evenbreak.errors import EvenbreakError, InputError
 from evenbreak.fields.kinds import NUMBER, Choice, Flag, Kind
 from evenbreak.fields.question import AskedError, Declared, declaration, declared, worded
@@ -321,6 +322,21 @@ def command_of(
         )
 
     return decorate
+
+
+def answered(*words: str) -> click.Command:
+    """Return the command, by its words, that is only a question and its answer."""
+    name = " ".join(words)
+
+    def run(asked: Any) -> Answer:
+        answer = answer_to(name, asked)
+        if getattr(asked, "plot", None) is not None:
+            from evenbreak.plots.asked import picture_of
+
+            write_plot(picture_of(name, asked, answer), asked.plot)
+        return answer
+
+    return command_of(question_of(name), words[-1])(run)
 
 
 def asked_of(question: type[Asked], values: dict[str, Any], ctx: click.Context) -> Asked:

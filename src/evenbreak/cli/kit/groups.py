@@ -20,7 +20,8 @@ class Entry(NamedTuple):
     ----------
     module
         the module of `evenbreak.cli` whose `command` it is; a colon separates the name of the
-        command where it is another (`chart:show`).
+        command where it is another (`start:demo`); '' where the answer to its question is all
+        there is to it (`evenbreak.answers.asked`).
     help
         the line: what the command gives its user.
     section
@@ -54,8 +55,13 @@ class LazyGroup(click.Group):
         if cmd_name not in self._table:
             return None
         place, _, name = self._table[cmd_name].module.partition(":")
-        module = importlib.import_module(f"evenbreak.cli.{place}")
-        command: click.Command = getattr(module, name or "command")
+        if place:
+            module = importlib.import_module(f"evenbreak.cli.{place}")
+            command: click.Command = getattr(module, name or "command")
+        else:
+            from evenbreak.cli.kit.asked import answered
+
+            command = answered(*([] if ctx.parent is None else [self.name or ""]), cmd_name)
         if ctx.resilient_parsing:  # a shell asks what may come next
             from evenbreak.cli.kit.completion import complete_files
 

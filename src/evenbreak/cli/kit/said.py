@@ -18,9 +18,6 @@ from evenbreak.cli.interrupts import INTERRUPTED
 from evenbreak.errors import DataError, EvenbreakError, InputError
 from evenbreak.words import PYTHON, Face, in_face, say
 
-SAY_WHICH = "say which with --scale npl, --scale fargo or --scale elo"
-"""What to do about ratings that do not show their scale."""
-
 PROBLEMS_SHOWN = 20
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 FAILED, USAGE, BAD_DATA = 1, 2, 3

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from evenbreak import files, handicaps, league, plots
+from evenbreak.answers.kit.systems import SAY_WHICH, stated_pace
 from evenbreak.cli.kit.cluster import cluster_at
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.said import refuse
-from evenbreak.cli.kit.systems import stated_pace
 from evenbreak.cli.kit.terminal import write_folder
 from evenbreak.files.csv_writer import to_csv
 from evenbreak.handicaps.systems.level_review import nearest_level
@@ -189,8 +189,7 @@ def _world(
         players, scale, note = _strengths(file, own)
         notes.append(note)
     elif scale is None:
-        from evenbreak.cli.kit.said import SAY_WHICH
-        from evenbreak.cli.kit.systems import refuse_other_scale
+        from evenbreak.answers.kit.systems import refuse_other_scale
 
         scale = own.scale or SCALES["npl"]
         refuse_other_scale(file, scale, f"the system {own.name}", SAY_WHICH)

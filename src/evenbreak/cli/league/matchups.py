@@ -13,6 +13,14 @@ import numpy as np
 from evenbreak import answers, files, handicaps, matches, ratings, sheets
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import league_doubts, starter_doubts
+from evenbreak.answers.kit.systems import (
+    LEAVE_OUT,
+    SAY_WHICH,
+    refuse_levels,
+    refuse_other_scale,
+    stated_pace,
+    with_starters,
+)
 from evenbreak.answers.league.by_level import (
     SCALE_OF_LEVELS,
     by_level,
@@ -22,8 +30,7 @@ from evenbreak.answers.league.by_level import (
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.faces import without_folders
 from evenbreak.cli.kit.league import league_in
-from evenbreak.cli.kit.said import SAY_WHICH, refuse
-from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale, stated_pace, with_starters
+from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.kit.terminal import say, write_file
 from evenbreak.errors import DataError, InputError
 from evenbreak.files.lists.roster import refuse_to_read
@@ -32,6 +39,7 @@ from evenbreak.files.tables.names import same_name
 from evenbreak.handicaps.charts.level_skills import FARGO
 from evenbreak.questions.league import Matchups
 from evenbreak.ratings.scale import SCALES, Scale
+from evenbreak.words import Parameter
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -151,9 +159,7 @@ def _scale_of_list(
 ) -> Scale:
     """Return the scale of the ratings."""
     if stated is not None:
-        refuse_other_scale(
-            file, stated, "--scale", "leave --scale out, or correct the file", stated=True
-        )
+        refuse_other_scale(file, stated, Parameter("scale"), LEAVE_OUT, stated=True)
         return stated
     if file.scale is not None:
         return file.scale

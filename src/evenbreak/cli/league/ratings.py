@@ -12,11 +12,11 @@ import click
 
 from evenbreak import answers, files, handicaps
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.systems import SAY_WHICH, chart_by_difference, refuse_for_system
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.league import league_in
 from evenbreak.cli.kit.progress import Progress
-from evenbreak.cli.kit.said import SAY_WHICH, number_of, refuse
-from evenbreak.cli.kit.systems import chart_by_difference, refuse_for_system
+from evenbreak.cli.kit.said import number_of, refuse
 from evenbreak.cli.kit.terminal import say, write_file, write_plot
 from evenbreak.errors import DataError, InputError
 from evenbreak.fields.kinds import NUMBER
@@ -115,7 +115,7 @@ def _by_system(asked: Rate, system: handicaps.System, roster: str) -> Answer:
 
     if not isinstance(system, handicaps.StepSystem):
         return _by_all_results(asked, system, roster)
-    by_chart = None if asked.chart is None else chart_by_difference("--chart", asked.chart)
+    by_chart = None if asked.chart is None else chart_by_difference(asked.chart)
     last = files.read_roster(roster)
     refuse_for_system(last, system)
     tonight = files.read_seasons(asked.results, **asked.reading)

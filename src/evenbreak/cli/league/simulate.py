@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 
 from evenbreak import files, handicaps, league, plots
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.systems import SAY_WHICH, chart_for, on_scale, refuse_other_scale
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.cluster import cluster_at
 from evenbreak.cli.kit.progress import Progress
-from evenbreak.cli.kit.said import SAY_WHICH
-from evenbreak.cli.kit.systems import chart_for, on_scale, refuse_other_scale
 from evenbreak.cli.kit.terminal import say, write_folder
 from evenbreak.cli.league.compare import by_any_system, compared, schedule_of
 from evenbreak.files.csv_writer import to_csv

@@ -182,10 +182,10 @@ def _example_chances(game: Any) -> tuple[float, ...]:
 
 def _ladder(name: str) -> tuple[str, Game]:
     """Return the ladder that a chart makes, by the rule of the National Pool League."""
-    from evenbreak.cli.kit.systems import chart_by_difference
+    from evenbreak.answers.kit.systems import chart_by_difference
     from evenbreak.handicaps import Ladder
 
-    chart = chart_by_difference("GAME", name)
+    chart = chart_by_difference(name, "game")
     return f"The ladder of rating errors on the chart {chart.name}", Ladder(chart)
 
 

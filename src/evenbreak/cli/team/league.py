@@ -9,10 +9,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from evenbreak import files, handicaps, league, ratings, teams
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.systems import (
+    LEAVE_OUT,
+    SAY_WHICH,
+    refuse_levels,
+    refuse_other_scale,
+    with_starters,
+)
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.progress import Progress
-from evenbreak.cli.kit.said import SAY_WHICH, refuse
-from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale, with_starters
+from evenbreak.cli.kit.said import refuse
 from evenbreak.errors import InputError
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import form_of_lists
@@ -351,9 +357,7 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
 
     for each in lists:
         if stated is not None:
-            refuse_other_scale(
-                each.file, stated, "--scale", "leave --scale out, or correct the file", stated=True
-            )
+            refuse_other_scale(each.file, stated, Parameter("scale"), LEAVE_OUT, stated=True)
         else:
             refuse_levels(each.file)
     scales = [each.file.scale for each in lists if each.file.scale is not None]

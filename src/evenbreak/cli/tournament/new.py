@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.systems import SAY_WHICH
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.said import SAY_WHICH, refuse
+from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.tournament.evening import moment, night_of
 from evenbreak.cli.tournament.options import Entered, drawn_up, entered_in, none_learned
 from evenbreak.questions.evening import Import, SecondChance

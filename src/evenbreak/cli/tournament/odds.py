@@ -7,9 +7,9 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.systems import stated_pace
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.said import refuse
-from evenbreak.cli.kit.systems import stated_pace
 from evenbreak.cli.tournament.evening import moment, outlook_of
 from evenbreak.cli.tournament.options import earlier_in, none_learned, tournament_of
 from evenbreak.errors import InputError

@@ -8,13 +8,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak import files, ratings, tournaments
 from evenbreak.answers.kit.scales import chart_doubts
-from evenbreak.cli.kit.said import SAY_WHICH, refuse
-from evenbreak.cli.kit.systems import (
+from evenbreak.answers.kit.systems import (
+    LEAVE_OUT,
+    LEVELS_DOUBLE,
+    SAY_WHICH,
     chart_by_difference,
     refuse_levels,
     refuse_other_scale,
     with_starters,
 )
+from evenbreak.cli.kit.said import refuse
 from evenbreak.files.charts import chip_chart_of
 from evenbreak.files.lists.entrants import nobody
 from evenbreak.handicaps.charts.chart import Chart
@@ -23,7 +26,7 @@ from evenbreak.questions.tournament import NewTournament, OfEntrants, Tournament
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
 from evenbreak.tournaments.evening.plan import BYE, bracket_of, races_of
-from evenbreak.words import Sentence, say
+from evenbreak.words import Parameter, Sentence, say
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament.tournament import Tournament
@@ -130,7 +133,7 @@ def none_learned(
 
 def _races(asked: TournamentPlan) -> tournaments.Races:
     if asked.chart is not None:
-        return tournaments.Races(chart_by_difference("--chart", asked.chart))
+        return tournaments.Races(chart_by_difference(asked.chart))
     return races_of(
         Plan(
             "",
@@ -149,11 +152,9 @@ def _scale(
     from evenbreak.answers.kit.scales import far_doubts, league_doubts, starter_doubts
 
     if stated is not None:
-        refuse_other_scale(
-            file, stated, "--scale", "leave --scale out, or correct the file", stated=True
-        )
+        refuse_other_scale(file, stated, Parameter("scale"), LEAVE_OUT, stated=True)
     else:
-        refuse_levels(file, "say with --scale how many levels double the odds")
+        refuse_levels(file, LEVELS_DOUBLE)
     scale = file.scale_by(stated, SAY_WHICH)
     warnings = []
     if file.scale is None:

@@ -1,7 +1,6 @@
-"""What commands share about ratings and play, as their options say it.
+"""What questions share about ratings and play, and what of it does not go together.
 
-The handicap system, its scale and its chart (--system, --scale, --chart); new players (--starter);
-how fast matches are played.
+The handicap system, its scale and its chart; new players; how fast matches are played.
 """
 
 from __future__ import annotations
@@ -10,14 +9,23 @@ from typing import TYPE_CHECKING, Any, cast
 
 from evenbreak import files, handicaps
 from evenbreak.answers.kit.scales import chart_doubts
-from evenbreak.cli.kit.said import refuse
-from evenbreak.fields.question import Question
+from evenbreak.fields.question import Question, refuse, worded
 from evenbreak.ratings.scale import SCALES, Scale
-from evenbreak.words import Parameter
+from evenbreak.words import Parameter, say
 
 if TYPE_CHECKING:
     from evenbreak.matches.pace import Pace
     from evenbreak.ratings.roster import Roster
+
+
+SAY_WHICH = worded("say which with {scale} npl, {scale} fargo or {scale} elo")
+"""What to do about ratings that do not show their scale."""
+
+LEAVE_OUT = worded("leave {scale} out, or correct the file")
+"""What to do about a stated scale that contradicts a file."""
+
+LEVELS_DOUBLE = worded("say with {scale} how many levels double the odds")
+"""What to do about skill levels where ratings in points are needed."""
 
 
 def on_scale(system: handicaps.StepSystem, scale: Scale | None) -> handicaps.StepSystem:
@@ -28,11 +36,12 @@ def on_scale(system: handicaps.StepSystem, scale: Scale | None) -> handicaps.Ste
         return system
     if scale.points_per_doubling < 1.0:
         refuse(
-            f"--scale {scale.points_per_doubling:g}: ratings are whole points, so at least 1 "
-            "point must double the odds"
+            "{scale} {points:g}: ratings are whole points, so at least 1 point must double the "
+            "odds",
+            points=scale.points_per_doubling,
         )
     if system.scale.name != "npl" and scale != system.scale:
-        refuse(f"the system {system.name} has a scale of its own; leave --scale out")
+        refuse("the system {name} has a scale of its own; leave {scale} out", name=system.name)
     return replace(system, scale=scale)
 
 
@@ -81,11 +90,16 @@ def refuse_other_scale(
 
     if file.scale is not None and not file.scale.same_points(scale):
         refuse(
-            f"{file.source} states that its ratings are {scale_words(file.scale)}, but {whose} is "
-            f"{scale_words(scale)}; {remedy}"
+            "{file} states that its ratings are {its}, but {whose} is {other}; {remedy}",
+            file=file.source,
+            its=scale_words(file.scale),
+            whose=whose,
+            other=scale_words(scale),
+            remedy=remedy,
         )
     if file.scale is None and not stated:
-        refuse_levels(file, f"{whose} needs ratings in points; {remedy}")
+        needs = say("{whose} needs ratings in points; {remedy}", whose=whose, remedy=remedy)
+        refuse_levels(file, needs)
         refuse_to_read(file, scale, whose, remedy)
 
 
@@ -93,25 +107,35 @@ def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
     """Refuse a list that a system cannot move: levels or points, or points of another scale."""
     import numpy as np
 
-    whose = f"the system {system.name}"
+    whose = say("the system {name}", name=system.name)
     if system.publishes == "levels":
         if np.isnan(file.roster.level).all():
-            refuse(f"{file.source} states no skill level, which {whose} moves; add a column level")
+            refuse(
+                "{file} states no skill level, which {whose} moves; add a column level",
+                file=file.source,
+                whose=whose,
+            )
         return
     if file.scale is None:
         refuse_levels(
             file,
-            f"{whose} needs ratings in points; use a system of levels, such as "
-            "--system level-steps",
+            worded(
+                "{whose} needs ratings in points; use a system of levels, such as {system} "
+                "level-steps",
+                whose=whose,
+            ),
         )
     if system.scale is not None:
         refuse_other_scale(
-            file, system.scale, whose, "give another --system, or state the scale in a column scale"
+            file,
+            system.scale,
+            whose,
+            worded("give another {system}, or state the scale in a column scale"),
         )
 
 
-SAY_LEVELS = (
-    "use a chart by skill level, such as --chart apa_8ball, or say with --scale how many levels "
+SAY_LEVELS = worded(
+    "use a chart by skill level, such as {chart} apa_8ball, or say with {scale} how many levels "
     "double the odds"
 )
 
@@ -120,15 +144,21 @@ def refuse_levels(file: files.RosterFile | files.SeasonPlayers, remedy: str = SA
     """Refuse a list of skill levels where ratings in points are needed."""
     if file.levels:
         refuse(
-            f"the ratings of {file.source} are skill levels, and not points of a scale; {remedy}"
+            "the ratings of {file} are skill levels, and not points of a scale; {remedy}",
+            file=file.source,
+            remedy=remedy,
         )
 
 
-def chart_by_difference(option: str, name: str) -> handicaps.Chart:
+def chart_by_difference(name: str, parameter: str = "chart") -> handicaps.Chart:
     """Return a chart of rating differences, or refuse one of skill levels."""
     found = files.find_chart(name)
     if not isinstance(found, handicaps.Chart):
-        refuse(f"{option} {name!r} is a chart of skill levels; give one of rating differences")
+        refuse(
+            "{parameter} {name!r} is a chart of skill levels; give one of rating differences",
+            parameter=Parameter(parameter),
+            name=name,
+        )
     return found
 
 
@@ -159,8 +189,9 @@ def chart_for(system: handicaps.StepSystem, name: str | None) -> tuple[handicaps
         chart, warnings = file.chart, list(file.warnings)
     if not isinstance(chart, handicaps.Chart):
         refuse(
-            f"--chart {name!r} is a chart of skill levels, which no single match moves by points; "
-            "give a chart of rating differences, such as npl_10, or --system level-steps"
+            "{chart} {name!r} is a chart of skill levels, which no single match moves by points; "
+            "give a chart of rating differences, such as npl_10, or {system} level-steps",
+            name=name,
         )
     return chart, [*warnings, *chart_doubts(chart, system.scale)]
 
@@ -174,20 +205,25 @@ def with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float
     unrated = np.isnan(roster.rating)
     if unrated.any() and starter is None and scale.name not in SCALES:
         name = roster.players[int(unrated.argmax())]
-        refuse(f"{name!r} has no rating; give the rating of a new player with --starter RATING")
+        refuse(
+            "{name!r} has no rating; give the rating of a new player with {starter} RATING",
+            name=name,
+        )
     spread = scale.points_per_doubling if sd is None else sd
     most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
     if spread > most:
         refuse(
-            f"--starter-sd is {spread:g}, which says nothing about a player; give {most:g} at most"
+            "{starter_sd} is {spread:g}, which says nothing about a player; give {most:g} at most",
+            spread=spread,
+            most=most,
         )
     return roster.with_starters(scale.centre if starter is None else starter, spread, scale)
 
 
 def stated_pace(discipline: str | None, minutes_per_game: float | None) -> Pace | str | None:
-    """Return the discipline or the pace that the options state, None if they state none."""
+    """Return the discipline or the pace that a question states, None if it states none."""
     from evenbreak.matches.pace import own_pace
 
     if discipline is not None and minutes_per_game is not None:
-        refuse("--discipline and --minutes-per-game cannot be combined; leave one out")
+        refuse("{discipline} and {minutes_per_game} cannot be combined; leave one out")
     return discipline if minutes_per_game is None else own_pace(minutes_per_game)

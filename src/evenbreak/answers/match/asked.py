@@ -1,28 +1,35 @@
-"""The commands about one match, `odds`, `fair` and `live`: who plays, and what is played."""
+"""From a question about one match to its answer: `odds`, `fair`, `live` and `compare`."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeAlias
+from itertools import combinations
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.match.odds import TwoPlayers
-from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.said import SAY_WHICH, number_of, refuse
-from evenbreak.cli.kit.terminal import write_plot
+from evenbreak.answers.match.odds import (
+    TwoPlayers,
+    fair_answer,
+    match_words,
+    odds_answer,
+    races_for,
+)
 from evenbreak.errors import InputError
+from evenbreak.fields.question import refuse
 from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
-from evenbreak.questions.match import Fair, Live, Odds, Players
+from evenbreak.questions.match import Compare, Fair, Live, Odds, Players
 from evenbreak.ratings.scale import SCALES, Scale, refuse_contradicted, unstated_scale
+from evenbreak.words import Command, Parameter
 
 if TYPE_CHECKING:
     from evenbreak.files.lists.roster import RosterFile
     from evenbreak.handicaps.charts.chart import Chart
     from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+    from evenbreak.matches.formats import MatchFormat
 
     AnyChart: TypeAlias = Chart | LevelChart | PointsChart
 
@@ -32,11 +39,13 @@ MOST_BY_WAY = 25_000
 """The most scores of a race of games, if its graph is solved in floats: a race 158:158."""
 
 
-@command_of(Odds, "odds")
-def command(asked: Odds) -> Answer:
-    """Give the odds of a match."""
-    from evenbreak.answers.match.odds import odds_answer
+MOST_COMPARED = {"race": 10_000, "break": 900, "": 2_500}
+"""The most scores of a race where the break matters, of another match where it does, and of
+another match where it does not, so that every answer takes seconds."""
 
+
+def odds(asked: Odds) -> Answer:
+    """Return the odds of a match."""
     if (points := _points(asked)) is not None:
         return points
     players, match = match_of(asked)
@@ -47,23 +56,20 @@ def command(asked: Odds) -> Answer:
         refuse_giants(match)
     elif asked.via is not None:
         refuse_giants(match, MOST_BY_WAY)
-    return odds_answer(players, match, exact=asked.exact, via=asked.via)
+    return players.noted(odds_answer(players, match, exact=asked.exact, via=asked.via))
 
 
-@command_of(Fair, "fair")
 def fair(asked: Fair) -> Answer:
-    """Find the fairest races."""
-    from evenbreak.answers.match.odds import fair_answer, races_for
-
+    """Return the fairest races."""
     players = players_of(asked, asked.form)
     if asked.via is not None:
         refuse_uncertain(players)
-    return fair_answer(players, races_for(players, asked), target=asked.target, via=asked.via)
+    races = races_for(players, asked)
+    return players.noted(fair_answer(players, races, target=asked.target, via=asked.via))
 
 
-@command_of(Live, "live")
 def live(asked: Live) -> Answer:
-    """Follow a match under way."""
+    """Return the odds of a match under way."""
     from evenbreak.answers.match.live import live_answer
     from evenbreak.matches.live import live_odds, order_is_free
 
@@ -73,17 +79,13 @@ def live(asked: Live) -> Answer:
     refuse_giants(match)
     if players.form and not order_is_free(match):
         if asked.form is not None:
-            asked.refuse(
+            refuse(
                 "{form} is for races of games in which the break does not matter; leave it out here"
             )
         players = replace(players, form=0.0)
     odds = live_odds(match, asked.racks, set_score=asked.set_score, form=players.form)
     answer = live_answer(players, match, odds, comebacks=asked.comebacks)
-    if asked.plot is not None:
-        from evenbreak.plots.matches import course_figure
-
-        write_plot(course_figure(odds, title=answer.heading, names=players.names), asked.plot)
-    return answer
+    return replace(players.noted(answer), drawn=(players, odds))
 
 
 def match_of(asked: Odds | Live) -> tuple[TwoPlayers, Match]:
@@ -143,7 +145,7 @@ def _points(asked: Odds | Live) -> Answer | None:
 
 def _levels(asked: Players) -> tuple[int, int]:
     """Return the levels that are typed."""
-    a, b = (int(number_of(text)) for text in asked.ratings)
+    a, b = (int(float(text)) for text in asked.ratings)
     return a, b
 
 
@@ -157,8 +159,12 @@ def _levels_of(
             level = roster.level[place]
             has = "no skill level" if math.isnan(level) else f"skill level {level:g}"
             refuse(
-                f"{roster.players[place]!r} has {has} in {file.source}; the levels of "
-                f"{chart.name} are {', '.join(map(str, chart.levels))}"
+                "{player!r} has {level} in {file}; the levels of {chart} are {levels}",
+                player=roster.players[place],
+                level=has,
+                file=file.source,
+                chart=chart.name,
+                levels=", ".join(map(str, chart.levels)),
             )
     a, b = (int(roster.level[place]) for place in places)
     return a, b
@@ -166,8 +172,6 @@ def _levels_of(
 
 def refuse_giants(match: Match, most: int = MOST_SCORES) -> None:
     """Refuse a match that can still come to so many scores that it would take minutes."""
-    from evenbreak.answers.match.odds import match_words
-
     win_by = getattr(match, "win_by", 0)
     left = [
         max(need - has, win_by, 1)
@@ -177,8 +181,11 @@ def refuse_giants(match: Match, most: int = MOST_SCORES) -> None:
     scores *= getattr(match.rack, "m", 1) * getattr(match.rack, "n", 1)
     if scores > most:
         refuse(
-            f"{match_words(match)} can still come to about {scores:,} scores; ask for a match "
-            f"with at most {most:,}"
+            "{match} can still come to about {scores:,} scores; ask for a match with at most "
+            "{most:,}",
+            match=match_words(match),
+            scores=scores,
+            most=most,
         )
 
 
@@ -206,7 +213,9 @@ def players_of(asked: Players, form: float | None = None) -> TwoPlayers:
             return _by_level(asked, chart, form)
     if asked.from_file is not None:
         return _named(asked, asked.from_file, form)
-    a, b = map(number_of, asked.ratings)
+    from evenbreak.answers.kit.systems import SAY_WHICH
+
+    a, b = (float(text) + 0.0 for text in asked.ratings)  # -0 is 0
     if not math.isfinite(a - b):
         refuse("the ratings are too far apart to calculate with; give smaller numbers")
     scale = asked.scale or _scale_of_chart(chart) or unstated_scale([a, b], ["A", "B"], SAY_WHICH)
@@ -257,27 +266,32 @@ def _places(asked: Players, file: RosterFile) -> list[int]:
     """Return the places of the two players on a list."""
     from evenbreak.answers.league.sheet import find_players
 
-    places = find_players(file.roster, asked.ratings, said="--from", where=file.source)
+    places = find_players(
+        file.roster, asked.ratings, said=Parameter("from_file"), where=file.source
+    )
     if len(places) < 2:
-        refuse(f"{asked.ratings[0]!r} and {asked.ratings[1]!r} are one player; name two")
+        one, other = asked.ratings
+        refuse("{one!r} and {other!r} are one player; name two", one=one, other=other)
     return places
 
 
 def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
     """Return two players of a list, with its ratings, scale, errors and form of the day."""
+    from evenbreak.answers.kit.systems import (
+        LEAVE_OUT,
+        SAY_WHICH,
+        refuse_levels,
+        refuse_other_scale,
+    )
     from evenbreak.answers.league.prior import games_words
     from evenbreak.answers.league.roster_matchups import cannot_be_compared
-    from evenbreak.cli.kit.systems import refuse_levels, refuse_other_scale
-    from evenbreak.cli.kit.terminal import say
     from evenbreak.files.lists.roster import read_roster
     from evenbreak.ratings.roster import NOT_STATED, Roster
 
     names, scale = asked.ratings, asked.scale
     file = read_roster(path)
     if scale is not None:
-        refuse_other_scale(
-            file, scale, "--scale", "leave --scale out, or correct the file", stated=True
-        )
+        refuse_other_scale(file, scale, Parameter("scale"), LEAVE_OUT, stated=True)
     elif file.scale is None:
         refuse_levels(file)
     points = file.scale_by(scale, SAY_WHICH)
@@ -285,19 +299,24 @@ def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
     places = _places(asked, file)
     for place in places:
         if math.isnan(file.roster.rating[place]):
-            refuse(f"{roster.players[place]!r} has no rating in {file.source}; give two ratings")
+            refuse(
+                "{player!r} has no rating in {file}; give two ratings",
+                player=roster.players[place],
+                file=file.source,
+            )
     a, b = places
     if cannot_be_compared(roster, a, b):
         refuse(
-            f"no chain of opponents links {roster.players[a]!r} and {roster.players[b]!r}, so "
-            "their ratings cannot be compared"
+            "no chain of opponents links {one!r} and {other!r}, so their ratings cannot be "
+            "compared",
+            one=roster.players[a],
+            other=roster.players[b],
         )
     pair = [
         Roster(names, one.rating[places], one.standard_error[places], one.games[places])
         for one in (file.roster, roster)
     ]
-    if (pair[0].games == NOT_STATED).any() and (said := games_words(*pair)):
-        say(said)
+    assumed = games_words(*pair) if (pair[0].games == NOT_STATED).any() else ""
     errors = [0.0 if math.isnan(error) else error for error in roster.standard_error.tolist()]
     players = TwoPlayers.rated(
         float(roster.rating[a]),
@@ -306,18 +325,98 @@ def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
         names=(roster.players[a], roster.players[b]),
         errors=(errors[a], errors[b]),
     )
-    return replace(players, form=file.form if form is None else form)
+    return replace(players, form=file.form if form is None else form, assumed=assumed)
 
 
 def refuse_uncertain(players: TwoPlayers) -> None:
     """Refuse --via where chances are averaged over the errors of ratings: they are no limit."""
     if players.form:
         refuse(
-            "--via is for one chain, but with --form the answer is an average over many; leave one "
+            "{via} is for one chain, but with {form} the answer is an average over many; leave one "
             "out"
         )
     if players.error:
         refuse(
-            "--via is for one chain, but with --from the answer is an average over how far the "
-            "ratings may be off; give the two ratings as numbers"
+            "{via} is for one chain, but with {from_file} the answer is an average over how far "
+            "the ratings may be off; give the two ratings as numbers"
         )
+
+
+class FormatsCompared(NamedTuple):
+    """Formats side by side, as a picture shows them."""
+
+    players: TwoPlayers
+    formats: list[MatchFormat]
+    line: dict[str, Any]
+    pairs: dict[tuple[int, int], Any]
+
+
+def compare(asked: Compare) -> Answer:
+    """Return match formats side by side."""
+    from evenbreak import matches
+    from evenbreak.answers.match.formats import Compared, compare_answer
+
+    players = players_of(asked, 0.0)
+    read = _formats(asked.formats, players)
+    line = _line(players, asked.hold)
+    compared = []
+    for played in read:
+        match = played.match(
+            players.rack, breaks=players.break_format, first_breaker=players.first_breaker
+        )
+        compared.append(
+            Compared(played, matches.match_odds(match), matches.even_probability(played, **line))
+        )
+    pairs = {
+        (i, j): matches.crossings(read[i], read[j], **line)
+        for i, j in combinations(range(len(read)), 2)
+    }
+    answer = compare_answer(players, compared, pairs, hold=asked.hold)
+    return replace(players.noted(answer), drawn=FormatsCompared(players, read, line, pairs))
+
+
+def _formats(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
+    """Return the formats, or refuse those that cannot be compared here."""
+    from evenbreak.matches.formats import match_format
+
+    read = [match_format(text) for text in texts]
+    for played in read:
+        kinds = [played]
+        while kinds[-1].set_ is not None:
+            kinds.append(kinds[-1].set_)
+        if kinds[-1].breaks is not None and not players.rack.break_matters:
+            refuse(
+                "{format!r} says who breaks, which matters only with {p1} and {p2}; leave it out",
+                format=str(played),
+            )
+        for kind in kinds:
+            race = len(kinds) == 1 and not kind.ahead and kind.win_by == 1
+            if race and not players.rack.break_matters:
+                continue
+            most = MOST_COMPARED["race" if race else "break" if players.rack.break_matters else ""]
+            scores = kind.scores // (kind.set_.scores if kind.set_ else 1)
+            if scores > most:
+                refuse(
+                    "{format!r} has a part with about {scores:,} scores, and {most:,} are the most "
+                    "that can be compared here; use {odds} for such a match",
+                    format=str(played),
+                    scores=scores,
+                    most=most,
+                    odds=Command("odds"),
+                )
+    return read
+
+
+def _line(players: TwoPlayers, hold: str | None) -> dict[str, Any]:
+    """Return the pairs of players that the formats are compared for, as options of `crossings`."""
+    p1, p2 = players.rack.p1, players.rack.p2
+    if p2 is None:
+        if hold is not None:
+            refuse("{hold} goes with {p1} and {p2}, which are not given; leave it out")
+        return {}
+    line: dict[str, Any] = {"breaks": players.break_format, "first_breaker": players.first_breaker}
+    if hold != "break":
+        return line | {"p2": p2}
+    if not (0.0 < p1 < 1.0 and 0.0 < p2 < 1.0):
+        refuse("{hold} break needs {p1} and {p2} above 0 and below 1; use {hold} p2")
+    return line | {"break_odds": p1 / (1.0 - p1) * p2 / (1.0 - p2)}

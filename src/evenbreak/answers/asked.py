@@ -1,0 +1,78 @@
+"""From a question to its answer: one table, for the terminal, the page's interface and Python.
+
+A command reads its options as a question and prints what `answer_to` returns; `POST /api/v1/odds`
+reads JSON as the same question and sends the same answer. A question is in the table if its answer
+is all there is to it: what writes files, or runs a tournament, is a command of its own.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any, NamedTuple
+
+from evenbreak.answers.kit.answer import Answer
+
+
+class Place(NamedTuple):
+    """Where a question and what answers it are declared: nothing is imported before it is asked.
+
+    Parameters
+    ----------
+    question
+        its class, in `evenbreak.questions`.
+    answer
+        the function that answers it, in `evenbreak.answers`.
+    """
+
+    question: str
+    answer: str
+
+
+ASKED = {
+    "odds": Place("match:Odds", "match.asked:odds"),
+    "live": Place("match:Live", "match.asked:live"),
+    "fair": Place("match:Fair", "match.asked:fair"),
+    "compare": Place("match:Compare", "match.asked:compare"),
+    "breaks": Place("games:Breaks", "match.games:breaks"),
+    "straight": Place("games:Straight", "match.games:straight"),
+    "oneball": Place("games:OneBall", "match.games:oneball"),
+}
+"""By the name of its command."""
+
+
+def question_of(command: str) -> Any:
+    """Return the class of the question that a command asks.
+
+    >>> question_of("odds").__name__
+    'Odds'
+    """
+    return _named("questions", ASKED[command].question)
+
+
+def answer_to(command: str, asked: Any) -> Answer:
+    """Return the answer to a question.
+
+    Parameters
+    ----------
+    command
+        its name.
+    asked
+        the question, of the class that `question_of` returns.
+
+    Raises
+    ------
+    EvenbreakError
+        if it cannot be answered; an `AskedError` if it contradicts itself.
+
+    >>> odds = question_of("odds")(p=0.6, race=(7, 5))
+    >>> print(answer_to("odds", odds).sentences[0])
+    A wins the match 53% of the time.
+    It lasts 9.3 games on average, and 9 out of 10 such matches end within 11.
+    """
+    answer: Answer = _named("answers", ASKED[command].answer)(asked)
+    return answer
+
+
+def _named(room: str, place: str) -> Any:
+    module, _, name = place.partition(":")
+    return getattr(import_module(f"evenbreak.{room}.{module}"), name)
