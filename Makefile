@@ -57,7 +57,7 @@ layers:           ## imports in one direction, files and terminal only at the en
 
 # What is said with these is translated.
 SAID = say refuse worded say_as:1c,2 say_count:1,2 EvenbreakError AlreadyError InputError DataError GameError ChainError AccuracyError \
-	WorkerError RefusalError MovedOnError TakenBeforeError add:2 note:2 warning:3 form_warning:3 refusal:2 refused:2
+	WorkerError RefusalError ProblemError MovedOnError TakenBeforeError add:2 note:2 warning:3 form_warning:3 refusal:2 refused:2
 
 catalogues:       ## collect the sentences that pages show into each language's catalogue
 	$(PYTHON) -m babel.messages.frontend -q extract -F babel.cfg --no-default-keywords $(addprefix -k ,$(SAID)) \

@@ -27,6 +27,11 @@ class Got(NamedTuple):
     status: int
     body: bytes
     to: str
+    headers: Mapping[str, str] = {}
+
+    @property
+    def json(self) -> Any:
+        return json.loads(self.body)
 
     @property
     def text(self) -> str:
@@ -87,6 +92,15 @@ class Browser:
         """Tap the score of a match on the player's own page."""
         return self.send("/me/score", match=match, a=a, b=b, **more)
 
+    def tells(self, method: str, path: str, body: object = None, **head: str) -> Got:
+        """Ask as another program does: in JSON, without cookies."""
+        sent = b"" if body is None else json.dumps(body).encode()
+        cookies, self.cookies = self.cookies, {}
+        try:
+            return self.ask(method, path, body=sent, kind="application/json", **head)
+        finally:
+            self.cookies = cookies
+
     def hidden(self) -> dict[str, str]:
         """Return what every form of a page that is opened now carries unseen."""
         return carried(self.room.site, self.token())
@@ -105,12 +119,14 @@ class Browser:
         host: str = "localhost",
         body: bytes = b"",
         kind: str = "application/x-www-form-urlencoded",
+        **more: str,
     ) -> Got:
-        """Ask whatever is to be asked."""
+        """Ask whatever is to be asked; `more` are further headers, `if_none_match` for one."""
         body = body or urllib.parse.urlencode(fields or {}, doseq=True).encode()
         cookie = "; ".join(f"{name}={value}" for name, value in self.cookies.items())
         head = {"host": host, "cookie": cookie, "content-type": kind}
         head["content-length"] = str(len(body))
+        head |= {name.replace("_", "-"): value for name, value in more.items()}
         return self.room.loop.run_until_complete(self._asked(method, path, head, body))
 
     async def asking(self, method: str, path: str, fields: Mapping[str, object]) -> Got:
@@ -156,6 +172,7 @@ class Browser:
             got[0]["status"],
             b"".join(one.get("body", b"") for one in got[1:]),
             to._replace(scheme="", netloc="").geturl(),
+            dict(headers),
         )
 
 

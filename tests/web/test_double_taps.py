@@ -93,6 +93,7 @@ def test_no_template_makes_a_form_of_its_own() -> None:
 def test_the_routes_that_are_taken_twice_are_those_of_the_session(tmp_path: Path) -> None:
     app = make_app(Site(tmp_path / "tonight.db"))
     posts = {one.path: one for one in app.routes if "POST" in (getattr(one, "methods", 0) or ())}
+    posts = {path: one for path, one in posts.items() if not path.startswith("/api/")}
     for path, route in posts.items():
         own = path in OF_THE_SESSION or path.startswith("/team/")
         assert (route.endpoint.__module__ == "evenbreak.web.app") != own, path

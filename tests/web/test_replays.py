@@ -153,7 +153,7 @@ def test_every_route_that_adds_an_entry_is_tried(hall: Hall) -> None:
     posts = {
         one.path
         for one in make_app(hall.room.site).routes
-        if "POST" in (getattr(one, "methods", None) or ())
+        if "POST" in (getattr(one, "methods", None) or ()) and not one.path.startswith("/api/")
     }
     tried = {re.sub("/table/1", "/table/{table}", path) for _, path, _ in hall.forms().values()}
     assert tried == posts - NOT_HERE

@@ -270,8 +270,11 @@ def passes(asked: str, role: str, who: str) -> bool:
 
 
 def routes(room: Room) -> dict[str, set[str]]:
+    """Return the methods of each page; what programs may ask is tried by its own description."""
     found: dict[str, set[str]] = {}
     for one in room.app.routes:
+        if one.path.startswith("/api/"):  # type: ignore[attr-defined]
+            continue
         found.setdefault(one.path, set()).update(one.methods - {"HEAD"})  # type: ignore[attr-defined]
     return found
 

@@ -6,6 +6,7 @@ for it. The terminal and the page read by the same kinds, so they have the same 
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Callable, Mapping
@@ -13,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from evenbreak.errors import InputError
+from evenbreak.words import say
 
 LONGEST = 1000
 """The most games that a race, a lead or a score can have."""
@@ -22,6 +24,9 @@ BETWEEN = r"[:/\-–—−]"
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 """A finite number, as text."""
+
+_SHOWN = 60
+"""The most characters of a value of JSON that a refusal repeats."""
 
 _WHOLE = re.compile(r"[+-]?\d{1,40}", re.ASCII)
 
@@ -35,6 +40,16 @@ class Kind:
     def read(self, text: str) -> Any:
         """Return the value of a text, or raise an `InputError` that says how to write it."""
         return text
+
+    def load(self, value: Any) -> Any:
+        """Return the value of what JSON has for it; refuse what `schema` forbids.
+
+        >>> Whole(1, 9).load(7), TwoWhole().load([7, 5]), Choice(("npl", "fargo")).load("npl")
+        (7, (7, 5), 'npl')
+        """
+        if not isinstance(value, str):
+            raise InputError("{value} is not text; put it in quotes", value=_as_json(value))
+        return self.read(value)
 
     def words(self, value: Any) -> str:
         """Return a value as it is typed."""
@@ -74,6 +89,12 @@ class Flag(Kind):
         """Return yes, unless a text is empty or says no."""
         return text.strip().lower() not in ("", "0", "no", "off", "false")
 
+    def load(self, value: Any) -> bool:
+        """Return what JSON has for it."""
+        if not isinstance(value, bool):
+            raise InputError("{value} is neither true nor false", value=_as_json(value))
+        return value
+
     def schema(self) -> dict[str, Any]:
         """Return what a JSON schema says of such a value."""
         return {"type": "boolean"}
@@ -92,7 +113,17 @@ class Whole(Kind):
         typed = text.strip()
         if _WHOLE.fullmatch(typed) and self.low <= int(typed) <= self.high:
             return int(typed)
-        raise InputError(f"{text!r}; give a whole number from {self.low} to {self.high}")
+        raise InputError(
+            "{text!r}; give a whole number from {low} to {high}",
+            text=text,
+            low=self.low,
+            high=self.high,
+        )
+
+    def load(self, value: Any) -> int:
+        """Return the number that JSON has; 7.0 is 7 there."""
+        whole = isinstance(value, float) and value.is_integer()
+        return self.read(_as_json(int(value) if whole else value))
 
     @property
     def limits(self) -> str:
@@ -129,15 +160,27 @@ class Number(Kind):
         typed = text.strip()
         number = float(typed) + 0.0 if NUMBER.fullmatch(typed) else math.nan
         if not self.low <= number <= self.high:
-            wanted = self.wanted or f"; {self.needed}"
-            raise InputError(f"{text!r}{wanted}{meant(text, self.low, self.high)}")
+            raise InputError(
+                "{text!r}{wanted}{hint}",
+                text=text,
+                wanted=self.wanted or say("; {needed}", needed=self.needed),
+                hint=meant(text, self.low, self.high),
+            )
         return number
+
+    def load(self, value: Any) -> float:
+        """Return the number that JSON has."""
+        return self.read(_as_json(value))
 
     @property
     def needed(self) -> str:
         """What to write, in words."""
-        such = f", such as {self.example}" if self.example else ""
-        return f"give a number from {self.low:,.12g} to {self.high:,.12g}{such}"
+        return say(
+            "give a number from {low:,.12g} to {high:,.12g}{such}",
+            low=self.low,
+            high=self.high,
+            such=say(", such as {example}", example=self.example) if self.example else "",
+        )
 
     @property
     def limits(self) -> str:
@@ -170,6 +213,10 @@ class NumberOr(Kind):
         if text.strip().lower() == self.word:
             return self.word
         return Number(self.low, self.high, f"; give {self.wanted}, or {self.word}").read(text)
+
+    def load(self, value: Any) -> float | str:
+        """Return the number or the word that JSON has."""
+        return self.read(self.word if value == self.word else _as_json(value))
 
     def schema(self) -> dict[str, Any]:
         """Return what a JSON schema says of such a value."""
@@ -210,8 +257,16 @@ class TwoWhole(Kind):
         both = match is not None and (self.one or match[2] is not None)
         within = self.low <= min(m, n) and max(m, n) <= self.high
         if not (both and within) or (self.rising and m > n):
-            raise InputError(f"{text!r}; {self.wanted}")
+            raise InputError("{text!r}; {wanted}", text=text, wanted=self.wanted)
         return m, n
+
+    def load(self, value: Any) -> tuple[int, int]:
+        """Return the two numbers that JSON has in a list."""
+        limits = Whole(self.low, self.high)
+        if not isinstance(value, list) or len(value) != 2:
+            raise InputError("{value}; give two numbers in a list", value=_as_json(value))
+        m, n = map(limits.load, value)
+        return self.read(self.words((m, n)))
 
     def words(self, value: tuple[int, int]) -> str:
         """Return a value as it is typed."""
@@ -236,7 +291,7 @@ class Choice(Kind):
         word = text.strip()
         if word not in self.of:
             words = ", ".join(map(repr, self.of))
-            raise InputError(f"{text!r} is not one of {words}")
+            raise InputError("{text!r} is not one of {words}", text=word, words=words)
         return self.of[word] if isinstance(self.of, Mapping) else word
 
     def words(self, value: Any) -> str:
@@ -278,6 +333,15 @@ class Named(Kind):
         return self.spelled(value)
 
 
+def _as_json(value: Any) -> str:
+    """Return a value as JSON has it: a text in quotes, which no number is."""
+    try:
+        text = json.dumps(value, ensure_ascii=False)
+    except RecursionError:  # lists in lists without end
+        return "…"
+    return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 1]}…"
+
+
 def meant(text: str, low: float, high: float) -> str:
     """Return how to write a number typed with a decimal comma or as a percentage, or nothing.
 
@@ -290,7 +354,8 @@ def meant(text: str, low: float, high: float) -> str:
         return ""
     number = float(plain)
     if (low, high) == (0.0, 1.0) and (plain != typed or number >= 10.0):
-        return f" ({number:.12g}% is {number / 100.0:.12g})" if 0.0 <= number <= 100.0 else ""
+        inside, x = 0.0 <= number <= 100.0, f"{number / 100.0:.12g}"
+        return say(" ({p:.12g}% is {x})", p=number, x=x) if inside else ""
     if "," in text and plain == typed and low <= number <= high:
-        return f" (with a decimal point: {plain})"
+        return say(" (with a decimal point: {plain})", plain=plain)
     return ""

@@ -151,16 +151,34 @@ class Declared:
             return self.field.usual
         return "" if isinstance(self.kind, Flag) else self.kind.words(self.default)
 
+    def load(self, value: Any) -> Any:
+        """Return its value of what JSON has for it; refuse what `schema` forbids."""
+        return _each(value, self._load_one) if self.field.many else self._load_one(value)
+
+    def _load_one(self, value: Any) -> Any:
+        if self.field.words > 1:
+            return _each(value, self.kind.load, self.field.words)
+        return self.kind.load(value)
+
     def schema(self) -> dict[str, Any]:
         """Return what a JSON schema says of it."""
         one: dict[str, Any] = self.kind.schema()
         if self.field.words > 1:
-            one = {"type": "array", "items": one}
+            n = self.field.words
+            one = {"type": "array", "items": one, "minItems": n, "maxItems": n}
         said = {"type": "array", "items": one} if self.field.many else dict(one)
         said["description"] = str(worded(self.field.help))
         if self.usual and not self.field.usual:
             said["default"] = self.usual if said.get("type") == "string" else self.default
         return said
+
+
+def _each(value: Any, load: Callable[[Any], Any], many: int | None = None) -> tuple[Any, ...]:
+    if not isinstance(value, list):
+        raise InputError("the values must be in a list, such as {example}", example="[1, 2]")
+    if many is not None and len(value) != many:
+        raise InputError("give {n} values in a list", n=many)
+    return tuple(load(one) for one in value)
 
 
 class AskedError(InputError):

@@ -13,7 +13,7 @@ import hashlib
 import logging
 import time
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 from starlette.applications import Starlette
@@ -27,6 +27,8 @@ from starlette.routing import Route
 
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.store.log import TakenBeforeError
+from evenbreak.web import api
+from evenbreak.web.api.problem import is_asked, problem
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import Guard, RefusalError
 from evenbreak.web.page import begun_at, done, refused, script_hash, site_of, style
@@ -74,26 +76,29 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
         how many pages may follow what happens at once.
     """
     app = Starlette(
-        routes=once_each(
-            [
-                Route("/evenbreak.css", _style),
-                *home.ROUTES,
-                *fair.ROUTES,
-                *bracket.ROUTES,
-                *players.ROUTES,
-                *league.ROUTES,
-                *me.ROUTES,
-                *table.ROUTES,
-                *desk.ROUTES,
-                *moves.ROUTES,
-                *desk_extras.ROUTES,
-                *entry.ROUTES,
-                *check_in.ROUTES,
-                *share.ROUTES,
-                *team.ROUTES,
-                *wall.ROUTES,
-            ]
-        ),
+        routes=[
+            *api.ROUTES,
+            *once_each(
+                [
+                    Route("/evenbreak.css", _style),
+                    *home.ROUTES,
+                    *fair.ROUTES,
+                    *bracket.ROUTES,
+                    *players.ROUTES,
+                    *league.ROUTES,
+                    *me.ROUTES,
+                    *table.ROUTES,
+                    *desk.ROUTES,
+                    *moves.ROUTES,
+                    *desk_extras.ROUTES,
+                    *entry.ROUTES,
+                    *check_in.ROUTES,
+                    *share.ROUTES,
+                    *team.ROUTES,
+                    *wall.ROUTES,
+                ]
+            ),
+        ],
         middleware=[
             Middleware(Guard, hosts=site.hosts, script_hash=script_hash()),
             # A third of the bytes over a bar's Wi-Fi; the stream of events it leaves alone.
@@ -135,19 +140,28 @@ async def _style(request: Request) -> Response:
     return PlainTextResponse(text, media_type="text/css", headers=kept)
 
 
+def _shown(
+    request: Request, why: Exception, status: int, headers: Mapping[str, str] | None = None
+) -> Response:
+    """Return why something is refused: as a page, or to a program as a problem."""
+    if is_asked(request):
+        return problem(request, why, status, headers)
+    return refused(request, why, status)
+
+
 async def _refused(request: Request, error: Exception) -> Response:
     assert isinstance(error, RefusalError)  # noqa: S101
-    return refused(request, error, error.status)
+    return _shown(request, error, error.status)
 
 
 async def _wrong(request: Request, error: Exception) -> Response:
-    return refused(request, error, 400)
+    return _shown(request, error, 400)
 
 
 async def _http(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)  # noqa: S101
     words = _HTTP.get(error.status_code, say("You can't do that here."))
-    return refused(request, RefusalError(words), error.status_code)
+    return _shown(request, RefusalError(words), error.status_code, error.headers)
 
 
 async def _disk(request: Request, error: Exception) -> Response:
@@ -155,7 +169,7 @@ async def _disk(request: Request, error: Exception) -> Response:
     if not isinstance(error, OSError) or isinstance(error, TimeoutError | ConnectionError):
         raise error
     _LOG.error("%s: %s", request.url.path, error)
-    return refused(
+    return _shown(
         request,
         RefusalError(
             "This computer can't do that right now ({why}). Tell the director: the disk "
@@ -168,6 +182,8 @@ async def _disk(request: Request, error: Exception) -> Response:
 
 async def _failed(request: Request, error: Exception) -> Response:
     _LOG.exception("%s failed", request.url.path, exc_info=error)
+    if is_asked(request):
+        return problem(request, RefusalError("This failed; nothing was changed by it."), 500)
     return PlainTextResponse("This page failed; nothing was changed by it.\n", status_code=500)
 
 

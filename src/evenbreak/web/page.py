@@ -166,7 +166,7 @@ def language(request: Request) -> str:
 def in_words(request: Request, text: str) -> str:
     """Return a text as the reader's page says it."""
     said: str = in_face(text, page_face(language(request)))
-    return _without_folder(request, said)
+    return without_folder(request, said)
 
 
 def choose_language(request: Request, code: str) -> None:
@@ -223,7 +223,7 @@ def page(
     whose = "wall" if request.url.path == "/screen" else whose
 
     def capital(text: str) -> str:
-        return _without_folder(request, capital_in_face(text, face))
+        return without_folder(request, capital_in_face(text, face))
 
     shown = (
         _templates()
@@ -321,10 +321,10 @@ def can_be_opened(request: Request, path: str) -> bool:
 def reason(request: Request, why: Exception) -> str:
     """Return why something is refused, in the reader's language: a line each."""
     text = why.sentence if isinstance(why, EvenbreakError) else str(why)
-    return _without_folder(request, capital_in_face(text, page_face(language(request))))
+    return without_folder(request, capital_in_face(text, page_face(language(request))))
 
 
-def _without_folder(request: Request, text: str) -> str:
+def without_folder(request: Request, text: str) -> str:
     """Return a sentence without the folder of the file: guests need not know where it is."""
     folder = site_of(request).path.parent
     for part in {f"{folder.absolute()}{os.sep}", f"{folder}{os.sep}"} - {f".{os.sep}", os.sep}:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from starlette.requests import Request
 
@@ -30,7 +31,7 @@ from evenbreak.web.sessions import Tries
 from evenbreak.web.team_night import TeamNights
 
 _ENDED, _CALLS, _BY_HAND = "ended", "calls", "by hand"
-_MOST_KINDS = 5  # kinds of pages besides, each for whoever reads it
+_MOST_KINDS = 8  # kinds of pages and answers besides, each for whoever reads it
 
 
 @dataclass(eq=False)
@@ -75,7 +76,7 @@ class Site:
         self.teams = TeamNights(self.path, self.night.beside)
         self.league = League(self.path)
         self.made = Made()
-        self._rendered: list[tuple[Sequence[object], dict[tuple[object, ...], str]]] = []
+        self._rendered: list[tuple[Sequence[object], dict[tuple[object, ...], Any]]] = []
         self._first = {
             "pin": new_pin(),
             **{name: _mark() for name in ("cookie", "director", "match")},
@@ -106,7 +107,7 @@ class Site:
         tonight = {name for night in self._nights.values() for name in night.names}
         return {*tonight, *self.teams.names, *(sheet.ratings.players if sheet else ())}
 
-    def rendered_of(self, what: Sequence[object]) -> dict[tuple[object, ...], str]:
+    def rendered_of(self, what: Sequence[object]) -> dict[tuple[object, ...], Any]:
         """Return the pages that were rendered of these: the same objects, or equal texts."""
         for of, pages in self._rendered:
             if len(of) == len(what) and all(

@@ -1,0 +1,163 @@
+"""The description of the interface, as OpenAPI 3.1 has it, made of its resources."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import msgspec
+
+from evenbreak import __version__
+from evenbreak.fields.question import Declared
+from evenbreak.web.api.problem import Problem
+from evenbreak.web.api.resource import V1, Resource
+
+_TEMPLATE = "#/components/schemas/{name}"
+_BEARER = "token"
+_TAGS = {
+    "tonight": "The tournament of tonight, as everybody in the room sees it.",
+    "enter": "What a program enters, with a token that the director has drawn.",
+    "questions": "What the commands answer, such as `evenbreak odds`.",
+    "interface": "The interface itself.",
+}
+_REFUSALS = {
+    400: "A parameter is wrong, missing or unknown.",
+    401: "The token is missing, or it has been taken back.",
+    403: "The token is not for this.",
+    404: "There is no such thing, or not yet.",
+    409: "Something else would be lost by it, or has come in between.",
+    413: "More was sent than is allowed.",
+    415: "The body is not JSON.",
+    429: "Too much was asked from this address within a minute.",
+}
+
+
+def describe(resources: Sequence[Resource]) -> dict[str, Any]:
+    """Return the OpenAPI document of addresses."""
+    kinds = [Problem, *(one.gives for one in resources if _is_typed(one.gives))]
+    _, components = msgspec.json.schema_components(kinds, ref_template=_TEMPLATE)
+    paths: dict[str, dict[str, Any]] = {}
+    for one in resources:
+        paths.setdefault(V1 + one.path, {})[one.method.lower()] = _operation(one)
+    return {
+        "openapi": "3.1.0",
+        "info": {
+            "title": "evenbreak",
+            "version": __version__,
+            "summary": "Tonight's tournament, and answers to questions, for other programs.",
+            "description": "Names are only added within a version of the address (v1). Times are "
+            "local, as ISO 8601 has them without a zone; chances run from 0 to 1. Sentences come "
+            "in the language of Accept-Language.",
+            "license": {"name": "MIT", "identifier": "MIT"},
+        },
+        "servers": [{"url": "/", "description": "The computer that runs the tournament."}],
+        "tags": [{"name": name, "description": does} for name, does in _TAGS.items()],
+        "paths": paths,
+        "components": {
+            "schemas": components,
+            "securitySchemes": {
+                _BEARER: {
+                    "type": "http",
+                    "scheme": "bearer",
+                    "description": "Drawn by the director, for scores or for everything.",
+                }
+            },
+        },
+    }
+
+
+def operation_id(resource: Resource) -> str:
+    """Return what programs call a resource, such as get_tonight_bracket."""
+    words = re.findall(r"\w+", resource.path.replace("-", "_").removesuffix(".json"))
+    return "_".join([resource.method.lower(), *words]) if words else "get_addresses"
+
+
+def _is_typed(gives: Any) -> bool:
+    return not isinstance(gives, Mapping)
+
+
+def _tag(resource: Resource) -> str:
+    if resource.method != "GET" and resource.path.startswith("/tonight"):
+        return "enter"
+    if resource.path.startswith("/tonight"):
+        return "tonight"
+    return "questions" if resource.method != "GET" else "interface"
+
+
+def _operation(one: Resource) -> dict[str, Any]:
+    found: dict[str, Any] = {
+        "operationId": operation_id(one),
+        "summary": one.does,
+        "tags": [_tag(one)],
+        "parameters": list(_parameters(one)),
+        "responses": _responses(one),
+    }
+    if one.method != "GET":
+        found["requestBody"] = {
+            "required": any(asked.required for asked in one.body),
+            "content": {"application/json": {"schema": body_schema(one.body)}},
+        }
+    if one.scope:
+        found["security"] = [{_BEARER: [one.scope]}]
+    return {key: value for key, value in found.items() if value != []}
+
+
+def _parameters(one: Resource) -> Iterator[dict[str, Any]]:
+    for asked in one.query:
+        schema = asked.schema()
+        says = schema.pop("description")
+        required = asked.required
+        yield {"name": asked.name, "in": "query", "description": says, "required": required} | {
+            "schema": schema
+        }
+    if one.method == "GET":
+        yield {
+            "name": "If-None-Match",
+            "in": "header",
+            "description": "The ETag of the last answer; 304 while nothing has changed.",
+            "schema": {"type": "string"},
+        }
+
+
+def body_schema(asks: Sequence[Declared]) -> dict[str, Any]:
+    """Return the schema of a body."""
+    required = [one.name for one in asks if one.required]
+    return {
+        "type": "object",
+        "properties": {one.name: one.schema() for one in asks},
+        "additionalProperties": False,
+    } | ({"required": required} if required else {})
+
+
+def _responses(one: Resource) -> dict[str, Any]:
+    found: dict[str, Any] = {
+        "200": {
+            "description": one.does,
+            "content": {_media(one): {"schema": schema_of_answer(one)}},
+        }
+    }
+    refusals = {400, 404} if one.query else set()
+    if one.method == "GET":
+        found["304"] = {"description": "Nothing has changed since."}
+        found["200"]["headers"] = {"ETag": {"schema": {"type": "string"}}}
+    else:
+        refusals |= {400, 413, 415, 429}
+    if one.scope:
+        refusals |= {401, 403, 409}
+    said = {"application/problem+json": {"schema": {"$ref": _TEMPLATE.format(name="Problem")}}}
+    for status in sorted(refusals):
+        found[str(status)] = {"description": _REFUSALS[status], "content": said}
+    return found
+
+
+def _media(one: Resource) -> str:
+    return "text/event-stream" if one.path.endswith("/changes") else "application/json"
+
+
+def schema_of_answer(one: Resource) -> dict[str, Any]:
+    """Return the schema of what a resource answers; dataclasses are named among the components."""
+    if not _is_typed(one.gives):
+        return dict(one.gives)
+    (schema,), _ = msgspec.json.schema_components([one.gives], ref_template=_TEMPLATE)
+    return schema

@@ -1,0 +1,117 @@
+"""What the interface answers when it refuses: a problem as RFC 9457 has it, in JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from http import HTTPStatus
+from typing import Annotated, Any
+
+import msgspec
+from msgspec import Meta
+from starlette.requests import Request
+from starlette.responses import Response
+
+from evenbreak.errors import EvenbreakError
+from evenbreak.files.catalogues import language_of
+from evenbreak.web.guard import RefusalError
+from evenbreak.web.page import page_face, without_folder
+from evenbreak.words import Face, Sentence, capital_in_face, in_face
+
+ROOT = "/api/"
+"""Where the addresses of the interface begin: all below it is answered in JSON."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Why a request is refused, in the language that it asks for (Accept-Language)."""
+
+    title: Annotated[str, Meta(description="What HTTP calls it.", examples=["Bad Request"])]
+    status: Annotated[int, Meta(description="The status of HTTP.", ge=400, le=599)]
+    detail: Annotated[str, Meta(description="What is wrong and how to correct it.")]
+    parameter: Annotated[str, Meta(description="The parameter that is wrong, if it is one.")] = ""
+    how: Annotated[str, Meta(description="What to send to have it done all the same.")] = ""
+    schema: Annotated[
+        dict[str, Any], Meta(description="The JSON schema of the value that was wanted.")
+    ] = field(default_factory=dict)
+
+
+class ProblemError(RefusalError):
+    """A request to the interface that is refused.
+
+    Parameters
+    ----------
+    template, status, values
+        as of a `RefusalError`.
+    parameter
+        the name of the parameter that is wrong.
+    more
+        what the answer holds besides, such as `how` or what would be lost.
+    headers
+        of the answer.
+    """
+
+    def __init__(
+        self,
+        template: str,
+        /,
+        *,
+        status: int = 400,
+        parameter: str = "",
+        more: Mapping[str, Any] | None = None,
+        headers: Mapping[str, str] | None = None,
+        **values: Any,
+    ) -> None:
+        super().__init__(template, status=status, **values)
+        self.parameter = parameter
+        self.more = more or {}
+        self.headers = headers or {}
+
+
+def is_asked(request: Request) -> bool:
+    """Return whether a request is for the interface."""
+    return request.url.path.startswith(ROOT)
+
+
+def problem(
+    request: Request, why: Exception, status: int, headers: Mapping[str, str] | None = None
+) -> Response:
+    """Return why a request is refused."""
+    face = face_of(request)
+    text = why.sentence if isinstance(why, EvenbreakError) else str(why)
+    found = {
+        "title": HTTPStatus(status).phrase,
+        "status": status,
+        "detail": without_folder(request, capital_in_face(text, face)),
+    }
+    if isinstance(why, ProblemError):
+        found |= {"parameter": why.parameter} if why.parameter else {}
+        found |= why.more
+        headers = {**(headers or {}), **why.headers}
+    head = {"content-language": face.language, **(headers or {})}
+    return Response(encoded(found, face), status, head, media_type="application/problem+json")
+
+
+def face_of(request: Request) -> Face:
+    """Return how a reader's program is told sentences: parameters by their own names."""
+    return replace(
+        page_face(language_of(request.headers.get("accept-language", ""))), parameter=str
+    )
+
+
+def encoded(value: Any, face: Face) -> bytes:
+    """Return a value as JSON, its sentences in the language of a face.
+
+    >>> from evenbreak.words import PYTHON, say
+    >>> encoded({"title": say("Round {n}", n=2)}, PYTHON)
+    b'{"title":"Round 2"}'
+    """
+
+    def plain(value: Any) -> Any:
+        if isinstance(value, Sentence):
+            return str(in_face(value, face))
+        if hasattr(value, "tolist"):
+            return value.tolist()
+        raise NotImplementedError(type(value).__name__)
+
+    return msgspec.json.encode(value, enc_hook=plain)

@@ -1,0 +1,256 @@
+"""The addresses of the interface: what each is asked, and how an answer is sent.
+
+An answer is encoded as JSON, its sentences in the language of Accept-Language. Its ETag is a hash
+of its body: who sends it back as If-None-Match is answered 304 while nothing has changed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import msgspec
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.errors import InputError
+from evenbreak.fields.kinds import Flag, Whole
+from evenbreak.fields.question import Declared, Field
+from evenbreak.web.api.problem import ProblemError, encoded, face_of
+from evenbreak.web.page import site_of
+from evenbreak.web.site import Site
+from evenbreak.words import Parameter, say
+
+V1 = "/api/v1"
+"""Where the addresses of this version begin."""
+
+MOST_JSON = 64 << 10
+"""The largest body in JSON, in bytes."""
+
+EVENT = Declared(
+    "event",
+    Field(Whole(1, 99), "The number of the event, of a night that has several."),
+    1,
+)
+_SHOWN = 40  # characters of a wrong value that a problem repeats
+
+
+class Call(NamedTuple):
+    """What comes in.
+
+    Parameters
+    ----------
+    request
+        as it came.
+    site
+        the page that runs.
+    values
+        of the resource's parameters, checked by their kinds; what was left out has its default.
+    """
+
+    request: Request
+    site: Site
+    values: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Resource:
+    """An address of the interface: what it is asked, what it answers, who may ask.
+
+    Parameters
+    ----------
+    path
+        below /api/v1, such as "/tonight/bracket"; what is below /tonight takes `?event=2` besides.
+    does
+        what it does, in a sentence: the summary in OpenAPI and in the reference.
+    answer
+        returns a value that JSON can hold, a `Kept`, or a whole `Response`.
+    gives
+        what it answers: a frozen dataclass, or a JSON schema.
+    method
+        of HTTP.
+    asks
+        the parameters of the address (GET), or of the JSON body (POST).
+    scope
+        who may ask: "" everybody in the room, else whoever has a token for "scores" or "director".
+    """
+
+    path: str
+    does: str
+    answer: Callable[[Call], Awaitable[Any]]
+    gives: Any
+    method: str = "GET"
+    asks: tuple[Declared, ...] = ()
+    scope: str = ""
+
+    @property
+    def query(self) -> tuple[Declared, ...]:
+        """The parameters of the address."""
+        own = self.asks if self.method == "GET" else ()
+        return (*own, EVENT) if self.path.startswith("/tonight") else own
+
+    @property
+    def body(self) -> tuple[Declared, ...]:
+        """The parameters of the JSON body."""
+        return () if self.method == "GET" else self.asks
+
+
+class Kept(NamedTuple):
+    """An answer that is made once for all who ask, while what it is made of stays the same.
+
+    Parameters
+    ----------
+    of
+        what it is made of: objects and texts, as `Site.rendered_of` takes them.
+    make
+        makes it.
+    """
+
+    of: Sequence[object]
+    make: Callable[[], Any]
+
+
+def routes_of(resources: Sequence[Resource]) -> list[Route]:
+    """Return the routes of addresses, one a path."""
+    paths: dict[str, dict[str, Resource]] = {}
+    for one in resources:
+        paths.setdefault(one.path, {})[one.method] = one
+    return [_route(path, methods) for path, methods in paths.items()]
+
+
+def _route(path: str, methods: Mapping[str, Resource]) -> Route:
+    heads = {"HEAD"} if "GET" in methods else set()
+    allowed = ", ".join(sorted({*methods, *heads, "OPTIONS"}))
+
+    async def endpoint(request: Request) -> Response:
+        if request.method == "OPTIONS":
+            return Response(status_code=204, headers={"allow": allowed})
+        asked = "GET" if request.method == "HEAD" else request.method
+        return await _answer(methods[asked], request)
+
+    return Route(V1 + path, endpoint, methods=[*methods, "OPTIONS"])
+
+
+async def _answer(resource: Resource, request: Request) -> Response:
+    values = queried(resource.query, request)
+    if resource.method != "GET":
+        values |= loaded(resource.body, await body_of(request))
+    found = await resource.answer(Call(request, site_of(request), values))
+    if isinstance(found, Response):
+        return found
+    face = face_of(request)
+    if not isinstance(found, Kept):
+        return _sent(request, _tagged(encoded(found, face)), face.language)
+    kept = site_of(request).rendered_of(found.of)
+    key = (resource.path, face.language, *((name, repr(one)) for name, one in values.items()))
+    if key not in kept:
+        kept[key] = _tagged(encoded(found.make(), face))
+    return _sent(request, kept[key], face.language)
+
+
+def _tagged(body: bytes) -> tuple[bytes, str]:
+    """Return a body and its ETag: a weak one, as it may be sent compressed."""
+    return body, f'W/"{hashlib.sha256(body).hexdigest()[:16]}"'
+
+
+def _sent(request: Request, tagged: tuple[bytes, str], language: str) -> Response:
+    body, tag = tagged
+    head = {"content-language": language, "vary": "Accept-Language"}
+    if request.method not in ("GET", "HEAD"):
+        return Response(body, headers=head, media_type="application/json")
+    head |= {"etag": tag, "cache-control": "no-cache"}
+    known = [one.strip() for one in request.headers.get("if-none-match", "").split(",")]
+    if "*" in known or tag.removeprefix("W/") in (one.removeprefix("W/") for one in known):
+        return Response(status_code=304, headers=head)
+    return Response(body, headers=head, media_type="application/json")
+
+
+async def body_of(request: Request) -> dict[str, Any]:
+    """Return the JSON object in the body of a request; an empty body is an empty object."""
+    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    if kind != "application/json":
+        raise ProblemError(
+            "The body must be JSON. Send it with Content-Type: application/json.", status=415
+        )
+    body = await request.body()
+    if len(body) > MOST_JSON:
+        raise ProblemError("More than {most} KB was sent.", status=413, most=MOST_JSON >> 10)
+    try:
+        found = msgspec.json.decode(body or b"{}")
+    except (msgspec.DecodeError, RecursionError, UnicodeDecodeError):
+        found = None
+    if not isinstance(found, dict):
+        raise ProblemError("The body is not a JSON object, such as {example}.", example="{}")
+    return found
+
+
+def queried(asks: Sequence[Declared], request: Request) -> dict[str, Any]:
+    """Return the values of the parameters of an address."""
+    given = request.query_params
+    _check_names(asks, given)
+    return {
+        one.name: _checked(one, _texts_read, given.getlist(one.name))
+        if one.name in given
+        else _left_out(one)
+        for one in asks
+    }
+
+
+def _texts_read(one: Declared, texts: Sequence[str]) -> Any:
+    if one.field.many:
+        return tuple(one.kind.read(text) for text in texts)
+    if len(texts) > 1:
+        raise InputError("it is given {n} times; give it once", n=len(texts))
+    return one.kind.read(texts[0])
+
+
+def loaded(asks: Sequence[Declared], body: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of the parameters of a JSON body."""
+    _check_names(asks, body)
+    return {
+        one.name: _checked(one, Declared.load, body[one.name])
+        if one.name in body
+        else _left_out(one)
+        for one in asks
+    }
+
+
+def _check_names(asks: Sequence[Declared], given: Mapping[str, Any]) -> None:
+    names = [one.name for one in asks]
+    for name in given:
+        if name not in names:
+            allowed = ", ".join(names)
+            wanted = say("known here: {names}", names=allowed) if names else say("there is none")
+            raise ProblemError(
+                "{field!r} is no parameter of this address; {wanted}.",
+                parameter=name[:_SHOWN],
+                field=name[:_SHOWN],
+                wanted=wanted,
+            )
+
+
+def _checked(one: Declared, read: Callable[[Declared, Any], Any], value: Any) -> Any:
+    try:
+        return read(one, value)
+    except InputError as error:
+        raise ProblemError(
+            "{field}: {why}",
+            parameter=one.name,
+            more={"schema": one.schema()},
+            field=Parameter(one.name),
+            why=error.sentence,
+        ) from None
+
+
+def _left_out(one: Declared) -> Any:
+    if one.required:
+        raise ProblemError(
+            "{field} is missing.",
+            parameter=one.name,
+            more={"schema": one.schema()},
+            field=Parameter(one.name),
+        )
+    return False if isinstance(one.kind, Flag) and one.default is None else one.default
