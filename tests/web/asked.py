@@ -50,7 +50,7 @@ class Room:
     def __init__(self, site: Site) -> None:
         self.site = site
         self.app: Starlette = make_app(site)
-        self.app.state.closing = True  # a stream says one thing and ends
+        self.app.state.watch.close()  # a stream says one thing and ends
         self.loop = asyncio.new_event_loop()
 
     def close(self) -> None:

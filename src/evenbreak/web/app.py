@@ -49,9 +49,9 @@ from evenbreak.web.pages import (
     team,
     wall,
 )
-from evenbreak.web.pages.home import Watch
 from evenbreak.web.sessions import form_token
 from evenbreak.web.site import Site
+from evenbreak.web.watch import Waking, Watch
 from evenbreak.words import say
 
 _LOG = logging.getLogger(__name__)
@@ -75,6 +75,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
     streams
         how many pages may follow what happens at once.
     """
+    watch = Watch(site.path, streams)
     app = Starlette(
         routes=[
             *api.ROUTES,
@@ -100,6 +101,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
             ),
         ],
         middleware=[
+            Middleware(Waking, watch=watch),
             Middleware(Guard, hosts=site.hosts, script_hash=script_hash()),
             # A third of the bytes over a bar's Wi-Fi; the stream of events it leaves alone.
             Middleware(GZipMiddleware, minimum_size=5000, compresslevel=4),
@@ -120,8 +122,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
         },
     )
     app.state.site = site
-    app.state.closing = False
-    app.state.watch = Watch(streams)
+    app.state.watch = watch
     return app
 
 

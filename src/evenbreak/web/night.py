@@ -10,7 +10,6 @@ import asyncio
 import gc
 import logging
 import math
-import sqlite3
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -26,7 +25,6 @@ from evenbreak.answers.tournament.prizes import payers_of
 from evenbreak.errors import EvenbreakError, InputError
 from evenbreak.files.store.desk import Phones, keep_prizes, kept_prizes, phone_entries, phones_in
 from evenbreak.files.store.evening_file import holds
-from evenbreak.files.store.formats import size_of
 from evenbreak.files.store.tournament import night_of, read_night
 from evenbreak.tournaments.evening.events import Event, Late, Opened
 from evenbreak.tournaments.evening.fold import Evening
@@ -364,19 +362,3 @@ def mark_of(path: Path) -> tuple[int, int, int]:
     last = max(main.st_mtime_ns, beside.st_mtime_ns if beside else 0)
     just_now = time.monotonic_ns() if time.time_ns() - last < _TICK else 0
     return last, beside.st_size if beside else 0, just_now
-
-
-def version_of(path: Path) -> int:
-    """Return a number that changes with every event and tap of a phone; 0: there is no file yet."""
-    if not path.exists():
-        return 0
-    try:
-        base = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True, timeout=1.0)
-    except sqlite3.Error:
-        return 0
-    try:
-        return size_of(base)
-    except sqlite3.Error:
-        return 0
-    finally:
-        base.close()

@@ -100,7 +100,7 @@ class _Server(uvicorn.Server):
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """End the streams, then all else."""
         app: Any = self.config.app
-        app.state.closing = True
+        app.state.watch.close()
         await super().shutdown(sockets)
 
     def _end_idle(self) -> None:

@@ -88,11 +88,6 @@ def _earlier(base: sqlite3.Connection) -> list[str]:
     return parts
 
 
-def size_of(base: sqlite3.Connection) -> int:
-    """Return how many entries a file has."""
-    return int(base.execute(f"SELECT COUNT(*) FROM {source(base)}").fetchone()[0])  # noqa: S608
-
-
 def bring_up_to_date(base: sqlite3.Connection) -> None:
     """Make the table of the entries, and move those of an earlier format into it."""
     base.execute(_TABLE)

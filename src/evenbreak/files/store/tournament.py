@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import TypeAlias
 
 from evenbreak.errors import DataError, InputError
+from evenbreak.files.store.changes import clear
 from evenbreak.files.store.evening_file import begin, changing, is_there, opened, refused
-from evenbreak.files.store.formats import ENTRIES, TEAM_NIGHT, TOURNAMENT, bring_up_to_date
+from evenbreak.files.store.formats import TEAM_NIGHT, TOURNAMENT, bring_up_to_date
 from evenbreak.files.store.log import Rules, TakenBeforeError, add, entries, tournaments, was_taken
 from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import text_of
@@ -77,7 +78,7 @@ def _clear(base: sqlite3.Connection) -> None:
     for table in ("prize", "prizes"):
         base.execute(f"DROP TABLE IF EXISTS {table}")
     bring_up_to_date(base)
-    base.execute(f"DELETE FROM {ENTRIES} WHERE strand != ?", (TEAM_NIGHT,))  # noqa: S608
+    clear(base, TEAM_NIGHT)
 
 
 def delete_tournament(path: str | Path) -> None:

@@ -1,0 +1,72 @@
+"""All entries of a file in the one order in which they came in, whatever strand they are in.
+
+An entry is known by the number of its row, which is the same for every program that reads the file
+and is never given again: where a tournament is taken out, a row says so.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from pathlib import Path
+from typing import NamedTuple
+
+from evenbreak.errors import DataError
+from evenbreak.files.store.evening_file import opened
+from evenbreak.files.store.formats import ENTRIES, source
+
+CLEARED = "cleared"
+"""The strand of the row that says that all before it is gone, save the team nights."""
+
+
+class Row(NamedTuple):
+    """An entry as it is kept, without who made it.
+
+    Parameters
+    ----------
+    id
+        the number of its row.
+    strand, number
+        what it is part of, and which entry of that it is.
+    at, kind, what
+        when, the kind, and the details as JSON.
+    """
+
+    id: int
+    strand: str
+    number: int
+    at: str
+    kind: str
+    what: str
+
+
+def rows_from(path: str | Path, first: int, most: int) -> list[Row]:
+    """Return the entries of a file from an id on, the last `most` of them; none if it has none.
+
+    Those that an earlier version wrote have the ids that they keep when the file is brought up to
+    date.
+    """
+    asked = "id, strand, number, at, kind, what"
+    try:
+        with opened(path) as base:
+            where = source(base)
+            key = "rowid" if where == ENTRIES else "ROW_NUMBER() OVER ()"
+            rows = base.execute(
+                f"SELECT {asked} FROM (SELECT {key} AS id, * FROM {where}) "  # noqa: S608
+                "WHERE id >= ? ORDER BY id DESC LIMIT ?",
+                (first, most),
+            ).fetchall()
+    except DataError:  # of a file that cannot be read, the pages say why
+        return []
+    return [Row(*row) for row in reversed(rows)]
+
+
+def clear(base: sqlite3.Connection, but: str) -> None:
+    """Take all entries out of a file but those of a strand; their ids are not given again."""
+    last = base.execute(f"SELECT MAX(rowid) FROM {ENTRIES}").fetchone()[0]  # noqa: S608
+    base.execute(f"DELETE FROM {ENTRIES} WHERE strand != ?", (but,))  # noqa: S608
+    if last is not None:
+        base.execute(
+            f"INSERT INTO {ENTRIES} (rowid, strand, number, at, kind, what, author) "  # noqa: S608
+            "VALUES (?, ?, 1, '', '', '', '')",
+            (last + 1, CLEARED),
+        )
