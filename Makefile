@@ -8,7 +8,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/chains/test_factorisation.py tests/chains/test_spectrum.py tests/ratings/test_fitted.py
 
 .PHONY: catalogues column-tables option-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
-	page-pictures app clean
+	page-pictures app dist clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
@@ -98,9 +98,19 @@ app:              ## evenbreak.pyz: one file that needs nothing but Python
 	.venv-app/bin/python -m pip install -q shiv
 	.venv-app/bin/shiv -q --compressed -c evenbreak -o evenbreak.pyz '.[excel,swiss]'
 
+dist:             ## the sdist, and the wheel that it gives, as the package index wants them
+	python3 -m venv .venv-dist
+	.venv-dist/bin/python -m pip install -q build check-wheel-contents twine
+	rm -rf dist build/checkout
+	.venv-dist/bin/python -m build -q
+	.venv-dist/bin/python -m build -q --wheel -o build/checkout
+	cmp dist/*.whl build/checkout/*.whl
+	.venv-dist/bin/twine check --strict dist/*
+	.venv-dist/bin/check-wheel-contents dist/*.whl
+
 bench:            ## each benchmark beside the bare floor it is compared with
 	$(PYTHON) -m pytest -q -o python_files='bench_*.py' -o addopts='--import-mode=importlib' \
 		--benchmark-columns=min,median,rounds --benchmark-group-by=group benchmarks
 
 clean:
-	rm -rf docs/_build sheet evenbreak.pyz .venv .venv-app .venv-dev .venv-lowest .pytest_cache .mypy_cache .ruff_cache
+	rm -rf build dist docs/_build sheet evenbreak.pyz .venv .venv-app .venv-dev .venv-dist .venv-lowest .pytest_cache .mypy_cache .ruff_cache

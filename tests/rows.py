@@ -1,11 +1,14 @@
-"""A test of many small rows as one test, which lists all rows on which it fails."""
+"""Many small rows as one test, which lists those on which it fails; tests of POSIX alone."""
 
 import functools
 import inspect
+import os
 from collections.abc import Callable, Iterable
 from typing import Any
 
 import pytest
+
+posix = pytest.mark.skipif(os.name != "posix", reason="signals, forks and links are POSIX")
 
 Test = Callable[..., None]
 

@@ -17,6 +17,7 @@ import pytest
 from evenbreak.errors import InputError, WorkerError
 from evenbreak.league import LeaguePlayers, RandomPairing, Season, simulate
 from evenbreak.workers import in_order
+from rows import posix
 
 
 class Backwards(ThreadPoolExecutor):
@@ -177,7 +178,7 @@ if __name__ == "__main__":
 """
 
 
-@pytest.mark.skipif(not hasattr(os, "killpg"), reason="a terminal's Ctrl-C is POSIX here")
+@posix
 def test_ctrl_c_does_not_wait_for_pieces_under_way(tmp_path):
     script, begun = tmp_path / "computes.py", tmp_path / "begun"
     script.write_text(COMPUTES, encoding="utf-8")

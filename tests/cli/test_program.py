@@ -13,7 +13,7 @@ import pytest
 
 from evenbreak import __version__
 from evenbreak.cli.program import COMMANDS, SECTIONS, program
-from rows import each_of
+from rows import each_of, posix
 
 ARCS = "source,target,probability\nS,W,0.6\nS,L,0.4\n"
 
@@ -123,6 +123,7 @@ def interrupted(running, times=10):
 
 
 @pytest.mark.slow
+@posix
 def test_ctrl_c_ends_with_130(tmp_path):
     fifo = tmp_path / "arcs.csv"
     os.mkfifo(fifo)
@@ -165,7 +166,7 @@ cli.main()
 """
 
 
-@pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
+@posix
 @pytest.mark.parametrize(
     "happens",
     [
@@ -202,7 +203,7 @@ cli.main()
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
+@posix
 def test_an_interrupt_ends_a_long_call_into_c_at_once():
     """Python itself would raise nothing before LAPACK returns, many seconds later."""
     running = subprocess.Popen(
@@ -227,7 +228,7 @@ def test_python_m_runs_no_code_of_the_working_folder(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(os.name != "posix", reason="a shell closes the streams")
+@posix
 @pytest.mark.parametrize("closed", [">&-", "2>&-", "<&-", "<&- >&- 2>&-"])
 @pytest.mark.parametrize(
     "words", ["--help", "odds 60 50 --race 7", "odds x y", "drill --p 0.8 --plot d.svg", "chain -"]
@@ -257,7 +258,7 @@ def test_settings_of_matplotlib_in_the_environment_do_not_matter(tmp_path, name,
     assert (done.returncode, done.stderr) == (0, "Wrote d.svg\n")
 
 
-@pytest.mark.skipif(os.name != "posix", reason="elsewhere a folder in use cannot be removed")
+@posix
 def test_a_working_folder_that_is_gone_does_not_matter(tmp_path):
     command = f"mkdir gone; cd gone; rmdir ../gone; {sys.executable} -m evenbreak --version"
     done = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True)  # noqa: S602

@@ -18,6 +18,7 @@ from evenbreak.files.store.desk import back_up, kept_secrets
 from evenbreak.files.store.tournament import new_tournament, read_tournament
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
+from rows import posix
 from tries import tries
 from web.phones import Phone, free_port, running
 
@@ -46,6 +47,7 @@ def started(path: Path, port: int) -> subprocess.Popen[bytes]:
 
 
 @pytest.mark.slow
+@posix
 @pytest.mark.parametrize("company", [False, True], ids=["alone", "beside another server"])
 def test_a_killed_server_has_lost_nothing(tmp_path: Path, company: bool) -> None:
     path, port, luck = tmp_path / "tonight.db", free_port(), random.Random(1)

@@ -2,7 +2,6 @@
 
 import random
 import re
-import signal
 
 import pytest
 
@@ -133,7 +132,7 @@ def test_phones_go_on_after_a_kill_on_another_address_by_their_codes(hall: Hall)
     form = {**one.hidden(), "match": "W1.1", "player_a": pair[0], "player_b": pair[1]}
     form |= {"seen": "0:0", "a": 3, "b": 1}
     assert "counts once" in one.send_raw("/me/score", form).words
-    server.send_signal(signal.SIGKILL)
+    server.kill()
     server.wait()
     with running(path) as again:  # another port; phones know it by the wall's code
         known = phone_entries(path)

@@ -14,6 +14,7 @@ from evenbreak.cli.kit import cluster as module
 from evenbreak.cli.kit.cluster import cluster_at
 from evenbreak.errors import InputError, WorkerError
 from evenbreak.workers import in_order
+from rows import posix
 
 distributed = pytest.importorskip("distributed", reason="the extra evenbreak[dask] is missing")
 
@@ -96,6 +97,7 @@ if __name__ == "__main__":
 
 
 @pytest.mark.slow
+@posix
 def test_a_cluster_that_is_gone(tmp_path, capfd):
     script = tmp_path / "cluster.py"
     script.write_text(CLUSTER, encoding="utf-8")

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from places import ROOT
+from rows import posix
 from tiers import examples
 
 DEMO = ROOT / "data" / "demo_league.csv"
@@ -460,7 +461,7 @@ def test_an_empty_folder_name_is_not_this_folder(run, tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(os.name != "posix", reason="signals are POSIX")
+@posix
 @pytest.mark.parametrize(("ending", "code"), [("SIGINT", 130), ("SIGTERM", -signal.SIGTERM)])
 def test_an_end_while_files_take_their_places_leaves_the_new_ones(run, tmp_path, ending, code):
     season, old, new = tmp_path / "season.csv", tmp_path / "old", tmp_path / "new"

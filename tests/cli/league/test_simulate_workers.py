@@ -8,6 +8,8 @@ import time
 
 import pytest
 
+from rows import posix
+
 ROSTER = "player,rating,standard_error\n" + "".join(f"Player {n},{40 + n},5\n" for n in range(40))
 
 
@@ -42,7 +44,7 @@ def nobody_left_of(group):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not hasattr(os, "killpg"), reason="a terminal's Ctrl-C is POSIX here")
+@posix
 @pytest.mark.parametrize(("jobs", "after"), [("1", 0.5), ("2", 0.0), ("2", 0.8)])
 def test_ctrl_c_ends_with_130_writes_nothing_and_nobody_outlives_it(roster, tmp_path, jobs, after):
     """Whether the workers are not there yet, are starting, or at work."""

@@ -1,7 +1,6 @@
 import csv
 import json
 import os
-import pty
 import re
 import subprocess
 import sys
@@ -196,6 +195,7 @@ def test_csv_into_a_pipe(run, odds):
 
 
 def test_a_person_at_a_terminal_reads_text():
+    pty = pytest.importorskip("pty")
     ours, theirs = pty.openpty()
     words = ["odds", "--p1", "1e-300", "--p2", "1e-300", "--breaks", "alternate", "--ahead", "3:3"]
     done = subprocess.run([sys.executable, "-m", "evenbreak", *words], stdout=theirs)

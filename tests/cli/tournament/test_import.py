@@ -6,7 +6,6 @@ import json
 import os
 import random
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -115,7 +114,7 @@ program(["tournament", *{asked!r}, "--out", {str(out)!r}])
         assert process.stdout is not None
         assert process.stdout.readline() == "whole\n"
         time.sleep(luck.uniform(0.0, 0.01))
-        process.send_signal(signal.SIGKILL)
+        process.kill()
         process.communicate()
         if out.exists():
             assert read_events(out)

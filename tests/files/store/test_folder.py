@@ -10,12 +10,11 @@ from pathlib import Path
 import pytest
 
 from evenbreak.files.store.folder import MADE_BY_US, WORK, check_folder, write_files
+from rows import posix
 
 NAMES = ("a.csv", "b.csv", "c.csv")
 OLD = {name: f"old {name}".encode() for name in NAMES}
 NEW = {name: f"new {name}".encode() * 1000 for name in NAMES}
-
-posix = pytest.mark.skipif(os.name != "posix", reason="signals and kill are POSIX")
 
 
 def content(folder: Path) -> dict[str, bytes]:

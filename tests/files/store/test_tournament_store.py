@@ -1,7 +1,6 @@
 """The file of an evening: nothing acknowledged is lost, and two programs can write to it."""
 
 import os
-import signal
 import sqlite3
 import subprocess
 import sys
@@ -85,7 +84,7 @@ def test_what_was_acknowledged_survives_a_kill(tonight: Path, wait: float) -> No
         assert process.stdout is not None
         first = process.stdout.readline()
         time.sleep(wait)
-        process.send_signal(signal.SIGKILL)
+        process.kill()
         acknowledged = [first.strip(), *process.stdout.read().split("\n")]
     assert set(filter(None, acknowledged)) <= set(read_tournament(tonight).entrants)
     add_events(tonight, lambda state: [Event(AT, moves.late(state, Entrant("Bo", 500.0)))])

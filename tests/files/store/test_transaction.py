@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from evenbreak.files.store.folder import LOCK, WORK, check_folder, write_files
+from rows import posix
 
 CALLS = (
     *("open", "write", "fsync", "close", "mkdir", "rmdir", "unlink", "replace", "link", "listdir"),
@@ -21,8 +22,6 @@ CALLS = (
 OLD = {"a.csv": b"old a", "b.csv": b"old b", "mine.txt": b"mine"}
 NEW = {"a.csv": b"new a", "b.csv": b"new b", "c.csv": b"new c"}
 DONE = OLD | NEW
-
-posix = pytest.mark.skipif(os.name != "posix", reason="fork, kill and strace are POSIX")
 
 
 def content(folder: Path, *, visible: bool = False) -> dict[str, bytes] | None:

@@ -7,7 +7,7 @@ import pytest
 from evenbreak.errors import DataError
 from evenbreak.files.tables import rows as module
 from evenbreak.files.tables.rows import content_of, text_of
-from rows import each_of
+from rows import each_of, posix
 
 
 def test_a_file_is_called_as_the_person_called_it(tmp_path, monkeypatch):
@@ -102,6 +102,7 @@ def test_a_name_of_a_file_stays_on_one_line(tmp_path):
     assert problem.endswith("no\\nsuch\\x1b[31m\\udcff.csv: there is no such file; check its name")
 
 
+@posix
 def test_a_file_without_end_is_refused(monkeypatch):
     monkeypatch.setattr(module, "MOST_BYTES", 1 << 20)
     with pytest.raises(DataError, match="larger than 1 MB"):

@@ -1,1 +1,1 @@
-"""One match: its odds, its length, formats and fair races; games shot by shot."""
+"""Commands about one match, and about games shot by shot."""

@@ -1,0 +1,39 @@
+"""What is claimed of platforms and versions is what the workflow tries."""
+
+import re
+import tomllib
+
+from places import ROOT
+
+FOLDER = ROOT / ".github/workflows"
+TESTS = (FOLDER / "tests.yml").read_text(encoding="utf-8")
+SYSTEMS = {
+    "macos-latest": "MacOS",
+    "ubuntu-latest": "POSIX",
+    "windows-latest": "Microsoft :: Windows",
+}
+
+
+def in_matrix(key: str) -> list[str]:
+    return re.findall(r"[\w.-]+", re.findall(rf"^ +{key}: \[(.*)\]$", TESTS, re.MULTILINE)[0])
+
+
+def test_every_version_and_platform_claimed_is_tried() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    claimed = project["classifiers"]
+    versions = [one.rpartition(" ")[2] for one in claimed if re.search(r"Python :: 3\.\d+$", one)]
+    assert in_matrix("python") == versions
+    assert project["requires-python"] == f">={versions[0]}"
+    systems = [one for one in claimed if one.startswith("Operating System")]
+    assert systems == sorted(f"Operating System :: {SYSTEMS[one]}" for one in in_matrix("system"))
+
+
+def test_steps_of_the_matrix_are_commands_of_any_shell() -> None:
+    steps = re.findall(r"- run: (.*)", TESTS.partition("matrix:")[2].partition("\n\n")[0])
+    assert len(steps) == 3
+    assert all(re.fullmatch(r'python -m [\w.\- "\[\]]+', step) for step in steps)
+
+
+def test_only_what_publishes_may_ask_for_an_identity() -> None:
+    texts = {path.name: path.read_text(encoding="utf-8") for path in FOLDER.glob("*.yml")}
+    assert [name for name, text in texts.items() if "id-token:" in text] == ["publish.yml"]
