@@ -13,17 +13,32 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import luck_words
 from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of, table_by_column
 from evenbreak.answers.kit.parts import Part, Quantities, Table
+from evenbreak.answers.kit.remarks import file_name
 from evenbreak.answers.kit.scales import scale_words
+from evenbreak.answers.kit.systems import (
+    LEAVE_OUT,
+    LEVELS_DOUBLE,
+    SAY_WHICH,
+    refuse_levels,
+    refuse_other_scale,
+    with_starters,
+)
 from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.answers.tournament.odds import place_errors
 from evenbreak.arrays import Floats
 from evenbreak.errors import InputError
-from evenbreak.ratings.scale import Scale
+from evenbreak.fields.question import refuse
+from evenbreak.files.charts import chip_chart_of
+from evenbreak.files.lists.entrants import read_entrants
+from evenbreak.questions import chips as questions
+from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.tournaments.chips.chip_charts import ChipChart, ChipRow
 from evenbreak.tournaments.chips.chip_fairness import ChipFairness, chip_fairness, fairest_chips
 from evenbreak.tournaments.chips.endgame import heads_up, last_players
 from evenbreak.tournaments.chips.play import play_chips, rack_chances
+from evenbreak.tournaments.evening.format import MOST_PLAYERS
 from evenbreak.tournaments.odds.fairness import upper_half
+from evenbreak.words import Parameter
 
 _FIELD = 16  # players of a made-up field
 _EXACT = 4  # players at most whose chances are exact
@@ -302,3 +317,52 @@ def _heads_up_table(chart: ChipChart, scale: Scale) -> Table:
 
 def _luck_words(runs: int, error: Floats) -> str:
     return f"{runs:,} tournaments were played out; {luck_words(error.tolist(), 'title odds')}."
+
+
+def chip_odds(asked: questions.ChipOdds) -> Answer:
+    """Return each player's odds."""
+    field, warnings = _field_of(asked, asked.entrants)
+    chart = None if asked.chips is None else chip_chart_of(asked.chips)
+    return chip_odds_answer(field, chart, asked.left, seed=asked.seed, warnings=warnings)
+
+
+def chip_audit(asked: questions.ChipAudit) -> Answer:
+    """Return whom a chip chart favours."""
+    field, warnings = _field_of(asked, asked.entrants)
+    chart = chip_chart_of(asked.chart)
+    return chip_audit_answer(field, chart, seed=asked.seed, warnings=warnings)
+
+
+def chip_design(asked: questions.ChipDesign) -> Answer:
+    """Return a fair chip chart."""
+    field, warnings = _field_of(asked, asked.entrants)
+    return chip_design_answer(
+        field,
+        bands=asked.bands,
+        fewest=asked.fewest,
+        most=asked.most,
+        seed=asked.seed,
+        warnings=warnings,
+    )
+
+
+def _field_of(asked: questions.ChipField, entrants: str | None) -> tuple[ChipField, list[str]]:
+    """Return who plays, made up if no file says it, and what is doubtful about it."""
+    if entrants is None:
+        return spread_field(asked.scale or SCALES["fargo"], asked.tables), []
+    file = read_entrants(entrants)
+    if asked.scale is not None:
+        refuse_other_scale(file, asked.scale, Parameter("scale"), LEAVE_OUT, stated=True)
+    else:
+        refuse_levels(file, LEVELS_DOUBLE)
+    scale = file.scale_by(asked.scale, SAY_WHICH)
+    roster = with_starters(file.roster, scale, asked.starter, asked.starter_sd)
+    if not 2 <= len(roster) <= MOST_PLAYERS:
+        refuse(
+            "{file} has {n:,} entrants; a tournament takes 2 to {most}",
+            file=entrants,
+            n=len(roster),
+            most=MOST_PLAYERS,
+        )
+    field = ChipField(roster.players, roster.rating, scale, asked.tables, f"in {file_name(file)}")
+    return field, list(file.warnings)

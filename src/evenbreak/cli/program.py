@@ -49,13 +49,13 @@ SECTIONS = {
     },
     "Handicap systems": {
         "chart": Entry("chart", "Handicap charts: list, show, audit or design one."),
-        "ladder": Entry("ladder", "How far off ratings get under a handicap system."),
+        "ladder": Entry("", "How far off ratings get under a handicap system."),
         "sandbag": Entry("sandbag", "What losing on purpose gains, and how to spot it."),
     },
     "Practise": {
-        "practice": Entry("practice:scores", "Practice scores: are you getting better?"),
-        "drill": Entry("practice:drill", "A progressive drill: your level, and what to work on."),
-        "runs": Entry("practice:runs", "How long runs get, and the score of several innings."),
+        "practice": Entry("", "Practice scores: are you getting better?"),
+        "drill": Entry("", "A progressive drill: your level, and what to work on."),
+        "runs": Entry("", "How long runs get, and the score of several innings."),
         "oneball": Entry("", "The one-ball game: who wins, and which shot to play."),
     },
     "The physics of the table": {

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from evenbreak.cli.ladder import say_if_long
+from evenbreak.answers.kit.patience import told
+from evenbreak.answers.ladder.asked import say_if_long
 from evenbreak.handicaps import chart, system_of
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponents import EQUAL_SKILL
@@ -203,9 +204,11 @@ def test_uneven_steps_have_a_gap_and_mix(run):
 @pytest.mark.parametrize(
     ("system", "matches", "said"), [("elo 16", 3, True), ("elo 16", 1, False), ("npl", 3, False)]
 )
-def test_what_takes_long_is_said_beforehand(capsys, system, matches, said):
-    say_if_long(Ladder(system, day_sd=1.0, matches_a_night=matches))
-    assert bool(capsys.readouterr().err) == said
+def test_what_takes_long_is_said_beforehand(system, matches, said):
+    heard = []
+    with told(heard.append):
+        say_if_long(Ladder(system, day_sd=1.0, matches_a_night=matches))
+    assert bool(heard) == said
 
 
 def test_a_chart_that_is_even_everywhere_is_the_reason(run, tmp_path):

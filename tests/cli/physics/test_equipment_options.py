@@ -1,7 +1,7 @@
 import pytest
 
+from evenbreak.answers.physics.asked import ball_of, cue_of
 from evenbreak.answers.physics.units import IMPERIAL, METRIC
-from evenbreak.cli.physics.commands import ball_of, cue_of
 from evenbreak.physics import Ball, Cue
 from evenbreak.physics.units import OUNCE
 

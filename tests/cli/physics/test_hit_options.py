@@ -1,6 +1,6 @@
 import pytest
 
-from evenbreak.cli.physics.commands import hit_of
+from evenbreak.answers.physics.asked import hit_of
 from evenbreak.questions.physics import Throw
 
 

@@ -1,13 +1,14 @@
 import pytest
 from click.testing import CliRunner
 
+from evenbreak.answers.physics.asked import units_of
 from evenbreak.answers.physics.units import IMPERIAL, METRIC
-from evenbreak.cli.physics.commands import speed, units_of
+from evenbreak.cli.kit.asked import answered
 from evenbreak.questions.physics import TableSpeed
 
 
 def ask(line):
-    return CliRunner().invoke(speed, line.split())
+    return CliRunner().invoke(answered("physics speed"), line.split())
 
 
 def test_a_number_in_the_units_that_were_asked_for():

@@ -12,6 +12,7 @@ from click.core import ParameterSource
 
 from evenbreak.answers.asked import answer_to, question_of
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.patience import told
 from evenbreak.cli.kit import completion
 from evenbreak.cli.kit.faces import FACES, faces
 from evenbreak.cli.kit.league import (
@@ -324,19 +325,19 @@ def command_of(
     return decorate
 
 
-def answered(*words: str) -> click.Command:
+def answered(name: str) -> click.Command:
     """Return the command, by its words, that is only a question and its answer."""
-    name = " ".join(words)
 
     def run(asked: Any) -> Answer:
-        answer = answer_to(name, asked)
+        with told(lambda why: say(said(why))):
+            answer = answer_to(name, asked)
         if getattr(asked, "plot", None) is not None:
             from evenbreak.plots.asked import picture_of
 
             write_plot(picture_of(name, asked, answer), asked.plot)
         return answer
 
-    return command_of(question_of(name), words[-1])(run)
+    return command_of(question_of(name), name.rpartition(" ")[2])(run)
 
 
 def asked_of(question: type[Asked], values: dict[str, Any], ctx: click.Context) -> Asked:

@@ -61,7 +61,8 @@ class LazyGroup(click.Group):
         else:
             from evenbreak.cli.kit.asked import answered
 
-            command = answered(*([] if ctx.parent is None else [self.name or ""]), cmd_name)
+            of_program = self.name in (None, "evenbreak")
+            command = answered(cmd_name if of_program else f"{self.name} {cmd_name}")
         if ctx.resilient_parsing:  # a shell asks what may come next
             from evenbreak.cli.kit.completion import complete_files
 

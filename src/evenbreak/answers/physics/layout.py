@@ -1,4 +1,4 @@
-"""Where the balls of a shot are, read from the options, and the shot traced from there."""
+"""Where the balls of a shot are, by its question, and the shot traced from there."""
 
 from __future__ import annotations
 
@@ -8,15 +8,16 @@ from typing import Any, NoReturn
 
 from evenbreak import physics
 from evenbreak.answers.physics.units import Units
-from evenbreak.cli.kit.said import refuse
+from evenbreak.fields.question import refuse
 from evenbreak.questions.physics import Shot
+from evenbreak.words import Parameter
 
 Place = tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Layout:
-    """A table with two balls on it, in the units of the command.
+    """A table with two balls on it, in the units of the question.
 
     Parameters
     ----------
@@ -93,8 +94,9 @@ def traced_shot(
     standing = layout.metres(layout.object_ball)
     if math.dist(standing, (pocket.x, pocket.y)) <= strike.ball.radius:
         refuse(
-            f"--object-ball hangs in the {pocket.name} pocket, where any hit will do; move it "
-            "away from the pocket, or give --cut and --distance"
+            "{object_ball} hangs in the {name} pocket, where any hit will do; move it away from "
+            "the pocket, or give {cut} and {distance}",
+            name=pocket.name,
         )
     try:
         found = physics.pocketed_shot(strike, layout.start, standing, pocket, **kit)
@@ -103,10 +105,12 @@ def traced_shot(
     if found.shot.collision is None and found.shot.approach.ending != "rest":
         x, y = layout.object_ball
         refuse(
-            f"--object-ball {x:g},{y:g} is so near a cushion that the cue ball would have to be "
-            f"in it to send the ball into --pocket {pocket.name}; move it away from the "
-            "cushion, name another pocket, or give outside english (--side-offset), which "
-            "reduces throw"
+            "{object_ball} {x:g},{y:g} is so near a cushion that the cue ball would have to be in "
+            "it to send the ball into {pocket} {name}; move it away from the cushion, name another "
+            "pocket, or give outside english ({side_offset}), which reduces throw",
+            x=x,
+            y=y,
+            name=pocket.name,
         )
     return found
 
@@ -114,7 +118,7 @@ def traced_shot(
 def _check_places(layout: Layout, radius: float) -> None:
     """Refuse a ball that is not on the table."""
     size, unit = (layout.table.length, layout.table.width), layout.units.length
-    for name, place in (("--cue-ball", layout.cue_ball), ("--object-ball", layout.object_ball)):
+    for name, place in (("cue_ball", layout.cue_ball), ("object_ball", layout.object_ball)):
         if place is None:
             continue
         at = layout.metres(place)
@@ -123,9 +127,14 @@ def _check_places(layout: Layout, radius: float) -> None:
         ):
             room = " by ".join(f"{most / unit.size:g}" for most in size)
             refuse(
-                f"{name} {place[0]:g},{place[1]:g} is not on the table, which is {room} "
-                f"{unit.words}; a ball's centre is at least {radius / unit.size:.4g} from each "
-                "cushion"
+                "{ball} {x:g},{y:g} is not on the table, which is {room} {units}; a ball's centre "
+                "is at least {least:.4g} from each cushion",
+                ball=Parameter(name),
+                x=place[0],
+                y=place[1],
+                room=room,
+                units=unit.words,
+                least=radius / unit.size,
             )
 
 
@@ -134,12 +143,15 @@ def _refuse_distance(layout: Layout, diameter: float) -> NoReturn:
     unit, distance = layout.units.length, layout.distance or 0.0
     if distance * unit.size < diameter:
         refuse(
-            f"--distance {distance:g} is measured between the centres; give "
-            f"{diameter / unit.size:.4g} {unit.words}, where the balls touch, or more"
+            "{distance} {far:g} is measured between the centres; give {least:.4g} {units}, where "
+            "the balls touch, or more",
+            far=distance,
+            least=diameter / unit.size,
+            units=unit.words,
         )
     refuse(
-        f"--distance {distance:g} puts the object ball off the table; give less, or another "
-        "--cue-ball"
+        "{distance} {far:g} puts the object ball off the table; give less, or another {cue_ball}",
+        far=distance,
     )
 
 
@@ -148,14 +160,19 @@ def _refuse_places(layout: Layout, apart: float, diameter: float) -> NoReturn:
     unit = layout.units.length
     touching = f"{diameter / unit.size:.4g} {unit.words}"
     if apart < diameter * (1.0 - 1e-9):
-        refuse(f"--cue-ball and --object-ball overlap; put them more than {touching} apart")
+        refuse(
+            "{cue_ball} and {object_ball} overlap; put them more than {touching} apart",
+            touching=touching,
+        )
     if apart < diameter * (1.0 + 1e-9):
         refuse(
-            "--cue-ball and --object-ball touch: apart from throw the object ball goes along the "
-            f"line through them wherever you aim; put them more than {touching} apart"
+            "{cue_ball} and {object_ball} touch: apart from throw the object ball goes along the "
+            "line through them wherever you aim; put them more than {touching} apart",
+            touching=touching,
         )
     name = layout.pocket.name if layout.pocket else ""
     refuse(
-        f"--pocket {name} cannot be reached from here: the cut would be 90 degrees or more; "
-        "name another pocket"
+        "{pocket} {name} cannot be reached from here: the cut would be 90 degrees or more; name "
+        "another pocket",
+        name=name,
     )

@@ -1,15 +1,15 @@
-"""`evenbreak drill`, `practice` and `runs`: what practice scores say."""
+"""From a question about practice to its answer: `drill`, `practice` and `runs`."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from evenbreak import files, games, practice, stats
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.wording import count_of
-from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.errors import DataError
+from evenbreak.fields.question import worded
 from evenbreak.questions.practice import EIGHT_BALL_LEVELS, DrillPlayed, Runs, Scores
 from evenbreak.words import Parameter
 
@@ -22,9 +22,8 @@ MOST_DRAWS = 20_000_000
 """The most attempts simulated for a test, so that a long log takes seconds."""
 
 
-@command_of(DrillPlayed, "drill")
 def drill(asked: DrillPlayed) -> Answer:
-    """Find where a drill settles."""
+    """Return where a drill settles."""
     if asked.log is not None:
         return _drill_log(asked, asked.log)
     from evenbreak.answers.practice.drill import drill_answer
@@ -44,11 +43,7 @@ def drill(asked: DrillPlayed) -> Answer:
             f"A drill in which level i takes i - 1 good shots, each with chance {asked.p:g}"
         )
     statistics = practice.drill_statistics(played, via=asked.via)
-    if asked.plot is not None:
-        from evenbreak.plots.practice import draw_drill
-
-        write_plot(draw_drill(statistics), asked.plot)
-    return drill_answer(statistics, description, via=asked.via)
+    return replace(drill_answer(statistics, description, via=asked.via), drawn=statistics)
 
 
 def _drill_log(asked: DrillPlayed, path: str) -> Answer:
@@ -60,16 +55,12 @@ def _drill_log(asked: DrillPlayed, path: str) -> Answer:
     file = files.read_drill_log(path, levels=asked.levels, drill=asked.drill)
     replicas = min(1999, max(199, MOST_DRAWS // len(file.log)))
     analysis = practice.analyse_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
-    if asked.plot is not None:
-        from evenbreak.plots.practice import draw_log
-
-        write_plot(draw_log(analysis), asked.plot)
-    return drill_log_answer(file, analysis, seed=seed, levels_given=asked.levels is not None)
+    answer = drill_log_answer(file, analysis, seed=seed, levels_given=asked.levels is not None)
+    return replace(answer, drawn=analysis)
 
 
-@command_of(Scores, "practice")
 def scores(asked: Scores) -> Answer:
-    """Find out whether you are getting better."""
+    """Return whether a player is getting better."""
     from evenbreak.files.practice import ShotsFile, read_practice, read_scores
 
     file = read_practice(asked.scores, drill=asked.drill, dates=asked.dates)
@@ -91,11 +82,8 @@ def _shots(asked: Scores, file: ShotsFile) -> Answer:
                 source=file.source,
             )
     found = practice.analyse_shots(file.log, confidence=asked.confidence)
-    if asked.plot is not None:
-        from evenbreak.plots.practice import draw_practice_shots
-
-        write_plot(draw_practice_shots(file, found, confidence=asked.confidence), asked.plot)
-    return shots_answer(file, found, confidence=asked.confidence)
+    answer = shots_answer(file, found, confidence=asked.confidence)
+    return replace(answer, drawn=(file, found))
 
 
 def _one_list(asked: Scores, file: ScoresFile) -> Answer:
@@ -103,20 +91,22 @@ def _one_list(asked: Scores, file: ScoresFile) -> Answer:
         getting_better_answer,
         interval_of,
         new_score_answer,
-        trend_line_of,
     )
 
     own = interval_of(file, asked.confidence)
     if asked.new is not None and own is None:
-        raise DataError([f"{file.source}: --new needs at least two different scores; add some"])
-    if asked.plot is not None:
-        from evenbreak.plots.practice import draw_scores
-
-        line = trend_line_of(file, asked.confidence) if asked.new is None else None
-        write_plot(draw_scores(file, own, line, new=asked.new), asked.plot)
+        raise DataError(
+            [
+                worded(
+                    "{file}: {new} needs at least two different scores; add some", file=file.source
+                )
+            ]
+        )
     if asked.new is not None:
-        return new_score_answer(file, asked.new, confidence=asked.confidence)
-    return getting_better_answer(file, confidence=asked.confidence)
+        answer = new_score_answer(file, asked.new, confidence=asked.confidence)
+    else:
+        answer = getting_better_answer(file, confidence=asked.confidence)
+    return replace(answer, drawn=file)
 
 
 def _versus(asked: Scores, before: ScoresFile, after: ScoresFile) -> Answer:
@@ -124,36 +114,27 @@ def _versus(asked: Scores, before: ScoresFile, after: ScoresFile) -> Answer:
     from evenbreak.stats.compare import compare
 
     short = [
-        f"{file.source}: has {count_of(len(file.scores), 'score')}; a comparison needs two or more"
-        + (", but --new takes a single new one" if file is after else "")
+        worded(
+            "{file}: has {scores}; a comparison needs two or more"
+            + (", but {new} takes a single new one" if file is after else ""),
+            file=file.source,
+            scores=count_of(len(file.scores), "score"),
+        )
         for file in (before, after)
         if len(file.scores) < 2
     ]
     if short:
         raise DataError(short)
     change = compare(before.scores, after.scores, confidence=asked.confidence)
-    if asked.plot is not None:
-        from evenbreak.answers.practice.practice import interval_of
-        from evenbreak.plots.practice import draw_two_lists
-
-        intervals = interval_of(before, asked.confidence), interval_of(after, asked.confidence)
-        both = before.scores, after.scores
-        write_plot(draw_two_lists(*both, ("before", "after"), intervals), asked.plot)
-    return before_and_after_answer(before, after, change)
+    return replace(before_and_after_answer(before, after, change), drawn=(before, after))
 
 
-@command_of(Runs, "runs")
 def runs(asked: Runs) -> Answer:
-    """Find how long runs get."""
+    """Return how long runs get."""
     from evenbreak.answers.practice.runs import Asked, runs_answer
 
     law, ranges = _law(asked), Asked(asked.at_least, asked.between, asked.over)
-    if asked.plot is not None:
-        from evenbreak.plots.practice import draw_score
-
-        shaded = list(ranges.ranges.values())
-        write_plot(draw_score(law, asked.innings, asked=shaded), asked.plot)
-    return runs_answer(law, ranges)
+    return replace(runs_answer(law, ranges), drawn=(law, list(ranges.ranges.values())))
 
 
 def _law(asked: Runs) -> stats.RunLength | stats.InningsScore:

@@ -1,11 +1,13 @@
-"""`evenbreak ladder`: how far off the ratings of a league are in the long run."""
+"""From a question about the long run of ratings to its answer."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from evenbreak import files, handicaps
 from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.patience import takes_long
 from evenbreak.answers.kit.systems import (
     SAY_WHICH,
     chart_for,
@@ -14,15 +16,14 @@ from evenbreak.answers.kit.systems import (
     refuse_other_scale,
     refuse_too_varying,
 )
-from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.terminal import say, write_plot
 from evenbreak.errors import DataError
+from evenbreak.fields.question import worded
 from evenbreak.questions.ladders import LadderErrors
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import say
 
 if TYPE_CHECKING:
-    from evenbreak.answers.ladder.comparison import LadderComparison
-    from evenbreak.answers.ladder.ladder import LadderFindings, LadderQuestion
+    from evenbreak.answers.ladder.ladder import LadderQuestion
 
 
 MANY_MOVES = 20
@@ -31,24 +32,21 @@ MANY_MOVES = 20
 MOST_APART = 20.0
 """Doublings of the odds that an opponent may be from the player: a game in a million."""
 
-SAY_OTHERWISE = "--compare is for NPL ratings; leave it out and give --scale for others"
+SAY_OTHERWISE = worded("{compare} is for NPL ratings; leave it out and give {scale} for others")
 
 
-@command_of(LadderErrors, "ladder")
-def command(asked: LadderErrors) -> Answer:
-    """Show how far off ratings are in the long run."""
-    from evenbreak.answers.ladder.ladder import LadderFindings, ladder_answer, ladder_title
+def ladder(asked: LadderErrors) -> Answer:
+    """Return how far off ratings are in the long run."""
+    from evenbreak.answers.ladder.ladder import LadderFindings, ladder_answer
 
     if asked.compare:
         return _comparison(asked)
     levels = level_system(asked.system, asked.chart if asked.step is None else None)
     if levels is not None:
         return _of_levels(asked, levels)
-    ladder, opponents, warnings = _ladder(asked)
-    findings = LadderFindings(ladder, _question(ladder, asked, opponents))
-    if asked.plot is not None:
-        _draw(findings, ladder_title(ladder), asked.plot)
-    return ladder_answer(findings, warnings)
+    meant, opponents, warnings = _ladder(asked)
+    findings = LadderFindings(meant, _question(meant, asked, opponents))
+    return replace(ladder_answer(findings, warnings), drawn=findings)
 
 
 def _ladder(asked: LadderErrors) -> tuple[handicaps.Ladder, str, list[str]]:
@@ -104,9 +102,13 @@ def say_if_long(ladder: handicaps.Ladder) -> None:
     """Say beforehand that nights of several matches take long where moves differ much."""
     moves = len(set(handicaps.match_table(ladder.system, ladder.chart).moves.ravel().tolist()))
     if ladder.matches_a_night > 1 and moves > MANY_MOVES:
-        say(
-            f"The system {ladder.system.name} has {moves} different moves, so nights of three "
-            "matches can take 20 seconds to work out, of six a minute, and of more far longer"
+        takes_long(
+            say(
+                "The system {name} has {moves} different moves, so nights of three matches can "
+                "take 20 seconds to work out, of six a minute, and of more far longer",
+                name=ladder.system.name,
+                moves=moves,
+            )
         )
 
 
@@ -134,16 +136,6 @@ def _question(ladder: handicaps.Ladder, asked: LadderErrors, opponents: str) -> 
     return LadderQuestion(start, within, asked.newcomer, opponents, asked.via)
 
 
-def _draw(findings: LadderFindings, title: str, path: str) -> None:
-    from evenbreak.plots.ladders import ladder_figure
-
-    within, curve = findings.question.within, findings.settling
-    figure = ladder_figure(
-        findings.law, natural=findings.natural, within=within, curve=curve, title=title
-    )
-    write_plot(figure, path)
-
-
 # Systems, charts and step sizes side by side.
 
 
@@ -155,25 +147,8 @@ def _comparison(asked: LadderErrors) -> Answer:
     chart, warnings = chart_for(npl, asked.chart)
     opponents, name, doubts = _opponents(asked, npl.scale, SAY_OTHERWISE)
     comparison = compare_ladders(chart, opponents, name)
-    if asked.plot is not None:
-        _draw_systems(comparison, asked.plot)
-    return ladder_comparison_answer(comparison, [*warnings, *doubts])
-
-
-def _draw_systems(comparison: LadderComparison, path: str) -> None:
-    from evenbreak.answers.ladder.comparison import NEWCOMERS
-    from evenbreak.plots.ladders import SystemPoint, draw_systems
-
-    points = [
-        SystemPoint(row.system, 100.0 * row.sd_doublings, row.settling_mean, best)
-        for row, best in comparison.steps
-    ]
-    for row in comparison.systems:
-        if (row.system, row.chart) == ("npl", comparison.chart.name):
-            continue  # the league itself on this chart is the step of 1
-        name = {NEWCOMERS: "newcomers", "npl": row.chart}.get(row.system, row.system)
-        points.append(SystemPoint(name, 100.0 * row.sd_doublings, row.settling_mean, None))
-    write_plot(draw_systems(points, chart=comparison.chart.name), path)
+    answer = ladder_comparison_answer(comparison, [*warnings, *doubts])
+    return replace(answer, drawn=comparison)
 
 
 # Who a player on the ladder meets.

@@ -1,4 +1,4 @@
-"""The commands of `evenbreak physics`."""
+"""From a question about ball, cloth and cue to its answer."""
 
 from __future__ import annotations
 
@@ -6,12 +6,10 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from evenbreak import physics, plots
+from evenbreak import physics
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.physics import units as measures
-from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.terminal import write_plot
-from evenbreak.cli.physics.layout import layout_of, traced_shot
+from evenbreak.answers.physics.layout import layout_of, traced_shot
 from evenbreak.errors import InputError
 from evenbreak.questions import physics as questions
 
@@ -48,9 +46,8 @@ def hit_of(asked: questions.Hit) -> Hit:
     return Hit(asked.cut, asked.topspin, asked.sidespin, mu, asked.friction, pace)
 
 
-@command_of(questions.TableSpeed, "speed")
 def speed(asked: questions.TableSpeed) -> Answer:
-    """Find how fast a table is."""
+    """Return how fast a table is."""
     from evenbreak.answers.physics.strike import table_speed_answer
 
     units = units_of(asked)
@@ -68,9 +65,8 @@ def speed(asked: questions.TableSpeed) -> Answer:
     return table_speed_answer(asked.lag_time, metres - ball, units)
 
 
-@command_of(questions.Throw, "throw")
 def throw(asked: questions.Throw) -> Answer:
-    """Find how far friction throws the object ball."""
+    """Return how far friction throws the object ball."""
     from evenbreak.answers.physics.hit import throw_answer
 
     units = units_of(asked)
@@ -78,9 +74,8 @@ def throw(asked: questions.Throw) -> Answer:
     return replace(answer, warnings=measures.unit_doubts(units, speed=asked.speed))
 
 
-@command_of(questions.Aim, "aim")
 def aim(asked: questions.Aim) -> Answer:
-    """Find where to aim."""
+    """Return where to aim."""
     from evenbreak.answers.physics.hit import aim_answer
 
     units, hit = units_of(asked), hit_of(asked)
@@ -95,9 +90,8 @@ def aim(asked: questions.Aim) -> Answer:
     return replace(answer, warnings=measures.unit_doubts(units, speed=asked.speed))
 
 
-@command_of(questions.Deflect, "deflect")
 def deflect(asked: questions.Deflect) -> Answer:
-    """Find where the cue ball goes."""
+    """Return where the cue ball goes."""
     from evenbreak.answers.physics.hit import cue_ball_path_answer
 
     units = units_of(asked)
@@ -105,9 +99,8 @@ def deflect(asked: questions.Deflect) -> Answer:
     return replace(answer, warnings=measures.unit_doubts(units, speed=asked.speed))
 
 
-@command_of(questions.Strike, "strike")
 def strike(asked: questions.Strike) -> Answer:
-    """Find the spin and speed of a hit off centre."""
+    """Return the spin and speed of a hit off centre."""
     from evenbreak.answers.physics.strike import strike_answer
 
     units, distance, pace = units_of(asked), asked.distance, asked.stick_speed
@@ -128,9 +121,8 @@ def strike(asked: questions.Strike) -> Answer:
     return replace(answer, warnings=measures.unit_doubts(units, **typed))
 
 
-@command_of(questions.BreakCue, "breakcue")
 def breakcue(asked: questions.BreakCue) -> Answer:
-    """Find the weight of the cue that breaks best."""
+    """Return the weight of the cue that breaks best."""
     from evenbreak.answers.physics.strike import break_cue_answer
 
     units = units_of(asked)
@@ -145,9 +137,8 @@ def breakcue(asked: questions.BreakCue) -> Answer:
     return replace(answer, warnings=measures.unit_doubts(units, **typed))
 
 
-@command_of(questions.Shot, "shot")
 def shot(asked: questions.Shot) -> Answer:
-    """Trace a whole shot."""
+    """Return a whole shot, traced."""
     from evenbreak.answers.physics.shot import shot_answer
 
     units = units_of(asked)
@@ -155,11 +146,9 @@ def shot(asked: questions.Shot) -> Answer:
     cloth = physics.Cloth(mu_slide=asked.cloth_mu, mu_roll=1.0 / asked.table_speed)
     mu = physics.BALL_FRICTION if asked.mu is None else asked.mu
     traced = traced_shot(_struck(asked, units), layout, cloth=cloth, mu=mu, friction=asked.friction)
-    if asked.plot is not None:
-        write_plot(plots.shot_on_table(traced), asked.plot)
     typed = {name: getattr(asked, name) for name in ("stick", "ball", "speed", "stick_speed")}
     answer = shot_answer(traced, units, layout.pocket)
-    return replace(answer, warnings=measures.unit_doubts(units, **typed))
+    return replace(answer, warnings=measures.unit_doubts(units, **typed), drawn=traced)
 
 
 def _struck(asked: questions.Shot, units: measures.Units) -> physics.Strike:
