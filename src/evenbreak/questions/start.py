@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
+from evenbreak.errors import InputError
 from evenbreak.fields.kinds import File, Flag, Named, Whole
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.files.league.values import COLOR, LINE
 from evenbreak.questions.common import ChartName, HandicappedRace, OutFolder, ScaleOf, folder
 from evenbreak.tournaments.evening.format import Discipline, Tables
+
+
+def _host(text: str) -> str:
+    """Return the name or address of a computer, perhaps with a port, or refuse it."""
+    name = text.strip().lower()
+    if not re.fullmatch(r"[a-z0-9]([a-z0-9.-]*[a-z0-9])?(:\d{1,5})?", name):
+        raise InputError(
+            "host is {value!r}; give a name or an address, such as 192.168.1.20 or pool.example:80",
+            value=text,
+        )
+    return name
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,6 +112,16 @@ class Serve(Question):
             "Let phones in the same network open the page; prints its address and a QR code.",
         ),
     ] = False
+    host: Annotated[
+        str | None,
+        Field(
+            Named(_host, "NAME[:PORT]"),
+            "Where phones find this computer.",
+            usual="the address that it has",
+            more="For `--lan` in a container or behind another server, where the address of this "
+            "computer is not the one that phones use. Requests by other names are refused.",
+        ),
+    ] = None
     port: Annotated[int, Field(Whole(1024, 65535), "Where the page is found on this computer.")] = (
         8000
     )
@@ -118,6 +141,8 @@ class Serve(Question):
             self.refuse(
                 "{demo} makes a file of its own; leave out {name} or {demo}", name=self.file
             )
+        if self.host is not None and not self.lan:
+            self.refuse("{host} is for phones; give {lan} too")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -46,12 +46,12 @@ def serve(asked: Serve, league: LeagueFile | None) -> None:
             path=path,
             folder=path.parent,
         )
-    own = _own_address() if asked.lan else "127.0.0.1"
+    own = asked.host or (_own_address() if asked.lan else "127.0.0.1")
     host = "0.0.0.0" if asked.lan else "127.0.0.1"  # noqa: S104
-    hosts = {"127.0.0.1", "localhost", "::1", own}
+    hosts = {"127.0.0.1", "localhost", "::1", own.partition(":")[0]}
     if asked.lan:
         hosts |= {socket.gethostname().lower(), f"{socket.gethostname().lower()}.local"}
-    address = f"http://{own}:{asked.port}"
+    address = f"http://{own}" if ":" in own else f"http://{own}:{asked.port}"
     site = Site(path, frozenset(hosts), address, league, color=asked.color)
     if why := _taken(host, asked.port):
         asked.refuse(
