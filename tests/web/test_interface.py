@@ -36,13 +36,14 @@ def test_before_a_tournament_there_is_none(browser: Browser) -> None:
 
 def test_nothing_new_is_not_sent_again(begun: Browser) -> None:
     got = begun.tells("GET", "/api/v1/tonight")
-    assert got.json["players"] == 8
+    assert len(got.json["players"]) == 8
     tag = got.headers["etag"]
     again = begun.tells("GET", "/api/v1/tonight", if_none_match=f'"x", {tag}')
     assert (again.status, again.body, again.headers["etag"]) == (304, b"", tag)
     late = Browser(begun.room, director=True)
     assert late.send("/desk/late", player="Zoe", rating=500).status == 303
-    assert begun.tells("GET", "/api/v1/tonight", if_none_match=tag).json["players"] == 9
+    changed = begun.tells("GET", "/api/v1/tonight", if_none_match=tag)
+    assert len(changed.json["players"]) == 9
 
 
 @pytest.mark.parametrize(

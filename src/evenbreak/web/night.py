@@ -64,6 +64,8 @@ class Known:
         the matches of all events that can be called, the best first, each with its event.
     start
         when the evening began, in minutes after midnight.
+    day
+        of that midnight, such as 2025-03-01.
     odds
         of the places.
     next_starts
@@ -85,6 +87,7 @@ class Known:
     calls: list[tuple[int, str]] = field(default_factory=list)
     queue: tuple[tuple[int, str], ...] = ()
     start: int = 0
+    day: str = ""
     odds: PlaceOdds | None = None
     next_starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
     chances: Mapping[str, float] = field(default_factory=dict)
@@ -252,10 +255,10 @@ class Night:
             starts = _next_starts(night) if to_play else {}
             chances, means = match_chances(night), means_of(night)
             later = _starts(night) if to_play else {}
-            begun = begun_at(night)
-            return Known(
-                state, 0.0, data, calls, queue, begun, night.odds, starts, chances, means, later
-            )
+            begun, day = begun_at(night), night.start.date().isoformat()
+            when: Any = {"start": begun, "day": day, "next_starts": starts, "starts": later}
+            both: Any = {"odds": night.odds, "chances": chances, "means": means}
+            return Known(state, 0.0, data, calls, queue, **when, **both)
 
         try:
             found = await self.beside.run(work)

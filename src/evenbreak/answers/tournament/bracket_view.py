@@ -186,7 +186,7 @@ def _panel(state: Evening, kind: str, matches: list[Match], sides: set[str]) -> 
         rows = -(-len(matches) // _ACROSS)
         boxes = [_empty(state, m, k // rows, "") for k, m in enumerate(matches)]
         return Panel(
-            "list", _title(kind), tuple([Round("", "")] * (boxes[-1].column + 1)), tuple(boxes)
+            "list", title_of(kind), tuple([Round("", "")] * (boxes[-1].column + 1)), tuple(boxes)
         )
     columns = _columns(state.bracket, matches, kind)
     rounds = [Round("", "")] * (max(columns.values()) + 1)
@@ -202,7 +202,7 @@ def _panel(state: Evening, kind: str, matches: list[Match], sides: set[str]) -> 
         )
     order = {name: k for k, name in enumerate(_from_the_top(state.bracket, boxes))}
     boxes.sort(key=lambda box: order[box.match])
-    return Panel(kind, _title(kind), tuple(rounds), tuple(boxes))
+    return Panel(kind, title_of(kind), tuple(rounds), tuple(boxes))
 
 
 def _columns(bracket: Bracket, matches: list[Match], kind: str) -> dict[str, int]:
@@ -275,7 +275,8 @@ def _titles(match: Match, kind: str, matches: list[Match], sides: set[str], colu
     return Round(say("Round {n}", n=match.round), str(match.round))
 
 
-def _title(kind: str) -> str:
+def title_of(kind: str) -> str:
+    """Return what a part of a bracket is called, such as 'Group A'."""
     name, _, letter = kind.partition(" ")
     if name == "group":
         return say("Group {name}", name=letter)

@@ -30,7 +30,7 @@ from evenbreak.answers.tournament.time import (
 from evenbreak.answers.tournament.tournament import against, pair_words, races_words
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
-from evenbreak.tournaments.brackets.swiss import swiss_standings
+from evenbreak.tournaments.brackets.swiss import SwissRank, swiss_standings
 from evenbreak.tournaments.clock.finish import Call
 from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import Result
@@ -409,14 +409,20 @@ def bracket_table(state: Evening) -> Table:
 
 def swiss_table(state: Evening) -> list[Part]:
     """Return the standings of a Swiss, once a round is over."""
+    rounds, ranks = swiss_ranks(state)
+    if not rounds:
+        return []
+    columns = columns_of("name matches_won buchholz")
+    title = say("Standings after round {n}", n=rounds)
+    return [Table("standings", columns, [list(row) for row in ranks], title=title)]
+
+
+def swiss_ranks(state: Evening) -> tuple[int, list[SwissRank]]:
+    """Return how many rounds of a Swiss are over, and the standings after them."""
     over = [
         pairs
         for pairs in pairings(state.later, state.counted)
         if all(p.winner or p.second is None for p in pairs)
     ]
-    if not over:
-        return []
-    rows = swiss_standings(swiss_of(state.plan, state.order), over)
-    columns = columns_of("name matches_won buchholz")
-    title = say("Standings after round {n}", n=len(over))
-    return [Table("standings", columns, [list(row) for row in rows], title=title)]
+    ranks = swiss_standings(swiss_of(state.plan, state.order), over) if over else []
+    return len(over), ranks

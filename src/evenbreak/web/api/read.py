@@ -1,50 +1,377 @@
-"""What everybody in the room may read of tonight, for other programs."""
+"""What everybody in the room may read of tonight, for other programs.
+
+It is what the pages show, made of the same views, so that a board on a stream and the wall say the
+same.
+"""
 
 from __future__ import annotations
 
-import asyncio
-from dataclasses import dataclass
-from typing import Annotated
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import MISSING
+from typing import Any
 
-from msgspec import Meta
+import numpy as np
 
+from evenbreak.answers.tournament.bracket_view import title_of
+from evenbreak.answers.tournament.night import played_words, swiss_ranks
+from evenbreak.fields.kinds import Text
+from evenbreak.fields.question import Declared, Field
+from evenbreak.teams.evening.fold import EVERYBODY
+from evenbreak.tournaments.brackets.bracket import Group
+from evenbreak.tournaments.brackets.standing import ranked
+from evenbreak.tournaments.evening.calling import night_queue, proposed_calls
+from evenbreak.tournaments.evening.events import Called
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.evening.later_draws import can_draw
+from evenbreak.tournaments.evening.known import known_player
+from evenbreak.tournaments.money.payouts import with_prizes
+from evenbreak.tournaments.odds.races import games_needed
+from evenbreak.web.api import shapes
 from evenbreak.web.api.problem import ProblemError
-from evenbreak.web.api.resource import Call, Kept, Resource
-from evenbreak.web.site import night_of
+from evenbreak.web.api.resource import Call, Resource
+from evenbreak.web.api.seen import PLACES, Seen, match_of, times_of, told
+from evenbreak.web.evening_view import (
+    favorites_of,
+    player_views,
+)
+from evenbreak.web.night import win_chance
+from evenbreak.web.team_view import set_views
+from evenbreak.words import say
 
 
-@dataclass(frozen=True)
-class Tonight:
-    """A tournament."""
-
-    name: Annotated[str, Meta(description="What it is called; '' if it has no name.")]
-    state: Annotated[str, Meta(description="registered (no draw yet), under_way or finished.")]
-    format: Annotated[str, Meta(description="How it is played, such as double.")]
-    players: Annotated[int, Meta(description="How many play.")]
+def _event(seen: Seen) -> shapes.Event:
+    return shapes.Event(seen.event, seen.name, seen.state.plan.form, seen.stage)
 
 
-async def state_of(call: Call) -> Evening:
-    """Return the state of the event that is asked about; refuse before any has begun."""
-    night = night_of(call.request)
-    if not night.exists:
-        raise ProblemError("No tournament is running yet.", status=404)
-    return await asyncio.to_thread(night.state)
+def _tonight(_: Call, seen: Seen, nights: Sequence[Seen]) -> shapes.Tonight:
+    plan, view = seen.state.plan, seen.view
+    return shapes.Tonight(
+        seen.event,
+        seen.name,
+        plan.form,
+        seen.stage,
+        seen.state.bracket.format if seen.state.drawn else plan.form,
+        played_words(seen.state),
+        plan.discipline,
+        plan.scale,
+        plan.date,
+        seen.state.events[0].at,
+        view.matches,
+        view.played,
+        seen.champion,
+        [
+            shapes.Player(one.name, one.rating, one.provisional, one.name in seen.state.arrived)
+            for one in player_views(seen.state, None)
+        ],
+        [one for one in _matches(seen) if one.state in ("called", "playing")],
+        [_event(one) for one in nights],
+    )
 
 
-async def tonight(call: Call) -> Kept:
-    """Return the tournament."""
-    state = await state_of(call)
+def _bracket(_: Call, seen: Seen, __: Sequence[Seen]) -> shapes.Bracket:
+    return shapes.Bracket(
+        seen.event,
+        seen.name,
+        seen.state.plan.form,
+        seen.stage,
+        played_words(seen.state),
+        seen.champion,
+        [
+            shapes.Part(
+                panel.title,
+                panel.linked,
+                [one.title for one in panel.rounds],
+                [match_of(seen, panel, box) for box in panel.boxes],
+            )
+            for panel in seen.panels
+        ],
+    )
 
-    def make() -> Tonight:
-        going = "registered"
-        if state.drawn:
-            over = not state.standing.to_play and not can_draw(state)
-            going = "finished" if over else "under_way"
-        return Tonight(state.plan.name, going, state.plan.form, len(state.entrants))
 
-    return Kept(("api", state), make)
+def _matches(seen: Seen) -> list[shapes.Match]:
+    found = [match_of(seen, panel, box) for panel in seen.panels for box in panel.boxes]
+    return sorted(found, key=lambda one: int(one.number))
 
 
-RESOURCES = [Resource("/tonight", "The tournament of tonight.", tonight, Tonight)]
+def _all_matches(_: Call, seen: Seen, __: Sequence[Seen]) -> shapes.Matches:
+    return shapes.Matches(seen.event, seen.stage, _matches(seen))
+
+
+def _named(nights: Sequence[Seen]) -> dict[tuple[int, str], shapes.Match]:
+    """Return the matches of a night by event and name."""
+    return {
+        (seen.event, box.match): match_of(seen, panel, box)
+        for seen in nights
+        for panel in seen.panels
+        for box in panel.boxes
+    }
+
+
+def _tables(call: Call, seen: Seen, every: Sequence[Seen]) -> shapes.Tables:
+    nights = _asked(call, seen, every)
+    matches, proposed = _named(nights), _proposed(every)
+    on = {
+        one.call.table: matches[seen.event, name]
+        for seen in nights
+        if seen.state.drawn
+        for name, one in seen.state.on_tables.items()
+    }
+    then = {to.table: matches.get((event, to.match)) for event, to in proposed}
+    plan = nights[0].state.plan
+    found = []
+    for table in range(1, plan.tables + 1):
+        match = on.get(table)
+        state: Any = "free"
+        if match is not None:
+            state = "called" if match.state == "called" else "playing"
+        found.append(
+            shapes.Table(
+                plan.table_name(table),
+                table,
+                state,
+                table in plan.reserved,
+                table in plan.streamed,
+                match,
+                then.get(table),
+            )
+        )
+    return shapes.Tables(found)
+
+
+def _asked(call: Call, seen: Seen, nights: Sequence[Seen]) -> Sequence[Seen]:
+    """Return the event that is named, or all of the night."""
+    return nights if call.values["event"] is None else [seen]
+
+
+def _proposed(nights: Sequence[Seen]) -> list[tuple[int, Called]]:
+    states = _states(nights)
+    return proposed_calls(states, _order(nights)) if states else []
+
+
+def _states(nights: Sequence[Seen]) -> dict[int, Evening]:
+    return {one.event: one.state for one in nights if one.state.drawn}
+
+
+def _order(nights: Sequence[Seen]) -> Sequence[tuple[int, str]]:
+    """Return the matches of the night in the order that ends it soonest, as last worked out."""
+    known = [one.known for one in nights if one.known and one.known.queue]
+    return max(known, key=lambda one: one.at).queue if known else ()
+
+
+def _queue(call: Call, seen: Seen, every: Sequence[Seen]) -> shapes.Queue:
+    nights, plan = _asked(call, seen, every), every[0].state.plan
+    matches = _named(nights)
+    to = {(event, one.match): plan.table_name(one.table) for event, one in _proposed(every)}
+    queue = night_queue(_states(nights), _order(every))
+    return shapes.Queue([shapes.Waiting(matches[one], to.get(one, "")) for one in queue])
+
+
+def _odds(_: Call, seen: Seen, __: Sequence[Seen]) -> shapes.Odds:
+    known, players = seen.known, []
+    odds = known.odds if known else None
+    if known and odds:
+        places = [str(place) for place in odds.bracket.places]
+        chances = dict(zip(odds.bracket.players, np.round(odds.p_place, PLACES), strict=True))
+        rows = {row["name"]: row for row in known.data["odds"]}
+        first = [one.name for one in favorites_of(known)]
+        for name in [*first, *(name for name in rows if name not in first)]:
+            ends = [rows[name].get(f"p_title{end}") for end in ("", "_low", "_high")]
+            title, low, high = (p if p is None else round(p, PLACES) for p in ends)
+            reached = zip(places, chances[name].tolist(), strict=True)
+            players.append(
+                shapes.PlayerOdds(
+                    name,
+                    title or 0.0,
+                    low,
+                    high,
+                    [shapes.PlaceChance(place, p) for place, p in reached if p > 0.0],
+                )
+            )
+    exact = bool(odds and odds.exact)
+    older = seen.view.view.older and bool(players)
+    return shapes.Odds(seen.event, bool(players), older, exact, players)
+
+
+def _finish(_: Call, seen: Seen, __: Sequence[Seen]) -> shapes.Finish:
+    data = seen.known.data if seen.known else {}
+    at = [data[f"finish_{q}"] for q in ("p10", "p50", "p90")] if "finish_p50" in data else None
+    ends = times_of(seen.known, at) if seen.stage == "under_way" else None
+    older = seen.view.view.older and ends is not None
+    many = seen.view.matches, seen.view.played
+    return shapes.Finish(seen.event, seen.stage, ends is not None, older, ends, *many)
+
+
+def _standings(call: Call, seen: Seen, _: Sequence[Seen]) -> shapes.Standings:
+    night = next(one for one in call.site.nights if one.event == seen.event)
+    paid = with_prizes(seen.places, seen.view.prizes, night.unit)
+    return shapes.Standings(
+        seen.event,
+        seen.stage,
+        seen.fresh is not None,
+        [shapes.Placed(*one) for one in paid],
+        list(_groups(seen.state)),
+    )
+
+
+def _groups(state: Evening) -> Iterator[shapes.Group]:
+    if not state.drawn:
+        return
+    if state.plan.form == "swiss":
+        rounds, ranks = swiss_ranks(state)
+        won = _won(state, [match.name for match in state.bracket.matches])
+        first = [(one.score, one.buchholz) for one in ranks]
+        yield shapes.Group(
+            say("Standings after round {n}", n=rounds),
+            [
+                shapes.Rank(
+                    first.index((one.score, one.buchholz)) + 1,
+                    one.player, one.score, won[one.player][1], one.buchholz, None,
+                )
+                for one in ranks
+            ],
+        )  # fmt: skip
+        return
+    if state.plan.form == "chips":
+        night = state.chip_night
+        won = _won(state, list(state.counted))
+        still = sorted(night.order, key=lambda name: -night.chips[name])
+        left = [night.chips[name] for name in still]
+        both = [*still, *reversed(night.gone)]
+        level = [left.index(chips) + 1 for chips in left]
+        rows = zip([*level, *range(len(still) + 1, len(both) + 1)], both, strict=True)
+        yield shapes.Group(
+            say("Chips"),
+            [shapes.Rank(k, name, *won[name], None, night.chips[name]) for k, name in rows],
+        )
+        return
+    for group in state.bracket.groups:
+        if group.matches:
+            yield _group(state, group)
+
+
+def _group(state: Evening, group: Group) -> shapes.Group:
+    """Return how a group stands, its ties broken if they have been."""
+    names = [state.order[k] for k in group.members]
+    over = [
+        (pair, state.order.index(state.counted[name].winner))
+        for name, pair in zip(group.matches, group.pairs, strict=True)
+        if name in state.counted
+    ]
+    ahead = ranked(group.members, [pair for pair, _ in over], [won for _, won in over])
+    rank = {name: k + 1 for name, k in zip(names, ahead, strict=True)}
+    last = state.results.get(group.name)
+    if isinstance(last, tuple):
+        rank = {name: k for k, name in enumerate(last, 1)}
+    won = _won(state, group.matches)
+    rows = sorted(names, key=lambda name: rank[name])
+    return shapes.Group(
+        title_of(state.bracket.match(group.matches[0]).side),
+        [shapes.Rank(rank[name], name, *won[name], None, None) for name in rows],
+    )
+
+
+def _won(state: Evening, matches: Iterable[str]) -> dict[str, tuple[int, int]]:
+    """Return how many of some matches each player has won and lost."""
+    results = [state.counted[name] for name in matches if name in state.counted]
+    won, lost = Counter(one.winner for one in results), Counter(one.loser for one in results)
+    return {name: (won[name], lost[name]) for name in state.order}
+
+
+def _ratings(_: Call, seen: Seen, __: Sequence[Seen]) -> shapes.Ratings:
+    means = seen.known.means if seen.known else {}
+    rows = [
+        shapes.Rating(
+            one.name,
+            one.rating,
+            one.error,
+            one.provisional,
+            round(means[one.name], 1) if one.name in means else None,
+        )
+        for one in player_views(seen.state, seen.known)
+    ]
+    return shapes.Ratings(seen.event, seen.state.plan.scale, rows)
+
+
+def _race(call: Call, seen: Seen, _: Sequence[Seen]) -> shapes.Race:
+    state = seen.state
+    pair = known_player(state, call.values["a"]), known_player(state, call.values["b"])
+    needs = 1, 1
+    if state.plan.form != "chips":
+        one, other = (state.entrants[name].rating for name in pair)
+        m, n = games_needed(np.array([one - other]), state.races.race, state.scale)
+        needs = int(m[0]), int(n[0])
+    means = seen.known.means if seen.known else {}
+    chance = round(win_chance(state, pair, needs, (0, 0), means), PLACES)
+    a, b = (
+        shapes.Racer(
+            name, round(means.get(name, state.entrants[name].rating), 1), n, round(p, PLACES)
+        )
+        for name, n, p in zip(pair, needs, (chance, 1.0 - chance), strict=True)
+    )
+    return shapes.Race(seen.event, a, b)
+
+
+async def _team(call: Call) -> shapes.TeamNight:
+    night = await call.site.teams.now()
+    if night is None:
+        raise ProblemError("No team night is running yet.", status=404)
+    seen = night.state.seen_by(EVERYBODY)
+    chances = await call.site.teams.chances(night)
+    both: Any = chances and tuple(round(p, PLACES) for p in chances)
+    sets = [shapes.TeamSet(one.number, one.names, one.needs, one.score) for one in set_views(seen)]
+    return shapes.TeamNight(seen.teams, sets, both, seen.over)
+
+
+def _player(name: str, what: str) -> Declared:
+    return Declared(name, Field(Text(), what), MISSING)
+
+
+RESOURCES = [
+    Resource(
+        "/tonight",
+        "The tournament: who plays, and what is under way.",
+        told(_tonight),
+        shapes.Tonight,
+    ),
+    Resource(
+        "/tonight/bracket",
+        "The bracket, all that it takes to draw it.",
+        told(_bracket),
+        shapes.Bracket,
+    ),
+    Resource("/tonight/matches", "All matches, by number.", told(_all_matches), shapes.Matches),
+    Resource(
+        "/tonight/tables", "What is on each table of the house.", told(_tables), shapes.Tables
+    ),
+    Resource(
+        "/tonight/queue",
+        "The matches that can be called now, the next first.",
+        told(_queue),
+        shapes.Queue,
+    ),
+    Resource("/tonight/odds", "Everybody's chance of each place.", told(_odds), shapes.Odds),
+    Resource("/tonight/finish", "When it ends.", told(_finish), shapes.Finish),
+    Resource(
+        "/tonight/standings",
+        "Who has finished where, and how groups stand.",
+        told(_standings),
+        shapes.Standings,
+    ),
+    Resource(
+        "/tonight/ratings",
+        "The ratings, and how tonight's games have moved them.",
+        told(_ratings),
+        shapes.Ratings,
+    ),
+    Resource(
+        "/tonight/race",
+        "What two players would race to, and their chances.",
+        told(_race),
+        shapes.Race,
+        asks=(
+            _player("a", "A player of tonight, as `evenbreak` takes names."),
+            _player("b", "The other one."),
+        ),
+    ),
+    Resource("/tonight/team", "Tonight's team night.", _team, shapes.TeamNight),
+]

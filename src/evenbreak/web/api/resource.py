@@ -32,8 +32,12 @@ MOST_JSON = 64 << 10
 
 EVENT = Declared(
     "event",
-    Field(Whole(1, 99), "The number of the event, of a night that has several."),
-    1,
+    Field(
+        Whole(1, 99),
+        "The number of the event, of a night that has several.",
+        usual="the first; of tables and of the queue all",
+    ),
+    None,
 )
 _SHOWN = 40  # characters of a wrong value that a problem repeats
 

@@ -1,0 +1,325 @@
+"""What the interface answers about tonight: dataclasses of which JSON and its schema are made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal, TypeAlias
+
+from msgspec import Meta
+
+Chance: TypeAlias = Annotated[float, Meta(ge=0, le=1)]
+Number: TypeAlias = Annotated[
+    str, Meta(pattern="^[0-9]+$", description="A match, as people call it.", examples=["12"])
+]
+When: TypeAlias = Annotated[
+    str,
+    Meta(
+        pattern=r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d$",
+        description="Local time.",
+        examples=["2026-03-01T19:40:00"],
+    ),
+]
+EventNumber: TypeAlias = Annotated[int, Meta(ge=1, le=99, description="The event of the night.")]
+Stage: TypeAlias = Annotated[
+    Literal["registered", "under_way", "finished"],
+    Meta(description="registered: the draw has not been made yet."),
+]
+State: TypeAlias = Annotated[
+    Literal["waits", "ready", "called", "playing", "done", "forfeit"],
+    Meta(description="waits: for its players; ready: for a table; called: on its way there."),
+]
+Known: TypeAlias = Annotated[
+    bool, Meta(description="False: not worked out yet (ask again in seconds), or nothing is left.")
+]
+Older: TypeAlias = Annotated[
+    bool, Meta(description="Whether this was worked out before the last entry.")
+]
+
+
+@dataclass(frozen=True)
+class Times:
+    """When something happens: eight times out of ten between early and late."""
+
+    early: When
+    middle: When
+    late: When
+
+
+@dataclass(frozen=True)
+class Side:
+    """A player of a match."""
+
+    name: Annotated[str, Meta(description="'' while it is open who it is.")]
+    comes_from: Annotated[
+        str, Meta(description="Where an open one comes from.", examples=["winner of 12"])
+    ]
+    needs: Annotated[int | None, Meta(description="The games that this player needs to win.")]
+    games: Annotated[int | None, Meta(description="Games won so far; null before the first score.")]
+    won: bool
+    chance: Annotated[Chance | None, Meta(description="Of winning the match from this score on.")]
+
+
+@dataclass(frozen=True)
+class Match:
+    """A match of the bracket, or a rack of a chip tournament."""
+
+    number: Number
+    event: EventNumber
+    part: Annotated[str, Meta(description="Of the bracket.", examples=["Winners"])]
+    round: Annotated[str, Meta(examples=["Quarterfinals"])]
+    column: Annotated[int, Meta(ge=0, description="The round's place among `rounds` of its part.")]
+    players: Annotated[tuple[Side, Side], Meta(description="Its two players.")]
+    state: State
+    hill_hill: Annotated[bool, Meta(description="Whether both need one more game.")]
+    disputed: Annotated[bool, Meta(description="Whether the players have sent different scores.")]
+    table: Annotated[str, Meta(description="By the house's name; '' unless it is on one.")]
+    called: When | None
+    ended: When | None
+    starts: Annotated[Times | None, Meta(description="About when it starts.")]
+    winner_to: Annotated[Number | None, Meta(description="The winner's next match.")]
+    loser_to: Annotated[Number | None, Meta(description="The loser's next match.")]
+
+
+@dataclass(frozen=True)
+class Player:
+    """A player of the tournament."""
+
+    name: str
+    rating: float
+    provisional: Annotated[bool, Meta(description="Whether the rating rests on too few games.")]
+    arrived: bool
+
+
+@dataclass(frozen=True)
+class Event:
+    """An event of the night."""
+
+    event: EventNumber
+    name: str
+    format: Annotated[str, Meta(examples=["double"])]
+    state: Stage
+
+
+@dataclass(frozen=True)
+class Tonight(Event):
+    """A tournament: what is played by whom, and what is on the tables."""
+
+    format_words: Annotated[str, Meta(examples=["double elimination"])]
+    races: Annotated[str, Meta(description="What is raced to, in words.")]
+    discipline: Annotated[str, Meta(examples=["9-ball"])]
+    scale: Annotated[str, Meta(description="Of the ratings.", examples=["fargo"])]
+    date: Annotated[str, Meta(description="'' unless the director has given one.")]
+    begun: Annotated[When, Meta(description="When the tournament was begun on the page.")]
+    matches: Annotated[int, Meta(description="How many there will be.")]
+    played: Annotated[int, Meta(description="How many are over.")]
+    champion: Annotated[str, Meta(description="'' until it is over.")]
+    players: list[Player]
+    under_way: Annotated[list[Match], Meta(description="What is on the tables.")]
+    events: Annotated[list[Event], Meta(description="All events of the night.")]
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the bracket: a side, a group, or a list of matches."""
+
+    title: Annotated[str, Meta(examples=["Winners"])]
+    linked: Annotated[bool, Meta(description="Whether winners go from column to column.")]
+    rounds: Annotated[list[str], Meta(description="The heading of each column.")]
+    matches: Annotated[list[Match], Meta(description="From the top of each column down.")]
+
+
+@dataclass(frozen=True)
+class Bracket(Event):
+    """The whole bracket, all that drawing it takes."""
+
+    races: Annotated[str, Meta(description="What is raced to, in words.")]
+    champion: Annotated[str, Meta(description="'' until it is over.")]
+    parts: Annotated[list[Part], Meta(description="Empty before the draw.")]
+
+
+@dataclass(frozen=True)
+class Matches:
+    """The matches by number."""
+
+    event: EventNumber
+    state: Stage
+    matches: list[Match]
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of the house."""
+
+    name: str
+    number: Annotated[int, Meta(ge=1)]
+    state: Literal["free", "called", "playing"]
+    reserved: Annotated[bool, Meta(description="Whether it is given out by hand only.")]
+    streamed: Annotated[bool, Meta(description="Whether it is filmed.")]
+    match: Annotated[Match | None, Meta(description="What is on it.")]
+    next: Annotated[Match | None, Meta(description="What would be called to it now.")]
+
+
+@dataclass(frozen=True)
+class Tables:
+    """The tables of the house, for all events of the night."""
+
+    tables: list[Table]
+
+
+@dataclass(frozen=True)
+class Waiting:
+    """A match that can be called now."""
+
+    match: Match
+    table: Annotated[str, Meta(description="The free table it would get; '' if none is free.")]
+
+
+@dataclass(frozen=True)
+class Queue:
+    """The matches that can be called now, the next first, of all events of the night."""
+
+    queue: list[Waiting]
+
+
+@dataclass(frozen=True)
+class PlaceChance:
+    """A place and the chance of it."""
+
+    place: Annotated[str, Meta(examples=["5-6"])]
+    chance: Chance
+
+
+@dataclass(frozen=True)
+class PlayerOdds:
+    """A player's chances."""
+
+    name: str
+    title: Annotated[Chance, Meta(description="Of winning the tournament.")]
+    title_low: Annotated[Chance | None, Meta(description="Where it may lie, of a new player.")]
+    title_high: Chance | None
+    places: Annotated[list[PlaceChance], Meta(description="Those that can still be reached.")]
+
+
+@dataclass(frozen=True)
+class Odds:
+    """Everybody's chance of each place, from here on."""
+
+    event: EventNumber
+    known: Known
+    older: Older
+    exact: Annotated[bool, Meta(description="Whether they are exact rather than simulated.")]
+    players: Annotated[list[PlayerOdds], Meta(description="The most likely winner first.")]
+
+
+@dataclass(frozen=True)
+class Finish:
+    """When the event ends."""
+
+    event: EventNumber
+    state: Stage
+    known: Known
+    older: Older
+    ends: Annotated[Times | None, Meta(description="null unless it is known.")]
+    matches: int
+    played: int
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Who has finished where."""
+
+    place: Annotated[str, Meta(examples=["5-6"])]
+    name: str
+    prize: Annotated[float, Meta(ge=0, description="0 where there is none.")]
+
+
+@dataclass(frozen=True)
+class Rank:
+    """A player in a group, a Swiss or a chip tournament."""
+
+    rank: Annotated[int, Meta(ge=1, description="The same of players who are level.")]
+    name: str
+    won: Annotated[int, Meta(description="Matches won.")]
+    lost: Annotated[int, Meta(description="Matches lost.")]
+    buchholz: Annotated[int | None, Meta(description="Of a Swiss.")]
+    chips: Annotated[int | None, Meta(description="Left, of a chip tournament.")]
+
+
+@dataclass(frozen=True)
+class Group:
+    """The players of a group, the best first."""
+
+    title: str
+    players: list[Rank]
+
+
+@dataclass(frozen=True)
+class Standings:
+    """Who has finished where, and how groups stand."""
+
+    event: EventNumber
+    state: Stage
+    known: Annotated[bool, Meta(description="False: the places are not worked out yet.")]
+    places: Annotated[list[Placed], Meta(description="Those that are decided.")]
+    groups: list[Group]
+
+
+@dataclass(frozen=True)
+class Rating:
+    """A player's rating."""
+
+    name: str
+    rating: Annotated[float, Meta(description="As it was entered.")]
+    error: Annotated[float, Meta(ge=0, description="Its standard error; 0: taken as right.")]
+    provisional: bool
+    tonight: Annotated[float | None, Meta(description="As tonight's games have moved it.")]
+
+
+@dataclass(frozen=True)
+class Ratings:
+    """The ratings, the highest first, those with few games last."""
+
+    event: EventNumber
+    scale: Annotated[str, Meta(examples=["fargo"])]
+    players: list[Rating]
+
+
+@dataclass(frozen=True)
+class Racer:
+    """A player of a race."""
+
+    name: str
+    rating: Annotated[float, Meta(description="As tonight's games have moved it.")]
+    needs: Annotated[int, Meta(ge=1, description="Games.")]
+    chance: Chance
+
+
+@dataclass(frozen=True)
+class Race:
+    """What two players would race to in this tournament, and the chances of it."""
+
+    event: EventNumber
+    a: Racer
+    b: Racer
+
+
+@dataclass(frozen=True)
+class TeamSet:
+    """A set of a team night."""
+
+    number: Annotated[int, Meta(ge=1)]
+    players: Annotated[tuple[str, str], Meta(description="'' while it is open or unseen.")]
+    needs: tuple[int, int] | None
+    score: tuple[int, int] | None
+
+
+@dataclass(frozen=True)
+class TeamNight:
+    """Two teams' night, as everybody in the room sees it."""
+
+    teams: tuple[str, str]
+    sets: list[TeamSet]
+    chances: Annotated[
+        tuple[Chance, Chance] | None, Meta(description="Of winning the night; null: not yet known.")
+    ]
+    over: bool
