@@ -104,14 +104,17 @@ class _Server(uvicorn.Server):
         await super().shutdown(sockets)
 
     def _end_idle(self) -> None:
-        """End the connections that had no whole request at the last look, and have none since."""
+        """End the connections that have asked for nothing since the last look, or read nothing."""
+        still: dict[Any, Any] = {}
         connections: set[Any] = self.server_state.connections
-        answered = {one: one.cycle for one in connections}
-        idle = {one: at for one, at in answered.items() if at is None or at.response_complete}
-        for one, cycle in idle.items():
-            if one in self._idle and self._idle[one] is cycle:
-                one.transport.close()
-        self._idle = idle
+        for one in connections:
+            if one.cycle is None or one.cycle.response_complete:
+                still[one] = one.cycle
+            elif one.flow.write_paused:  # it has yet to read so many bytes of its answer
+                still[one] = one.cycle, one.transport.get_write_buffer_size()
+            if one in still and self._idle.get(one, self) == still[one]:
+                one.transport.abort()
+        self._idle = still
 
 
 def descriptors() -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from evenbreak.web.api import read
+from evenbreak.web.api import read, stream
 from evenbreak.web.api.describe import describe
 from evenbreak.web.api.resource import Call, Kept, Resource, routes_of
 
@@ -22,6 +22,7 @@ async def _description(_: Call) -> Kept:
 
 RESOURCES = [
     *read.RESOURCES,
+    *stream.RESOURCES,
     Resource(
         "/openapi.json", "This description of the interface.", _description, {"type": "object"}
     ),

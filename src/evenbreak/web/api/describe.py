@@ -152,7 +152,7 @@ def _responses(one: Resource) -> dict[str, Any]:
 
 
 def _media(one: Resource) -> str:
-    return "text/event-stream" if one.path.endswith("/changes") else "application/json"
+    return "text/event-stream" if one.streams else "application/json"
 
 
 def schema_of_answer(one: Resource) -> dict[str, Any]:

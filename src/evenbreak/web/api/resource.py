@@ -94,7 +94,13 @@ class Resource:
     def query(self) -> tuple[Declared, ...]:
         """The parameters of the address."""
         own = self.asks if self.method == "GET" else ()
-        return (*own, EVENT) if self.path.startswith("/tonight") else own
+        of_one_event = self.path.startswith("/tonight") and not self.streams
+        return (*own, EVENT) if of_one_event else own
+
+    @property
+    def streams(self) -> bool:
+        """Whether it goes on answering, of all events of the night."""
+        return self.path.endswith("/changes")
 
     @property
     def body(self) -> tuple[Declared, ...]:

@@ -1,0 +1,173 @@
+"""The stream of what is entered, for programs that follow the night.
+
+A message's id is that of its entry (`evenbreak.files.store.changes`), so that whoever was cut off
+goes on after the last one they had, at any server of the file. What is entered unseen stays so:
+phones and team nights are only said to have changed, and nobody's address or author is sent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import takewhile
+from typing import Annotated, Any
+
+import msgspec
+from msgspec import Meta
+from starlette.responses import Response, StreamingResponse
+
+from evenbreak.fields.kinds import Whole
+from evenbreak.fields.question import Declared, Field
+from evenbreak.files.store.changes import Row
+from evenbreak.files.store.formats import PHONES, TEAM_NIGHT
+from evenbreak.web.api.resource import Call, Resource
+from evenbreak.web.sessions import address_of
+from evenbreak.web.watch import Watch
+
+_UNSEEN = {PHONES: "phones", TEAM_NIGHT: "team night"}
+_MATCH = ("match", "players")
+_SHOWN = {
+    "called": (*_MATCH, "table"),
+    "called back": _MATCH,
+    "scored": (*_MATCH, "score"),
+    "result": (*_MATCH, "score", "winner", "forfeit", "corrects"),
+    "undone": ("entry",),
+    "redone": ("entry",),
+}
+"""What is sent of the details of an entry; of all others, only that it was made."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """An entry of tonight; only what its kind has is there besides id, at and kind."""
+
+    id: Annotated[int, Meta(description="Its place among all entries; send it back to go on.")]
+    at: Annotated[str, Meta(description="When it was entered.")]
+    kind: Annotated[
+        str,
+        Meta(
+            description="What was entered, such as called, scored, result or undone; `phones` or "
+            "`team night` where something changed there that is not sent."
+        ),
+    ]
+    event: Annotated[int, Meta(description="The event of the night.")] | None = None
+    entry: Annotated[int, Meta(description="The number of the entry in its event.")] | None = None
+    match: Annotated[str, Meta(description="The match, as /tonight/matches names it.")] | None = (
+        None
+    )
+    players: Annotated[tuple[str, str], Meta(description="Its players.")] | None = None
+    score: Annotated[tuple[int, int], Meta(description="Their games.")] | None = None
+    winner: Annotated[str, Meta(description="Who won, of a result.")] | None = None
+    forfeit: Annotated[bool, Meta(description="Whether the loser forfeited.")] | None = None
+    corrects: Annotated[bool, Meta(description="Whether it corrects a result.")] | None = None
+    table: Annotated[int, Meta(description="The number of the table, of a call.")] | None = None
+    of: (
+        Annotated[
+            int, Meta(description="The entry that is undone or redone; absent: the last one.")
+        ]
+        | None
+    ) = None
+
+
+@lru_cache(maxsize=2048)
+def message(row: Row) -> bytes:
+    """Return an entry as the stream has it; b"" for a form that added nothing.
+
+    >>> print(message(Row(7, "1", 3, "2025-03-01T19:30:00", "redone", '{"entry": 2}')).decode())
+    id: 7
+    event: entry
+    data: {"id":7,"at":"2025-03-01T19:30:00","kind":"redone","event":1,"entry":3,"of":2}
+    <BLANKLINE>
+    <BLANKLINE>
+    """
+    if row.strand in _UNSEEN:
+        change = Change(row.id, row.at, _UNSEEN[row.strand])
+    elif row.strand.isdigit():
+        change = Change(row.id, row.at, row.kind, int(row.strand), row.number, **_details(row))
+    else:
+        return b""
+    data = {name: one for name, one in msgspec.to_builtins(change).items() if one is not None}
+    return _message("entry", row.id, data)
+
+
+def _details(row: Row) -> dict[str, Any]:
+    try:
+        what = msgspec.json.decode(row.what, type=dict[str, Any])
+        found = {name: what[name] for name in _SHOWN.get(row.kind, ()) if what.get(name)}
+        found |= {"of": found.pop("entry")} if "entry" in found else {}
+        msgspec.convert({"id": 1, "at": "", "kind": "", **found}, Change)
+    except (msgspec.MsgspecError, UnicodeError):  # of a damaged entry, the pages say so
+        return {}
+    return found
+
+
+def _message(event: str, number: int, data: dict[str, Any]) -> bytes:
+    return b"id: %d\nevent: %s\ndata: %s\n\n" % (
+        number,
+        event.encode(),
+        msgspec.json.encode(data),
+    )
+
+
+def since(watch: Watch, files: int, last: int) -> bytes:
+    """Return what has come in after an entry, or that all is to be read anew.
+
+    Parameters
+    ----------
+    watch
+        what was entered.
+    files, last
+        the file and the last entry that are known there.
+    """
+    if files != watch.files or not watch.first <= last <= watch.last:
+        return _message("reset", watch.last, {"id": watch.last})
+    new = list(takewhile(lambda row: row.id > last, reversed(watch.rows)))
+    return b"".join(map(message, reversed(new)))
+
+
+async def changes(call: Call) -> Response:
+    """Stream what is entered, from now on or after an entry."""
+    request, after = call.request, call.values["after"]
+    watch: Watch = request.app.state.watch
+    here = address_of(request)
+    if request.method == "HEAD" or watch.is_full(here):  # the program asks again by itself
+        return Response("retry: 30000\n\n", media_type="text/event-stream")
+    given = request.headers.get("last-event-id", "")
+    if given:
+        after = int(given) if given.isascii() and given.isdigit() and len(given) < 16 else -1
+
+    async def stream() -> AsyncIterator[bytes]:
+        async with watch.following(here):
+            seen = watch.now
+            new = b"id: %d\n\n" % seen[1] if after is None else since(watch, seen[0], after)
+            yield b"retry: 2000\n\n" + new
+            while not watch.closing:
+                before, seen = seen, await watch.after(seen)
+                yield since(watch, *before) or b": alive\n\n"
+
+    return StreamingResponse(
+        stream(), media_type="text/event-stream", headers={"cache-control": "no-store"}
+    )
+
+
+_AFTER = Declared(
+    "after",
+    Field(
+        Whole(0, 10**15),
+        "The id of the last entry that is known, for programs that cannot send Last-Event-ID; "
+        "without either, from now on.",
+    ),
+    None,
+)
+RESOURCES = [
+    Resource(
+        "/tonight/changes",
+        "Every entry of the night as it is made, as server-sent events: `entry`, with what is "
+        "described here as data, and `reset` where entries were missed: read everything anew.",
+        changes,
+        Change,
+        asks=(_AFTER,),
+    )
+]
+"""The stream of the interface."""
