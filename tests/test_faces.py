@@ -32,6 +32,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.parts import Quantities, Table
 from evenbreak.cli.kit.faces import print_answer
 from evenbreak.cli.program import program
+from evenbreak.files.store.tokens import draw_token
 from evenbreak.files.store.tournament import new_tournament
 from evenbreak.sheets.html_page import answer_page
 from evenbreak.tournaments.evening import moves
@@ -165,6 +166,7 @@ ASKED = {
     "tournament_odds_under_way": "tournament odds --at 20:10",
     "tournament_time_under_way": "tournament time --at 20:10",
     "tournament_show": "tournament show --at 20:10",
+    "tournament_token": "tournament token",
     "simulate": "simulate data/demo_league_roster.csv --weeks 10 --replicas 40 --no-matches "
     "--out OUT",
     "simulate_compare": "simulate data/demo_league_roster.csv --compare npl --compare none "
@@ -220,6 +222,7 @@ def tonight() -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "tonight.db"
         new_tournament(str(file), sorted(events, key=lambda event: event.at))
+        draw_token(file, "scoreboard", "table:2", "2025-03-01T18:55:00")
         return file.read_bytes()
 
 

@@ -60,6 +60,7 @@ MAY = {
                 "GET /desk/codes",
                 "GET /new",
             ),
+            *("GET /desk/programs", "POST /desk/programs/draw", "POST /desk/programs/take-back"),
             *("GET /desk/check-in", "GET /next"),
             *("GET /team/new", "GET /team/history", "POST /desk/draw", "POST /desk/call"),
             *(
@@ -201,6 +202,8 @@ class Rooms:
             "/desk/accept": {"name": "Zoe"},
             "/desk/decline": {"name": "Zoe"},
             "/desk/stand": {"match": "W1.3"},
+            "/desk/programs/draw": {"name": "board", "may": "scores"},
+            "/desk/programs/take-back": {"name": "board"},
             "/desk/late": {"player": "Late Larry", "rating": 500},
             "/play": {"name": "Eve"},
             "/prizes": {"fee": 10, "added": 0, "payout": "60/40"},

@@ -22,6 +22,9 @@ from evenbreak.words import Parameter
 Number: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=1_000_000_000)]
 What = TypeVar("What")
 
+PROGRAM = "program: "
+"""What the author of an entry begins with that another program made; its name follows."""
+
 
 @dataclass(frozen=True)
 class Event:
@@ -38,6 +41,16 @@ class Event:
     def by_phones(self) -> bool:
         """Whether players entered it on their phones."""
         return self.by.startswith("phone")
+
+    @property
+    def by_program(self) -> bool:
+        """Whether another program entered it, with a token that the director drew."""
+        return self.by.startswith(PROGRAM)
+
+    @property
+    def by_directors(self) -> bool:
+        """Whether it was entered at the desk or by a command."""
+        return not (self.by_phones or self.by_program)
 
 
 Entered = TypeVar("Entered", bound=Event)

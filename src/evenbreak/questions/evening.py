@@ -110,6 +110,38 @@ class Show(TimedUnderWay, OnPaper):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Programs(TimedUnderWay):
+    """Draw a token for another program, such as a scoreboard; without NAME, list who has one.
+
+    The token is shown once. With it, the program enters what happens, at the addresses that
+    evenbreak serve has under /api/v1/tonight; its name stands in the history.
+    """
+
+    examples = """\
+  evenbreak tournament token scoreboard
+  evenbreak tournament token "stream table" --may table:4
+  evenbreak tournament token scoreboard --take-back
+"""
+    name: Annotated[str | None, Field(Text("NAME"), metavar="[NAME]", argument=True)] = None
+    may: Annotated[
+        str,
+        Field(
+            Text("scores|table:T|director"),
+            "What it may enter: scores, results and calls; score and result on one table; or all "
+            "that a director can.",
+        ),
+    ] = "scores"
+    take_back: Annotated[bool, Field(Flag(), "Take the token of NAME back, at once.")] = False
+
+    def check(self) -> None:
+        """Refuse to take back the token of nobody."""
+        if self.take_back and self.name is None:
+            self.refuse(
+                "{take_back} needs the name of a program, as evenbreak tournament token lists it"
+            )
+
+
+@dataclass(frozen=True, kw_only=True)
 class Next(TimedUnderWay):
     """Show what is on the tables and which match to call next, so that it ends soonest.
 

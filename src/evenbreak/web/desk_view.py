@@ -275,7 +275,7 @@ def last_act(state: Evening, read: int) -> LastAct | None:
     """
     entries = list(zip(state.numbers, state.events, strict=True))
     told = (one for one in entries[:0:-1] if not one[1].by.startswith(BY_ITSELF))
-    last = next((one for one in told if not one[1].by_phones or _is_act(one[1])), None)
+    last = next((one for one in told if _is_act(one[1]) or one[1].by_directors), None)
     if last is None or not _is_act(last[1]) or entries[-1][0] <= read:
         return None
     number, event = last
@@ -291,7 +291,7 @@ def last_act(state: Evening, read: int) -> LastAct | None:
         undo,
         state.number_of(match) if match else 0,
         isinstance(event.what, Result),
-        author_words(event.by) if event.by_phones else "",
+        "" if event.by_directors else author_words(event.by),
         _absent(state, event),
     )
 

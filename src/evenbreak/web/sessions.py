@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 
 from starlette.requests import Request
 
+from evenbreak.evenings.log import PROGRAM
 from evenbreak.tournaments.evening.events import BY_ITSELF
 from evenbreak.web.guard import RefusalError
 from evenbreak.words import listed, say
@@ -188,6 +189,8 @@ def author_words(kept: str) -> str:
         names = both.split(_BETWEEN)
         # Where a name itself has an "and" in it, nobody can say where the other one starts.
         return say("phones: {players}", players=listed(names) if len(names) == 2 else both)
+    if kept.startswith(PROGRAM):
+        return say("program: {name}", name=kept.removeprefix(PROGRAM))
     if kept.startswith(_CAPTAIN):
         return say("captain of {team}", team=kept.removeprefix(_CAPTAIN))
     return kept

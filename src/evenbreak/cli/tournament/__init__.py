@@ -21,6 +21,7 @@ COMMANDS = {
         "tournament.paper:export", "List the matches that were played, for the ratings."
     ),
     "print": Entry("tournament.paper:print_paper", "Write score cards or the bracket to print."),
+    "token": Entry("tournament.paper:token", "Let other programs enter scores, or everything."),
     "prizes": Entry(
         "tournament.odds:prizes", "What each place is paid, and what players may expect."
     ),

@@ -12,7 +12,7 @@ from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.kit.terminal import write_file
 from evenbreak.cli.tournament.evening import answer_of, moment, outlook_of
 from evenbreak.cli.tournament.odds import paid_places
-from evenbreak.questions.evening import Export, Next, Print, Show
+from evenbreak.questions.evening import Export, Next, Print, Programs, Show
 from evenbreak.words import FilePath, say, say_count
 
 if TYPE_CHECKING:
@@ -127,6 +127,22 @@ def _story(asked: Export) -> Answer:
     elif asked.out is not None:
         write_file(asked.out, "".join(to_csv(answer)).encode())
     return answer
+
+
+@command_of(Programs, "token", always_text=True)
+def token(asked: Programs) -> Answer:
+    """Draw a token, take one back, or list them."""
+    from evenbreak.answers.tournament.programs import programs_answer, scope_in
+    from evenbreak.files.store.tokens import draw_token, kept_tokens, take_back
+    from evenbreak.files.store.tournament import read_tournament
+
+    plan, drawn = read_tournament(asked.path, asked.event).plan, ""
+    if asked.name is not None and asked.take_back:
+        take_back(asked.path, asked.name)
+    elif asked.name is not None:
+        at = moment(asked.at, asked.path)
+        drawn = draw_token(asked.path, asked.name, scope_in(asked.may, plan), at)
+    return programs_answer([*kept_tokens(asked.path).values()], plan, drawn)
 
 
 @command_of(Print, "print", always_text=True)

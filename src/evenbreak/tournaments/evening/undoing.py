@@ -35,10 +35,12 @@ _LIGHT = Called | CalledBack | Scored | Waits | CheckedIn | Registered | Decline
 def own_last(state: Evening, by: str = "") -> int | None:
     """Return the number of the last act of an author; all who direct are one author.
 
-    Scores that players tap are no acts.
+    Scores that players tap, or that a program enters, are no acts.
     """
     phone = Event("", Undone(), by).by_phones
     for number, event in zip(state.numbers[:0:-1], state.events[:0:-1], strict=True):
+        if isinstance(event.what, Scored) and event.by_program:
+            continue
         if phone and event.by == by and not isinstance(event.what, Scored):
             return number
         if not phone and not event.by_phones and not event.by.startswith(BY_ITSELF):

@@ -1,0 +1,68 @@
+"""The programs that may enter something tonight: their tokens, and what each is good for."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from evenbreak.answers.kit.answer import Answer
+from evenbreak.answers.kit.columns import columns_of
+from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.errors import InputError
+from evenbreak.files.store.tokens import DIRECTOR, SCORES, Token, at_table
+from evenbreak.tournaments.evening.events import Plan
+from evenbreak.words import Parameter, Sentence, say, say_count
+
+_SCORES = say("scores, results and calls")
+_DIRECTOR = say("everything a director can do")
+
+
+def scopes(plan: Plan) -> dict[str, Sentence]:
+    """Return what a token can be for, each in words."""
+    tables = range(1, plan.tables + 1)
+    one = {at_table(n): say("only table {table}", table=plan.table_name(n)) for n in tables}
+    return {SCORES: _SCORES, **one, DIRECTOR: _DIRECTOR}
+
+
+def scope_in(text: str, plan: Plan) -> str:
+    """Return what a token is for, as it is typed: a table by what the house calls it.
+
+    >>> scope_in("table:TV", Plan("single", 5, tables=3, labels=("1", "2", "TV")))
+    'table:3'
+    """
+    kind, _, table = text.strip().partition(":")
+    if kind.lower() == "table" and table:
+        return at_table(plan.table_number(table))
+    if text.strip() not in (SCORES, DIRECTOR):
+        raise InputError(
+            "{may} {value!r} is not scores, table:4 or director", may=Parameter("may"), value=text
+        )
+    return text.strip()
+
+
+def scope_words(token: Token, plan: Plan) -> Sentence:
+    """Return what a token is for."""
+    table = {"table": plan.table_name(token.table or 1)}
+    return scopes(plan).get(token.scope, say("only table {table}", **table))
+
+
+def programs_answer(tokens: Collection[Token], plan: Plan, drawn: str = "") -> Answer:
+    """Return the answer: the programs, and the token that was just drawn."""
+    count = len(tokens)
+    said = [say_count("1 program can enter something.", "{n} programs can enter something.", count)]
+    if not tokens:
+        said = [say("No program can enter anything.")]
+    elif drawn:
+        said = [say("The token, which is not shown again: {token}", token=drawn)]
+    columns = columns_of("program may_enter drawn last_entry")
+    rows = [
+        (one.name, scope_words(one, plan), _minute(one.drawn), _minute(one.used)) for one in tokens
+    ]
+    table = Table("programs", columns, rows)
+    parts: list[Part] = [*said, *([table] if tokens else [])]
+    data = {"token": drawn} if drawn else {}
+    return Answer(say("Programs"), parts, data=data, csv=table)
+
+
+def _minute(at: str) -> str | None:
+    """Return a moment without its seconds."""
+    return at[:16].replace("T", " ") or None

@@ -1,0 +1,165 @@
+"""Tokens of other programs in the file of an evening: what each may enter, and its hash alone.
+
+A token is 160 random bits. It is shown once, when it is drawn; the file has its SHA-256, so that
+nobody can use what they read there. Every server on the file looks each time whether it is there
+still. It is no entry of the log: an undo neither takes it back nor brings it again.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import hmac
+import re
+import secrets
+import sqlite3
+from dataclasses import dataclass
+from pathlib import Path
+
+from evenbreak.errors import InputError
+from evenbreak.evenings.log import PROGRAM
+from evenbreak.files.store.evening_file import changing, damaged, opened
+from evenbreak.files.store.formats import has_table, source
+from evenbreak.files.tables.names import clean_name, is_name
+from evenbreak.words import say
+
+SCORES, DIRECTOR = "scores", "director"
+MOVES_OF_SCORES = ("score", "result", "call", "uncall")
+MOVES_OF_A_TABLE = ("score", "result")
+_AT_TABLE = "table:"
+_SCOPE = re.compile(rf"{SCORES}|{DIRECTOR}|{_AT_TABLE}[1-9][0-9]{{0,2}}")
+_BEGINS = "evenbreak-"
+_BYTES = 20
+_MOST, _LONGEST = 50, 40
+_TABLE = """
+CREATE TABLE IF NOT EXISTS token (
+    name TEXT PRIMARY KEY, scope TEXT NOT NULL, hash TEXT NOT NULL, drawn TEXT NOT NULL
+)
+"""
+
+
+@dataclass(frozen=True)
+class Token:
+    """What is known of a token.
+
+    Parameters
+    ----------
+    name
+        of the program that has it.
+    scope
+        what it may enter: scores, director, or table:4 for the match on the fourth table.
+    drawn, used
+        when it was drawn, and the time of the last entry made with it; '' if there is none.
+
+    >>> Token("TV", "table:4").allows("result"), Token("TV", "table:4").allows("call")
+    (True, False)
+    """
+
+    name: str
+    scope: str
+    drawn: str = ""
+    used: str = ""
+
+    @property
+    def table(self) -> int:
+        """The number of the only table whose match it may enter; 0 if it may enter all."""
+        return int(self.scope.removeprefix(_AT_TABLE)) if self.scope.startswith(_AT_TABLE) else 0
+
+    @property
+    def author(self) -> str:
+        """Who enters something with it, as it is kept."""
+        return PROGRAM + self.name
+
+    def allows(self, move: str) -> bool:
+        """Return whether it may be used for a move."""
+        of = MOVES_OF_A_TABLE if self.table else MOVES_OF_SCORES
+        return self.scope == DIRECTOR or move in of
+
+
+def at_table(number: int) -> str:
+    """Return the scope of a token for the match on one table."""
+    return f"{_AT_TABLE}{number}"
+
+
+def draw_token(path: str | Path, name: str, scope: str, at: str) -> str:
+    """Draw a token and return it: nobody can learn it later.
+
+    Parameters
+    ----------
+    path
+        the file of the tournament.
+    name
+        of the program.
+    scope
+        what it may enter, as in `Token`.
+    at
+        when, such as 2025-03-01T19:30:00.
+
+    Raises
+    ------
+    InputError
+        if another program has the name, or there are too many.
+    """
+    called = clean_name(name)
+    if not is_name(called) or len(called) > _LONGEST:
+        what = say("a name of up to {most} letters that can be printed", most=_LONGEST)
+        raise InputError("{name!r} is not {what}", name=name[:_LONGEST], what=what)
+    drawn = base64.b32encode(secrets.token_bytes(_BYTES)).decode().lower()
+    with changing(path) as base:
+        base.execute(_TABLE)
+        there = _tokens(base, path)
+        if any(one.name.casefold() == called.casefold() for one in there.values()):
+            raise InputError(
+                "{name} has a token already; take it back first, or choose another name",
+                name=called,
+            )
+        if len(there) >= _MOST:
+            raise InputError("there are {n} tokens already; take some back first", n=_MOST)
+        row = called, scope, _hash(_BEGINS + drawn), at
+        base.execute("INSERT INTO token VALUES (?, ?, ?, ?)", row)
+    return _BEGINS + drawn
+
+
+def take_back(path: str | Path, name: str) -> None:
+    """Take a token back: from now on, no server on the file takes it.
+
+    Raises
+    ------
+    InputError
+        if no program of this name has one.
+    """
+    with changing(path) as base:
+        base.execute(_TABLE)
+        if not base.execute("DELETE FROM token WHERE name = ?", (name,)).rowcount:
+            raise InputError("no program called {name} has a token", name=name)
+
+
+def kept_tokens(path: str | Path) -> dict[str, Token]:
+    """Return the tokens of a file by their hashes, in the order in which they were drawn."""
+    with opened(path) as base:
+        return _tokens(base, path) if has_table(base, "token") else {}
+
+
+def token_in(tokens: dict[str, Token], text: str) -> Token | None:
+    """Return the token that a text is, None if it is none."""
+    hashed = _hash(text)
+    same = (
+        one for kept, one in tokens.items() if hmac.compare_digest(kept.encode(), hashed.encode())
+    )
+    return next(same, None)
+
+
+def _tokens(base: sqlite3.Connection, path: str | Path) -> dict[str, Token]:
+    found: dict[str, Token] = {}
+    entered = f"SELECT MAX(at) FROM {source(base)} WHERE author = ? AND at >= ?"  # noqa: S608
+    for row in base.execute("SELECT name, scope, hash, drawn FROM token ORDER BY rowid").fetchall():
+        name, scope, hashed, drawn = row
+        if not all(isinstance(one, str) for one in row) or not _SCOPE.fullmatch(scope):
+            raise damaged(path, say("its tokens cannot be read"))
+        ((used,),) = base.execute(entered, (PROGRAM + name, drawn)).fetchall()
+        found[hashed] = Token(name, scope, drawn, str(used or ""))
+    return found
+
+
+def _hash(token: str) -> str:
+    return hashlib.sha256(token.encode(errors="replace")).hexdigest()

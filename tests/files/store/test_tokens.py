@@ -1,0 +1,86 @@
+"""Tokens of programs: the file has their hashes alone, and are gone when taken back."""
+
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from evenbreak.errors import DataError, InputError
+from evenbreak.evenings.log import PROGRAM
+from evenbreak.files.store import tokens
+from evenbreak.files.store.tournament import add_events, new_tournament
+from evenbreak.tournaments.evening.events import Dropped, Entrant, Event, Opened, Plan, Undone
+
+AT = "2025-03-01T19:{:02}:00"
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    plan, names = Plan("single", 5), ("Ann", "Bo", "Cy", "Di")
+    first = Opened(plan, tuple(Entrant(name, 80.0) for name in names))
+    new_tournament(tmp_path / "tonight.db", [Event(AT.format(0), first)])
+    return tmp_path / "tonight.db"
+
+
+def test_the_file_does_not_hold_a_token(path: Path) -> None:
+    drawn = {tokens.draw_token(path, f"board {n}", tokens.SCORES, AT.format(1)) for n in range(9)}
+    assert len(drawn) == 9
+    held = b"".join(one.read_bytes() for one in path.parent.iterdir())
+    for one in drawn:
+        assert len(one.removeprefix("evenbreak-")) == 32  # of 5 bits each
+        assert one.encode() not in held
+        assert one.removeprefix("evenbreak-").encode() not in held
+        assert tokens.token_in(tokens.kept_tokens(path), one) is not None
+    for wrong in ("", "evenbreak-", next(iter(drawn))[:-1], next(iter(drawn)).upper(), "é\ud800"):
+        assert tokens.token_in(tokens.kept_tokens(path), wrong) is None
+
+
+def test_a_token_is_gone_once_it_is_taken_back_and_an_undo_does_not_bring_it_again(
+    path: Path,
+) -> None:
+    drawn = tokens.draw_token(path, "board", tokens.SCORES, AT.format(1))
+    add_events(path, lambda _: [Event(AT.format(2), Dropped("Bo"))], by=PROGRAM + "board")
+    assert tokens.token_in(tokens.kept_tokens(path), drawn) == tokens.Token(
+        "board", "scores", AT.format(1), AT.format(2)
+    )
+    with pytest.raises(InputError, match="Board has a token already"):
+        tokens.draw_token(path, "Board", tokens.DIRECTOR, AT.format(3))
+    tokens.take_back(path, "board")
+    for _ in range(2):
+        assert not tokens.kept_tokens(path)
+        add_events(path, lambda _: [Event(AT.format(3), Undone())] if _.dropped else [])
+    with pytest.raises(InputError, match="no program called board"):
+        tokens.take_back(path, "board")
+    again = tokens.draw_token(path, "board", tokens.SCORES, AT.format(4))
+    ((_, one),) = tokens.kept_tokens(path).items()
+    assert (again != drawn, one.used) == (True, "")  # what another token entered is not its use
+
+
+@pytest.mark.parametrize("name", ["", " ", "\u202e", "x" * 41, "a\x00b"])
+def test_a_program_has_a_name_that_can_be_shown(path: Path, name: str) -> None:
+    with pytest.raises(InputError, match="is not a name"):
+        tokens.draw_token(path, name, tokens.SCORES, AT.format(1))
+
+
+def test_there_are_not_more_tokens_than_anybody_needs(path: Path) -> None:
+    with closing(sqlite3.connect(path)) as base, base:
+        base.execute(tokens._TABLE)
+        for n in range(50):
+            base.execute("INSERT INTO token VALUES (?, 'scores', ?, '')", (f"p{n}", f"{n}"))
+    with pytest.raises(InputError, match="50 tokens already"):
+        tokens.draw_token(path, "board", tokens.SCORES, AT.format(1))
+
+
+@pytest.mark.parametrize(
+    "scope",
+    ["", "all", "table:", "table:x", "table:²", "4", "table:" + "9" * 5000, None, 4, b"scores"],
+)
+def test_a_damaged_token_is_named(path: Path, scope: object) -> None:
+    tokens.draw_token(path, "board", tokens.SCORES, AT.format(1))
+    with closing(sqlite3.connect(path)) as base, base:
+        base.execute("DROP TABLE token")
+        base.execute("CREATE TABLE token (name, scope, hash, drawn)")
+        base.execute("INSERT INTO token VALUES ('board', ?, 'x', '')", (scope,))
+    with pytest.raises(DataError, match="tokens cannot be read"):
+        tokens.kept_tokens(path)
