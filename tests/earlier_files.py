@@ -6,8 +6,9 @@ from typing import Any
 
 from evenbreak.files.lists.saved_ratings import read_saved
 from evenbreak.files.results.seasons import read_seasons
-from evenbreak.files.store.desk import PROPOSED, kept_prizes, phone_entries
+from evenbreak.files.store.desk import PROPOSED, phone_entries
 from evenbreak.files.store.evening_file import opened
+from evenbreak.files.store.prizes import kept_prizes
 from evenbreak.files.store.team_night import read_team_events
 from evenbreak.files.store.tournament import read_events, read_tournament
 from evenbreak.ratings.scale import SCALES

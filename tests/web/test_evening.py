@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from evenbreak.files.store.changes import rows_from
-from evenbreak.files.store.desk import kept_prizes, phone_entries
+from evenbreak.files.store.desk import phone_entries
+from evenbreak.files.store.prizes import kept_prizes
 from evenbreak.files.store.tournament import (
     add_events,
     new_tournament,

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.store.desk import kept_prizes
+from evenbreak.files.store.prizes import kept_prizes
 from evenbreak.files.store.tournament import add_events, new_tournament, read_tournament
 from evenbreak.tournaments.evening.earlier import night_played
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan

@@ -20,6 +20,7 @@ from evenbreak.tournaments.evening.events import BY_ITSELF, Called
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.night import Night
 from evenbreak.web.site import Site
+from night_views import views_are_right
 from tries import tries
 from web.asked import Browser, Form, Got, Room, forms_of
 
@@ -216,6 +217,7 @@ class Played:
     def look(self) -> None:
         """Compare what the pages show with the file."""
         state = self.state
+        views_are_right(self.path)
         for other in (self.room.site, self.other.site, Site(self.path)):
             there = other.night.state()
             assert there.log == state.log, self.last

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from evenbreak.files.store.desk import kept_prizes
+from evenbreak.files.store.prizes import kept_prizes
 from evenbreak.files.store.tournament import read_night
 from evenbreak.tournaments.evening.events import BY_ITSELF, Called
 from evenbreak.tournaments.evening.fold import Evening

@@ -26,6 +26,7 @@ from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Scored
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.site import Site
+from night_views import views_are_right
 from tries import tries
 from web.phones import Phone, free_port, running
 from web.test_who_may import TEAMS
@@ -191,6 +192,7 @@ def test_nothing_acknowledged_is_lost_in_company(tmp_path: Path, company: str) -
                 assert program.stdout is not None
                 assert program.stdout.readline() == "ready\n"
                 play(path, phones)
+    views_are_right(path)
 
 
 def test_a_page_and_a_command_in_the_middle_of_an_entry_take_nothing_away(tmp_path: Path) -> None:
@@ -208,6 +210,7 @@ def test_a_page_and_a_command_in_the_middle_of_an_entry_take_nothing_away(tmp_pa
         add_events(path, decide)
         assert matches[0] in read_tournament(path).counted
     assert matches[0] in read_tournament(path).counted
+    views_are_right(path)
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ from evenbreak.files.store.desk import back_up
 from evenbreak.files.store.evening_file import holds
 from evenbreak.files.store.formats import TOURNAMENT
 from evenbreak.files.store.team_night import read_team_events
-from evenbreak.files.store.tournament import read_tournament
+from evenbreak.files.store.tournament import read_tournament, renew_views
 from evenbreak.questions.start import Serve
 from evenbreak.web.server import server_of
 from evenbreak.web.site import Site
@@ -40,6 +40,7 @@ def serve(asked: Serve, league: LeagueFile | None) -> None:
             back_up(path, datetime.now())
         except (EvenbreakError, OSError) as error:  # it can be shown all the same
             click.echo(f"Warning: no copy of {path} could be made: {error}", err=True)
+        renew_views(path)
     elif not path.parent.is_dir():
         asked.refuse(
             "{path}: there is no folder {folder}; make it, or name another",

@@ -21,11 +21,11 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.tournament.night import begun_at, next_calls, night_answer
-from evenbreak.answers.tournament.prizes import payers_of
 from evenbreak.errors import EvenbreakError, InputError
-from evenbreak.files.store.desk import Phones, keep_prizes, kept_prizes, phone_entries, phones_in
+from evenbreak.files.store.desk import Phones, phone_entries, phones_in
 from evenbreak.files.store.evening_file import holds
-from evenbreak.files.store.tournament import night_of, read_night
+from evenbreak.files.store.prizes import kept_prizes
+from evenbreak.files.store.tournament import keep_prizes, night_of, read_night
 from evenbreak.tournaments.evening.events import Event, Late, Opened
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
@@ -193,7 +193,7 @@ class Night:
         try:
             state = self.state()
             known = self._money
-            return known.amounts(len(state.entrants), payers_of(state)) if known else []
+            return known.amounts(len(state.entrants), state.payers) if known else []
         except InputError:
             return []
 

@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from evenbreak.cli.program import program
-from evenbreak.files.store.desk import kept_prizes
+from evenbreak.files.store.prizes import kept_prizes
 from evenbreak.files.store.tournament import read_tournament
 
 

@@ -18,12 +18,11 @@ from evenbreak.files.store.desk import (
     Act,
     change_secrets,
     enter,
-    keep_prizes,
     kept_secrets,
     phone_entries,
 )
 from evenbreak.files.store.team_night import add_team_events, read_team_events
-from evenbreak.files.store.tournament import add_events, read_tournament
+from evenbreak.files.store.tournament import add_events, keep_prizes, read_tournament
 from evenbreak.teams.evening.events import Undone as TeamUndone
 from evenbreak.tournaments.evening.events import Event, Undone
 from evenbreak.tournaments.money.payouts import PrizeMoney

@@ -28,16 +28,15 @@ from evenbreak.answers.tournament.time import (
     time_of_day,
 )
 from evenbreak.answers.tournament.tournament import against, pair_words, races_words
-from evenbreak.tournaments.brackets.bracket import Place, Source
+from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.standing import NOBODY
-from evenbreak.tournaments.brackets.swiss import SwissRank, swiss_standings
 from evenbreak.tournaments.clock.finish import Call
 from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw, stage_to_draw
+from evenbreak.tournaments.evening.listed import decided_places, swiss_ranks
 from evenbreak.tournaments.evening.outlook import Outlook
-from evenbreak.tournaments.evening.plan import pairings, swiss_of
 from evenbreak.tournaments.evening.settling import tied_groups
 from evenbreak.words import Command, Sentence, joined, listed, say, say_count
 
@@ -138,7 +137,7 @@ def night_answer(
             words.append(say("First place is tied: {players}.", players=listed(first)))
             if state.plan.form != "swiss":
                 words.append(_break_the_ties())
-        parts.append(_places(state, odds.p_place, odds.bracket.places))
+        parts.append(_places(state))
     if state.plan.form == "swiss":
         parts += swiss_table(state)
     if under_way:
@@ -369,17 +368,10 @@ def _next_table(
     return Table("next", columns, rows)
 
 
-def _places(state: Evening, p_place: Any, places: Sequence[Place]) -> Table:
-    """Return who finished where; tied players share all the places they may get."""
-    rows = []
-    for k, name in enumerate(state.order):
-        possible = [places[j] for j in np.flatnonzero(p_place[k] > 0.0).tolist()]
-        if possible:
-            shared = Place(possible[0].first, possible[-1].last, possible[0].event)
-            rows.append((shared, str(shared), name))
-    rows.sort(key=lambda row: (row[0].event, row[0].first, row[0].last))
-    columns = columns_of("place name")
-    return Table("places", columns, [row[1:] for row in rows])
+def _places(state: Evening) -> Table:
+    """Return who finished where."""
+    found = sorted(decided_places(state).items(), key=lambda one: (one[1].event, one[1]))
+    return Table("places", columns_of("place name"), [[str(place), name] for name, place in found])
 
 
 def bracket_table(state: Evening) -> Table:
@@ -409,20 +401,9 @@ def bracket_table(state: Evening) -> Table:
 
 def swiss_table(state: Evening) -> list[Part]:
     """Return the standings of a Swiss, once a round is over."""
-    rounds, ranks = swiss_ranks(state)
-    if not rounds:
+    over, rows = swiss_ranks(state)
+    if not over:
         return []
     columns = columns_of("name matches_won buchholz")
-    title = say("Standings after round {n}", n=rounds)
-    return [Table("standings", columns, [list(row) for row in ranks], title=title)]
-
-
-def swiss_ranks(state: Evening) -> tuple[int, list[SwissRank]]:
-    """Return how many rounds of a Swiss are over, and the standings after them."""
-    over = [
-        pairs
-        for pairs in pairings(state.later, state.counted)
-        if all(p.winner or p.second is None for p in pairs)
-    ]
-    ranks = swiss_standings(swiss_of(state.plan, state.order), over) if over else []
-    return len(over), ranks
+    title = say("Standings after round {n}", n=over)
+    return [Table("standings", columns, [list(row) for row in rows], title=title)]

@@ -46,7 +46,7 @@ def tournament_prizes_answer(
     200.00 is paid to 2 places of 2 players: 140.00 for the winner.
     """
     entrants = len(state.entrants)
-    payers = payers_of(state)
+    payers = state.payers
     pot, payouts = money.pot(payers), money.payouts(entrants)
     amounts = money.amounts(entrants, payers)
     paid = sum(amounts)
@@ -97,11 +97,6 @@ def _paid_words(amounts: Sequence[float], entrants: int, pot: float, left: float
     if left >= 0.005:
         parts.append(say("Rounding leaves {left:.2f} over.", left=left))
     return joined(parts)
-
-
-def payers_of(state: Evening) -> int:
-    """Return how many players the pot is from: those who have paid, if anybody is noted to."""
-    return len(state.paid) or len(state.entrants)
 
 
 def _expected(odds: PlaceOdds, amounts: Sequence[float]) -> Table:

@@ -77,8 +77,8 @@ def _like(asked: NewTournament, path: str) -> Answer:
 
     from evenbreak import files
     from evenbreak.files.lists.roster import refuse_to_read
-    from evenbreak.files.store.desk import keep_prizes, kept_prizes
-    from evenbreak.files.store.tournament import new_tournament, read_tournament
+    from evenbreak.files.store.prizes import kept_prizes
+    from evenbreak.files.store.tournament import keep_prizes, new_tournament, read_tournament
     from evenbreak.ratings.scale import scale_of
     from evenbreak.tournaments.evening.edition import next_edition
     from evenbreak.tournaments.evening.events import Entrant, Event

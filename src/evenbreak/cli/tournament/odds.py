@@ -99,13 +99,9 @@ def _time_under_way(asked: TournamentTime) -> Answer:
 @command_of(PayOut, "prizes")
 def prizes(asked: PayOut) -> Answer:
     """Find what each place is paid."""
-    from evenbreak.answers.tournament.prizes import (
-        calcutta_answer,
-        payers_of,
-        tournament_prizes_answer,
-    )
-    from evenbreak.files.store.desk import keep_prizes, kept_prizes
-    from evenbreak.files.store.tournament import read_tournament
+    from evenbreak.answers.tournament.prizes import calcutta_answer, tournament_prizes_answer
+    from evenbreak.files.store.prizes import kept_prizes
+    from evenbreak.files.store.tournament import keep_prizes, read_tournament
 
     file, house, has_money = asked.path, asked.house, asked.fee or asked.added
     state = read_tournament(file, asked.event)
@@ -124,7 +120,7 @@ def prizes(asked: PayOut) -> Answer:
             payout=money.payout or kept.payout,
             unit=asked.unit or kept.unit,
         )
-    if not money.pot(payers_of(state)):
+    if not money.pot(state.payers):
         asked.refuse("there is no prize money; give {fee} or {added}")
     now = outlook_of(file, moment(asked.at, file), asked.event).odds if state.drawn else None
     answer = tournament_prizes_answer(state, money, now, source=name)

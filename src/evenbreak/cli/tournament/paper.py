@@ -90,8 +90,7 @@ def export(asked: Export) -> Answer:
 def _night_page(asked: Export) -> Answer:
     """Write the night as one page that can be sent on."""
     from evenbreak.answers.tournament.night import night_answer
-    from evenbreak.answers.tournament.prizes import payers_of
-    from evenbreak.files.store.desk import kept_prizes
+    from evenbreak.files.store.prizes import kept_prizes
     from evenbreak.sheets.night_page import night_html
     from evenbreak.tournaments.evening.story import story_of
     from evenbreak.tournaments.money.payouts import with_prizes
@@ -100,7 +99,7 @@ def _night_page(asked: Export) -> Answer:
     state, money = outlook.state, kept_prizes(asked.path)
     answer = night_answer(outlook)
     rows = answer.to_dict().get("places", [])
-    prizes = money.amounts(len(state.entrants), payers_of(state)) if money else []
+    prizes = money.amounts(len(state.entrants), state.payers) if money else []
     unit = money.unit if money else 0.0
     places = with_prizes([(row["place"], row["name"]) for row in rows], prizes, unit)
     assert asked.out is not None  # noqa: S101 - it is what is asked for

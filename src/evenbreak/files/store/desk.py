@@ -1,4 +1,4 @@
-"""What the file of an evening holds besides its events: secrets, prizes, what phones did.
+"""What the file of an evening holds besides its events: secrets, what phones did.
 
 What phones did is a strand of the log: who claimed which player, who proposed which result. Who has
 whose phone, and what is proposed now, are a fold of it.
@@ -15,21 +15,13 @@ from pathlib import Path
 
 from evenbreak.errors import DataError
 from evenbreak.evenings.log import Event, Kinds
-from evenbreak.files.store.evening_file import changing, copied, damaged, named, opened
+from evenbreak.files.store.evening_file import changing, copied, damaged, opened
 from evenbreak.files.store.formats import PHONES, has_table
 from evenbreak.files.store.log import Rules, add, entries, was_taken
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.words import say
 
 _SECRETS = "CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT NOT NULL)"
-_PRIZES = """
-CREATE TABLE IF NOT EXISTS prizes (
-    event INTEGER PRIMARY KEY, fee REAL NOT NULL, added REAL NOT NULL, house REAL NOT NULL,
-    payout TEXT NOT NULL, unit REAL NOT NULL
-)
-"""
-_EARLIER_PRIZES = "prize"  # of the one tournament that a file had
 
 
 def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
@@ -75,37 +67,6 @@ def change_secrets(path: str | Path, to: Mapping[str, str]) -> None:
 def new_pin() -> str:
     """Return a PIN of six digits."""
     return f"{secrets.randbelow(10**6):06d}"
-
-
-def keep_prizes(path: str | Path, money: PrizeMoney, event: int = 1) -> None:
-    """Keep the prize money of an event, instead of what was kept before."""
-    with changing(path) as base:
-        base.execute(_PRIZES)
-        if (earlier := _prizes(base, 1)) and has_table(base, _EARLIER_PRIZES):
-            base.execute("INSERT OR IGNORE INTO prizes VALUES (1, ?, ?, ?, ?, ?)", earlier)
-            base.execute(f"DROP TABLE {_EARLIER_PRIZES}")
-        row = event, money.fee, money.added, money.house, money.payout, money.unit
-        base.execute("INSERT OR REPLACE INTO prizes VALUES (?, ?, ?, ?, ?, ?)", row)
-
-
-def _prizes(base: sqlite3.Connection, event: int) -> tuple[float, float, float, str, float] | None:
-    names, row = "fee, added, house, payout", None
-    if has_table(base, "prizes"):
-        asked = f"SELECT {names}, unit FROM prizes WHERE event = ?"  # noqa: S608
-        row = base.execute(asked, (event,)).fetchone()
-    if row is None and event == 1 and has_table(base, _EARLIER_PRIZES):
-        there = {one[1] for one in base.execute(f"PRAGMA table_info({_EARLIER_PRIZES})")}
-        unit = "unit" if "unit" in there else "0.0"
-        row = base.execute(f"SELECT {names}, {unit} FROM {_EARLIER_PRIZES}").fetchone()  # noqa: S608
-    return None if row is None else tuple(row)
-
-
-def kept_prizes(path: str | Path, event: int = 1) -> PrizeMoney | None:
-    """Return the prize money of an event; None: none was kept."""
-    with opened(path) as base:
-        row = _prizes(base, event)
-    with named(path, say("its prizes")):
-        return PrizeMoney(*row) if row else None
 
 
 def back_up(path: str | Path, now: datetime) -> Path:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import csv
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
@@ -18,6 +19,8 @@ from evenbreak.files.store.changes import clear
 from evenbreak.files.store.evening_file import begin, changing, is_there, opened, refused
 from evenbreak.files.store.formats import TEAM_NIGHT, TOURNAMENT, bring_up_to_date
 from evenbreak.files.store.log import Rules, TakenBeforeError, add, entries, tournaments, was_taken
+from evenbreak.files.store.prizes import write_prizes
+from evenbreak.files.store.views import are_current, renew
 from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import text_of
 from evenbreak.tournaments.clock.event_pace import EarlierNight
@@ -25,6 +28,7 @@ from evenbreak.tournaments.evening.beside import carried, coming_with, together
 from evenbreak.tournaments.evening.earlier import nights_until
 from evenbreak.tournaments.evening.events import KINDS, Changed, Event, Opened, What
 from evenbreak.tournaments.evening.fold import Evening, evening
+from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.words import Command, say
 
 Night: TypeAlias = Mapping[int, Evening]
@@ -68,6 +72,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
             raise refused(path, "{name} is there already; give the new tournament another name")
         _clear(base)
         add(base, TOURNAMENT, _RULES, events)
+        renew(base, path, {1: state})
 
     begin(path, write)
     return state
@@ -91,6 +96,36 @@ def delete_tournament(path: str | Path) -> None:
     """
     with changing(path) as base:
         _clear(base)
+        renew(base, path, {})
+
+
+def keep_prizes(path: str | Path, money: PrizeMoney, event: int = 1) -> None:
+    """Keep the prize money of an event, instead of what was kept before."""
+    with changing(path) as base:
+        write_prizes(base, money, event)
+        _renew(base, path)
+
+
+def renew_views(path: str | Path) -> None:
+    """Bring the views of a file up to date if an earlier version has written to it.
+
+    A file that cannot be written to now, or not be shown, stays as it is.
+    """
+    with suppress(DataError):
+        with opened(path) as base:
+            current = are_current(base)
+        if not current:
+            with changing(path) as base:
+                _renew(base, path)
+
+
+def _renew(base: sqlite3.Connection, path: str | Path) -> None:
+    renew(base, path, night_of(path, _entered(base, path)))
+
+
+def _entered(base: sqlite3.Connection, path: str | Path) -> dict[int, list[Event]]:
+    """Return the entries of each event of the night."""
+    return {n: entries(base, path, str(n), _RULES) for n in tournaments(base)}
 
 
 def begin_beside(
@@ -129,8 +164,9 @@ def begin_beside(
             raise InputError("a chip tournament has the tables for itself")
         plan = first.what.plan.at_tables_of(house.plan)
         events[0] = replace(first, what=replace(first.what, plan=plan))
-        together({**states, number: _shown(evening(events))})
+        night = together({**states, number: _shown(evening(events))})
         add(base, str(number), _RULES, events, form=form)
+        renew(base, path, night)
     return number
 
 
@@ -287,6 +323,7 @@ def add_events(
         for n, events in added.items():
             key = form if n == event else None
             add(base, str(n), _RULES, events, count=len(strands[n]), form=key)
+        renew(base, path, after)
     return before[event], after[event]
 
 
@@ -309,7 +346,7 @@ def _refuse_tables(added: Sequence[Event], event: int) -> None:
 
 def _strands(base: sqlite3.Connection, path: str | Path, event: int = 1) -> dict[int, list[Event]]:
     """Return the entries of each event of the night; refuse a file without a certain one."""
-    found = {n: entries(base, path, str(n), _RULES) for n in tournaments(base)}
+    found = _entered(base, path)
     if event in found:
         return found
     if found:

@@ -308,6 +308,11 @@ class Evening:
             if name in self.standing.to_play and self.sitting(name) == players
         }
 
+    @property
+    def payers(self) -> int:
+        """How many players the pot is from: those who have paid, if anybody is noted to."""
+        return len(self.paid) or len(self.entrants)
+
     def sitting(self, match: str) -> frozenset[str]:
         """Return the players who are known to be in a match."""
         seats = self.standing.seats.get(match, ())
@@ -316,11 +321,10 @@ class Evening:
     def then(self, *events: Event) -> Evening:
         """Return the state after more events; this one stays as it is, and so do others beside."""
         after = evening([*self.log, *events])
-        elsewhere, beside, event = self.elsewhere, self.beside, self.event
-        if event > 1:
-            house = min((self, *beside), key=lambda one: one.event)
+        if self.event > 1:
+            house = min((self, *self.beside), key=lambda one: one.event)
             after = replace(after.at_tables_of(house), plan=after.plan.at_tables_of(self.plan))
-        return replace(after, elsewhere=elsewhere, beside=beside, event=event)
+        return replace(after, elsewhere=self.elsewhere, beside=self.beside, event=self.event)
 
     def at_tables_of(self, house: Evening) -> Evening:
         """Return the state with the tables of another event, wherever those have moved since."""

@@ -108,6 +108,7 @@ class People:
             (now.name, now) if n == name else (n, one) for n, one in self.entrants.items()
         )
         self.order = [now.name if n == name else n for n in self.order]
+        self.dropped = [n for n in self.dropped if n != name]  # somebody is here again
 
     def check_in(self, entry: CheckedIn) -> None:
         """Let a player have come, or paid, or not."""

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from evenbreak.answers.tournament.bracket_view import title_of
-from evenbreak.answers.tournament.night import played_words, swiss_ranks
+from evenbreak.answers.tournament.night import played_words
 from evenbreak.fields.kinds import Text
 from evenbreak.fields.question import Declared, Field
 from evenbreak.teams.evening.fold import EVERYBODY
@@ -24,6 +24,7 @@ from evenbreak.tournaments.evening.calling import night_queue, proposed_calls
 from evenbreak.tournaments.evening.events import Called
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.known import known_player
+from evenbreak.tournaments.evening.listed import swiss_ranks
 from evenbreak.tournaments.money.payouts import with_prizes
 from evenbreak.tournaments.odds.races import games_needed
 from evenbreak.web.api import shapes

@@ -8,7 +8,7 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
-from evenbreak.files.store.desk import kept_prizes
+from evenbreak.files.store.prizes import kept_prizes
 from evenbreak.files.store.tournament import add_events
 from evenbreak.tournaments.evening import roster
 from evenbreak.tournaments.evening.events import Event

@@ -22,11 +22,13 @@ from evenbreak.fields.question import declared
 from evenbreak.files.charts import find_chart
 from evenbreak.files.lists.entrants import nobody, read_entrants
 from evenbreak.files.lists.roster import refuse_to_read
-from evenbreak.files.store.desk import back_up, keep_prizes, kept_prizes
+from evenbreak.files.store.desk import back_up
+from evenbreak.files.store.prizes import kept_prizes
 from evenbreak.files.store.tournament import (
     begin_beside,
     delete_tournament,
     earlier_nights,
+    keep_prizes,
     new_tournament,
     read_events,
 )

@@ -12,9 +12,9 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from evenbreak.answers.tournament.moves import event_name
-from evenbreak.answers.tournament.prizes import payers_of, tournament_prizes_answer
+from evenbreak.answers.tournament.prizes import tournament_prizes_answer
 from evenbreak.errors import InputError
-from evenbreak.files.store.desk import kept_prizes
+from evenbreak.files.store.prizes import kept_prizes
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import PAYOUTS, PrizeMoney
 from evenbreak.web.evening_view import player_views
@@ -80,7 +80,7 @@ async def prizes(request: Request) -> Response:
     asked = money_of(query) or kept if "fee" in request.query_params else kept
     state = await asyncio.to_thread(night.state)
     shown, why = "", ""
-    if asked.pot(payers_of(state)):
+    if asked.pot(state.payers):
         known = await night.outlook()
         odds = known.odds if known and known.of is state else None
         try:
@@ -108,7 +108,7 @@ async def keep(request: Request) -> Response:
     check_director(request)
     money = money_of(form) or PrizeMoney()
     state = await asyncio.to_thread(night.state)
-    money.amounts(len(state.entrants), payers_of(state))
+    money.amounts(len(state.entrants), state.payers)
     await asyncio.to_thread(night.keep_prizes, money)
     return done(
         request,

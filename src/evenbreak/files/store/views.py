@@ -1,0 +1,160 @@
+"""The matches, players and standings of a night as views in its file, beside the log.
+
+They are for other programs, which read them by SQL. The rows are those of the fold of the log, and
+they change in the same transaction as it: whoever reads the file sees both before an entry, or both
+after it. Only rows that have changed are written.
+
+The views stand on tables of their own, so that their columns have types, and nobody who looks at a
+view can change it. `events` says up to which entry they go: a file to which an earlier version has
+added entries is behind until the next entry of this one.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple, get_args, get_type_hints
+
+from evenbreak.errors import EvenbreakError
+from evenbreak.files.store.formats import ENTRIES
+from evenbreak.files.store.prizes import prizes_in
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.listed import (
+    MatchRow,
+    PlayerRow,
+    StandingRow,
+    match_rows,
+    player_rows,
+    standing_rows,
+)
+
+_TYPES = {int: "INTEGER", bool: "INTEGER", float: "REAL", str: "TEXT"}
+
+
+class EventRow(NamedTuple):
+    """An event of the night, and the last entry of which the rows know."""
+
+    name: str | None
+    format: str
+    date: str | None
+    entry: int
+
+
+class _View(NamedTuple):
+    """A view: its name, the kind of its rows, their order, and columns that are worked out."""
+
+    name: str
+    rows: type[Any]
+    order: str
+    more: str = ""
+
+    @property
+    def table(self) -> str:
+        """The table on which it stands."""
+        return f"{self.name}_rows"
+
+    @property
+    def statements(self) -> dict[str, str]:
+        """What makes the table and the view, by name."""
+        types = get_type_hints(self.rows).items()
+        columns = [f"{name} {_TYPES[(get_args(kind) or (kind,))[0]]}" for name, kind in types]
+        names = ", ".join(["event", *self.rows._fields])
+        return {
+            self.table: f"CREATE TABLE {self.table} (event INTEGER, row INTEGER, "
+            f"{', '.join(columns)}, PRIMARY KEY (event, row)) WITHOUT ROWID",
+            self.name: f"CREATE VIEW {self.name} AS SELECT {names}{self.more} "  # noqa: S608
+            f"FROM {self.table} ORDER BY event, {self.order}",
+        }
+
+
+_UP_TO_DATE = (
+    f", entry = (SELECT MAX(number) FROM {ENTRIES} WHERE strand = CAST(event AS TEXT)) "  # noqa: S608
+    "AS up_to_date"
+)
+_VIEWS = (
+    _View("matches", MatchRow, "match IS NULL, match, row"),
+    _View("players", PlayerRow, "row"),
+    _View(
+        "standings",
+        StandingRow,
+        "side, place IS NOT NULL, place, won DESC, lost, buchholz DESC, chips DESC, row",
+    ),
+    _View("events", EventRow, "event", _UP_TO_DATE),
+)
+
+
+@cache
+def _statements() -> dict[str, str]:
+    return {name: text for view in _VIEWS for name, text in view.statements.items()}
+
+
+def are_current(base: sqlite3.Connection) -> bool:
+    """Return whether the views of a file are those of this version, and know of all its entries."""
+    if not _are_there(base):
+        return False
+    entered = f"SELECT COUNT(DISTINCT strand) FROM {ENTRIES} WHERE strand GLOB '[0-9]*'"  # noqa: S608
+    known = "SELECT SUM(up_to_date) FROM events"
+    return bool(base.execute(f"SELECT ({entered}) = COALESCE(({known}), 0)").fetchone()[0])
+
+
+def _are_there(base: sqlite3.Connection) -> bool:
+    asked = "SELECT name, sql FROM sqlite_master WHERE type IN ('table', 'view')"
+    return _statements().items() <= dict(base.execute(asked).fetchall()).items()
+
+
+def renew(base: sqlite3.Connection, path: str | Path, night: Mapping[int, Evening]) -> None:
+    """Write what has changed in the rows of a night, in the transaction that changes its log.
+
+    Parameters
+    ----------
+    base, path
+        the file.
+    night
+        the events of the night by their numbers; what the file has of others is removed.
+    """
+    if not _are_there(base):
+        for view in _VIEWS:
+            base.execute(f"DROP VIEW IF EXISTS {view.name}")
+            base.execute(f"DROP TABLE IF EXISTS {view.table}")
+        for statement in _statements().values():
+            base.execute(statement)
+    for view in _VIEWS:
+        each = {n: _rows(base, path, n, state, view.rows) for n, state in night.items()}
+        _write(base, view, {(n, k): row for n in each for k, row in enumerate(each[n], 1)})
+
+
+def _rows(
+    base: sqlite3.Connection, path: str | Path, event: int, state: Evening, kind: type[Any]
+) -> Iterable[tuple[Any, ...]]:
+    if kind is MatchRow:
+        return match_rows(state)
+    if kind is PlayerRow:
+        return player_rows(state)
+    if kind is EventRow:
+        plan = state.plan
+        return [EventRow(plan.name or None, plan.form, plan.date or None, len(state.log))]
+    try:
+        money = prizes_in(base, path, event)
+        prizes = money.amounts(len(state.entrants), state.payers) if money else None
+    except EvenbreakError:  # no row of the payout table is for so many
+        money = prizes = None
+    return standing_rows(state, prizes, money.unit if money else 0.0)
+
+
+def _write(
+    base: sqlite3.Connection, view: _View, rows: Mapping[tuple[int, int], tuple[Any, ...]]
+) -> None:
+    """Write the rows that are not as they were, and remove those that are gone."""
+    before = {
+        (event, row): tuple(rest)
+        for event, row, *rest in base.execute(f"SELECT * FROM {view.table}")  # noqa: S608
+    }
+    gone = f"DELETE FROM {view.table} WHERE event = ? AND row = ?"  # noqa: S608
+    base.executemany(gone, before.keys() - rows.keys())
+    marks = ", ".join("?" * (2 + len(view.rows._fields)))
+    base.executemany(
+        f"INSERT OR REPLACE INTO {view.table} VALUES ({marks})",  # noqa: S608
+        [(*key, *row) for key, row in rows.items() if before.get(key) != row],
+    )

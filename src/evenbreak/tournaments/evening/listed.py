@@ -1,0 +1,407 @@
+"""The matches, players and standings of an evening as rows: what is kept beside its log.
+
+Names and games are those of the fold, so that a row is right after whatever was entered: an undo, a
+correction, another name. Nothing in a row depends on the time at which it is read.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from evenbreak.tournaments.brackets.bracket import Place, Source
+from evenbreak.tournaments.brackets.standing import NOBODY, Standing, ranked
+from evenbreak.tournaments.brackets.swiss import SwissRank, swiss_standings
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.later_draws import stage_to_draw
+from evenbreak.tournaments.evening.matches import played_matches
+from evenbreak.tournaments.evening.plan import pairings, swiss_of
+from evenbreak.tournaments.money.payouts import shared_prize
+from evenbreak.tournaments.odds.races import games_needed
+
+
+class MatchRow(NamedTuple):
+    """A match of the bracket, or one on hold because its players no longer belong in it.
+
+    Parameters
+    ----------
+    match
+        the number that it has on every screen; None if it is not in the bracket now.
+    code
+        what it is called in the entries of the log, such as W1.2.
+    side, round
+        the part of the bracket, and the round there.
+    player_a, player_b
+        the players; None as long as one is not known.
+    race_a, race_b
+        the games that each needs.
+    score_a, score_b
+        the games that each has won, also in a match in play; None for a forfeit.
+    state
+        waiting (for a player), ready, playing, over, forfeit, not needed, or on hold.
+    winner
+        who moves on as the winner.
+    table_name
+        what the house calls the table that it is or was on.
+    called, ended
+        when it was called to a table, and when its result first came in.
+    """
+
+    match: int | None
+    code: str
+    side: str | None
+    round: int | None
+    player_a: str | None
+    player_b: str | None
+    race_a: int | None
+    race_b: int | None
+    score_a: int | None
+    score_b: int | None
+    state: str
+    winner: str | None
+    table_name: str | None
+    called: str | None
+    ended: str | None
+
+
+class PlayerRow(NamedTuple):
+    """A player who has entered.
+
+    Parameters
+    ----------
+    name
+        as they are called now.
+    seed
+        the place in the draw; None before it.
+    rating, standard_error
+        the rating that they play with, and how far off it may be.
+    arrived, paid, dropped, unrated
+        whether they are here, have paid, have gone home, and came without a rating.
+    """
+
+    name: str
+    seed: int | None
+    rating: float
+    standard_error: float
+    arrived: bool
+    paid: bool
+    dropped: bool
+    unrated: bool
+
+
+class StandingRow(NamedTuple):
+    """How far a player has come.
+
+    Parameters
+    ----------
+    place, place_to
+        the place once it is decided; players who share places have the first and the last of them.
+    side
+        the event of which it is a place, such as consolation; None: the main one.
+    name
+        the player.
+    won, lost
+        matches that count, forfeits among them; a bye of a Swiss is won.
+    games_won, games_lost
+        the games of those matches.
+    buchholz, chips
+        the wins of their opponents in a Swiss, and the chips left in a chip tournament.
+    prize
+        what the place is paid, if prizes are kept.
+    """
+
+    place: int | None
+    place_to: int | None
+    side: str | None
+    name: str
+    won: int
+    lost: int
+    games_won: int
+    games_lost: int
+    buchholz: int | None
+    chips: int | None
+    prize: float | None
+
+
+def match_rows(state: Evening) -> list[MatchRow]:
+    """Return the matches in the order of the bracket, then those on hold.
+
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> begun = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
+    >>> happened = begun, Drawn(("Ann", "Bo"), (0, 1)), Result("F", ("Ann", "Bo"), (5, 3), "Ann")
+    >>> (row,) = match_rows(evening([Event("2025-03-01T19:30:00", what) for what in happened]))
+    >>> row.match, row.player_a, row.score_a, row.score_b, row.state, row.ended
+    (1, 'Ann', 5, 3, 'over', '2025-03-01T19:30:00')
+    """
+    if not state.drawn:
+        return []
+    races = _races(state)
+    found = []
+    for match in state.bracket.matches:
+        name, seats = match.name, state.standing.seats[match.name]
+        pair = _named(state, seats)
+        result, live = state.counted.get(name), state.live.get(name)
+        score: tuple[int, int] | None = None
+        state_now = "waiting" if None in seats else "ready"
+        if NOBODY in seats:
+            state_now = "not needed"
+        elif result is not None:
+            state_now = "forfeit" if result.forfeit else "over"
+            score = None if result.forfeit else _in_order(pair, result.players, result.score)
+        elif live is not None:
+            state_now, score = "playing", _in_order(pair, live.what.players, live.what.score)
+        elif name in state.on_tables:
+            state_now = "playing"
+        table, called = _call(state, name, pair, over=result is not None)
+        found.append(
+            MatchRow(
+                state.number_of(name) or None,
+                name,
+                match.side,
+                match.round,
+                *pair,
+                *_both(races.get(name)),
+                *_both(score),
+                state_now,
+                result.winner if result else None,
+                table,
+                called,
+                _ended(state, name, pair) if result else None,
+            )
+        )
+    return [*found, *_on_hold(state)]
+
+
+_NONE = (None, None)
+
+
+def _both(games: tuple[int, int] | None) -> tuple[int | None, int | None]:
+    return games or _NONE
+
+
+def _named(state: Evening, seats: tuple[int | None, int | None]) -> tuple[str | None, str | None]:
+    one, other = (state.order[k] if k is not None and k != NOBODY else None for k in seats)
+    return one, other
+
+
+def _in_order(
+    pair: tuple[str | None, str | None], players: tuple[str, str], score: tuple[int, int]
+) -> tuple[int, int]:
+    return score if pair == players else (score[1], score[0])
+
+
+def _call(
+    state: Evening, match: str, pair: tuple[str | None, ...], *, over: bool
+) -> tuple[str | None, str | None]:
+    """Return the table that a match is or was on, and when it was called to it."""
+    if state.plan.form == "chips":
+        rack = state.chip_night.racks[match]
+        return state.plan.table_name(rack.table), rack.since
+    played = match, frozenset(filter(None, pair))
+    on = state.calls.get(played) if over else state.on_tables.get(match)
+    return (state.plan.table_name(on.call.table), on.at) if on else _NONE
+
+
+def _ended(state: Evening, match: str, pair: tuple[str | None, ...]) -> str | None:
+    """Return when the first result of a match came in, whatever has corrected it since."""
+    played = state.records.get(match, ())
+    return next((one.at for one in played if {*one.result.players} == {*pair}), None)
+
+
+def _races(state: Evening) -> dict[str, tuple[int, int]]:
+    """Return the games that each player needs, of all matches whose two players are known."""
+    found, to_find = dict[str, tuple[int, int]](), dict[int, list[tuple[str, float]]]()
+    races = state.races
+    for match in state.bracket.matches:
+        if {None, NOBODY} & {*state.standing.seats[match.name]}:
+            continue
+        pair = state.pair(match.name)
+        if state.plan.form == "chips" or match.name in state.records:
+            found[match.name] = state.needed(match.name, pair)
+        else:
+            one, other = (state.entrants[name].rating for name in pair)
+            to_find.setdefault(id(races.of(match)), []).append((match.name, one - other))
+    for these in to_find.values():
+        names, differences = zip(*these, strict=True)
+        race = races.of(state.bracket.match(names[0]))
+        m, n = games_needed(np.array(differences), race, state.scale)
+        found |= dict(zip(names, zip(m.tolist(), n.tolist(), strict=True), strict=True))
+    return found
+
+
+def _on_hold(state: Evening) -> Iterator[MatchRow]:
+    """Yield the results that do not count: others sit in the match now."""
+    for result, at in played_matches(state.records):
+        counted = state.counted.get(result.match)
+        if counted is not None and {*counted.players} == {*result.players}:
+            continue
+        match = state.bracket.by_name.get(result.match)
+        race = state.needed(result.match, result.players) if match else result.race
+        yield MatchRow(
+            state.number_of(result.match) or None,
+            result.match,
+            match.side if match else None,
+            match.round if match else None,
+            *result.players,
+            *_both(race),
+            *_both(None if result.forfeit else result.score),
+            "on hold",
+            result.winner,
+            None,
+            None,
+            at,
+        )
+
+
+def player_rows(state: Evening) -> list[PlayerRow]:
+    """Return the players in the order in which they entered."""
+    seeds = {name: seed for seed, name in enumerate(state.order, 1)}
+    return [
+        PlayerRow(
+            name,
+            seeds.get(name),
+            one.rating,
+            one.standard_error,
+            name in state.arrived,
+            name in state.paid,
+            name in state.dropped,
+            name in state.unrated,
+        )
+        for name, one in state.entrants.items()
+    ]
+
+
+def standing_rows(
+    state: Evening, prizes: Sequence[float] | None = None, unit: float = 0.0
+) -> list[StandingRow]:
+    """Return how far each player has come, in seed order; `prizes` are for the places."""
+    if not state.drawn:
+        return []
+    places = decided_places(state)
+    won, lost, games = Counter[str](), Counter[str](), Counter[tuple[str, str]]()
+    for result in state.counted.values():
+        won[result.winner] += 1
+        lost[result.loser] += 1
+        if not result.forfeit:
+            one, other = result.players
+            games.update({(one, "won"): result.games[one], (one, "lost"): result.games[other]})
+            games.update({(other, "won"): result.games[other], (other, "lost"): result.games[one]})
+    if state.plan.form == "swiss":
+        byes = [p.first for pairs in pairings(state.later) for p in pairs if p.second is None]
+        won.update(byes)
+    swiss = {row.player: row.buchholz for row in swiss_ranks(state)[1]}
+    chips = state.chip_night.chips if state.plan.form == "chips" else {}
+    found = []
+    for name in state.order:
+        place = places.get(name)
+        prize = None
+        if place and prizes is not None:
+            prize = 0.0 if place.event else shared_prize(prizes, place.first, place.last, unit)
+        found.append(
+            StandingRow(
+                place and place.first,
+                place and place.last,
+                (place and place.event) or None,
+                name,
+                won[name],
+                lost[name],
+                games[name, "won"],
+                games[name, "lost"],
+                swiss.get(name, 0 if state.plan.form == "swiss" else None),
+                chips.get(name),
+                prize,
+            )
+        )
+    return found
+
+
+def swiss_ranks(state: Evening) -> tuple[int, list[SwissRank]]:
+    """Return how many rounds of a Swiss are over, and its standings after them."""
+    if state.plan.form != "swiss":
+        return 0, []
+    over = [
+        pairs
+        for pairs in pairings(state.later, state.counted)
+        if all(p.winner or p.second is None for p in pairs)
+    ]
+    ranks = swiss_standings(swiss_of(state.plan, state.order), over) if over else []
+    return len(over), ranks
+
+
+def decided_places(state: Evening) -> dict[str, Place]:
+    """Return the places that are decided, by player; whoever is tied at the end shares places.
+
+    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
+    >>> from evenbreak.tournaments.evening.fold import evening
+    >>> players = tuple(Entrant(name, 80.0) for name in ("Ann", "Bo", "Cy"))
+    >>> happened = [Opened(Plan("single", 5), players), Drawn(("Ann", "Bo", "Cy"), (0, None, 1, 2))]
+    >>> happened += [Result("W1.2", ("Bo", "Cy"), (5, 3), "Bo")]
+    >>> decided_places(evening([Event("2025-03-01T19:30:00", what) for what in happened]))
+    {'Cy': Place(first=3, last=3, event='')}
+    """
+    if state.plan.form == "chips":
+        return _of_chips(state)
+    if state.plan.form == "swiss":
+        over = not state.standing.to_play and stage_to_draw(state) is None
+        rows = swiss_ranks(state)[1] if over else []
+        return _shared([(row.player, (-row.score, -row.buchholz)) for row in rows])
+    found = {**_of_matches(state.standing), **_of_groups(state.standing)}
+    return {state.order[player]: place for player, place in sorted(found.items())}
+
+
+def _of_matches(now: Standing) -> dict[int, Place]:
+    """Return the places of those who have no next match after one."""
+    found = {}
+    for match in now.bracket.matches:
+        goes, winner = now.bracket.going[match.name], now.winners.get(match.name, NOBODY)
+        for slot, player in enumerate(now.seats[match.name] if winner != NOBODY else ()):
+            won = player == winner
+            place = match.winner_place if won else match.loser_place
+            if player is not None and place and not (goes.winner if won else goes.loser)[slot]:
+                found[player] = place
+    found.pop(NOBODY, None)
+    return found
+
+
+def _of_groups(now: Standing) -> dict[int, Place]:
+    """Return the places of groups that are over, and of their runners-up who do not go on."""
+    found, bracket = {}, now.bracket
+    groups = [(one.name, one.places) for one in bracket.groups]
+    runners_up = (
+        [(bracket.runners_up.name, bracket.runners_up.places)] if bracket.runners_up else []
+    )
+    for name, places in groups + runners_up:
+        for rank, place in enumerate(places, 1):
+            player = now.sent.get(Source(name, rank))
+            if place and player is not None:
+                found[player] = place
+    for group in bracket.groups:
+        over = all(name in now.winners for name in group.matches)
+        if over and Source(group.name, 1) not in now.sent and None not in group.places:
+            ahead = ranked(group.members, group.pairs, [now.winners[n] for n in group.matches])
+            for player, first in zip(group.members, ahead, strict=True):
+                shared = [p for p in group.places[first : first + ahead.count(first)] if p]
+                found[player] = shared[0]._replace(last=shared[-1].last)
+    return found
+
+
+def _of_chips(state: Evening) -> dict[str, Place]:
+    night = state.chip_night
+    left = night.order
+    order = [*(left if len(left) == 1 else []), *reversed(night.gone)]
+    first = len(night.chips) - len(order) + 1
+    return {name: Place(k, k) for k, name in enumerate(order, first)}
+
+
+def _shared(rows: Sequence[tuple[str, object]]) -> dict[str, Place]:
+    """Return the places of players, best first, who share them where they are level."""
+    keys = [key for _, key in rows]
+    found = {}
+    for name, key in rows:
+        first = keys.index(key) + 1
+        found[name] = Place(first, first + keys.count(key) - 1)
+    return found
