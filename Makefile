@@ -8,7 +8,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/chains/test_factorisation.py tests/chains/test_spectrum.py tests/ratings/test_fitted.py
 
 .PHONY: catalogues column-tables option-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
-	page-pictures app dist clean
+	page-pictures app bundle dist clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
@@ -108,9 +108,12 @@ dist:             ## the sdist, and the wheel that it gives, as the package inde
 	.venv-dist/bin/twine check --strict dist/*
 	.venv-dist/bin/check-wheel-contents dist/*.whl
 
+bundle:           ## dist/evenbreak-VERSION-PLATFORM: the program that needs no Python, for this platform
+	python3 packaging/bundle.py
+
 bench:            ## each benchmark beside the bare floor it is compared with
 	$(PYTHON) -m pytest -q -o python_files='bench_*.py' -o addopts='--import-mode=importlib' \
 		--benchmark-columns=min,median,rounds --benchmark-group-by=group benchmarks
 
 clean:
-	rm -rf build dist docs/_build sheet evenbreak.pyz .venv .venv-app .venv-dev .venv-dist .venv-lowest .pytest_cache .mypy_cache .ruff_cache
+	rm -rf build dist docs/_build sheet evenbreak.pyz .venv .venv-app .venv-bundle .venv-dev .venv-dist .venv-lowest .pytest_cache .mypy_cache .ruff_cache

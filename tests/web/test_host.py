@@ -17,24 +17,20 @@ def asked(path: Path, *words: str) -> tuple[int, str]:
 
 
 @pytest.mark.parametrize(
-    ("host", "address", "name"),
-    [
-        ("192.168.1.20", "http://192.168.1.20:8000", "192.168.1.20"),
-        ("Pool.Example:80", "http://pool.example:80", "pool.example"),
-    ],
+    ("host", "name"),
+    [("192.168.1.20", "192.168.1.20:8000"), ("Pool.Example:80", "pool.example:80")],
 )
 def test_the_page_is_printed_and_answered_under_the_name(
-    tmp_path: Path, host: str, address: str, name: str
+    tmp_path: Path, host: str, name: str
 ) -> None:
-    with patch("evenbreak.web.command.Site", wraps=None) as site:
-        site.return_value.pin = "123456"
-        with patch("evenbreak.web.command.server_of"):
-            code, shown = asked(tmp_path, "--lan", "--host", host)
+    with (
+        patch("evenbreak.web.command.addresses", return_value=["172.17.0.2"]),
+        patch("evenbreak.web.command.server_of") as server,
+    ):
+        code, shown = asked(tmp_path, "--lan", "--host", host)
     assert code == 0, shown
-    assert f"The page: {address}\n" in shown
-    _, hosts, at = site.call_args.args[:3]
-    assert name in hosts
-    assert at == address
+    assert f"The page: http://{name}\n" in shown
+    assert server.call_args.kwargs["name"] == host.lower()  # test_room says what that does
 
 
 @each_of(

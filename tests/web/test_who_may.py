@@ -61,7 +61,7 @@ MAY = {
                 "GET /new",
             ),
             *("GET /desk/programs", "POST /desk/programs/draw", "POST /desk/programs/take-back"),
-            *("GET /desk/check-in", "GET /next"),
+            *("GET /desk/check-in", "GET /next", "GET /desk/phones", "POST /desk/phones"),
             *("GET /team/new", "GET /team/history", "POST /desk/draw", "POST /desk/call"),
             *(
                 "POST /desk/result",

@@ -92,6 +92,7 @@ class Serve(Question):
     """Forms begin with what the league's file says."""
     examples = """\
   evenbreak serve
+  evenbreak serve --open
   evenbreak serve saturday.db --lan
   evenbreak serve --demo --color "#7a1f5c"
 """
@@ -105,11 +106,22 @@ class Serve(Question):
             "is printed, is in a temporary folder of its own.",
         ),
     ] = False
+    open: Annotated[
+        bool,
+        Field(
+            Flag(),
+            "Open the browser on the page, as the director.",
+            more="Without FILE.db the tournament is kept in your documents, in the folder "
+            "evenbreak: a file for each day. A second start opens the browser on the first. If the "
+            "port is taken, the next free one is used.",
+        ),
+    ] = False
     lan: Annotated[
         bool,
         Field(
             Flag(),
-            "Let phones in the same network open the page; prints its address and a QR code.",
+            "Let phones in from the start; prints the address and a QR code.",
+            more="Without it, the director lets them in on the page.",
         ),
     ] = False
     host: Annotated[

@@ -45,6 +45,7 @@ from evenbreak.web.pages import (
     moves,
     players,
     programs,
+    room,
     share,
     table,
     team,
@@ -97,6 +98,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
                     *check_in.ROUTES,
                     *programs.ROUTES,
                     *share.ROUTES,
+                    *room.ROUTES,
                     *team.ROUTES,
                     *wall.ROUTES,
                 ]
@@ -104,7 +106,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
         ],
         middleware=[
             Middleware(Waking, watch=watch),
-            Middleware(Guard, hosts=site.hosts, script_hash=script_hash()),
+            Middleware(Guard, hosts=site.asked_as, script_hash=script_hash()),
             # A third of the bytes over a bar's Wi-Fi; the stream of events it leaves alone.
             Middleware(GZipMiddleware, minimum_size=5000, compresslevel=4),
             Middleware(

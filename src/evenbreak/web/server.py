@@ -12,8 +12,9 @@ import logging
 import socket
 import sys
 import time
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 from concurrent.futures import ThreadPoolExecutor
+from threading import Thread
 from typing import Any
 
 import uvicorn
@@ -21,6 +22,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from evenbreak.web.app import make_app
 from evenbreak.web.guard import MOST_HEAD
+from evenbreak.web.room import Room
 from evenbreak.web.site import Site
 
 _LOG = logging.getLogger(__name__)
@@ -38,24 +40,37 @@ _QUEUE = 1024  # connections that wait to be let in
 _IDLE = 200  # tenths of a second
 
 
-def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Server:
-    """Return the server of a site.
+def server_of(
+    site: Site,
+    *,
+    port: int,
+    lan: bool = False,
+    name: str = "",
+    then: Callable[[], object] | None = None,
+) -> uvicorn.Server:
+    """Return the server of a site, which listens on this computer.
 
     Parameters
     ----------
     site
-        what is served.
-    host, port
+        what is served; its `room` lets phones in.
+    port
         where it listens.
+    lan
+        whether phones are let in from the start.
+    name
+        by what phones find it, where not by an address of this computer.
+    then
+        what is called once it listens, in a thread.
     """
     # It warns of each form that is cut or wrong, which any guest can send.
     logging.getLogger("python_multipart").setLevel(logging.ERROR)
     most, at_a_turn = room(descriptors())
     config = uvicorn.Config(
         make_app(site, streams=most // 2),
-        host=host,
+        host="127.0.0.1",
         port=port,
-        http=behind(Door(most, site.hosts)),
+        http=behind(Door(most, site.asked_as)),
         ws="none",
         lifespan="off",
         proxy_headers=False,
@@ -67,7 +82,10 @@ def server_of(site: Site, *, host: str = "127.0.0.1", port: int) -> uvicorn.Serv
         backlog=at_a_turn,
         h11_max_incomplete_event_size=MOST_HEAD,
     )
-    return _Server(config)
+    server = _Server(config)
+    site.room = Room(site.asked_as, site.found_at, port, server, name)
+    server.room, server.then = site.room if lan else None, then
+    return server
 
 
 class _Server(uvicorn.Server):
@@ -80,6 +98,8 @@ class _Server(uvicorn.Server):
     def __init__(self, config: uvicorn.Config) -> None:
         super().__init__(config)
         self._idle: dict[Any, Any] = {}
+        self.room: Room | None = None
+        self.then: Callable[[], object] | None = None
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Start to listen."""
@@ -87,9 +107,38 @@ class _Server(uvicorn.Server):
         loop.set_exception_handler(in_few_lines())
         loop.set_default_executor(ThreadPoolExecutor(_READERS))
         await super().startup(sockets)
-        for listening in (one for server in self.servers for one in server.sockets):
-            with listening.dup() as same:  # many may wait, though few are let in at a turn
-                same.listen(_QUEUE)
+        _let_many_wait(self.servers)
+        if self.room is not None:
+            await self.room.open()
+        if self.then is not None:
+            Thread(target=self.then, daemon=True).start()
+
+    async def listen_at(self, address: str) -> asyncio.Server:
+        """Listen on another address of this computer."""
+        config = self.config
+
+        def line() -> asyncio.Protocol:
+            kind: Any = config.http_protocol_class
+            made: asyncio.Protocol = kind(
+                config=config, server_state=self.server_state, app_state=self.lifespan.state
+            )
+            return made
+
+        found = await asyncio.get_running_loop().create_server(
+            line, host=address, port=config.port, backlog=config.backlog
+        )
+        _let_many_wait([found])
+        self.servers.append(found)
+        return found
+
+    def leave(self, at: str, server: asyncio.Server) -> None:
+        """Listen on an address no longer, and end the connections that came in there."""
+        server.close()
+        self.servers.remove(server)
+        lines: set[Any] = self.server_state.connections
+        for line in list(lines):
+            if line.transport.get_extra_info("sockname", ("",))[0] == at:
+                line.transport.abort()
 
     async def on_tick(self, counter: int) -> bool:
         """Look after the connections; called ten times a second."""
@@ -115,6 +164,13 @@ class _Server(uvicorn.Server):
             if one in still and self._idle.get(one, self) == still[one]:
                 one.transport.abort()
         self._idle = still
+
+
+def _let_many_wait(servers: Iterable[asyncio.Server]) -> None:
+    """Let many connections wait at servers that let few in at a turn."""
+    for listening in (one for server in servers for one in server.sockets):
+        with listening.dup() as same:
+            same.listen(_QUEUE)
 
 
 def descriptors() -> int:

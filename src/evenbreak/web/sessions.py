@@ -56,6 +56,37 @@ class Tries:
         return len(seen) == self.most and now - seen[0] <= _SECONDS
 
 
+class Ticket:
+    """What lets one browser in as the director without the PIN: once, within a minute.
+
+    >>> ticket = Ticket(clock=iter([0.0, 30.0, 31.0]).__next__)
+    >>> drawn = ticket.draw()
+    >>> ticket.is_good(drawn), ticket.is_good("guessed"), ticket.take(drawn), ticket.take(drawn)
+    (True, False, True, False)
+    """
+
+    def __init__(self, *, clock: Callable[[], float] = time.monotonic) -> None:
+        self.clock = clock
+        self.drawn, self.until = "", 0.0
+
+    def draw(self) -> str:
+        """Return a new one; an earlier one is good for nothing from then on."""
+        self.drawn, self.until = secrets.token_urlsafe(24), self.clock() + _SECONDS
+        return self.drawn
+
+    def is_good(self, text: str) -> bool:
+        """Return whether a text is the ticket, still unused and in time."""
+        same = hmac.compare_digest(text.encode(), self.drawn.encode())
+        return bool(self.drawn) and same and self.clock() <= self.until
+
+    def take(self, text: str) -> bool:
+        """Return the same, and use the ticket up."""
+        good = self.is_good(text)
+        if good:
+            self.drawn = ""
+        return good
+
+
 def form_token(request: Request) -> str:
     """Return the token that each form of this session carries."""
     token: str = request.session.setdefault(_CSRF, secrets.token_urlsafe(16))
@@ -132,9 +163,8 @@ def check_tries(request: Request) -> None:
 
     The computer itself does not have to wait for others: whoever sits there may be the director.
     """
-    site, address = request.app.state.site, address_of(request)
-    here = address in {"127.0.0.1", "::1"}
-    if site.tries.full(address) or (site.all_tries.full("") and not here):
+    site = request.app.state.site
+    if site.tries.full(address_of(request)) or (site.all_tries.full("") and not is_here(request)):
         raise RefusalError("Too many wrong PINs. Wait a minute.", status=429)
 
 
@@ -149,6 +179,11 @@ def wrong_pin(request: Request) -> RefusalError:
 def address_of(request: Request) -> str:
     """Return where a request comes from."""
     return request.client.host if request.client else ""
+
+
+def is_here(request: Request) -> bool:
+    """Return whether a request comes from this computer itself."""
+    return address_of(request) in {"127.0.0.1", "::1"}
 
 
 def phones_of(players: Sequence[str]) -> str:

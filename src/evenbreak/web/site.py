@@ -27,7 +27,8 @@ from evenbreak.web.codes import codes_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
 from evenbreak.web.night import Night, mark_of, now
-from evenbreak.web.sessions import Tries
+from evenbreak.web.room import Room
+from evenbreak.web.sessions import Ticket, Tries
 from evenbreak.web.team_night import TeamNights
 
 _ENDED, _CALLS, _BY_HAND = "ended", "calls", "by hand"
@@ -43,7 +44,8 @@ class Site:
     path
         the file of the tournament, which need not exist yet.
     hosts
-        the names and addresses under which this computer may be asked.
+        the names and addresses under which this computer may be asked, before a `Room` adds those
+        for phones to `asked_as`.
     address
         where phones find it, such as http://192.168.1.20:8000; for QR codes.
     rules
@@ -70,6 +72,9 @@ class Site:
     taps: Tries = field(default_factory=lambda: Tries(240))
 
     def __post_init__(self) -> None:
+        self.asked_as = set(self.hosts)
+        self.ticket = Ticket()
+        self.room: Room | None = None
         self.night = Night(self.path, clock=lambda: self.clock())
         self._nights = {1: self.night}
         self._numbers: tuple[tuple[int, int, int] | None, list[int]] = None, [1]
@@ -116,6 +121,11 @@ class Site:
                 return pages
         self._rendered = [(what, {}), *self._rendered[:_MOST_KINDS]]
         return self._rendered[0][1]
+
+    def found_at(self, address: str) -> None:
+        """Take note of where phones find the page from now on."""
+        self.address = address
+        self._rendered.clear()
 
     def keep_secrets(self) -> None:
         """Keep the secrets in the file, if it is there, so that phones go on after a restart.

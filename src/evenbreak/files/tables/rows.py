@@ -319,7 +319,9 @@ def sheets_of(content: bytes, source: str) -> list[Sheet]:
         if the file is no workbook, is damaged or locked, too large, or empty.
     """
     # -I and -S: nothing from the current folder or the environment is imported there.
-    words = [sys.executable, "-I", "-S", workbook.__file__, str(workbook.MOST_MEMORY), *sys.path]
+    bundled = getattr(sys, "frozen", False)  # there is no Python but the program itself
+    how = [workbook.AS_READER] if bundled else ["-I", "-S", workbook.__file__]
+    words = [sys.executable, *how, str(workbook.MOST_MEMORY), *sys.path]
     try:
         done = subprocess.run(  # noqa: S603
             words, input=content, capture_output=True, timeout=PATIENCE, check=True

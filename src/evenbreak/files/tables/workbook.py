@@ -19,6 +19,9 @@ from functools import cache
 from typing import Any
 from xml.parsers import expat
 
+AS_READER = "--read-workbook"
+"""The first word of a bundled program that is to read a workbook."""
+
 MOST_BYTES = 400_000_000
 """The most that a workbook may hold once unpacked."""
 

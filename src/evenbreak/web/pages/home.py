@@ -16,7 +16,15 @@ from starlette.routing import Route
 from evenbreak.web.forms import form_of
 from evenbreak.web.page import choose_language, done, page, site_of
 from evenbreak.web.pages.wall import view_for
-from evenbreak.web.sessions import DIRECTOR, address_of, check_tries, let_in, let_out, wrong_pin
+from evenbreak.web.sessions import (
+    DIRECTOR,
+    address_of,
+    check_tries,
+    is_here,
+    let_in,
+    let_out,
+    wrong_pin,
+)
 from evenbreak.web.site import night_of
 from evenbreak.web.watch import Watch
 
@@ -35,8 +43,10 @@ async def tonight(request: Request) -> Response:
 
 
 async def ask_pin(request: Request) -> Response:
-    """Ask for the director's PIN."""
-    return page(request, "pin.html")
+    """Ask for the director's PIN; the program's own browser comes with a ticket instead."""
+    ticket = request.query_params.get("ticket", "")
+    good = is_here(request) and site_of(request).ticket.is_good(ticket)
+    return page(request, "pin.html", ticket=ticket if good else "", late=bool(ticket) and not good)
 
 
 async def enter_pin(request: Request) -> Response:
@@ -44,7 +54,10 @@ async def enter_pin(request: Request) -> Response:
     form = await form_of(request)
     site = site_of(request)
     check_tries(request)
-    if not site.is_pin(form.text("pin")):
+    ticket = form.text("ticket")
+    if not (
+        is_here(request) and site.ticket.take(ticket) if ticket else site.is_pin(form.text("pin"))
+    ):
         raise wrong_pin(request)
     let_in(request, DIRECTOR, site.director_mark)
     return done(request, "/desk" if site.night.exists else "/")

@@ -1,0 +1,129 @@
+"""What a double click needs: tonight's file in the documents, one page at a time, a browser."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import time
+import webbrowser
+from contextlib import suppress
+from datetime import date, timedelta
+from pathlib import Path
+from types import TracebackType
+from typing import IO
+
+import platformdirs
+
+from evenbreak.errors import DataError
+from evenbreak.files.store.evening_file import holds
+from evenbreak.files.store.formats import TOURNAMENT
+from evenbreak.files.store.tournament import read_tournament
+from evenbreak.tournaments.evening.later_draws import can_draw
+
+_LONGEST = timedelta(days=3)
+"""How long a tournament may go on."""
+_DAY = re.compile(r"\d{4}-\d\d-\d\d")
+_FAR = 1 << 20  # a byte beyond the address: on Windows what is locked cannot be read
+_STARTING = 10.0  # seconds in which the other program says where its page is
+
+
+def documents() -> Path:
+    """Return the folder of the user's events, made if need be."""
+    folder = platformdirs.user_documents_path() / "evenbreak"
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def tonights_file(folder: Path, today: date) -> Path:
+    """Return the file of today, or that of the days before whose tournament is not over yet."""
+    of_today = folder / f"{today}.db"
+    if not of_today.exists():
+        earliest = f"{today - _LONGEST}"
+        found = [one for one in folder.glob("*.db") if _DAY.fullmatch(one.stem)]
+        for path in sorted(found, reverse=True):
+            if earliest <= path.stem < f"{today}":
+                return path if _goes_on(path) else of_today
+    return of_today
+
+
+def _goes_on(path: Path) -> bool:
+    with suppress(DataError):  # it is left for whoever can mend it
+        if holds(path, TOURNAMENT):
+            state = read_tournament(path)
+            return not state.drawn or bool(state.standing.to_play) or can_draw(state)
+    return False
+
+
+class Alone:
+    """One program at a time that has tonight's page; a second one learns where it is.
+
+    The system ends the lock with the program, however that ends.
+
+    Parameters
+    ----------
+    path
+        the file that is locked; the user's own unless given.
+    """
+
+    def __init__(self, path: Path | None = None) -> None:
+        self.path = path or platformdirs.user_cache_path("evenbreak", False) / "page"
+        self.running = ""
+        self.file: IO[str] | None = None
+
+    def __enter__(self) -> Alone:
+        """Take the turn, or find out where the page of the other program is."""
+        with suppress(OSError):  # where no file can be kept, nobody learns of another
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            self.file = self.path.open("a+", encoding="utf-8")
+            if _lock(self.file):
+                self.file.truncate(0)
+            else:
+                self.running = self._address()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        at: TracebackType | None,
+    ) -> None:
+        """Leave the turn to the next."""
+        if self.file is not None:
+            self.file.close()
+
+    def keep(self, address: str) -> None:
+        """Keep where the page is, for a second start."""
+        if self.file is not None:
+            self.file.write(address)
+            self.file.flush()
+
+    def _address(self) -> str:
+        until = time.monotonic() + _STARTING
+        while not (found := self.path.read_text("utf-8")) and time.monotonic() < until:
+            time.sleep(0.2)
+        return found
+
+
+def _lock(file: IO[str]) -> bool:
+    """Return whether a file is locked for this program now; False: another has it."""
+    try:
+        if sys.platform == "win32":
+            import msvcrt
+
+            file.seek(_FAR)
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+        else:
+            from fcntl import LOCK_EX, LOCK_NB, flock
+
+            flock(file, LOCK_EX | LOCK_NB)
+    except (BlockingIOError, PermissionError):
+        return False
+    return True
+
+
+def show(address: str) -> None:
+    """Open the browser on a page, if there is a screen."""
+    on_screen = {"DISPLAY", "WAYLAND_DISPLAY", "BROWSER"} & os.environ.keys()
+    if sys.platform != "linux" or on_screen:
+        webbrowser.open(address)

@@ -1,0 +1,44 @@
+"""Let the phones of the room in, and shut them out again."""
+
+from __future__ import annotations
+
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from evenbreak.web.forms import form_of
+from evenbreak.web.guard import RefusalError
+from evenbreak.web.page import done, page, site_of
+from evenbreak.web.pages.wall import code
+from evenbreak.web.sessions import check_director, is_here
+from evenbreak.words import say
+
+_PHONES = "/desk/phones"
+
+
+async def phones(request: Request) -> Response:
+    """Show where phones find the page, or that they can't open it yet."""
+    check_director(request)
+    room = site_of(request).room
+    places = [(one, code(one)) for one in room.places] if room else []
+    return page(request, "phones.html", places=places, here_now=is_here(request))
+
+
+async def let(request: Request) -> Response:
+    """Let phones in, or shut them out."""
+    form = await form_of(request)
+    check_director(request)
+    room = site_of(request).room
+    if room is None or not is_here(request):
+        raise RefusalError("Do that on the computer that runs this page.", status=409)
+    if form.text("open"):
+        await room.open()
+        return done(request, _PHONES, say("Phones can open the page now."))
+    room.close()
+    return done(request, _PHONES, say("Only this computer can open the page now."))
+
+
+ROUTES = [
+    Route(_PHONES, phones, methods=["GET"]),
+    Route(_PHONES, let, methods=["POST"]),
+]

@@ -1,0 +1,154 @@
+"""What a double click does: tonight's file, one page at a time, the browser let in once."""
+
+import subprocess
+import sys
+from contextlib import closing
+from datetime import date
+from pathlib import Path
+from unittest.mock import patch
+
+import pytest
+from click.testing import CliRunner, Result
+
+from evenbreak.cli.program import program
+from evenbreak.files.store.tournament import add_events, new_tournament
+from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
+from evenbreak.tournaments.evening.moves import result
+from evenbreak.web import documents
+from evenbreak.web.documents import Alone, tonights_file
+from evenbreak.web.sessions import Ticket
+from evenbreak.web.site import Site
+from web.asked import Browser, Room
+
+AT = "2026-11-27T19:30:00"
+TODAY = date(2026, 11, 28)
+
+
+def night(path: Path, *, over: bool) -> None:
+    """Write a tournament of one match, which is over or still to be played."""
+    path.parent.mkdir(exist_ok=True)
+    both = ("Ann", "Bo")
+    what = [
+        Opened(Plan("single", 5, scale="fargo", tables=1), tuple(Entrant(n, 500.0) for n in both)),
+        Drawn(both, (0, 1)),
+    ]
+    state = new_tournament(path, [Event(AT, one) for one in what])
+    if over:
+        (match,) = state.standing.to_play
+        add_events(path, lambda now: [Event(AT, result(now, match, (5, 3)))])
+
+
+@pytest.fixture
+def clicked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The addresses that the browser was opened on; files are kept in a folder of the test."""
+    shown = list[str]()
+    monkeypatch.setattr(documents.platformdirs, "user_documents_path", lambda: tmp_path)
+    monkeypatch.setattr(documents.platformdirs, "user_cache_path", lambda *_: tmp_path / "cache")
+    monkeypatch.setattr("evenbreak.web.command.show", shown.append)
+    return shown
+
+
+def click(**ports: str) -> Result:
+    """Start the program as a double click does, up to where it would wait for requests."""
+    with (
+        patch("uvicorn.Server.run"),
+        patch("evenbreak.web.command._taken", lambda _, port: ports.get(f"p{port}", "")),
+    ):
+        return CliRunner().invoke(program, ["serve", "--open"])
+
+
+def files(folder: Path, **nights: str) -> None:
+    for day, how in nights.items():
+        night(folder / f"2026-11-{day[1:]}.db", over=how == "over")
+
+
+@pytest.mark.parametrize(
+    ("nights", "name"),
+    [
+        ({}, "28"),
+        ({"d27": "over"}, "28"),
+        ({"d27": "goes on"}, "27"),  # past midnight, or the second day of two
+        ({"d27": "goes on", "d28": "over"}, "28"),
+        ({"d26": "goes on", "d27": "over"}, "28"),
+        ({"d24": "goes on"}, "28"),  # left lying
+        ({"d29": "goes on"}, "28"),
+    ],
+)
+def test_tonights_file_is_of_today_or_goes_on(
+    tmp_path: Path, nights: dict[str, str], name: str
+) -> None:
+    files(tmp_path, **nights)
+    (tmp_path / "2026-11-27-20261127-193000.db").write_bytes(b"a copy")
+    assert tonights_file(tmp_path, TODAY) == tmp_path / f"2026-11-{name}.db"
+
+
+def test_a_damaged_file_of_yesterday_does_not_keep_tonight_from_starting(tmp_path: Path) -> None:
+    (tmp_path / "2026-11-27.db").write_bytes(b"no database" * 100)
+    assert tonights_file(tmp_path, TODAY) == tmp_path / "2026-11-28.db"
+
+
+def test_a_double_click_keeps_tonight_in_the_documents(clicked: list[str], tmp_path: Path) -> None:
+    shown = click(p8000="address already in use")
+    assert shown.exit_code == 0, shown.output
+    assert f"{tmp_path / 'evenbreak' / str(date.today())}.db" in shown.output
+    assert "Port 8000: address already in use; taking 8001" in shown.output
+    assert "http://127.0.0.1:8001" in shown.output
+    assert not clicked  # the browser waits for the server
+
+
+@pytest.mark.slow
+def test_a_second_start_opens_the_first(clicked: list[str], tmp_path: Path) -> None:
+    hold = (
+        "import sys; from pathlib import Path; from evenbreak.web.documents import Alone\n"
+        "with Alone(Path(sys.argv[1])) as alone:\n"
+        "    alone.keep('http://127.0.0.1:8123'); print('ready', flush=True); sys.stdin.read()"
+    )
+    words = [sys.executable, "-c", hold, str(tmp_path / "cache" / "page")]
+    with subprocess.Popen(words, stdin=-1, stdout=-1, text=True) as first:
+        assert first.stdout
+        assert first.stdout.readline() == "ready\n"
+        shown = click()
+        assert "open already: http://127.0.0.1:8123" in shown.output
+        assert clicked == ["http://127.0.0.1:8123"]
+        first.kill()  # however it ends, its turn ends too
+    assert "Tonight is kept in" in click().output
+
+
+def test_without_a_folder_for_it_nobody_is_kept_out(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with Alone(tmp_path / "file" / "page") as alone:
+        alone.keep("http://127.0.0.1:8000")
+        assert not alone.running
+
+
+def test_a_ticket_lets_one_browser_of_this_computer_in_once(tmp_path: Path) -> None:
+    now = [0.0]
+    site = Site(tmp_path / "tonight.db", hosts=frozenset({"localhost"}))
+    site.ticket = Ticket(clock=lambda: now[0])
+    with closing(Room(site)) as room:
+        own, guest = Browser(room, address="127.0.0.1"), Browser(room, address="10.0.0.7")
+        ticket = site.ticket.draw()
+        assert "PIN" in guest.open("/pin", ticket=ticket).words  # seen, but not theirs
+        assert guest.send("/pin", ticket=ticket).status == 403
+        assert "need no PIN" in own.open("/pin", ticket=ticket).words
+        own.open("/pin", ticket=ticket)  # opening it again uses nothing up
+        assert own.open("/new").status == 403
+        assert own.send("/pin", ticket=ticket).status == 303
+        assert own.open("/new").status == 200
+        other = Browser(room, address="127.0.0.1")
+        assert "worked once" in other.open("/pin", ticket=ticket).words
+        for tried in (ticket, "guessed", site.ticket.draw()[:-1], ""):
+            assert other.send("/pin", ticket=tried).status == 403
+        late = site.ticket.draw()
+        now[0] = 61.0
+        assert Browser(room, address="127.0.0.1").send("/pin", ticket=late).status == 403
+
+
+def test_the_browser_is_opened_with_a_ticket(clicked: list[str]) -> None:
+    with patch("evenbreak.web.command.server_of") as server:
+        assert CliRunner().invoke(program, ["serve", "--open", "--port", "9000"]).exit_code == 0
+    server.call_args.kwargs["then"]()
+    (address,) = clicked
+    site = server.call_args.args[0]
+    assert address.startswith("http://127.0.0.1:9000/pin?ticket=")
+    assert site.ticket.is_good(address.partition("=")[2])
