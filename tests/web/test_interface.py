@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
+from typing import Any
 
 import pytest
+from jsonschema import Draft202012Validator
 
+from evenbreak.web.api import description
 from evenbreak.web.site import Site
 from web.asked import Browser, Room
 from web.test_who_may import NEW
+
+HERE = Path(__file__).parent
 
 
 @pytest.fixture
@@ -55,7 +61,10 @@ def test_nothing_new_is_not_sent_again(begun: Browser) -> None:
         ("GET", "/api/v1/tonight?evnt=2", 400, "evnt", "known here: event"),
         ("GET", "/api/v1/tonight?event=0", 400, "event", "from 1 to 99"),
         ("GET", "/api/v1/tonight?event=1&event=2", 400, "event", "2 times"),
-        ("GET", "/api/v1/tonight?event=7", 404, None, ""),
+        ("GET", "/api/v1/tonight?event=7", 404, "event", "no event 7"),
+        ("GET", "/api/v1/tonight/race?a=Ann", 400, "b", "'b' is missing"),
+        ("GET", "/api/v1/tonight/race?a=Ann&b=Zoe", 404, "b", "not in this tournament"),
+        ("GET", "/api", 404, None, "no such"),
     ],
 )
 def test_what_is_wrong_is_refused_in_json(
@@ -69,7 +78,58 @@ def test_what_is_wrong_is_refused_in_json(
     assert status != 405 or allowed == {"GET", "HEAD", "OPTIONS"}
 
 
-def test_the_description_names_what_is_there(browser: Browser) -> None:
+def test_heads_and_options_say_what_a_get_would(begun: Browser) -> None:
+    got, head = (begun.tells(method, "/api/v1/tonight/bracket") for method in ("GET", "HEAD"))
+    assert (head.status, head.headers["etag"]) == (200, got.headers["etag"])
+    options = begun.tells("OPTIONS", "/api/v1/tonight/bracket")
+    assert (options.status, options.headers["allow"]) == (204, "GET, HEAD, OPTIONS")
+    assert options.body == b""
+
+
+def test_the_guard_too_answers_programs_in_json(begun: Browser) -> None:
+    got = begun.tells("GET", "/api/v1/tonight", host="evil.example")
+    assert (got.status, got.json["title"]) == (421, "Misdirected Request")
+    assert got.headers["content-type"] == "application/problem+json"
+
+
+def test_a_program_gets_and_needs_no_cookie(begun: Browser) -> None:
+    assert "set-cookie" not in begun.tells("GET", "/api/v1/tonight").headers
+
+
+def test_the_description_keeps_to_openapi() -> None:
+    told = description()
+    schema = json.loads((HERE / "openapi-3.1.schema.json").read_text(encoding="utf-8"))
+    assert [one.message for one in Draft202012Validator(schema).iter_errors(told)] == []
+    for one in told["components"]["schemas"].values():
+        Draft202012Validator.check_schema(one)
+        for says in one["properties"].values():  # what is given as an example is one
+            says = {**says, "components": told["components"]}
+            for example in says.get("examples", ()):
+                Draft202012Validator(says).validate(example)
+    assert {one.split("/")[-1] for one in refs(told)} <= {*told["components"]["schemas"]}
+    operations = [one for methods in told["paths"].values() for one in methods.values()]
+    ids = [one["operationId"] for one in operations]
+    assert len({*ids}) == len(ids)
+    tags = {one["name"] for one in told["tags"]}
+    assert all({*one["tags"]} <= tags and one["summary"].endswith(".") for one in operations)
+
+
+def refs(told: Any) -> Iterator[str]:
+    if isinstance(told, dict):
+        yield from (told["$ref"],) if isinstance(told.get("$ref"), str) else ()
+        told = list(told.values())
+    for one in told if isinstance(told, list) else ():
+        yield from refs(one)
+
+
+def test_each_route_is_described_and_the_reverse(browser: Browser) -> None:
+    routed = {
+        (path, method.lower())
+        for one in browser.room.app.routes
+        if (path := one.path).startswith("/api")  # type: ignore[attr-defined]
+        for method in one.methods - {"HEAD", "OPTIONS"}  # type: ignore[attr-defined]
+    }
     told = browser.tells("GET", "/api/v1/openapi.json").json
-    assert told["openapi"] == "3.1.0"
-    assert told["paths"]["/api/v1/tonight"]["get"]["operationId"] == "get_tonight"
+    assert routed == {(path, how) for path, methods in told["paths"].items() for how in methods}
+    listed = browser.tells("GET", "/api/v1").json["addresses"]
+    assert {(one["address"], one["method"].lower()) for one in listed} == routed

@@ -148,7 +148,7 @@ class _Body:
 
 async def _refuse(scope: Scope, send: Send, status: int, words: str) -> None:
     kind, body = "text/plain; charset=utf-8", f"{words}\n"
-    if scope["path"].startswith("/api/"):
+    if f"{scope['path']}/".startswith("/api/"):
         told = {"title": HTTPStatus(status).phrase, "status": status, "detail": words}
         kind, body = "application/problem+json", json.dumps(told)
     plain: Any = [(b"content-type", kind.encode()), (b"connection", b"close")]

@@ -18,7 +18,7 @@ from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import page_face, without_folder
 from evenbreak.words import Face, Sentence, capital_in_face, in_face
 
-ROOT = "/api/"
+ROOT = "/api"
 """Where the addresses of the interface begin: all below it is answered in JSON."""
 
 
@@ -70,7 +70,7 @@ class ProblemError(RefusalError):
 
 def is_asked(request: Request) -> bool:
     """Return whether a request is for the interface."""
-    return request.url.path.startswith(ROOT)
+    return f"{request.url.path}/".startswith(f"{ROOT}/")
 
 
 def problem(

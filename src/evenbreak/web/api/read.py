@@ -15,6 +15,7 @@ import numpy as np
 
 from evenbreak.answers.tournament.bracket_view import title_of
 from evenbreak.answers.tournament.night import played_words
+from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Text
 from evenbreak.fields.question import Declared, Field
 from evenbreak.teams.evening.fold import EVERYBODY
@@ -295,7 +296,7 @@ def _ratings(_: Call, seen: Seen, __: Sequence[Seen]) -> shapes.Ratings:
 
 def _race(call: Call, seen: Seen, _: Sequence[Seen]) -> shapes.Race:
     state = seen.state
-    pair = known_player(state, call.values["a"]), known_player(state, call.values["b"])
+    pair = _player(state, call, "a"), _player(state, call, "b")
     needs = 1, 1
     if state.plan.form != "chips":
         one, other = (state.entrants[name].rating for name in pair)
@@ -323,7 +324,14 @@ async def _team(call: Call) -> shapes.TeamNight:
     return shapes.TeamNight(seen.teams, sets, both, seen.over)
 
 
-def _player(name: str, what: str) -> Declared:
+def _player(state: Evening, call: Call, name: str) -> str:
+    try:
+        return known_player(state, call.values[name])
+    except InputError as error:
+        raise ProblemError(error.sentence, status=404, parameter=name) from None
+
+
+def _asks(name: str, what: str) -> Declared:
     return Declared(name, Field(Text(), what), MISSING)
 
 
@@ -370,8 +378,8 @@ RESOURCES = [
         told(_race),
         shapes.Race,
         asks=(
-            _player("a", "A player of tonight, as `evenbreak` takes names."),
-            _player("b", "The other one."),
+            _asks("a", "A player of tonight; the beginning of a name will do."),
+            _asks("b", "The other one."),
         ),
     ),
     Resource("/tonight/team", "Tonight's team night.", _team, shapes.TeamNight),

@@ -22,7 +22,7 @@ from evenbreak.fields.question import Declared, Field
 from evenbreak.web.api.problem import ProblemError, encoded, face_of
 from evenbreak.web.page import site_of
 from evenbreak.web.site import Site
-from evenbreak.words import Parameter, say
+from evenbreak.words import say
 
 V1 = "/api/v1"
 """Where the addresses of this version begin."""
@@ -39,6 +39,7 @@ EVENT = Declared(
     ),
     None,
 )
+_MOST_KEPT = 100
 _SHOWN = 40  # characters of a wrong value that a problem repeats
 
 
@@ -156,9 +157,10 @@ async def _answer(resource: Resource, request: Request) -> Response:
         return _sent(request, _tagged(encoded(found, face)), face.language)
     kept = site_of(request).rendered_of(found.of)
     key = (resource.path, face.language, *((name, repr(one)) for name, one in values.items()))
-    if key not in kept:
-        kept[key] = _tagged(encoded(found.make(), face))
-    return _sent(request, kept[key], face.language)
+    tagged = kept.get(key) or _tagged(encoded(found.make(), face))
+    if len(kept) < _MOST_KEPT:  # addresses may be made up without end
+        kept[key] = tagged
+    return _sent(request, tagged, face.language)
 
 
 def _tagged(body: bytes) -> tuple[bytes, str]:
@@ -247,10 +249,10 @@ def _checked(one: Declared, read: Callable[[Declared, Any], Any], value: Any) ->
         return read(one, value)
     except InputError as error:
         raise ProblemError(
-            "{field}: {why}",
+            "{field!r}: {why}",
             parameter=one.name,
             more={"schema": one.schema()},
-            field=Parameter(one.name),
+            field=one.name,
             why=error.sentence,
         ) from None
 
@@ -258,9 +260,9 @@ def _checked(one: Declared, read: Callable[[Declared, Any], Any], value: Any) ->
 def _left_out(one: Declared) -> Any:
     if one.required:
         raise ProblemError(
-            "{field} is missing.",
+            "{field!r} is missing.",
             parameter=one.name,
             more={"schema": one.schema()},
-            field=Parameter(one.name),
+            field=one.name,
         )
     return False if isinstance(one.kind, Flag) and one.default is None else one.default

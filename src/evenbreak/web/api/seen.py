@@ -17,7 +17,6 @@ from evenbreak.web.api.resource import V1, Call, Kept
 from evenbreak.web.evening_view import decided_places, progress_of
 from evenbreak.web.night import Known, Night
 from evenbreak.web.pages.wall import view_for
-from evenbreak.web.site import night_of
 from evenbreak.web.wall_view import WallView
 from evenbreak.words import Sentence
 
@@ -107,8 +106,7 @@ def told(make: Callable[[Call, Seen, Sequence[Seen]], Any]) -> Callable[[Call], 
     """Return what answers a resource: what is made of an event and of all events of the night."""
 
     async def answer(call: Call) -> Kept:
-        asked = night_of(call.request)
-        if not asked.exists:
+        if not call.site.night.exists:
             if await call.site.teams.now() is not None:
                 raise ProblemError(
                     "Tonight is a team night. It is at {address}.", status=404, address=_TEAM
@@ -116,7 +114,12 @@ def told(make: Callable[[Call, Seen, Sequence[Seen]], Any]) -> Callable[[Call], 
             raise ProblemError("No tournament is running yet.", status=404)
         nights = [await _seen(call, night) for night in call.site.nights]
         of = [part for one in nights for part in (one.state, one.known or "", one.view.marks)]
-        mine = next(one for one in nights if one.event == asked.event)
+        event = call.values["event"] or 1
+        mine = next((one for one in nights if one.event == event), None)
+        if mine is None:
+            raise ProblemError(
+                "There is no event {n} tonight.", status=404, parameter="event", n=event
+            )
         return Kept(("api", *of), lambda: make(call, mine, nights))
 
     return answer
