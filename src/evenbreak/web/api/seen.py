@@ -137,6 +137,7 @@ def match_of(seen: Seen, panel: Panel, box: Box) -> shapes.Match:
     begins = seen.fresh.starts.get(name) if seen.fresh else None
     return shapes.Match(
         str(box.number),
+        name,
         state.event,
         panel.title,
         box.title or panel.rounds[box.column].title,

@@ -64,6 +64,9 @@ class Match:
     """A match of the bracket, or a rack of a chip tournament."""
 
     number: Number
+    name: Annotated[
+        str, Meta(description="As the file and the stream of changes name it.", examples=["W1.2"])
+    ]
     event: EventNumber
     part: Annotated[str, Meta(description="Of the bracket.", examples=["Winners"])]
     round: Annotated[str, Meta(examples=["Quarterfinals"])]
