@@ -30,6 +30,7 @@ from evenbreak.files.store.tournament import (
     delete_tournament,
     read_tournament,
 )
+from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import CheckedIn, Event, Registered, Undone
 from evenbreak.web import watch as watch_module
 from evenbreak.web.api import stream
@@ -136,6 +137,22 @@ def test_an_id_that_is_not_known_begins_now_and_says_so(tmp_path: Path) -> None:
         assert followed(Site(path), header=unknown) == [Got(2, "reset", {"id": 2})]
     assert followed(Site(path), after=2) == []
     assert [got.id for got in followed(Site(path), after=1, header="0")] == [1, 2]
+
+
+def test_matches_and_tables_are_named_as_people_do(tmp_path: Path) -> None:
+    path = tmp_path / "tonight.db"
+    begun(path)
+    add_events(path, lambda state: [Event(AT, moves.call(state, "F", 1))])
+    scored(path, 3)
+    called, score = (got.data for got in followed(Site(path), after=2))
+    both = {"match": "1", "players": ["Ann", "Bo"]}
+    assert (
+        called == {"id": 3, "at": AT, "kind": "called", "event": 1, "entry": 3, "table": "1"} | both
+    )
+    assert (
+        score
+        == {"id": 4, "at": AT, "kind": "scored", "event": 1, "entry": 4, "score": [3, 0]} | both
+    )
 
 
 def test_what_is_private_is_not_sent(tmp_path: Path) -> None:

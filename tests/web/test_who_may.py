@@ -38,6 +38,7 @@ MAY = {
                 "GET /fair",
             ),
             *("GET /pin", "GET /evenbreak.css", "GET /events", "GET /team"),
+            *("GET /overlay.css", "GET /overlay/{table}", "GET /overlay/bracket"),
             *("GET /me", "GET /me/score", "GET /c/{code}", "POST /me/claim", "POST /me/code"),
             *("GET /table/{table}", "GET /table/{table}/score", "POST /language"),
             *("GET /play", "POST /play", "GET /share", "GET /share.html"),

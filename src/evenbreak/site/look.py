@@ -86,6 +86,24 @@ def accent(color: str) -> Accent:
     return Accent(light, dark, _on(light), _on(dark), light != asked)
 
 
+def plate_style(*, accent: str = "", ink: str = "", back: str = "") -> str:
+    """Return the style of plates over a picture, in a venue's colors; "" for the usual one.
+
+    What is written on another background is white or black unless it is given too.
+
+    >>> plate_style(back="#ffffff")[:46]
+    '[data-theme=dark] { --card: #ffffff; --sunk: #'
+    """
+    card = back or tokens(dark=True)["card"]
+    ink = ink or (_on(back) if back else "")
+    found = {"card": back, "sunk": back and _mixed(back, _on(back), 12), "ink": ink}
+    found["ink-2"] = ink and _mixed(ink, card, 20)
+    if accent:
+        found |= {"accent": accent, "accent-on": _on(accent)}
+    both = "; ".join(f"--{name}: {color}" for name, color in found.items() if color)
+    return f"[data-theme=dark] {{ {both} }}\n"
+
+
 def contrast(one: str, other: str) -> float:
     """Return the contrast of two colors, 1 to 21.
 

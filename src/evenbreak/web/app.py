@@ -43,6 +43,7 @@ from evenbreak.web.pages import (
     league,
     me,
     moves,
+    overlay,
     players,
     programs,
     room,
@@ -101,6 +102,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
                     *room.ROUTES,
                     *team.ROUTES,
                     *wall.ROUTES,
+                    *overlay.ROUTES,
                 ]
             ),
         ],
@@ -140,7 +142,9 @@ def cookie_name(site: Site) -> str:
 
 async def _style(request: Request) -> Response:
     kept = {"cache-control": "max-age=31536000, immutable"}  # another style has another address
-    whose = next((one for one in ("guest", "wall") if one in request.query_params), "director")
+    whose = next(
+        (one for one in ("guest", "wall", "overlay") if one in request.query_params), "director"
+    )
     text = style(site_of(request).color, whose)
     return PlainTextResponse(text, media_type="text/css", headers=kept)
 

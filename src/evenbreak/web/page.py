@@ -44,6 +44,7 @@ _LANGUAGE = "language"
 _SAID = "said"
 _CSRF, _ONCE = (f"mark-{secrets.token_hex(12)}" for _ in range(2))
 """What stands in a rendered page for the marks of its reader's forms."""
+_SCREENS = "wall", "overlay"
 _MOST_RENDERED = 100
 _MOST_SAID = 1500  # letters as JSON writes them: a cookie holds 4 KB
 
@@ -108,17 +109,19 @@ def own_file(name: str) -> str:
 def style(color: str | None = None, whose: str = "director") -> str:
     """Return the style of all pages: what published sites have too, parts, and each screen.
 
-    Guests do without that of the desk: their first page is to be there at once. So does the wall
-    ("wall"), which alone has its own.
+    Guests do without that of the desk: their first page is to be there at once. So do the wall
+    ("wall") and the overlays ("overlay"), which alone have their own.
     """
     common = files("evenbreak.site").joinpath("templates", "common.css")
     own = files("evenbreak.web").joinpath("templates", "css")
     drawn = files("evenbreak.sheets").joinpath("templates", "bracket.css")
     sheets = sorted((one for one in own.iterdir() if one.name.endswith(".css")), key=_style_order)
-    if whose == "wall":
-        sheets = [one for one in sheets if one.name in ("parts.css", "tonight.css", "wall.css")]
-    without = ("wall.css",) if whose == "director" else ("wall.css", "desk.css")
-    sheets = [one for one in sheets if whose == "wall" or one.name not in without]
+    if whose in _SCREENS:
+        sheets = [one for one in sheets if one.name in ("parts.css", "tonight.css", f"{whose}.css")]
+    without = {f"{one}.css" for one in (*_SCREENS, "desk")} - {f"{whose}.css"}
+    if whose == "director":
+        without -= {"desk.css"}
+    sheets = [one for one in sheets if one.name not in without]
     text = "".join(one.read_text(encoding="utf-8") for one in (common, *sheets, drawn))
     text += story_style() if whose == "wall" else ""
     return _short(text) + (accent(color).style() if color else "")
@@ -156,8 +159,8 @@ def site_of(request: Request) -> Site:
 
 
 def language(request: Request) -> str:
-    """Return the language of the reader: as chosen, or as the browser asks."""
-    chosen = request.session.get(_LANGUAGE)
+    """Return the language of the reader: of the address, as chosen, or as the browser asks."""
+    chosen = request.query_params.get(_LANGUAGE) or request.session.get(_LANGUAGE)
     if chosen in languages():
         return str(chosen)
     return language_of(request.headers.get("accept-language", ""))
@@ -221,6 +224,7 @@ def page(
 
     whose = "director" if is_director(request) else "guest"
     whose = "wall" if request.url.path == "/screen" else whose
+    whose = "overlay" if request.url.path.startswith("/overlay/") else whose
 
     def capital(text: str) -> str:
         return without_folder(request, capital_in_face(text, face))

@@ -7,9 +7,9 @@ phones and team nights are only said to have changed, and nobody's address or au
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator
+import asyncio
+from collections.abc import AsyncIterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import takewhile
 from typing import Annotated, Any
 
@@ -17,12 +17,16 @@ import msgspec
 from msgspec import Meta
 from starlette.responses import Response, StreamingResponse
 
+from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.fields.kinds import Whole
 from evenbreak.fields.question import Declared, Field
 from evenbreak.files.store.changes import Row
 from evenbreak.files.store.formats import PHONES, TEAM_NIGHT
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.api.resource import Call, Resource
+from evenbreak.web.api.shapes import EventNumber, Number
 from evenbreak.web.sessions import address_of
+from evenbreak.web.site import Site
 from evenbreak.web.watch import Watch
 
 _UNSEEN = {PHONES: "phones", TEAM_NIGHT: "team night"}
@@ -51,30 +55,32 @@ class Change:
             "`team night` where something changed there that is not sent."
         ),
     ]
-    event: Annotated[int, Meta(description="The event of the night.")] | None = None
-    entry: Annotated[int, Meta(description="The number of the entry in its event.")] | None = None
-    match: Annotated[str, Meta(description="The match, as /tonight/matches names it.")] | None = (
-        None
-    )
-    players: Annotated[tuple[str, str], Meta(description="Its players.")] | None = None
-    score: Annotated[tuple[int, int], Meta(description="Their games.")] | None = None
-    winner: Annotated[str, Meta(description="Who won, of a result.")] | None = None
-    forfeit: Annotated[bool, Meta(description="Whether the loser forfeited.")] | None = None
-    corrects: Annotated[bool, Meta(description="Whether it corrects a result.")] | None = None
-    table: Annotated[int, Meta(description="The number of the table, of a call.")] | None = None
-    of: (
-        Annotated[
-            int, Meta(description="The entry that is undone or redone; absent: the last one.")
-        ]
-        | None
-    ) = None
+    event: EventNumber | None = None
+    entry: Annotated[int | None, Meta(description="Its number in its event.")] = None
+    match: Number | None = None
+    players: Annotated[tuple[str, str] | None, Meta(description="Of the match.")] = None
+    score: Annotated[tuple[int, int] | None, Meta(description="Their games.")] = None
+    winner: Annotated[str | None, Meta(description="Of a result.")] = None
+    forfeit: Annotated[bool | None, Meta(description="Whether the loser forfeited.")] = None
+    corrects: Annotated[bool | None, Meta(description="Whether it corrects a result.")] = None
+    table: Annotated[str | None, Meta(description="By the house's name, of a call.")] = None
+    of: Annotated[
+        int | None, Meta(description="The entry that is undone or redone; absent: the last one.")
+    ] = None
 
 
-@lru_cache(maxsize=2048)
-def message(row: Row) -> bytes:
+def message(row: Row, state: Evening | None) -> bytes:
     """Return an entry as the stream has it; b"" for a form that added nothing.
 
-    >>> print(message(Row(7, "1", 3, "2025-03-01T19:30:00", "redone", '{"entry": 2}')).decode())
+    Parameters
+    ----------
+    row
+        the entry.
+    state
+        of its event: it knows the numbers of matches and the names of tables.
+
+    >>> row = Row(7, "1", 3, "2025-03-01T19:30:00", "redone", '{"entry": 2}')
+    >>> print(message(row, None).decode())
     id: 7
     event: entry
     data: {"id":7,"at":"2025-03-01T19:30:00","kind":"redone","event":1,"entry":3,"of":2}
@@ -84,21 +90,28 @@ def message(row: Row) -> bytes:
     if row.strand in _UNSEEN:
         change = Change(row.id, row.at, _UNSEEN[row.strand])
     elif row.strand.isdigit():
-        change = Change(row.id, row.at, row.kind, int(row.strand), row.number, **_details(row))
+        own = int(row.strand), row.number
+        change = Change(row.id, row.at, row.kind, *own, **_details(row, state))
     else:
         return b""
     data = {name: one for name, one in msgspec.to_builtins(change).items() if one is not None}
     return _message("entry", row.id, data)
 
 
-def _details(row: Row) -> dict[str, Any]:
+def _details(row: Row, state: Evening | None) -> dict[str, Any]:
     try:
         what = msgspec.json.decode(row.what, type=dict[str, Any])
         found = {name: what[name] for name in _SHOWN.get(row.kind, ()) if what.get(name)}
-        found |= {"of": found.pop("entry")} if "entry" in found else {}
+        if "entry" in found:
+            found["of"] = found.pop("entry")
+        if match := found.pop("match", None):
+            number = state.number_of(match) if state else 0
+            found |= {"match": str(number)} if number else {}
+        if table := found.pop("table", None):
+            found |= {"table": state.plan.table_name(table)} if state else {}
         msgspec.convert({"id": 1, "at": "", "kind": "", **found}, Change)
-    except (msgspec.MsgspecError, UnicodeError):  # of a damaged entry, the pages say so
-        return {}
+    except (msgspec.MsgspecError, EvenbreakError, TypeError, UnicodeError):
+        return {}  # of a damaged entry, the pages say so
     return found
 
 
@@ -110,20 +123,34 @@ def _message(event: str, number: int, data: dict[str, Any]) -> bytes:
     )
 
 
-def since(watch: Watch, files: int, last: int) -> bytes:
+def since(watch: Watch, states: Mapping[str, Evening], files: int, last: int) -> bytes:
     """Return what has come in after an entry, or that all is to be read anew.
 
     Parameters
     ----------
     watch
         what was entered.
+    states
+        of the events of the night, by their strands.
     files, last
         the file and the last entry that are known there.
     """
     if files != watch.files or not watch.first <= last <= watch.last:
         return _message("reset", watch.last, {"id": watch.last})
     new = list(takewhile(lambda row: row.id > last, reversed(watch.rows)))
-    return b"".join(map(message, reversed(new)))
+    return b"".join(message(row, states.get(row.strand)) for row in reversed(new))
+
+
+async def _states(site: Site) -> dict[str, Evening]:
+    """Return the events of the night by their strands; none of a file that cannot be read."""
+
+    def read() -> dict[str, Evening]:
+        return {str(one.event): one.state() for one in site.nights if one.exists}
+
+    try:
+        return await asyncio.to_thread(read)
+    except DataError:
+        return {}
 
 
 async def changes(call: Call) -> Response:
@@ -139,12 +166,15 @@ async def changes(call: Call) -> Response:
 
     async def stream() -> AsyncIterator[bytes]:
         async with watch.following(here):
+            states = await _states(call.site)
             seen = watch.now
-            new = b"id: %d\n\n" % seen[1] if after is None else since(watch, seen[0], after)
-            yield b"retry: 2000\n\n" + new
+            new = b"" if after is None else since(watch, states, seen[0], after)
+            yield b"retry: 2000\n\n" + (new or b"id: %d\n\n" % seen[1])
             while not watch.closing:
-                before, seen = seen, await watch.after(seen)
-                yield since(watch, *before) or b": alive\n\n"
+                await watch.after(seen)
+                states = await _states(call.site)
+                before, seen = seen, watch.now
+                yield since(watch, states, *before) or b": alive\n\n"
 
     return StreamingResponse(
         stream(), media_type="text/event-stream", headers={"cache-control": "no-store"}

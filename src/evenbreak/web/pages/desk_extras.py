@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import urllib.parse
 from dataclasses import replace
 from datetime import datetime
 
@@ -58,8 +59,20 @@ async def more(request: Request) -> Response:
         reserved=names_text([plan.table_name(n) for n in plan.reserved]),
         streamed=names_text([plan.table_name(n) for n in plan.streamed]),
         races=_races(plan),
+        overlays=overlay_paths(plan),
         calls_itself=site.calls_itself,
     )
+
+
+def overlay_paths(plan: Plan) -> list[str]:
+    """Return where the overlays are: of the streamed tables, or of all, and of the bracket.
+
+    >>> overlay_paths(Plan("double", 5, tables=3, labels=("1", "2", "TV"), streamed=(3,)))
+    ['/overlay/TV', '/overlay/bracket']
+    """
+    tables = plan.streamed or range(1, plan.tables + 1)
+    names = [urllib.parse.quote(plan.table_name(table), safe="") for table in tables]
+    return [f"/overlay/{name}" for name in (*names, "bracket")]
 
 
 def _races(plan: Plan) -> dict[str, tuple[str, int]]:

@@ -63,7 +63,7 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
     one = match_at(state, name) if name else None
     tablet = phones.table_of(phone) == number
     told = await asyncio.to_thread(_last_at, nights, number)
-    last, at = _last_on(told.state(), number)
+    last, at = last_on(told.state(), number)
     now = site_of(request).clock()
     begun = why or request.query_params.get("play") == name or state.plan.form == "chips"
     shown: dict[str, Any] = {
@@ -99,7 +99,7 @@ def _night_at(nights: Sequence[Night], number: int) -> Night:
 
 def _last_at(nights: Sequence[Night], number: int) -> Night:
     """Return the event whose match was the last to end on a table; the first if none has."""
-    return max(nights, key=lambda night: _last_on(night.state(), number)[1])
+    return max(nights, key=lambda night: last_on(night.state(), number)[1])
 
 
 def _next_on(nights: Sequence[Night], number: int) -> list[tuple[str, str]]:
@@ -113,7 +113,7 @@ def _next_on(nights: Sequence[Night], number: int) -> list[tuple[str, str]]:
     ]
 
 
-def _last_on(state: Evening, number: int) -> tuple[Result | None, str]:
+def last_on(state: Evening, number: int) -> tuple[Result | None, str]:
     """Return the result of the last match that was played on a table, and when it came in."""
     found: tuple[Result | None, str] = None, ""
     for event in state.events:

@@ -1,0 +1,290 @@
+"""Overlays for a stream: the match on a table, and the bracket around it, over whatever is filmed.
+
+They are pages of a browser source, transparent but for their plates, and follow the night by
+themselves. Everybody in the room may open them.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import re
+import urllib.parse
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from datetime import datetime
+from typing import Any, NamedTuple
+
+from markupsafe import Markup
+from starlette.datastructures import QueryParams
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+from starlette.routing import Route
+
+from evenbreak.answers.tournament.bracket_view import Box, Panel, bracket_panels
+from evenbreak.answers.tournament.short_names import rough_width
+from evenbreak.errors import EvenbreakError
+from evenbreak.sheets.bracket_drawing import drawing
+from evenbreak.sheets.bracket_page import COLUMN, LETTERS, ROW, bracket_svg
+from evenbreak.site.look import plate_style
+from evenbreak.tournaments.evening.events import Result, race_words
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web.guard import RefusalError
+from evenbreak.web.my_night import chances, match_at, round_words
+from evenbreak.web.night import Night
+from evenbreak.web.page import language, page, page_face, reason, site_of
+from evenbreak.web.pages.table import last_on
+from evenbreak.web.pages.wall import view_for
+from evenbreak.web.wall_view import TableView, WallView
+from evenbreak.words import Sentence, in_face
+
+_WON = 20.0  # seconds that the winner is shown
+_LONG, _LONGER = 13.5, 16.0  # widths of names, in letters as high, that are written smaller
+_SIZE = 1760.0, 940.0  # of the bracket, in pixels of a picture 1920 wide
+_READABLE = 20.0  # pixels of its letters
+_COLORS = ("accent", "ink", "back")
+
+
+class Plate(NamedTuple):
+    """What is shown of a table.
+
+    Parameters
+    ----------
+    kind
+        playing, hill, called, two (the players disagree), next (it is to be called), won (it has
+        just ended), champion, or idle.
+    pair
+        the two players; the champion alone; nobody.
+    score
+        games won; None: none is shown.
+    needs
+        the games that each needs; None: of a chip tournament's rack.
+    chance, band
+        the first player's chance of the match, and where it lies if little is known of a rating.
+    round, race
+        in words.
+    winner
+        who won.
+    left
+        in how many seconds something else is to be shown; 0: when it happens.
+    """
+
+    kind: str
+    pair: tuple[str, ...] = ()
+    score: tuple[int, int] | None = None
+    needs: tuple[int, int] | None = None
+    chance: float | None = None
+    band: tuple[float, float] | None = None
+    round: Sentence | str = ""
+    race: Sentence | str = ""
+    winner: str = ""
+    left: float = 0.0
+
+    @property
+    def size(self) -> str:
+        """How large the names are written, both alike."""
+        widest = max((rough_width(name, bold=True) for name in self.pair), default=0.0)
+        return "" if widest <= _LONG else "long" if widest <= _LONGER else "longer"
+
+
+async def table(request: Request) -> Response:
+    """Show the match on a table."""
+    site = site_of(request)
+    nights = [night for night in site.nights if night.exists]
+    now = site.clock()
+    views = [(await view_for(request, night, now))[0] for night in nights]
+    try:
+        look = _look(request.query_params)
+        if not nights:
+            raise RefusalError("No tournament is running yet.", status=404)
+        plan = views[0].state.plan
+        number = plan.table_number(request.path_params["table"])
+    except EvenbreakError as error:
+        return _text(request, error)
+    shown = await asyncio.to_thread(_plate, nights, views, number, now)
+    return _page(request, look, plate=shown, label=plan.table_name(number), name=views[0].name)
+
+
+def _plate(nights: Sequence[Night], views: Sequence[WallView], number: int, now: str) -> Plate:
+    """Return what is shown of a table: its match, or who has just won there, or who is next."""
+    at_table = [
+        (night, view.state, one)
+        for night, view in zip(nights, views, strict=True)
+        for one in view.tables
+        if one.match.table == number
+    ]
+    at_table.sort(key=lambda one: not one[2].match.since)
+    last, state = max(
+        ((last_on(view.state, number), view.state) for view in views), key=lambda one: one[0][1]
+    )
+    busy = at_table and at_table[0][2].match.since and at_table[0][2].state != "called"
+    if last[0] is not None and not busy:
+        left = _WON - (_seconds(now) - _seconds(last[1]))
+        if 0.0 < left <= _WON:
+            return _won(state, last[0], left)
+    if at_table:
+        return _match(*at_table[0])
+    ended = [view for view in views if view.view.over and view.places]
+    if len(ended) == len(views):
+        return Plate("champion", (ended[0].places[0].name,), round=ended[0].final)
+    return Plate("idle")
+
+
+def _seconds(at: str) -> float:
+    return datetime.fromisoformat(at).timestamp()
+
+
+def _match(night: Night, state: Evening, one: TableView) -> Plate:
+    kind = one.state if one.match.since else "next"
+    rack = state.plan.form == "chips"
+    match = match_at(state, one.match.name)
+    now, _, band = chances(state, match, night.means)
+    return Plate(
+        kind,
+        one.match.players,
+        None if rack or kind in ("next", "called", "two") else one.score or (0, 0),
+        None if rack else one.match.needs,
+        None if kind == "two" else now,
+        None if kind == "two" else band,
+        match.number if rack else round_words(state.bracket.match(one.match.name)),
+        "" if rack else race_words(one.match.needs),
+    )
+
+
+def _won(state: Evening, last: Result, left: float) -> Plate:
+    rack = state.plan.form == "chips"
+    needs = last.race or state.needed(last.match, last.players)
+    plain = rack or last.forfeit
+    return Plate(
+        "won",
+        last.players,
+        None if plain else last.score,
+        None if plain else needs,
+        round="" if rack else round_words(state.bracket.match(last.match)),
+        race="" if plain else race_words(needs),
+        winner=last.winner,
+        left=left,
+    )
+
+
+async def bracket(request: Request) -> Response:
+    """Show the bracket, or what can be read of it around the match on the streamed table."""
+    site = site_of(request)
+    now, asked = site.clock(), request.query_params.get("table", "")
+    nights = [night for night in site.nights if night.exists]
+    views = [(await view_for(request, night, now))[0] for night in nights]
+    try:
+        look = _look(request.query_params)
+        if not nights:
+            raise RefusalError("No tournament is running yet.", status=404)
+        plan = views[0].state.plan
+        number = plan.table_number(asked) if asked else (*plan.streamed, 0)[0]
+    except EvenbreakError as error:
+        return _text(request, error)
+    followed = [view for view in views if any(one.match.table == number for one in view.tables)]
+    view = (followed or [one for one in views if not one.view.over] or views)[0]
+    drawn = Markup("")
+    if view.state.drawn and view.state.plan.form != "chips":
+        face = page_face(language(request))
+
+        def words(text: str) -> str:
+            return str(in_face(text, face))
+
+        match = _followed(view, number)
+        two = {one.match.name: "two" for one in view.tables if one.state == "two"}
+        panels = readable(bracket_panels(view.state, view.chances, two), match)
+        drawn = bracket_svg(panels, words=words, chosen=match, within=_SIZE[0] / _SIZE[1])
+    return _page(request, look, plate=None, drawn=drawn, wall=view, name=view.name)
+
+
+def _followed(view: WallView, table: int) -> str:
+    """Return the match on a table, or the last one on it, or any that is played; '' if none is."""
+    on = [one.match for one in view.tables if one.match.since]
+    here = [one.name for one in on if one.table == table]
+    last = last_on(view.state, table)[0]
+    return (here or ([last.match] if last else []) or [one.name for one in on] or [""])[0]
+
+
+def readable(panels: Sequence[Panel], match: str) -> tuple[Panel, ...]:
+    """Return a bracket, or the largest part of it around a match whose names can be read."""
+    panel = next((p for p in panels if any(b.match == match for b in p.boxes)), panels[-1])
+    around = (_around(panel, match, rounds) for rounds in (4, 3, 2, 1))
+    several: list[tuple[Panel, ...]] = [tuple(panels), (panel,), *((one,) for one in around)]
+    return next((one for one in several if _letters(one) >= _READABLE), several[-1])
+
+
+def _letters(panels: Sequence[Panel]) -> float:
+    """Return how large names are in a picture, in pixels."""
+    drawn = drawing(panels)
+    wide, high = drawn.wide * COLUMN, drawn.high * ROW
+    return LETTERS * min(_SIZE[0] / max(wide, 1.0), _SIZE[1] / max(high, 1.0))
+
+
+def _around(panel: Panel, match: str, rounds: int) -> Panel:
+    """Return the way to a match and so many rounds on, without what was long before it."""
+    boxes = {box.match: box for box in panel.boxes}
+    own = boxes.get(match) or panel.boxes[0]
+    first = max(0, own.column - 1)
+    goal = own
+    for _ in range(rounds if panel.linked else 0):
+        goal = boxes.get(goal.to, goal)
+    kept: Mapping[str, Box] = {
+        name: box for name, box in boxes.items() if first <= box.column <= own.column + rounds
+    }
+    if panel.linked:
+        kept = {name: box for name, box in kept.items() if _leads(boxes, box, goal)}
+    last = max(box.column for box in kept.values())
+    return replace(
+        panel,
+        rounds=panel.rounds[first : last + 1],
+        boxes=tuple(replace(box, column=box.column - first) for box in kept.values()),
+    )
+
+
+def _leads(boxes: Mapping[str, Box], box: Box, goal: Box) -> bool:
+    """Return whether the winner of a match can come to another."""
+    while box.match != goal.match:
+        if box.to not in boxes or boxes[box.to].column <= box.column:
+            return False
+        box = boxes[box.to]
+    return True
+
+
+def _look(query: QueryParams) -> str:
+    """Return the colors that an address asks for, as the query of the style; '' for the usual."""
+    asked = {name: query[name].lower() for name in _COLORS if query.get(name)}
+    for name, color in asked.items():
+        if not re.fullmatch(r"[0-9a-f]{6}", color):
+            raise RefusalError(
+                "The color is {color!r}; give six hex digits, such as {name}=7a1f5c.",
+                name=name,
+                color=color[:20],
+            )
+    return urllib.parse.urlencode(asked)
+
+
+async def style(request: Request) -> Response:
+    """Return the colors that an address asks for, as a style."""
+    try:
+        asked = dict(urllib.parse.parse_qsl(_look(request.query_params)))
+    except EvenbreakError as error:
+        return _text(request, error)
+    text = plate_style(**{name: f"#{color}" for name, color in asked.items()})
+    return PlainTextResponse(text, media_type="text/css", headers={"cache-control": "max-age=3600"})
+
+
+def _page(request: Request, look: str, **shown: Any) -> Response:
+    return page(request, "overlay.html", live=True, look=look, **shown)
+
+
+def _text(request: Request, why: EvenbreakError) -> Response:
+    """Return why there is no overlay, as a line that is asked for again until there is."""
+    status = why.status if isinstance(why, RefusalError) else 404
+    again = {"refresh": "5"}
+    return PlainTextResponse(reason(request, why) + "\n", status_code=status, headers=again)
+
+
+ROUTES = [
+    Route("/overlay.css", style),
+    Route("/overlay/bracket", bracket),
+    Route("/overlay/{table}", table),
+]
