@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 from evenbreak.fields.kinds import Choice, Flag, Named, Number, Text, Whole
 from evenbreak.fields.question import Field, Says
@@ -27,6 +27,19 @@ def score_or_name(text: str) -> tuple[int, int] | str:
     return text if text.strip()[:1].isalpha() else SCORE.read(text)
 
 
+@dataclass(frozen=True)
+class _ScoreOrName(Named):
+    """A score, or in a chip tournament the name of the winner; in JSON a score is a list too."""
+
+    def load(self, value: Any) -> Any:
+        """Return what JSON has for it."""
+        return SCORE.load(value) if isinstance(value, list) else super().load(value)
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"anyOf": [SCORE.schema(), {"type": "string"}]}
+
+
 PLAYER = Text("PLAYER")
 """The name of somebody who has entered; on the terminal its beginning will do."""
 Winner: TypeAlias = Annotated[
@@ -40,7 +53,7 @@ Player: TypeAlias = Annotated[str, Field(PLAYER, argument=True)]
 NewName: TypeAlias = Annotated[str, Field(Text("NAME"), argument=True)]
 YES = Choice({"yes": True, "no": False})
 Result: TypeAlias = Annotated[
-    tuple[int, int] | str, Field(Named(score_or_name, "SCORE"), argument=True)
+    tuple[int, int] | str, Field(_ScoreOrName(score_or_name, "SCORE"), argument=True)
 ]
 Rating: TypeAlias = Annotated[
     float | None,

@@ -28,6 +28,7 @@ from starlette.routing import Route
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.store.log import TakenBeforeError
 from evenbreak.web import api
+from evenbreak.web.api.origins import Origins
 from evenbreak.web.api.problem import is_asked, problem
 from evenbreak.web.forms import form_of
 from evenbreak.web.guard import Guard, RefusalError
@@ -109,6 +110,7 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
         middleware=[
             Middleware(Waking, watch=watch),
             Middleware(Guard, hosts=site.asked_as, script_hash=script_hash()),
+            Middleware(Origins, origins=site.origins),
             # A third of the bytes over a bar's Wi-Fi; the stream of events it leaves alone.
             Middleware(GZipMiddleware, minimum_size=5000, compresslevel=4),
             Middleware(

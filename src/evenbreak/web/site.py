@@ -18,6 +18,7 @@ from evenbreak.errors import DataError
 from evenbreak.files.league.league_file import LeagueFile
 from evenbreak.files.store.desk import change_secrets, kept_secrets, new_pin
 from evenbreak.files.store.evening_file import is_there
+from evenbreak.files.store.tokens import Token, kept_tokens
 from evenbreak.files.store.tournament import event_numbers
 from evenbreak.tournaments.evening.calling import calls_after
 from evenbreak.tournaments.evening.events import What
@@ -54,9 +55,14 @@ class Site:
         of the house, such as #7a1f5c; None: the usual one.
     clock
         returns what time it is, such as 2025-03-01T19:30:00.
+    origins
+        the pages elsewhere that may use the interface from a browser, such as
+        https://league.example.
     tries, all_tries, codes, all_codes, taps
         wrong PINs from each address and from all, wrong codes of players likewise, and taps in each
         match, in the last minute.
+    wrong_tokens, entries
+        wrong tokens from each address, and entries of each program, likewise.
     """
 
     path: Path
@@ -65,11 +71,14 @@ class Site:
     rules: LeagueFile | None = None
     color: str | None = None
     clock: Callable[[], str] = now
+    origins: frozenset[str] = frozenset()
     tries: Tries = field(default_factory=lambda: Tries(5))
     all_tries: Tries = field(default_factory=lambda: Tries(30))
     codes: Tries = field(default_factory=lambda: Tries(10))
     all_codes: Tries = field(default_factory=lambda: Tries(60))
     taps: Tries = field(default_factory=lambda: Tries(240))
+    wrong_tokens: Tries = field(default_factory=lambda: Tries(5))
+    entries: Tries = field(default_factory=lambda: Tries(240))
 
     def __post_init__(self) -> None:
         self.asked_as = set(self.hosts)
@@ -89,6 +98,7 @@ class Site:
         }
         self._secrets = dict(self._first)
         self._read_at: tuple[int, int, int] | None = None
+        self._tokens: tuple[tuple[int, int, int], dict[str, Token]] = (0, 0, 0), {}
         self._codes: tuple[list[Evening], dict[str, str]] | None = None
 
     @property
@@ -156,6 +166,14 @@ class Site:
         """Return whether whoever entered a PIN then has left since."""
         self.keep_secrets()
         return f"{_ENDED} {visit}" in self._first | self._secrets
+
+    @property
+    def tokens(self) -> dict[str, Token]:
+        """The tokens of other programs by their hashes, as the file has them now."""
+        mark = mark_of(self.path)
+        if mark != self._tokens[0]:
+            self._tokens = mark, kept_tokens(self.path) if is_there(self.path) else {}
+        return self._tokens[1]
 
     def change_pin(self) -> None:
         """Draw another PIN of the director; whoever entered the earlier one is none any more."""

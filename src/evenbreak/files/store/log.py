@@ -16,7 +16,7 @@ from typing import Any, Generic, TypeAlias, TypeVar
 
 from evenbreak.errors import InputError
 from evenbreak.evenings.log import Event, Kinds
-from evenbreak.files.store.evening_file import FAULTS, named
+from evenbreak.files.store.evening_file import FAULTS, named, opened
 from evenbreak.files.store.formats import ENTRIES, bring_up_to_date, source
 from evenbreak.words import say
 
@@ -140,6 +140,16 @@ def was_taken(base: sqlite3.Connection, strand: str, form: str | None) -> bool:
     asked = f"SELECT 1 FROM {source(base)} WHERE strand IN (?, ?) AND form = ?"  # noqa: S608
     found = base.execute(asked, (strand, _taken(strand), form)) if form else None
     return found is not None and found.fetchone() is not None
+
+
+def forms_with(path: str | Path, beginning: str) -> dict[str, list[int]]:
+    """Return the forms that begin so, in all strands, with the numbers of the entries they made."""
+    found: dict[str, list[int]] = {}
+    with opened(path) as base:
+        asked = f"SELECT form, strand, number FROM {source(base)} WHERE substr(form, 1, ?) = ?"  # noqa: S608
+        for form, strand, number in base.execute(asked, (len(beginning), beginning)):
+            found.setdefault(form, []).extend([number] if strand.isdigit() else [])
+    return found
 
 
 def _taken(strand: str) -> str:

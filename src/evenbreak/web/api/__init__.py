@@ -6,10 +6,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Any
 
-from msgspec import Meta
-
-from evenbreak import __version__
-from evenbreak.web.api import read, stream
+from evenbreak.web.api import Meta, __version__, read, stream, write
 from evenbreak.web.api.describe import describe
 from evenbreak.web.api.resource import V1, Call, Kept, Resource, routes_of
 
@@ -50,6 +47,7 @@ async def _description(_: Call) -> Kept:
 
 RESOURCES = [
     *read.RESOURCES,
+    *write.RESOURCES,
     *stream.RESOURCES,
     Resource("", "The addresses of the interface.", _addresses, Addresses),
     Resource(

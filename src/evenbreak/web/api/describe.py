@@ -29,6 +29,7 @@ _REFUSALS = {
     409: "Something else would be lost by it, or has come in between.",
     413: "More was sent than is allowed.",
     415: "The body is not JSON.",
+    422: "The Idempotency-Key came with another request before.",
     429: "Too much was asked from this address within a minute.",
 }
 
@@ -111,6 +112,13 @@ def _parameters(one: Resource) -> Iterator[dict[str, Any]]:
         yield {"name": asked.name, "in": "query", "description": says, "required": required} | {
             "schema": schema
         }
+    if one.scope:
+        yield {
+            "name": "Idempotency-Key",
+            "in": "header",
+            "description": "Chosen by the program: the same request again enters nothing twice.",
+            "schema": {"type": "string", "minLength": 1, "maxLength": 200},
+        }
     if one.method == "GET":
         yield {
             "name": "If-None-Match",
@@ -144,7 +152,7 @@ def _responses(one: Resource) -> dict[str, Any]:
     else:
         refusals |= {400, 413, 415, 429}
     if one.scope:
-        refusals |= {401, 403, 409}
+        refusals |= {401, 403, 409, 422}
     said = {"application/problem+json": {"schema": {"$ref": _TEMPLATE.format(name="Problem")}}}
     for status in sorted(refusals):
         found[str(status)] = {"description": _REFUSALS[status], "content": said}

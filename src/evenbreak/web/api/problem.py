@@ -23,6 +23,17 @@ ROOT = "/api"
 
 
 @dataclass(frozen=True)
+class Lost:
+    """A match that would leave its table, or a result that would no longer count."""
+
+    match: Annotated[str, Meta(description="By its number.")]
+    players: tuple[str, str]
+    table: Annotated[str | None, Meta(description="The table that it would leave.")]
+    score: Annotated[tuple[int, int] | None, Meta(description="Its score so far.")]
+    result: Annotated[bool, Meta(description="Whether it has a result, which would not count.")]
+
+
+@dataclass(frozen=True)
 class Problem:
     """Why a request is refused, in the language that it asks for (Accept-Language)."""
 
@@ -31,6 +42,9 @@ class Problem:
     detail: Annotated[str, Meta(description="What is wrong and how to correct it.")]
     parameter: Annotated[str, Meta(description="The parameter that is wrong, if it is one.")] = ""
     how: Annotated[str, Meta(description="What to send to have it done all the same.")] = ""
+    lost: Annotated[
+        list[Lost], Meta(description="What would be lost, where it is not sure that it is meant.")
+    ] = field(default_factory=list)
     schema: Annotated[
         dict[str, Any], Meta(description="The JSON schema of the value that was wanted.")
     ] = field(default_factory=dict)

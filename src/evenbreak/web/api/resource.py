@@ -11,7 +11,6 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-import msgspec
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
@@ -19,7 +18,9 @@ from starlette.routing import Route
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Flag, Whole
 from evenbreak.fields.question import Declared, Field
+from evenbreak.web.api.body import object_in
 from evenbreak.web.api.problem import ProblemError, encoded, face_of
+from evenbreak.web.api.tokens import check_token
 from evenbreak.web.page import site_of
 from evenbreak.web.site import Site
 from evenbreak.words import say
@@ -146,6 +147,8 @@ def _route(path: str, methods: Mapping[str, Resource]) -> Route:
 
 
 async def _answer(resource: Resource, request: Request) -> Response:
+    if resource.scope:  # before anything else is looked at
+        await check_token(request, resource.path.rpartition("/")[2])
     values = queried(resource.query, request)
     if resource.method != "GET":
         values |= loaded(resource.body, await body_of(request))
@@ -190,13 +193,7 @@ async def body_of(request: Request) -> dict[str, Any]:
     body = await request.body()
     if len(body) > MOST_JSON:
         raise ProblemError("More than {most} KB was sent.", status=413, most=MOST_JSON >> 10)
-    try:
-        found = msgspec.json.decode(body or b"{}")
-    except (msgspec.DecodeError, RecursionError, UnicodeDecodeError):
-        found = None
-    if not isinstance(found, dict):
-        raise ProblemError("The body is not a JSON object, such as {example}.", example="{}")
-    return found
+    return object_in(body)
 
 
 def queried(asks: Sequence[Declared], request: Request) -> dict[str, Any]:

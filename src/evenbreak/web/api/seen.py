@@ -93,7 +93,8 @@ class Seen(NamedTuple):
         return bracket_panels(self.state, self.view.chances, two)
 
 
-async def _seen(call: Call, night: Night) -> Seen:
+async def seen_of(call: Call, night: Night) -> Seen:
+    """Return an event as everybody sees it."""
     now = call.site.clock()
     view, state = await view_for(call.request, night, now)
     known = night.known
@@ -112,7 +113,7 @@ def told(make: Callable[[Call, Seen, Sequence[Seen]], Any]) -> Callable[[Call], 
                     "Tonight is a team night. It is at {address}.", status=404, address=_TEAM
                 )
             raise ProblemError("No tournament is running yet.", status=404)
-        nights = [await _seen(call, night) for night in call.site.nights]
+        nights = [await seen_of(call, night) for night in call.site.nights]
         of = [part for one in nights for part in (one.state, one.known or "", one.view.marks)]
         event = call.values["event"] or 1
         mine = next((one for one in nights if one.event == event), None)

@@ -1,0 +1,93 @@
+"""Pages elsewhere that may use the interface from a browser (CORS): none but those that are named.
+
+No cookie counts below /api: a session of the director's would otherwise let any page enter things
+in their name. A page elsewhere reads, and writes with a token, only if `evenbreak serve
+--allow-origin` names it; whoever sends no Origin is no page. Chrome 104 to 141 ask in a preflight
+whether a private address may be asked at all (Private Network Access); since 142 Chrome asks its
+user instead.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Collection
+from http import HTTPStatus
+from typing import Any
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+_HEADERS = b"authorization, content-type, idempotency-key, if-none-match, last-event-id"
+_SHOWN = b"etag, retry-after"
+_KEPT = b"600"  # seconds for which a browser need not ask again
+_ROOT = "/api/"
+_PREFLIGHT = b"access-control-request-method"
+_PRIVATE = b"access-control-request-private-network"
+
+
+class Origins:
+    """Lets named pages elsewhere use the interface, and takes cookies from all who ask it.
+
+    Parameters
+    ----------
+    app
+        what answers.
+    origins
+        the pages' origins, such as https://league.example.
+    """
+
+    def __init__(self, app: ASGIApp, *, origins: Collection[str] = ()) -> None:
+        self.app = app
+        self.origins = frozenset(one.encode() for one in origins)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer or refuse a request."""
+        if scope["type"] != "http" or not scope["path"].startswith(_ROOT):
+            await self.app(scope, receive, send)
+            return
+        given = [(name, value) for name, value in scope["headers"] if name != b"cookie"]
+        scope = {**scope, "headers": given}
+        head, origins = dict(given), [value for name, value in given if name == b"origin"]
+        named = len(origins) == 1 and origins[0] in self.origins
+        own = origins in ([], [b"http://" + head.get(b"host", b"")])
+        allowed = [(b"vary", b"Origin")]
+        if named:
+            allowed += [
+                (b"access-control-allow-origin", origins[0]),
+                (b"access-control-expose-headers", _SHOWN),
+            ]
+        if not own and scope["method"] == "OPTIONS" and _PREFLIGHT in head and named:
+            asked = [_PREFLIGHT, b"access-control-request-headers", _PRIVATE]
+            allowed += [
+                (b"vary", b", ".join(asked)),
+                (b"access-control-allow-methods", b"GET, POST"),
+                (b"access-control-allow-headers", _HEADERS),
+                (b"access-control-max-age", _KEPT),
+            ]
+            if head.get(_PRIVATE) == b"true":
+                allowed.append((b"access-control-allow-private-network", b"true"))
+            await send({"type": "http.response.start", "status": 204, "headers": allowed})
+            await send({"type": "http.response.body", "body": b""})
+            return
+        if not (own or named or scope["method"] in ("GET", "HEAD")):
+            words = (
+                "Pages elsewhere may use this only if evenbreak serve --allow-origin names them."
+            )
+            await refuse(send, 403, words, allowed)
+            return
+
+        async def answer(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                message["headers"] = [*message.get("headers", []), *allowed]
+            await send(message)
+
+        await self.app(scope, receive, answer)
+
+
+async def refuse(
+    send: Send, status: int, words: str, headers: Collection[tuple[bytes, bytes]] = ()
+) -> None:
+    """Answer with a problem, before it is known in whose language."""
+    found = {"title": HTTPStatus(status).phrase, "status": status, "detail": words}
+    kind: Any = (b"content-type", b"application/problem+json")
+    await send({"type": "http.response.start", "status": status, "headers": [kind, *headers]})
+    await send({"type": "http.response.body", "body": json.dumps(found).encode()})

@@ -1,0 +1,82 @@
+"""Who writes by the interface: whoever sends a token of the director's in the head of the request.
+
+A token in an address or a cookie is none. Wrong ones are counted by address as wrong PINs are. A
+right one passes even then: nobody guesses 160 bits, and a guest behind the same router must not be
+able to stop the scoreboard.
+"""
+
+from __future__ import annotations
+
+import asyncio
+
+from starlette.requests import Request
+
+from evenbreak.files.store.tokens import Token, kept_tokens, token_in
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.known import known_match
+from evenbreak.web.api.problem import ProblemError
+from evenbreak.web.page import site_of
+from evenbreak.web.sessions import address_of
+from evenbreak.words import say
+
+_LONGEST = 200
+_NONE = say("This needs a token. The director draws it on the desk, under Programs.").template
+_GONE = say("This token is unknown here, or it has been taken back.").template
+_MINUTE = {"retry-after": "60"}
+
+
+async def check_token(request: Request, move: str) -> None:
+    """Refuse a request without a token that is good for a move; keep whose it is."""
+    site, address, text = site_of(request), address_of(request), _sent(request)
+    if not text:
+        raise _unknown(_NONE)
+    held = token_in(await asyncio.to_thread(lambda: site.tokens), text)
+    if held is None:
+        if site.wrong_tokens.full(address):
+            raise ProblemError("Too many wrong tokens. Wait a minute.", status=429, headers=_MINUTE)
+        site.wrong_tokens.count(address)
+        raise _unknown(_GONE, "invalid_token")
+    if not held.allows(move):
+        raise _not_for_this()
+    if site.entries.full(held.name):
+        raise ProblemError("Too many entries. Wait a minute.", status=429, headers=_MINUTE)
+    site.entries.count(held.name)
+    request.state.token = held, text
+
+
+def check_still(request: Request, state: Evening, match: str | None) -> None:
+    """Refuse a token that was taken back meanwhile, or that is for another table than a match's.
+
+    It is asked while nobody else can enter anything, nor take a token back.
+    """
+    held, text = request.state.token
+    still = token_in(kept_tokens(site_of(request).path), text)
+    if still is None or still.scope != held.scope:
+        raise _unknown(_GONE, "invalid_token")
+    if held.table and state.drawn:
+        on = state.on_tables.get(known_match(state, match or ""))
+        if on is None or on.call.table != held.table:
+            raise _not_for_this()
+
+
+def token_of(request: Request) -> Token:
+    """Return the token that came with a request."""
+    held: Token = request.state.token[0]
+    return held
+
+
+def _sent(request: Request) -> str:
+    """Return the token in the head of a request; '' if there is none."""
+    given = request.headers.getlist("authorization")
+    kind, _, text = given[0].partition(" ") if len(given) == 1 else ("", "", "")
+    return text.strip()[:_LONGEST] if kind.lower() == "bearer" else ""
+
+
+def _unknown(words: str, error: str = "") -> ProblemError:
+    how = f'Bearer realm="evenbreak", error="{error}"' if error else 'Bearer realm="evenbreak"'
+    return ProblemError(words, status=401, headers={"www-authenticate": how})
+
+
+def _not_for_this() -> ProblemError:
+    how = {"www-authenticate": 'Bearer realm="evenbreak", error="insufficient_scope"'}
+    return ProblemError("This program's token is not for that.", status=403, headers=how)

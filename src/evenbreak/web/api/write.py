@@ -1,0 +1,240 @@
+"""What other programs enter: an address for each move, made of the table of moves.
+
+A request is entered as a form of the desk is, and its author is the program. Its Idempotency-Key
+is kept with the entry: the same request again is answered, and enters nothing twice.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import secrets
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Annotated, Any
+
+from msgspec import Meta
+
+from evenbreak.answers.tournament.move_table import MOVES, name_in
+from evenbreak.fields.kinds import Flag, Text
+from evenbreak.fields.question import Declared, Field, declared
+from evenbreak.files.store.log import TakenBeforeError, forms_with
+from evenbreak.files.store.tokens import DIRECTOR, MOVES_OF_SCORES, SCORES
+from evenbreak.questions.common import SCORE
+from evenbreak.questions.moves import COMMANDS, PLAYER
+from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.known import known_match
+from evenbreak.tournaments.evening.undoing import losses
+from evenbreak.web.api import shapes
+from evenbreak.web.api.problem import Lost, ProblemError
+from evenbreak.web.api.resource import Call, Resource
+from evenbreak.web.api.seen import match_of, seen_of
+from evenbreak.web.api.tokens import check_still, token_of
+from evenbreak.web.entering import Entered, SureError, enter
+from evenbreak.web.forms import LONGEST
+from evenbreak.web.guard import MovedOnError
+from evenbreak.web.night import Night
+from evenbreak.web.pages.moves import OF_COMMANDS
+from evenbreak.web.site import night_of
+from evenbreak.words import Parameter, joined, say
+
+_SURE = Declared(
+    "sure",
+    Field(
+        Flag(),
+        "Enter it even if a match in play leaves its table, or a result no longer counts.",
+    ),
+    False,
+)
+_SEEN = Declared(
+    "seen",
+    Field(SCORE, "The score as the program knows it: if it is another one now, it is refused."),
+    None,
+)
+_OWN = ("sure", "seen")
+_TAPS = ("score", "result")
+_NAMES = (PLAYER, Text("NAME"))
+_LONGEST_NAME = 80
+_KEY = re.compile(r"[!-~]{1,200}")
+
+
+@dataclass(frozen=True)
+class Written:
+    """What was entered."""
+
+    event: shapes.EventNumber
+    said: Annotated[list[str], Meta(description="What it changed, in words.")]
+    entries: Annotated[list[int], Meta(description="The numbers of the new entries.")]
+    matches: Annotated[list[shapes.Match], Meta(description="The matches that it changed.")]
+    taken_before: Annotated[
+        bool, Meta(description="Whether the same request came before: nothing was entered twice.")
+    ]
+
+
+async def _entered(name: str, call: Call) -> Written:
+    """Enter what a program asks."""
+    night, move, request = night_of(call.request), MOVES[name], call.request
+    if not night.exists:
+        raise ProblemError("No tournament is running yet.", status=404)
+    values = {key: value for key, value in call.values.items() if key not in (*_OWN, "event")}
+    asked = move.question(**_named(move.question, values))
+    key, whole = _key(name, call)
+
+    def check(state: Evening) -> None:
+        match = getattr(asked, "match", None)
+        check_still(request, state, match)
+        if key and (earlier := forms_with(night.path, key)):
+            _refuse_other(earlier, whole)
+        if (seen := call.values.get("seen")) is not None:
+            _check_seen(state, match, seen)
+
+    try:
+        done = await enter(
+            call.site,
+            night,
+            move,
+            [asked],
+            by=token_of(request).author,
+            key=whole,
+            sure=call.values["sure"],
+            check=check,
+        )
+    except SureError as error:
+        raise _sure(error.would) from None
+    except TakenBeforeError:
+        said = say("You entered that before. Nothing was entered twice.")
+        return Written(night.event, [said], forms_with(night.path, key)[whole or ""], [], True)
+    then, now = len(done.before.log), len(done.after.log)
+    return Written(
+        night.event,
+        done.said(),
+        list(range(then + 1, now + 1)),
+        await _matches(call, night, done),
+        False,
+    )
+
+
+def _named(question: type, values: dict[str, Any]) -> dict[str, Any]:
+    """Return what is asked with its names as they are printed; refuse texts that are too long."""
+    found = dict(values)
+    for one in declared(question):
+        value = found.get(one.name)
+        is_name = one.kind in _NAMES
+        most = _LONGEST_NAME if is_name else LONGEST
+        for text in value if isinstance(value, tuple) else (value,):
+            if isinstance(text, str) and len(text) > most:
+                raise ProblemError(
+                    "{field} must not be longer than {longest} characters.",
+                    parameter=one.name,
+                    field=Parameter(one.name),
+                    longest=most,
+                )
+        if is_name and value:
+            found[one.name] = (
+                name_in(value) if isinstance(value, str) else tuple(map(name_in, value))
+            )
+        if one.name == "seed" and value is None:  # so that it draws and says the same
+            found["seed"] = secrets.randbelow(2**32)
+    return found
+
+
+def _key(name: str, call: Call) -> tuple[str, str | None]:
+    """Return what a request is known by: its key and program, and that with what it asks."""
+    given = call.request.headers.get("idempotency-key")
+    if given is None:
+        return "", None
+    if not _KEY.fullmatch(given):
+        raise ProblemError(
+            "{field} must be 1 to 200 letters, digits or signs.",
+            parameter="Idempotency-Key",
+            field="Idempotency-Key",
+        )
+    sent = json.dumps([name, call.values], sort_keys=True, default=str)
+    key = f"program {_hashed(token_of(call.request).name, given)} "
+    return key, key + _hashed(sent)
+
+
+def _hashed(*texts: str) -> str:
+    return hashlib.sha256("\0".join(texts).encode()).hexdigest()[:32]
+
+
+def _refuse_other(earlier: dict[str, list[int]], whole: str | None) -> None:
+    if whole not in earlier:
+        raise ProblemError(
+            "This Idempotency-Key came with another request before. Use a new one for each.",
+            status=422,
+            parameter="Idempotency-Key",
+        )
+
+
+def _check_seen(state: Evening, match: str | None, seen: tuple[int, int]) -> None:
+    """Refuse what was meant for an earlier score."""
+    name = known_match(state, match or "")
+    live = state.live.get(name)
+    now = live.what.score if live else (0, 0)
+    if name in state.standing.to_play and now != seen:
+        raise MovedOnError(
+            "The score of {match} is {score} now. Check it, then tap again if a game is missing.",
+            status=409,
+            match=state.match_words(name),
+            score="{}-{}".format(*now),
+        )
+
+
+def _sure(would: Entered) -> ProblemError:
+    """Return the question whether it is meant, with what would be lost."""
+    state = would.before
+    lost = [
+        Lost(
+            str(state.number_of(one.match) or one.match),
+            one.players,
+            None if one.table is None else state.plan.table_name(one.table),
+            one.score,
+            one.result is not None,
+        )
+        for one in losses(state, would.after)
+    ]
+    words = would.lost or would.said()
+    more = {"how": '"sure": true', "lost": lost}
+    return ProblemError("{what}", status=409, more=more, what=joined(words, " "))
+
+
+async def _matches(call: Call, night: Night, done: Entered) -> list[shapes.Match]:
+    """Return the matches that stand otherwise than before, as everybody sees them."""
+    before, after = done.before, done.after
+    if not after.drawn or not done.after.log[len(before.log) :]:
+        return []
+    then = before if before.drawn else None
+
+    def stands(state: Evening | None, name: str) -> object:
+        if state is None:
+            return None
+        of = (state.counted, state.on_tables, state.live, state.waiting_for, state.standing.seats)
+        return tuple(one.get(name) for one in of)
+
+    changed = {name for name in after.bracket.by_name if stands(then, name) != stands(after, name)}
+    seen = await seen_of(call, night)
+    found = [match_of(seen, part, box) for part in seen.panels for box in part.boxes
+             if box.match in changed]  # fmt: skip
+    return sorted(found, key=lambda one: int(one.number))
+
+
+def _resources() -> Iterator[Resource]:
+    for name, move in MOVES.items():
+        fields = [one for one in declared(move.question) if one.name not in (*OF_COMMANDS, "event")]
+        more: Sequence[Declared] = [_SEEN, _SURE] if name in _TAPS else [_SURE]
+        yield Resource(
+            f"/tonight/{name}",
+            COMMANDS[name][1],
+            partial(_entered, name),
+            Written,
+            "POST",
+            (*fields, *more),
+            SCORES if name in MOVES_OF_SCORES else DIRECTOR,
+        )
+
+
+RESOURCES = list(_resources())
+"""An address for each move of the table."""
