@@ -13,6 +13,8 @@ from evenbreak.files.league.values import COLOR, LINE
 from evenbreak.questions.common import ChartName, HandicappedRace, OutFolder, ScaleOf, folder
 from evenbreak.tournaments.evening.format import Discipline, Tables
 
+_ORIGIN = re.compile(r"(https?)://([a-z0-9._-]+|\[[0-9a-f:.]+\])(?::([0-9]{1,5}))?")
+
 
 def _host(text: str) -> str:
     """Return the name or address of a computer, perhaps with a port, or refuse it."""
@@ -79,6 +81,24 @@ class LeagueInit(Question):
             self.refuse("{chart} and {race_to} cannot be combined; leave one out")
 
 
+def origin(text: str) -> str:
+    """Return where a page is, as browsers write it.
+
+    >>> origin("https://League.example"), origin("http://10.0.0.7:3000"), origin("http://a:80")
+    ('https://league.example', 'http://10.0.0.7:3000', 'http://a')
+    """
+    found = _ORIGIN.fullmatch(text.strip().lower())
+    if found is None or not 1 <= int(found[3] or 1) <= 65535:
+        raise InputError(
+            "{value!r}; name a page's scheme, host and port, such as https://league.example "
+            "or http://192.168.1.20:3000",
+            value=text,
+        )
+    usual = {"http": "80", "https": "443"}[found[1]]
+    port = f":{int(found[3])}" if found[3] and found[3] != usual else ""
+    return f"{found[1]}://{found[2]}{port}"
+
+
 @dataclass(frozen=True, kw_only=True)
 class Serve(Question):
     """Open tonight's tournament or team night as a page, for phones and the screen on the wall.
@@ -134,6 +154,17 @@ class Serve(Question):
             "computer is not the one that phones use. Requests by other names are refused.",
         ),
     ] = None
+    allow_origin: Annotated[
+        tuple[str, ...],
+        Field(
+            Named(origin, "ORIGIN"),
+            "A page elsewhere that may use the JSON interface, such as https://league.example.",
+            many=True,
+            more="It reads what everyone in the room sees; to enter something it needs a token "
+            "besides. Without the option no page elsewhere can use the interface. `*` and `null` "
+            "are refused: they would name every page, and every file.",
+        ),
+    ] = ()
     port: Annotated[int, Field(Whole(1024, 65535), "Where the page is found on this computer.")] = (
         8000
     )

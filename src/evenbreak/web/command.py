@@ -68,7 +68,9 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
         )
     port = _port(asked)
     here = f"http://127.0.0.1:{port}"
-    site = Site(path, address=here, rules=league, color=asked.color)
+    site = Site(
+        path, address=here, rules=league, color=asked.color, origins=frozenset(asked.allow_origin)
+    )
     places = places_of(_room(asked, port), port, asked.host or "")
     for place in places or [here]:
         click.echo(f"The page: {place}", err=True)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from http import HTTPStatus
 from typing import Any
 
@@ -79,16 +79,20 @@ class Guard:
         given = dict(scope["headers"])
         host = given.get(b"host", b"").decode("latin-1").rsplit(":", 1)[0].strip("[]").lower()
         if host not in self.hosts:
-            await _refuse(
+            await turn_away(
                 scope, send, 421, "This address is not that of the tournament's computer."
             )
             return
         if len(scope["raw_path"]) + len(scope["query_string"]) + _size(scope) > MOST_HEAD:
-            await _refuse(scope, send, 431, f"More than {MOST_HEAD >> 10} KB stand above the form.")
+            await turn_away(
+                scope, send, 431, f"More than {MOST_HEAD >> 10} KB stand above the form."
+            )
             return
         length = given.get(b"content-length", b"0")
         if not length.isdigit() or int(length) > MOST_BYTES:
-            await _refuse(scope, send, 413, f"More than {MOST_BYTES >> 20} MB was sent; send less.")
+            await turn_away(
+                scope, send, 413, f"More than {MOST_BYTES >> 20} MB was sent; send less."
+            )
             return
         started = False
 
@@ -112,7 +116,7 @@ class Guard:
                 raise
             large = isinstance(error, _TooLargeError)
             words = "More was sent than is allowed." if large else "The form came too slowly."
-            await _refuse(scope, send, 413 if large else 408, words)
+            await turn_away(scope, send, 413 if large else 408, words)
 
 
 def _size(scope: Scope) -> int:
@@ -146,12 +150,15 @@ class _Body:
         return message
 
 
-async def _refuse(scope: Scope, send: Send, status: int, words: str) -> None:
+async def turn_away(
+    scope: Scope, send: Send, status: int, words: str, more: Sequence[tuple[bytes, bytes]] = ()
+) -> None:
+    """Refuse a request before anything of it is read: its language is not known either."""
     kind, body = "text/plain; charset=utf-8", f"{words}\n"
     if f"{scope['path']}/".startswith("/api/"):
         told = {"title": HTTPStatus(status).phrase, "status": status, "detail": words}
         kind, body = "application/problem+json", json.dumps(told)
-    plain: Any = [(b"content-type", kind.encode()), (b"connection", b"close")]
+    plain: Any = [(b"content-type", kind.encode()), (b"connection", b"close"), *more]
     await send({"type": "http.response.start", "status": status, "headers": plain})
     await send({"type": "http.response.body", "body": body.encode()})
 

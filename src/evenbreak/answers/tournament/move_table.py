@@ -115,7 +115,9 @@ def _score(state: Evening, asked: Ended) -> tuple[int, int] | str:
 
 
 def _last_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
-    return happened(before, after, after.events[-1])
+    own = next(one for one in reversed(after.events) if not one.by.startswith(BY_ITSELF))
+    called = called_words(before, after) if own is not after.events[-1] else []
+    return [*happened(before, after, own), *called]
 
 
 def _stand_words(before: Evening, after: Evening, _: object) -> list[Sentence]:

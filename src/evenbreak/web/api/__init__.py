@@ -6,7 +6,10 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Any
 
-from evenbreak.web.api import Meta, __version__, read, stream, write
+from msgspec import Meta
+
+from evenbreak import __version__
+from evenbreak.web.api import read, stream, write
 from evenbreak.web.api.describe import describe
 from evenbreak.web.api.resource import V1, Call, Kept, Resource, routes_of
 

@@ -9,12 +9,11 @@ user instead.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Collection
-from http import HTTPStatus
-from typing import Any
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from evenbreak.web.guard import turn_away
 
 _HEADERS = b"authorization, content-type, idempotency-key, if-none-match, last-event-id"
 _SHOWN = b"etag, retry-after"
@@ -72,7 +71,7 @@ class Origins:
             words = (
                 "Pages elsewhere may use this only if evenbreak serve --allow-origin names them."
             )
-            await refuse(send, 403, words, allowed)
+            await turn_away(scope, send, 403, words, allowed)
             return
 
         async def answer(message: Message) -> None:
@@ -81,13 +80,3 @@ class Origins:
             await send(message)
 
         await self.app(scope, receive, answer)
-
-
-async def refuse(
-    send: Send, status: int, words: str, headers: Collection[tuple[bytes, bytes]] = ()
-) -> None:
-    """Answer with a problem, before it is known in whose language."""
-    found = {"title": HTTPStatus(status).phrase, "status": status, "detail": words}
-    kind: Any = (b"content-type", b"application/problem+json")
-    await send({"type": "http.response.start", "status": status, "headers": [kind, *headers]})
-    await send({"type": "http.response.body", "body": json.dumps(found).encode()})

@@ -20,8 +20,8 @@ from evenbreak.web.sessions import address_of
 from evenbreak.words import say
 
 _LONGEST = 200
-_NONE = say("This needs a token. The director draws it on the desk, under Programs.").template
-_GONE = say("This token is unknown here, or it has been taken back.").template
+_NONE = say("This needs a token. The director draws it under More, Programs.")
+_GONE = say("This token is unknown here, or it has been taken back.")
 _MINUTE = {"retry-after": "60"}
 
 

@@ -198,7 +198,7 @@ def _sure(would: Entered) -> ProblemError:
     ]
     words = would.lost or would.said()
     more = {"how": '"sure": true', "lost": lost}
-    return ProblemError("{what}", status=409, more=more, what=joined(words, " "))
+    return ProblemError(joined(words, " "), status=409, more=more)
 
 
 async def _matches(call: Call, night: Night, done: Entered) -> list[shapes.Match]:
