@@ -3,36 +3,29 @@
     python -m pip install -e . pytest choix evalica openskill glicko2 trueskill whole-history-rating
     python -m pytest -q -s benchmarks/bench_peers.py
 
-The season is the file that SEASON names, or that of the folder beside the project; a test
-whose package or season is absent is skipped. How the systems are compared is said in
-`equal_information.py`, which prints the tables.
+The season is that of the folder beside the project; a test whose package or season is absent is
+skipped. How engines are compared is said in `fairness.py`, which prints the tables.
 """
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from equal_information import PLACE, SYSTEMS, compare
+from fairness import PLACE, installed, judged_engines, real
 
-from evenbreak.files.results.results_file import read_results
 from evenbreak.ratings import Results, fit
 
 
 @cache
 def season() -> Results:
-    place = Path(os.environ.get("SEASON", PLACE))
-    if not place.exists():
-        pytest.skip(f"{place.name} is not there")
-    played = read_results(place).results.played().results
-    assert played.date is not None
-    return played.select(np.argsort(played.date, kind="stable"))
+    if not PLACE.exists():
+        pytest.skip(f"{PLACE.name} is not there")
+    return real(PLACE)[0].played
 
 
 def single_games(results: Results) -> list[tuple[int, int]]:
@@ -84,15 +77,10 @@ def test_estimates_agree_with_evalica() -> None:
     assert np.abs(skill - skill.mean() - theirs + theirs.mean()).max() < 1e-3
 
 
-@pytest.mark.parametrize("frames", [True, False], ids=["games", "winners"])
-@pytest.mark.parametrize("name", [name for name in SYSTEMS if name != "evenbreak"])
-def test_no_system_predicts_better_from_the_same_results(name: str, frames: bool) -> None:
-    if not SYSTEMS[name].is_here:
-        pytest.skip(f"{SYSTEMS[name].package} is not installed")
+def test_no_engine_predicts_better_from_the_same_results() -> None:
     season()
-    place = os.environ.get("SEASON", str(PLACE))
-    for of in ("game", "match") if frames else ("match",):
-        for hindsight in (False, True):
-            settings, found = compare(place, name, frames, of, hindsight)
-            print(f"\n{name} ({settings}), {of}: {found.above:+.4f} ± {found.error:.4f}")
-            assert found.above > -2.0 * found.error
+    for row in judged_engines(installed(), real(PLACE)):
+        for of in ("game", "match"):
+            behind, error = row[f"{of}_behind"], row[f"{of}_behind_error"]
+            print(f"\n{row['name']} ({row['settings']}), {of}: {behind:+.4f} ± {error:.4f}")
+            assert behind >= -2.0 * error

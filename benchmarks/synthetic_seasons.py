@@ -18,8 +18,24 @@ from evenbreak.ratings import Results
 SPREAD, BELOW = 0.5, 0.3
 
 
-def season(matches: int, players: int, *, days: int = 250, years: float = 1.0, seed: int = 1):
+def season(matches: int, players: int, **more: float) -> Results:
     """Return races to 5, 6 or 7 of players whose skills are normal with spread 0.5."""
+    return season_with_truth(matches, players, **more)[0]  # type: ignore[arg-type]
+
+
+def season_with_truth(
+    matches: int,
+    players: int,
+    *,
+    days: int = 250,
+    years: float = 1.0,
+    drift: float = 0.0,
+    seed: int = 1,
+) -> tuple[Results, np.ndarray]:
+    """Return the same, and by how much player a is better in each match, in log-odds.
+
+    Skills move by `drift` in a year, on a random walk.
+    """
     rng = np.random.default_rng(seed)
     joins = np.where(rng.random(players) < 1 / 3, rng.integers(0, days * 4 // 5, players), 0)
     skill = rng.normal(0.0, SPREAD, players) - BELOW * (joins > 0)
@@ -32,11 +48,17 @@ def season(matches: int, players: int, *, days: int = 250, years: float = 1.0, s
         [_drawn(rng, often * (joins <= one), k) for one, k in enumerate(np.bincount(day))]
     )
     b = np.where(a == b, (b + 1) % players, b)
-    won, lost = _scores(rng, skill[a] - skill[b])
-    return Results(
+    moved = np.zeros((days, players))
+    if drift:
+        steps = rng.normal(0.0, drift * np.sqrt(years / days), (days, players))
+        moved = steps.cumsum(0) - steps.cumsum(0).mean(1, keepdims=True)
+    better = skill[a] - skill[b] + moved[day, a] - moved[day, b]
+    won, lost = _scores(rng, better)
+    played = Results(
         tuple(f"Player {k:04d}" for k in range(players)), a, b, won, lost,
         date=np.datetime64("2018-01-01") + (day * (365.0 * years / days)).astype(int),
     )  # fmt: skip
+    return played, better
 
 
 def _drawn(rng: np.random.Generator, weight: np.ndarray, many: int) -> np.ndarray:

@@ -181,6 +181,18 @@ def test_a_substitute_takes_a_place_and_a_table(form: str) -> None:
         undo(night.state, len(night.events) - 1)
 
 
+def test_whoever_takes_the_place_of_a_player_who_went_home_plays() -> None:
+    night = Night("groups", 8, 1)
+    name = night.state.standing.to_play[0]
+    player, other = night.state.pair(name)
+    _, gone = night.add(moves.drop(night.state, player))
+    assert gone.counted[name].winner == other
+    _, after = night.add(roster.substitute(gone, player, Entrant("Cy", 620.0)))
+    assert after.dropped == ()
+    assert name in after.standing.to_play
+    assert Outlook(after, AT).odds.title.all()
+
+
 @pytest.mark.parametrize("form", ["double", "single", "round-robin", "groups", "swiss"])
 def test_players_trade_places_before_they_have_begun(form: str) -> None:
     if form == "swiss":
