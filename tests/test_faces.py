@@ -38,10 +38,10 @@ from evenbreak.sheets.html_page import answer_page
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, What
 from evenbreak.tournaments.evening.fold import Evening, evening
-from places import ROOT
+from places import ROOT, SRC
 
 GOLDEN = ROOT / "tests" / "golden"
-SCHEMAS = json.loads((ROOT / "docs" / "reference" / "answers.schema.json").read_text("utf-8"))
+SCHEMAS = json.loads((SRC / "answers" / "answers.schema.json").read_text("utf-8"))
 
 ASKED = {
     "demo": "demo",

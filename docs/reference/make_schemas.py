@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-SCHEMA = Path(__file__).with_name("answers.schema.json")
+SCHEMA = ROOT / "src" / "evenbreak" / "answers" / "answers.schema.json"
 TYPES = {str: "string", bool: "boolean", int: "number", float: "number", type(None): "null"}
 SAID = {
     "heading": "What the answer is about, in one line or two.",

@@ -19,7 +19,7 @@ from scipy.stats import chi2
 from evenbreak.arrays import Floats
 from evenbreak.cli.program import program
 from evenbreak.ratings.estimates import END_ERROR
-from places import ROOT
+from places import ROOT, SRC
 from tries import tries
 
 MOST = 1.7
@@ -202,7 +202,7 @@ def test_every_command_with_a_seed_is_tried() -> None:
 
 def test_every_answer_that_plays_evenings_out_states_its_error() -> None:
     """Those under way have no seed, and draw all the same; `test_faces` holds them to this."""
-    shapes = json.loads((ROOT / "docs" / "reference" / "answers.schema.json").read_text("utf-8"))
+    shapes = json.loads((SRC / "answers" / "answers.schema.json").read_text("utf-8"))
     names = {name: shape.get("required", []) for name, shape in shapes["$defs"].items()}
     drawn = {name for name, required in names.items() if "finish_p90" in required}
     assert drawn == {f"tournament {name}" for name in ("time", "next", "show")}

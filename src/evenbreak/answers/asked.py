@@ -7,7 +7,10 @@ is all there is to it: what writes files, or runs a tournament, is a command of 
 
 from __future__ import annotations
 
+import json
+from functools import cache
 from importlib import import_module
+from importlib.resources import files
 from typing import Any, NamedTuple
 
 from evenbreak.answers.kit.answer import Answer
@@ -91,6 +94,14 @@ def answer_to(command: str, asked: Any) -> Answer:
     """
     answer: Answer = _named("answers", ASKED[command].answer)(asked)
     return answer
+
+
+@cache
+def schemas() -> dict[str, Any]:
+    """Return the JSON schema of the answers of each command, by its name."""
+    text = files("evenbreak.answers").joinpath("answers.schema.json").read_text("utf-8")
+    found: dict[str, Any] = json.loads(text)["$defs"]
+    return found
 
 
 def _named(room: str, place: str) -> Any:

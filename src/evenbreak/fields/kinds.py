@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -55,6 +55,10 @@ class Kind:
         """Return a value as it is typed."""
         return f"{value:g}" if isinstance(value, float) else str(value)
 
+    def from_afar(self) -> Kind | None:
+        """Return the kind by which other computers may give it; None: they may not."""
+        return self
+
     @property
     def limits(self) -> str:
         """The limits in words, such as '1 to 100', or ''."""
@@ -74,9 +78,21 @@ class Text(Kind):
 
 @dataclass(frozen=True)
 class File(Kind):
-    """The name of a file, or of a chart where the metavar has NAME|FILE."""
+    """The name of a file, or of what comes with the program.
+
+    Parameters
+    ----------
+    names
+        returns what may be named in place of a file, such as the charts; other computers name only
+        these.
+    """
 
     metavar: str = "FILE"
+    names: Callable[[], Iterable[str]] | None = None
+
+    def from_afar(self) -> Kind | None:
+        """Return the choice of what comes with the program."""
+        return None if self.names is None else Choice(tuple(self.names()))
 
 
 @dataclass(frozen=True)
@@ -317,16 +333,32 @@ class Named(Kind):
         what a shell offers for it: the name of a function of `cli.kit.completion`.
     spelled
         returns a value as it is typed.
+    number
+        whether it may be a number, which JSON has without quotes.
     """
 
     reader: Callable[[str], Any] = str
     metavar: str = "NAME"
     offers: str = ""
     spelled: Callable[[Any], str] = str
+    number: bool = False
+
+    def load(self, value: Any) -> Any:
+        """Return the value of what JSON has for it."""
+        is_number = isinstance(value, int | float) and not isinstance(value, bool)
+        return super().load(_as_json(value) if self.number and is_number else value)
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": ["string", "number"] if self.number else "string"}
 
     def read(self, text: str) -> Any:
         """Return the value of a text."""
         return self.reader(text)
+
+    def from_afar(self) -> Kind | None:
+        """Return the kind itself, unless it names a file."""
+        return None if self.offers == "files" else self
 
     def words(self, value: Any) -> str:
         """Return a value as it is typed."""

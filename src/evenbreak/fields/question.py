@@ -169,7 +169,8 @@ class Declared:
         said = {"type": "array", "items": one} if self.field.many else dict(one)
         said["description"] = str(worded(self.field.help))
         if self.usual and not self.field.usual:
-            said["default"] = self.usual if said.get("type") == "string" else self.default
+            is_text = "string" in said.get("type", ())
+            said["default"] = self.usual if is_text else self.default
         return said
 
 
@@ -253,6 +254,14 @@ def declared(question: Any) -> tuple[Declared, ...]:
 def declaration(question: type, name: str) -> Declared:
     """Return the field of a question that has this name."""
     return next(one for one in declared(question) if one.name == name)
+
+
+def from_afar(question: type) -> tuple[Declared, ...]:
+    """Return the fields of a question that other computers may give: none names a file there."""
+    kinds = [(one, one.kind.from_afar()) for one in declared(question)]
+    return tuple(
+        replace(one, field=replace(one.field, kind=kind)) for one, kind in kinds if kind is not None
+    )
 
 
 def _names(question: type) -> Iterator[str]:

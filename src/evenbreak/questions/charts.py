@@ -15,11 +15,12 @@ from evenbreak.questions.common import (
     PlotFile,
     ScaleOf,
     Target,
+    chart_names,
 )
 from evenbreak.ratings.scale import SCALES
 
 _MOST = 1_000_000
-_CHART = File("NAME_OR_FILE")
+_CHART = File("NAME_OR_FILE", chart_names)
 _AVERAGE = Field(
     Number(-1e6, 1e6, " is not a rating; give a team's average, such as 447"), argument=True
 )

@@ -9,7 +9,7 @@ from typing import Annotated, TypeAlias
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import File, Named, Number, Whole
 from evenbreak.fields.question import Field, Says
-from evenbreak.questions.common import ScaleOf, Seed, Starters
+from evenbreak.questions.common import CHIPS, ScaleOf, Seed, Starters
 from evenbreak.tournaments.evening.format import Tables
 
 MOST_CHIPS, MOST_ROWS = 100, 30
@@ -76,7 +76,7 @@ class ChipOdds(ChipField):
     chips: Annotated[
         str | None,
         Field(
-            File("NAME|FILE.csv"),
+            CHIPS,
             "The chips at the start: hoboken, pharaohs, or a file.",
             old=("chart",),
             more="A [file](../files.md#chip-charts) has the columns `rating_from` and `chips`.",
@@ -110,7 +110,7 @@ class ChipAudit(ChipField):
   evenbreak chips audit hoboken
   evenbreak chips audit pharaohs --entrants entrants.csv --tables 6
 """
-    chart: Annotated[str, Field(File("NAME|FILE.csv"), argument=True)]
+    chart: Annotated[str, Field(CHIPS, argument=True)]
     entrants: Annotated[
         str | None,
         Field(

@@ -17,6 +17,23 @@ from evenbreak.tournaments.evening.format import LONGEST_RACE
 HIGHEST_SEED = 2**32 - 1
 MOST_JOBS = 512
 
+
+def chart_names() -> list[str]:
+    """Return the names of the charts that come with the program."""
+    from evenbreak.handicaps.charts import chart_of
+
+    return chart_of.chart_names()
+
+
+def chip_names() -> list[str]:
+    """Return the names of the chip charts that come with the program."""
+    from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS
+
+    return list(CHIP_CHARTS)
+
+
+CHART = File("NAME|FILE", chart_names)
+CHIPS = File("NAME|FILE.csv", chip_names)
 CHANCE = Number(0.0, 1.0, " is not a probability; give a number from 0 to 1", metavar="P")
 SHARE = Number(metavar="SHARE")
 RACE = TwoWhole(
@@ -70,7 +87,7 @@ EntrantsFile: TypeAlias = Annotated[
     ),
 ]
 Target: TypeAlias = Annotated[float, Field(CHANCE, "The chance of winning that A should have.")]
-ChartName: TypeAlias = Annotated[str | None, Field(File("NAME|FILE"), "The chart of the races.")]
+ChartName: TypeAlias = Annotated[str | None, Field(CHART, "The chart of the races.")]
 LevelResults: TypeAlias = Annotated[
     str | None,
     Field(

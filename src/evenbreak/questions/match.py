@@ -39,7 +39,8 @@ class Players(Question):
     """Who plays: two ratings, two names on a list, a chance in a game, or one for each breaker."""
 
     ratings: Annotated[
-        tuple[str, ...], Field(Named(str, "[A B]", offers="players"), argument=True, many=True)
+        tuple[str, ...],
+        Field(Named(str, "[A B]", offers="players", number=True), argument=True, many=True),
     ] = ()
     from_file: Annotated[
         str | None,

@@ -87,7 +87,7 @@ class BallFriction(Question):
     mu: Annotated[
         Any,
         Field(
-            Named(friction, "MU"),
+            Named(friction, "MU", number=True),
             "Friction between the two balls: a number for any speed, or by-speed.",
             usual="4/72 = 0.0556",
             more="[How to measure it](../../how-to/allow-for-throw.md). `by-speed` is [the fit to "
@@ -271,7 +271,7 @@ class Aim(Hit):
     squirt: Annotated[
         float,
         Field(
-            Named(squirt_in, "SHAFT", spelled=lambda most: f"{most:g}"),
+            Named(squirt_in, "SHAFT", spelled=lambda most: f"{most:g}", number=True),
             "Squirt: that of a regular or a low-deflection shaft (low), or your own, in degrees at "
             "100% english.",
             more="`regular` is 2.5 degrees, `low` 1.8; `0` leaves squirt out.",

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Annotated, Any
 
-from evenbreak.fields.kinds import Choice, File
+from evenbreak.fields.kinds import Choice
 from evenbreak.fields.question import Field, Question, declared
-from evenbreak.questions.common import ChartOfRaces, EvenRace, HandicappedRace
+from evenbreak.questions.common import CHIPS, ChartOfRaces, EvenRace, HandicappedRace
 from evenbreak.tournaments.evening.fold import ELIMINATIONS
 from evenbreak.tournaments.evening.format import Format
 from evenbreak.tournaments.evening.plan import FORMATS
@@ -77,7 +77,7 @@ class TournamentPlan(Format, Question):
     chips: Annotated[
         str | None,
         Field(
-            File("NAME|FILE.csv"),
+            CHIPS,
             "The chips at the start of a chip tournament: hoboken, pharaohs, or a file.",
             section="Format",
             formats=("chips",),

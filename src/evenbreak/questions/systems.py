@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
-from evenbreak.fields.kinds import Number
+from evenbreak.fields.kinds import Kind, Named, Number
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.files.league.values import SYSTEM
 from evenbreak.questions.common import ChartName
@@ -28,7 +28,16 @@ def _system(text: str) -> System:
     return system_of(text)
 
 
-ANY_SYSTEM = replace(SYSTEM, reader=_system)
+@dataclass(frozen=True)
+class _AnySystem(Named):
+    """A system, perhaps by code of one's own, which other computers may not name."""
+
+    def from_afar(self) -> Kind:
+        """Return the kind of those that come with the program."""
+        return SYSTEM
+
+
+ANY_SYSTEM = _AnySystem(_system, SYSTEM.metavar, SYSTEM.offers, SYSTEM.spelled)
 """A handicap system that a user names, who may name code of their own; a file may not."""
 
 SystemOf: TypeAlias = Annotated[

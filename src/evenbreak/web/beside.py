@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import ctypes
 import queue
 import threading
 import time
@@ -23,6 +24,7 @@ class Beside:
     """
 
     def __init__(self) -> None:
+        self.waiting = 0  # how many wait for it, or for what it works on
         self._asked: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._thread: threading.Thread | None = None
 
@@ -47,15 +49,89 @@ class Beside:
                 loop.call_soon_threadsafe(settle, *outcome)
 
         self._asked.put(job)
-        return await done
+        self.waiting += 1
+        try:
+            return await done
+        finally:
+            self.waiting -= 1
 
     def _serve(self) -> None:
         while True:
             job = self._asked.get()
             begun = time.monotonic()
-            job()
+            with suppress(_StopError):
+                job()
             if (took := time.monotonic() - begun) > _LONG:
                 time.sleep(min(took, _MOST_REST))
+
+
+class _StopError(BaseException):
+    """Raised in a thread from outside, between two steps of Python; nothing there expects it."""
+
+
+class Limited:
+    """Work that has so many seconds of the processor, and then ends wherever it is.
+
+    A step in C, such as the solution of one system of equations, ends first.
+
+    Parameters
+    ----------
+    work
+        what is done.
+    seconds
+        of the processor, where the system tells them for a thread; of the clock elsewhere.
+
+    Raises
+    ------
+    TimeoutError
+        when they are over.
+
+    >>> Limited(lambda: 7, 1.0)()
+    7
+    """
+
+    def __init__(self, work: Callable[[], Found], seconds: float) -> None:
+        self._work, self._seconds = work, seconds
+        self._done, self._lock = threading.Event(), threading.Lock()
+
+    def __call__(self) -> Any:
+        """Return what the work returns."""
+        self._thread = threading.get_ident()
+        self._begun = self._now()
+        threading.Thread(target=self._watch, daemon=True).start()
+        try:
+            return self._work()
+        except _StopError:
+            raise TimeoutError from None
+        finally:
+            self._end()
+
+    def _now(self) -> float:
+        if hasattr(time, "pthread_getcpuclockid"):
+            return time.clock_gettime(time.pthread_getcpuclockid(self._thread))
+        return time.monotonic()
+
+    def _watch(self) -> None:
+        left = self._seconds
+        while not self._done.wait(max(left, 0.1)):
+            with self._lock:
+                if self._done.is_set():
+                    return
+                left = self._seconds - (self._now() - self._begun)
+                if left <= 0.0:  # again, if an import has swallowed the first
+                    _raise_in(self._thread, _StopError)
+
+    def _end(self) -> None:
+        while not self._done.is_set():
+            with suppress(_StopError), self._lock:
+                self._done.set()
+                _raise_in(self._thread, None)  # one that is on its way
+
+
+def _raise_in(thread: int, error: type[BaseException] | None) -> None:
+    """Raise an error in a thread at its next step of Python; None: take back one on its way."""
+    what = None if error is None else ctypes.py_object(error)
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), what)
 
 
 class Made:

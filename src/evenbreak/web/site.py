@@ -23,7 +23,7 @@ from evenbreak.files.store.tournament import event_numbers
 from evenbreak.tournaments.evening.calling import calls_after
 from evenbreak.tournaments.evening.events import What
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.web.beside import Made
+from evenbreak.web.beside import Beside, Made
 from evenbreak.web.codes import codes_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.league import League
@@ -61,8 +61,9 @@ class Site:
     tries, all_tries, codes, all_codes, taps
         wrong PINs from each address and from all, wrong codes of players likewise, and taps in each
         match, in the last minute.
-    wrong_tokens, entries
-        wrong tokens from each address, and entries of each program, likewise.
+    wrong_tokens, entries, questions
+        wrong tokens from each address, entries of each program, and questions of other programs
+        from each address, likewise.
     """
 
     path: Path
@@ -79,6 +80,7 @@ class Site:
     taps: Tries = field(default_factory=lambda: Tries(240))
     wrong_tokens: Tries = field(default_factory=lambda: Tries(5))
     entries: Tries = field(default_factory=lambda: Tries(240))
+    questions: Tries = field(default_factory=lambda: Tries(60))
 
     def __post_init__(self) -> None:
         self.asked_as = set(self.hosts)
@@ -90,6 +92,7 @@ class Site:
         self.teams = TeamNights(self.path, self.night.beside)
         self.league = League(self.path)
         self.made = Made()
+        self.asked = Beside()  # what questions of other programs are worked out by
         self._rendered: list[tuple[Sequence[object], dict[tuple[object, ...], Any]]] = []
         self._first = {
             "pin": new_pin(),

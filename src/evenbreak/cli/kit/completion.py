@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 import click
@@ -15,9 +16,6 @@ from evenbreak.ratings.scale import SCALES
 
 FILES = ("csv", "FILE")
 """What the metavar of an argument or option says that is the name of a file."""
-
-CHARTS_OR_FILES = ("NAME|FILE", "NAME_OR_FILE")
-"""The metavars of what is the name of a chart, or a file with one."""
 
 LISTS = ("from_file", "results")
 """The parameters that name a file with players, by what commands call them."""
@@ -40,21 +38,17 @@ class Completed(click.types.StringParamType):
 
 
 def complete_files(command: click.Command) -> None:
-    """Make the shell offer files where a parameter is the name of one, and charts likewise."""
+    """Make the shell offer files where a parameter is the name of one."""
     for param in command.params:
         named = str(param.metavar or "")
-        if param.type is not click.STRING:
-            continue
-        if named in CHARTS_OR_FILES:
-            param.type = Completed(charts)
-        elif any(word in named for word in FILES):
+        if param.type is click.STRING and any(word in named for word in FILES):
             param.type = Completed(file_names)
 
 
 def offers(kind: Kind) -> Complete | None:
     """Return what offers words for a kind of values, or None."""
     if isinstance(kind, File):
-        return charts if kind.metavar in CHARTS_OR_FILES else file_names
+        return file_names if kind.names is None else partial(_names_or_files, kind.names)
     functions: dict[str, Complete] = {
         "files": file_names,
         "players": players,
@@ -81,12 +75,11 @@ def systems(ctx: click.Context, param: click.Parameter, incomplete: str) -> list
     return offered(SYSTEMS, incomplete)
 
 
-def charts(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Return the names of charts, or files where no name begins like that."""
-    from evenbreak.handicaps import CHARTS, LEVEL_CHARTS, POINTS_CHARTS
-
-    found = offered([*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS], incomplete)
-    return found or file_names(ctx, param, incomplete)
+def _names_or_files(
+    names: Callable[[], Iterable[str]], ctx: click.Context, param: click.Parameter, incomplete: str
+) -> list[CompletionItem]:
+    """Return names of what comes with the program, or files where none begins like that."""
+    return offered(names(), incomplete) or file_names(ctx, param, incomplete)
 
 
 def players(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:  # noqa: ARG001

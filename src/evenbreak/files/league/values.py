@@ -18,7 +18,11 @@ else:  # systems take a quarter of a second to load, which most questions do wit
     System = Any
 
 SCALE = Named(
-    scale_of, "npl|fargo|elo|POINTS", offers="scales", spelled=lambda scale: str(scale.text)
+    scale_of,
+    "npl|fargo|elo|POINTS",
+    offers="scales",
+    spelled=lambda scale: str(scale.text),
+    number=True,
 )
 """A scale of ratings."""
 

@@ -34,6 +34,11 @@ def scale_of_chart(chart: Chart | LevelChart | PointsChart | None) -> Scale | No
     return None if chart is None else SCALES.get(chart.name.partition("_")[0])
 
 
+def chart_names() -> list[str]:
+    """Return the names of the charts that come with the program, of every kind."""
+    return [*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS]
+
+
 def catalogue_name(text: str) -> str:
     """Return what a chart of the catalogue is called, however its name was typed.
 

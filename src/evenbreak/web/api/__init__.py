@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from msgspec import Meta
 
 from evenbreak import __version__
-from evenbreak.web.api import read, stream, write
+from evenbreak.web.api import ask, read, stream, write
 from evenbreak.web.api.describe import describe
 from evenbreak.web.api.resource import V1, Call, Kept, Resource, routes_of
 
@@ -52,6 +52,7 @@ RESOURCES = [
     *read.RESOURCES,
     *write.RESOURCES,
     *stream.RESOURCES,
+    *ask.RESOURCES,
     Resource("", "The addresses of the interface.", _addresses, Addresses),
     Resource(
         "/openapi.json", "This description of the interface.", _description, {"type": "object"}

@@ -31,6 +31,7 @@ _REFUSALS = {
     415: "The body is not JSON.",
     422: "The Idempotency-Key came with another request before.",
     429: "Too much was asked from this address within a minute.",
+    503: "Many wait for answers already; Retry-After says when to ask again.",
 }
 
 
@@ -151,6 +152,8 @@ def _responses(one: Resource) -> dict[str, Any]:
         found["200"]["headers"] = {"ETag": {"schema": {"type": "string"}}}
     else:
         refusals |= {400, 413, 415, 429}
+    if _tag(one) == "questions":
+        refusals.add(503)
     if one.scope:
         refusals |= {401, 403, 409, 422}
     said = {"application/problem+json": {"schema": {"$ref": _TEMPLATE.format(name="Problem")}}}

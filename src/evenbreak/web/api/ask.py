@@ -1,0 +1,86 @@
+"""Questions of other programs: `POST /api/v1/odds` answers what `evenbreak odds --json` prints.
+
+The questions are those of the table of answers whose fields other computers may give: none names a
+file of this one, or code. They are worked out one at a time, beside the pages.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from typing import Any, NoReturn
+
+from starlette.responses import Response
+
+from evenbreak.answers.asked import ASKED, answer_to, question_of, schemas
+from evenbreak.answers.faces.to_json import to_json
+from evenbreak.answers.kit.patience import told
+from evenbreak.errors import InputError
+from evenbreak.fields.question import declared, from_afar
+from evenbreak.web.api.problem import ProblemError
+from evenbreak.web.api.resource import Call, Resource
+from evenbreak.web.beside import Limited
+from evenbreak.web.sessions import address_of
+from evenbreak.words import say
+
+MOST_SECONDS = 5.0
+"""Of the processor, for one question."""
+MOST_WAITING = 8
+"""The most questions that wait for their answers."""
+
+
+async def _answered(command: str, call: Call) -> Response:
+    """Return the answer to a question, as the command prints it."""
+    site, address = call.site, address_of(call.request)
+    if site.questions.full(address):
+        raise ProblemError(
+            "Too many questions. Wait a minute.", status=429, headers={"retry-after": "60"}
+        )
+    site.questions.count(address)
+    if site.asked.waiting >= MOST_WAITING:
+        raise ProblemError(
+            "Many wait for answers already. Ask again in a moment.",
+            status=503,
+            headers={"retry-after": "5"},
+        )
+    work = partial(answer_in_json, command, call.values)
+    try:
+        body = await site.asked.run(Limited(work, MOST_SECONDS))
+    except TimeoutError:
+        _refuse(say("This takes longer than {n:.0f} seconds", n=MOST_SECONDS))
+    return Response(body, media_type="application/json")
+
+
+def answer_in_json(command: str, values: dict[str, Any]) -> bytes:
+    r"""Return the answer to a question, as `--json` prints it; refuse what takes long.
+
+    >>> answer_in_json("odds", {"p": 0.6, "race": (7, 5)})[:29]
+    b'{\n  "p_game_a": 0.6,\n  "p1":'
+    """
+    try:
+        with told(_refuse):
+            return to_json(answer_to(command, question_of(command)(**values))).encode()
+    except (MemoryError, OverflowError):
+        raise InputError("The numbers of this question are too large. Ask for less.") from None
+
+
+def _refuse(why: str) -> NoReturn:
+    raise InputError("{why}. Ask for less, or use the command on a computer of your own.", why=why)
+
+
+def _resources() -> Iterator[Resource]:
+    for command in ASKED:
+        question = question_of(command)
+        asks = from_afar(question)
+        if {one.name for one in declared(question) if one.required} <= {one.name for one in asks}:
+            yield Resource(
+                "/" + command.replace(" ", "/"),
+                f"{(question.__doc__ or '').partition(chr(10))[0]}",
+                partial(_answered, command),
+                schemas()[command],
+                "POST",
+                asks,
+            )
+
+
+RESOURCES = list(_resources())
