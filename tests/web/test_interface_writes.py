@@ -1,0 +1,170 @@
+"""Other programs enter what happens: once each, in their own name, and asked before a loss."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from evenbreak.files.store.tokens import draw_token, take_back
+from evenbreak.files.store.tournament import read_events
+from evenbreak.web.site import Site
+from web.asked import Browser, Got, Room
+from web.test_who_may import NEW
+
+AT = "2025-03-01T19:00:00"
+
+
+class Night:
+    """A drawn tournament, and a program for each scope."""
+
+    def __init__(self, path: Path) -> None:
+        self.path, self.room = path, room_on(path)
+        self.director = Browser(self.room, director=True)
+        for where, fields in (("/new", NEW), ("/desk/draw", {})):
+            assert self.director.send(where, **fields).status == 303
+        self.tokens = {
+            name: draw_token(path, name, scope, AT)
+            for name, scope in {"board": "scores", "desk": "director", "tv": "table:2"}.items()
+        }
+
+    def enters(self, move: str, who: str = "board", room: Room | None = None, **more: Any) -> Got:
+        """Enter a move; further headers begin with an underscore."""
+        body = {key: value for key, value in more.items() if not key.startswith("_")}
+        head = {key[1:]: value for key, value in more.items() if key.startswith("_")}
+        program = Browser(room or self.room, address="10.0.0.9")
+        may = f"Bearer {self.tokens[who]}"
+        return program.tells("POST", f"/api/v1/tonight/{move}", body, authorization=may, **head)
+
+    @property
+    def count(self) -> int:
+        return len(read_events(self.path))
+
+
+def room_on(path: Path) -> Room:
+    return Room(Site(path, hosts=frozenset({"localhost"})))
+
+
+@pytest.fixture
+def night(tmp_path: Path) -> Iterator[Night]:
+    found = Night(tmp_path / "tonight.db")
+    with closing(found.room):
+        yield found
+
+
+def test_a_result_says_what_it_changed_and_calls_the_next_match(night: Night) -> None:
+    called = night.enters("call", match="1", table="2").json
+    assert (called["entries"], called["said"]) == ([3], ["Table 2: Ann against Hal."])
+    scored = night.enters("score", match="1", score=[2, 0]).json
+    (match,) = scored["matches"]
+    assert (match["number"], [one["games"] for one in match["players"]]) == ("1", [2, 0])
+    done = night.enters("result", match="1", score=[3, 0]).json
+    assert done["entries"] == [5, 6]
+    assert done["said"][0] == "Ann beat Hal 3-0 in match 1."
+    assert done["said"][-1].startswith("Table 2: ")
+    states = {one["number"]: one["state"] for one in done["matches"]}
+    assert states["1"] == "done"
+    assert "called" in states.values()
+    assert [one.by for one in read_events(night.path)[2:]] == [*["program: board"] * 3, "by itself"]
+    history = night.director.open("/desk/history").words
+    assert "#5 · program: board" in history
+    night.director.send("/language", language="de", back="/")
+    assert "#5 · Programm: board" in night.director.open("/desk/history").words
+    assert "Programm: board" in night.director.open("/desk").words
+
+
+def test_scores_of_a_program_are_not_what_the_director_takes_back(night: Night) -> None:
+    assert night.director.send("/desk/call", match="W1.1", table=2).status == 303
+    assert night.enters("score", match="1", score=[1, 0]).status == 200
+    assert night.director.send("/desk/undo").status == 303
+    assert not night.room.site.night.state().on_tables
+
+
+def test_the_same_request_is_entered_once_also_after_a_restart(night: Night) -> None:
+    scored = {"match": "1", "score": [1, 0], "_idempotency_key": "7"}
+    first = night.enters("score", **scored)
+    assert (first.status, first.json["taken_before"]) == (200, False)
+    count = night.count
+    with closing(room_on(night.path)) as another:
+        for room in (night.room, another):
+            again = night.enters("score", room=room, **scored).json
+            assert (again["taken_before"], again["entries"]) == (True, first.json["entries"])
+            for other in ({"score": [2, 0]}, {"match": "2"}, {"sure": True}):
+                got = night.enters("score", room=room, **(scored | other))
+                assert (got.status, got.json["parameter"]) == (422, "Idempotency-Key")
+            assert night.enters("call", match="2", _idempotency_key="7").status == 422
+    assert night.count == count
+    # What was so already is taken too; another program has keys of its own.
+    assert night.enters("call", match="1", table="1", _idempotency_key="8").status == 200
+    same = {"match": "1", "table": "1", "_idempotency_key": "9"}
+    assert [night.enters("call", **same).json["taken_before"] for _ in range(2)] == [False, True]
+    assert night.enters("score", "desk", **(scored | {"score": [2, 0]})).status == 200
+    assert night.count == count + 2
+
+
+def test_what_would_be_lost_is_asked_about_first(night: Night) -> None:
+    night.enters("call", match="1", table="2")
+    night.enters("score", match="1", score=[2, 1])
+    count = night.count
+    got = night.enters("drop", "desk", player="Ann", _idempotency_key="1")
+    assert got.status == 409
+    assert got.json["lost"] == [
+        {"match": "1", "players": ["Ann", "Hal"], "table": None, "score": [2, 1], "result": False}
+    ]
+    assert ("2-1" in got.json["detail"], got.json["how"]) == (True, '"sure": true')
+    assert night.count == count
+    sure = night.enters("drop", "desk", player="Ann", sure=True, _idempotency_key="1")
+    assert sure.status == 200
+    assert sure.json["said"][0] == "Ann has withdrawn."
+
+
+def test_a_score_that_has_moved_on_is_not_written_over(night: Night) -> None:
+    assert night.enters("score", match="1", score=[1, 0], seen=[0, 0]).status == 200
+    for move, score in (("score", [1, 1]), ("result", [3, 0])):
+        got = night.enters(move, match="1", score=score, seen=[0, 0], _accept_language="de")
+        assert (got.status, "1-0" in got.json["detail"]) == (409, True)
+    assert night.enters("result", match="1", score="3:0", seen=[1, 0]).status == 200
+
+
+def test_a_token_of_a_table_is_for_the_match_on_it(night: Night) -> None:
+    scored = {"match": "1", "score": [1, 0]}
+    assert night.enters("score", "tv", **scored).status == 403
+    night.enters("call", match="1", table="1")
+    night.enters("call", match="2", table="2")
+    assert night.enters("score", "tv", **scored).status == 403
+    assert night.enters("score", "tv", **scored | {"match": "2"}).status == 200
+    assert night.enters("call", "tv", match="3").status == 403
+    assert night.enters("result", "tv", match="match 2", score=[3, 0]).status == 200
+
+
+def test_a_token_is_taken_back_at_once_at_every_server(night: Night) -> None:
+    with closing(room_on(night.path)) as another:
+        for room in (night.room, another):
+            assert night.enters("call", room=room, match="1").status == 200
+        taken = night.director.send("/desk/programs/take-back", name="board")
+        assert taken.status == 303
+        for room in (another, night.room):
+            got = night.enters("score", room=room, match="1", score=[1, 0])
+            assert (got.status, got.headers["www-authenticate"][:6]) == (401, "Bearer")
+        take_back(night.path, "desk")
+        assert night.enters("undo", "desk", room=another).status == 401
+
+
+def test_a_program_that_runs_wild_is_slowed_down(night: Night) -> None:
+    night.room.site.entries.most = 3
+    got = [night.enters("score", match="1", score=[1, n % 2]).status for n in range(5)]
+    assert got == [200] * 3 + [429] * 2
+    assert night.enters("score", "desk", match="1", score=[2, 0]).status == 200
+
+
+def test_a_token_taken_back_between_two_looks_enters_nothing(
+    night: Night, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    known, count = dict(night.room.site.tokens), night.count
+    monkeypatch.setattr(Site, "tokens", known)
+    take_back(night.path, "board")
+    assert night.enters("call", match="1").status == 401
+    assert night.count == count
