@@ -8,7 +8,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/chains/test_factorisation.py tests/chains/test_spectrum.py tests/ratings/test_fitted.py
 
 .PHONY: catalogues column-tables option-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
-	page-pictures app bundle dist clean
+	page-pictures bundle dist clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
@@ -93,11 +93,6 @@ drift: reports    ## fail if what is committed is not what the scripts make
 page-pictures:    ## the README's and the tutorial's pictures of the page, in a real browser
 	$(PYTHON) docs/images/page_pictures.py
 
-app:              ## evenbreak.pyz: one file that needs nothing but Python
-	python3 -m venv .venv-app
-	.venv-app/bin/python -m pip install -q shiv
-	.venv-app/bin/shiv -q --compressed -c evenbreak -o evenbreak.pyz '.[excel,swiss]'
-
 dist:             ## the sdist, and the wheel that it gives, as the package index wants them
 	python3 -m venv .venv-dist
 	.venv-dist/bin/python -m pip install -q build check-wheel-contents twine
@@ -108,7 +103,7 @@ dist:             ## the sdist, and the wheel that it gives, as the package inde
 	.venv-dist/bin/twine check --strict dist/*
 	.venv-dist/bin/check-wheel-contents dist/*.whl
 
-bundle:           ## dist/evenbreak-VERSION-PLATFORM: the program that needs no Python, for this platform
+bundle:           ## build/evenbreak-VERSION-PLATFORM: the program that needs no Python, for this platform
 	python3 packaging/bundle.py
 
 bench:            ## each benchmark beside the bare floor it is compared with
@@ -116,4 +111,4 @@ bench:            ## each benchmark beside the bare floor it is compared with
 		--benchmark-columns=min,median,rounds --benchmark-group-by=group benchmarks
 
 clean:
-	rm -rf build dist docs/_build sheet evenbreak.pyz .venv .venv-app .venv-bundle .venv-dev .venv-dist .venv-lowest .pytest_cache .mypy_cache .ruff_cache
+	rm -rf build dist docs/_build sheet .venv .venv-bundle .venv-dev .venv-dist .venv-lowest .pytest_cache .mypy_cache .ruff_cache

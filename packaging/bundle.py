@@ -1,7 +1,7 @@
 """Build the program that needs no Python, for the platform that this runs on: `make bundle`.
 
 It makes an environment of its own, has PyInstaller collect the program there, and packs the folder
-as dist/evenbreak-VERSION-PLATFORM.zip on Windows, .tar.gz elsewhere (which keep what may be run).
+as build/evenbreak-VERSION-PLATFORM.zip on Windows, .tar.gz elsewhere (which keep what may be run).
 """
 
 import platform
@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import venv
+from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -35,12 +36,27 @@ def main() -> None:
         (folder,) = Path(place).glob("evenbreak-*")
         strip(folder)
         shutil.copy(ROOT / "LICENSE", folder)
+        (folder / "licenses.txt").write_text("\n".join(licenses(python)), "utf-8")
         system = NAMES.get(sys.platform, sys.platform)
         name = f"{folder.name}-{system}-{platform.machine().lower()}"
         kind = "zip" if sys.platform == "win32" else "gztar"
-        packed = shutil.make_archive(str(ROOT / "dist" / name), kind, place, folder.name)
+        packed = shutil.make_archive(str(ROOT / "build" / name), kind, place, folder.name)
         size = sum(one.stat().st_size for one in folder.rglob("*") if not one.is_symlink())
     print(f"{packed}: {Path(packed).stat().st_size / 1e6:.0f} MB, {size / 1e6:.0f} MB unpacked")
+
+
+def licenses(python: Path) -> Iterator[str]:
+    """Yield the licenses of Python and of what is in the environment."""
+    asked = (
+        "import sys, sysconfig; print(sys.base_prefix, *sysconfig.get_paths().values(), sep='\\n')"
+    )
+    said = subprocess.check_output([python, "-c", asked], text=True).splitlines()
+    base, *places = dict.fromkeys(Path(one) for one in said)
+    found = [one for name in ("LICENSE.txt", "lib/python3*/LICENSE.txt") for one in base.glob(name)]
+    for place in places:
+        found += sorted(place.glob("*.dist-info/**/*[Ll][Ii][Cc][Ee][Nn][CcSs][Ee]*"))
+    for one in filter(Path.is_file, found):
+        yield f"==== {'/'.join(one.parts[-3:])}\n\n{one.read_text('utf-8', 'replace')}"
 
 
 def strip(folder: Path) -> None:

@@ -149,7 +149,7 @@ def let_phones_in(desk):
     """Let phones in, ask as one, and shut them out."""
     desk.open("/desk/phones")
     desk.send("/desk/phones", open="yes")
-    where = re.findall(r"<figcaption>([^<]+)</figcaption>", desk.text)
+    where = re.findall(r"class=\"to\">([^<]+)</figcaption>", desk.text)
     for one in where:
         Browser(f"http://{one}").open("/me")
     desk.send("/desk/phones", open="")

@@ -227,6 +227,12 @@ def test_skill_levels_are_known_by_their_title(tmp_path, title):
     assert (file.scale, file.levels) == (None, True)
 
 
+@pytest.mark.parametrize(("yes", "no"), [("yes", "no"), ("TRUE", "false"), ("1", "0")])
+def test_provisional_is_read_as_programs_and_our_workbook_write_it(read, yes, no):
+    roster = read(f"player,rating,provisional\nAnn,600,{yes}\nBo,500,{no}\n").roster
+    np.testing.assert_array_equal(roster.provisional, [True, False])
+
+
 def test_a_fargo_search_gives_the_effective_rating_of_those_without_another(read):
     file = read(
         "readableId,firstName,lastName,rating,effectiveRating,robustness,provisionalRating\n"

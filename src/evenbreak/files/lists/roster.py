@@ -100,7 +100,7 @@ ROSTER = Schema(
     provisional=YesNo(
         "preliminary",
         "whether the rating rests on so few games that it has no place in the list",
-        values={"yes": True, "no": False, "true": True, "false": False},
+        values={"yes": True, "no": False, "true": True, "false": False, "1": True, "0": False},
     ),
     races_won=_COUNT.called(
         "",
