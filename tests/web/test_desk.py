@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import pytest
@@ -270,7 +269,6 @@ def test_a_table_is_closed_from_its_match_and_only_that_match_leaves(hall: Hall)
 
 def test_the_card_of_an_act_has_that_act_alone(full: Hall) -> None:
     taps(full, on(full, 1), 1)
-    time.sleep(1.1)  # entries are timed to the second
     words = taps(full, on(full, 2), 1)
     card = words[words.index("is in") : words.index("OK")]
     called = full.state.on_tables[on(full, 2)].call.players

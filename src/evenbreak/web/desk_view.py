@@ -24,6 +24,7 @@ from evenbreak.answers.tournament.tournament import place_words
 from evenbreak.files.store.desk import Sides
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.standing import NOBODY
+from evenbreak.tournaments.evening.beside import with_entry
 from evenbreak.tournaments.evening.calling import night_queue
 from evenbreak.tournaments.evening.events import (
     BY_ITSELF,
@@ -308,17 +309,32 @@ def _absent(state: Evening, event: Event) -> str:
     return what.loser if any(seat in seats for seats in to_come) else ""
 
 
-def shouts(states: Mapping[int, Evening], read: Mapping[int, int], since: str) -> list[Sentence]:
+def shouts(
+    states: Mapping[int, Evening], read: Mapping[int, int], last: LastAct | None
+) -> list[Sentence]:
     """Return what to call out, by table: the matches called by the last act, not begun."""
     found = [
         (on.call.table, shout(state, name))
         for n, state in states.items()
-        for name, on in state.on_tables.items()
+        for name, on in (state.on_tables.items() if state.drawn else ())
         if name not in state.live
-        and _called(state, name)[0] >= since
-        and _called(state, name)[1] > read.get(n, 0)
+        and (entry := _called(state, name)) > read.get(n, 0)
+        and (not last or _came_with(state, entry, states[last.event], last))
     ]
     return [words for _, words in sorted(found, key=lambda one: one[0])]
+
+
+def _came_with(state: Evening, entry: int, acted: Evening, last: LastAct) -> bool:
+    """Return whether an entry is of the last act, or came with it or after it."""
+    first, end = last.number, acted.numbers[-1]
+    events = dict(zip(acted.numbers, acted.events, strict=True))
+    while (one := events.get(first - 1)) and (one.at, one.by) == (last.at, events[first].by):
+        first -= 1  # calls of several tables by one tap are entries of their own
+    if state.event == acted.event:
+        return entry >= first
+    call = state.events[state.numbers.index(entry)]
+    came = {with_entry(acted.event, n) for n in range(first, end + 1)}
+    return call.at > last.at or call.by in came
 
 
 def _is_act(event: Event) -> bool:
@@ -328,14 +344,10 @@ def _is_act(event: Event) -> bool:
     return isinstance(event.what, Result | Called | CalledBack | Waits | Dropped)
 
 
-def _called(state: Evening, match: str) -> tuple[str, int]:
-    """Return when a match was called last, and by which entry."""
-    its = [
-        (one.at, n)
-        for n, one in zip(state.numbers, state.events, strict=True)
-        if getattr(one.what, "match", "") == match
-    ]
-    return max(its, default=("", 0))
+def _called(state: Evening, match: str) -> int:
+    """Return the entry that called a match last."""
+    its = zip(state.numbers, state.events, strict=True)
+    return max((n for n, one in its if getattr(one.what, "match", "") == match), default=0)
 
 
 @lru_cache(maxsize=4)

@@ -101,7 +101,7 @@ def _desk_values(
         "finish": ends[0] if ends else "",
         "last": last,
         "again": _undone_last(states[event]),
-        "shouts": shouts(drawn, read, last.at if last else ""),
+        "shouts": shouts(states, read, last),
         "newest": {n: one.numbers[-1] for n, one in states.items()},
         "mine": own_act(states, event),
         "events": [_event_row(one, view) for one, view in zip(states.values(), views, strict=True)],
