@@ -7,6 +7,7 @@ from typing import NamedTuple
 import pytest
 
 from evenbreak.files.store.tournament import read_tournament
+from evenbreak.tournaments.clock.finish import finish
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.site import Site
 from web.chromium import browser as browser
@@ -46,6 +47,14 @@ def begun(director: Phone, players: list[str], **plan: object) -> None:
     shown = director.send("/new", **asked)
     assert shown.status == 200, shown.words
     assert director.send("/desk/draw").status == 200
+
+
+@pytest.fixture(scope="module", autouse=True)
+def few_evenings() -> Iterator[None]:
+    """Each entry has the page work out the night's finish: of 100 evenings instead of 2000."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(finish.__kwdefaults__, "runs", 100)
+        yield
 
 
 @pytest.fixture
