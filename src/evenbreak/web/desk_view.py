@@ -242,14 +242,11 @@ class LastAct(NamedTuple):
         what it was, and what follows from it.
     undo
         what is taken back; '' if something follows from it.
-    match
-        the number of its match; 0 if it is about none.
-    over
-        whether it is a result.
-    by
-        the phones or the tablet that entered it; '' if the director did.
-    absent
-        whoever forfeited it, and has not gone home.
+    match, over
+        the number of its match, 0 if it is about none; and whether it is a result.
+    by, absent
+        the phones or the tablet that entered it, '' if the director did; and who forfeited it,
+        and has not gone home.
     """
 
     event: int
@@ -265,15 +262,7 @@ class LastAct(NamedTuple):
 
 
 def last_act(state: Evening, read: int) -> LastAct | None:
-    """Return what was entered last, if that is after what was read.
-
-    Parameters
-    ----------
-    state
-        the evening.
-    read
-        the number of the last entry that the director has read.
-    """
+    """Return what was entered last, if that is after the entry that the director read last."""
     entries = list(zip(state.numbers, state.events, strict=True))
     told = (one for one in entries[:0:-1] if not one[1].by.startswith(BY_ITSELF))
     last = next((one for one in told if _is_act(one[1]) or one[1].by_directors), None)
@@ -313,28 +302,30 @@ def shouts(
     states: Mapping[int, Evening], read: Mapping[int, int], last: LastAct | None
 ) -> list[Sentence]:
     """Return what to call out, by table: the matches called by the last act, not begun."""
-    found = [
-        (on.call.table, shout(state, name))
-        for n, state in states.items()
-        for name, on in (state.on_tables.items() if state.drawn else ())
-        if name not in state.live
-        and (entry := _called(state, name)) > read.get(n, 0)
-        and (not last or _came_with(state, entry, states[last.event], last))
-    ]
+    found = []
+    for n, state in states.items():
+        its = zip(state.numbers, state.events, strict=True)
+        entries = {getattr(one.what, "match", ""): (number, one) for number, one in its}
+        for name, on in state.on_tables.items() if state.drawn else ():
+            number, event = entries.get(name, (0, None))
+            if name in state.live or event is None or number <= read.get(n, 0):
+                continue
+            if not last or _came_with(n, number, event, last, states[last.event]):
+                found.append((on.call.table, shout(state, name)))
     return [words for _, words in sorted(found, key=lambda one: one[0])]
 
 
-def _came_with(state: Evening, entry: int, acted: Evening, last: LastAct) -> bool:
+def _came_with(n: int, number: int, event: Event, last: LastAct, acted: Evening) -> bool:
     """Return whether an entry is of the last act, or came with it or after it."""
-    first, end = last.number, acted.numbers[-1]
     events = dict(zip(acted.numbers, acted.events, strict=True))
-    while (one := events.get(first - 1)) and (one.at, one.by) == (last.at, events[first].by):
+    first, act = last.number, events[last.number]
+    while (one := events.get(first - 1)) and (one.at, one.by) == (act.at, act.by):
         first -= 1  # calls of several tables by one tap are entries of their own
-    if state.event == acted.event:
-        return entry >= first
-    call = state.events[state.numbers.index(entry)]
-    came = {with_entry(acted.event, n) for n in range(first, end + 1)}
-    return call.at > last.at or call.by in came
+    if n == last.event:
+        return number >= first
+    return event.at > last.at or event.by in {
+        with_entry(last.event, k) for k in events if k >= first
+    }
 
 
 def _is_act(event: Event) -> bool:
@@ -342,12 +333,6 @@ def _is_act(event: Event) -> bool:
     if event.by_phones:
         return isinstance(event.what, Result)
     return isinstance(event.what, Result | Called | CalledBack | Waits | Dropped)
-
-
-def _called(state: Evening, match: str) -> int:
-    """Return the entry that called a match last."""
-    its = zip(state.numbers, state.events, strict=True)
-    return max((n for n, one in its if getattr(one.what, "match", "") == match), default=0)
 
 
 @lru_cache(maxsize=4)
