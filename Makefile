@@ -31,6 +31,7 @@ column-tables:    ## the tables of columns in docs/reference/files.md, from the 
 option-tables:    ## the tables of options in docs/reference, from the questions themselves
 	$(PYTHON) docs/option_tables.py
 	$(PYTHON) docs/league_keys.py
+	$(PYTHON) docs/addresses.py
 
 test:             ## the tests that are not slow
 	$(PYTHON) -m pytest -q -n logical -m "not slow"

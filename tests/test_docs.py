@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+import addresses
 import click
 import column_tables
 import league_keys
@@ -252,6 +253,11 @@ def test_the_tables_of_options_are_those_of_the_questions(page: Path) -> None:
 def test_the_keys_of_a_leagues_file_are_those_of_its_declaration():
     text = league_keys.PAGE.read_text("utf-8")
     assert league_keys.with_tables(text) == text, "run make option-tables"
+
+
+def test_the_addresses_of_the_interface_are_all_listed() -> None:
+    text = addresses.PAGE.read_text(encoding="utf-8")
+    assert addresses.with_table(text) == text, "run make option-tables"
 
 
 def test_the_tables_of_columns_are_those_of_the_schemas() -> None:

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from contextlib import closing
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 import pytest
 from jsonschema import Draft202012Validator
 
+from evenbreak.files.demo import write_demo_evening
 from evenbreak.web.api import description
 from evenbreak.web.site import Site
+from places import ROOT
 from web.asked import Browser, Room
+from web.test_interface_shapes import known
 from web.test_who_may import NEW
 
 HERE = Path(__file__).parent
@@ -133,3 +138,23 @@ def test_each_route_is_described_and_the_reverse(browser: Browser) -> None:
     assert routed == {(path, how) for path, methods in told["paths"].items() for how in methods}
     listed = browser.tells("GET", "/api/v1").json["addresses"]
     assert {(one["address"], one["method"].lower()) for one in listed} == routed
+
+
+@pytest.mark.slow
+def test_the_examples_of_the_page_run(tmp_path: Path) -> None:
+    """Each `curl` on the page about the interface is answered as it says, of the demo's evening."""
+    text = (ROOT / "docs" / "reference" / "interface.md").read_text(encoding="utf-8")
+    now = datetime(2026, 3, 1, 21, 0)
+    write_demo_evening(tmp_path / "evening.db", now)
+    site = Site(tmp_path / "evening.db", hosts=frozenset({"localhost"}), clock=now.isoformat)
+    with closing(Room(site)) as room:
+        browser = Browser(room)
+        known(browser)
+        asked = re.findall(
+            r'^\$ curl -s "?http://127.0.0.1:8000(\S+?)"?\n((?:[^$`].*\n)+)', text, re.M
+        )
+        for address, shown in asked:
+            got = browser.tells("GET", address).text
+            wanted = re.escape(shown.replace("\n", "")).replace(r"\.\.\.", ".*?")
+            assert re.fullmatch(wanted, got), (address, got)
+    assert len(asked) >= 4

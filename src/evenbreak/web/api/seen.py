@@ -7,7 +7,7 @@ from datetime import datetime, timedelta
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from evenbreak.answers.tournament.bracket_view import Box, Line, Panel, bracket_panels
+from evenbreak.answers.tournament.bracket_view import Box, Panel, bracket_panels
 from evenbreak.answers.tournament.moves import event_name
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.evening.fold import Evening
@@ -136,6 +136,9 @@ def match_of(seen: Seen, panel: Panel, box: Box) -> shapes.Match:
         standing = "called" if not chips and _walks(seen, name) else "playing"
     to, played = _onward(state).get(name, {}), state.records.get(name, ())
     begins = seen.fresh.starts.get(name) if seen.fresh else None
+    needs: tuple[int | None, int | None] = None, None
+    if all(line.known for line in box.lines):
+        needs = state.needed(name, state.pair(name))
     return shapes.Match(
         str(box.number),
         name,
@@ -143,7 +146,7 @@ def match_of(seen: Seen, panel: Panel, box: Box) -> shapes.Match:
         panel.title,
         box.title or panel.rounds[box.column].title,
         box.column,
-        (_side(box.lines[0], box), _side(box.lines[1], box)),
+        (_side(box, 0, needs[0]), _side(box, 1, needs[1])),
         standing,
         box.state == "hill",
         box.state == "two",
@@ -161,11 +164,12 @@ def _walks(seen: Seen, name: str) -> bool:
     return progress_of(seen.state, name, seen.now) == "called"
 
 
-def _side(line: Line, box: Box) -> shapes.Side:
+def _side(box: Box, seat: int, needs: int | None) -> shapes.Side:
+    line = box.lines[seat]
     games = int(line.score) if line.score.isdecimal() and box.state != "two" else None
     chance = None if line.chance is None else round(line.chance, PLACES)
     name, origin = (line.text, "") if line.known else ("", line.text)
-    return shapes.Side(name, origin, line.needs, games, line.won, chance)
+    return shapes.Side(name, origin, needs, games, line.won, chance)
 
 
 @lru_cache(maxsize=4)

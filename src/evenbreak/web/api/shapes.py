@@ -53,7 +53,9 @@ class Side:
     comes_from: Annotated[
         str, Meta(description="Where an open one comes from.", examples=["winner of 12"])
     ]
-    needs: Annotated[int | None, Meta(description="The games that this player needs to win.")]
+    needs: Annotated[
+        int | None, Meta(description="The race: the games this player needs; null while open.")
+    ]
     games: Annotated[int | None, Meta(description="Games won so far; null before the first score.")]
     won: bool
     chance: Annotated[Chance | None, Meta(description="Of winning the match from this score on.")]
