@@ -65,6 +65,8 @@ def typed(kind: Kind, value: Any) -> str:
         return "yes" if value else "no"
     if isinstance(kind, TwoWhole):
         return kind.words((int(value[0]), int(value[1])))
+    if isinstance(value, list):
+        return ":".join(str(int(one)) for one in value)
     if isinstance(kind, Whole):
         return str(int(value))
     return value if isinstance(value, str) else repr(value)
