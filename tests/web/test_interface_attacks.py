@@ -286,7 +286,6 @@ VALUES: list[Any] = [
 ]  # fmt: skip
 
 
-@pytest.mark.drawn
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(ATTACKS))
 def test_whatever_is_in_a_field_is_taken_or_refused(seed: int, tmp_path: Path) -> None:
