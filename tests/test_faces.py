@@ -63,6 +63,7 @@ ASKED = {
     "physics_shot": "physics shot --cut 30 --distance 20 --speed 45 --side-offset 0.1",
     "physics_shot_pocket": "physics shot --cue-ball 30,15 --object-ball 50,15 "
     "--pocket foot-right --speed 80 --offset -0.4",
+    "systems": "systems",
     "chart_list": "chart list",
     "chart_show": "chart show npl_8",
     "chart_show_levels": "chart show apa_8ball",

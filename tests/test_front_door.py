@@ -20,10 +20,12 @@ FRONT = [
     DOCS / "gallery.md",
     DOCS / "explanation" / "how-it-compares.md",
 ]
-SPHINX_ONLY = re.compile(r"^ *:::|^ *```\{(?!include\})|^\(.*\)=$|\{[a-z:]+\}`", re.MULTILINE)
+SPHINX_ONLY = re.compile(
+    r"^ *:::|^ *```\{(?!(?:literal)?include\})|^\(.*\)=$|\{[a-z:]+\}`", re.MULTILINE
+)
 """What only Sphinx understands: containers, directives, targets and roles.
 
-A table may be included, where the page names its file.
+A table may be included where the page names its file, and code where the page links to it.
 """
 
 TARGET = re.compile(r"""(?:\]\(|(?:href|src)=")([^)"\s]+)[)"]""")
@@ -76,7 +78,10 @@ def test_links_lead_somewhere_on_a_git_host(page: Path) -> None:
 
 @each_of("page", FRONT)
 def test_the_front_pages_have_no_marks_that_a_git_host_prints(page: Path) -> None:
-    assert SPHINX_ONLY.findall(page.read_text("utf-8")) == []
+    text = page.read_text("utf-8")
+    assert SPHINX_ONLY.findall(text) == []
+    included = re.findall(r"^ *```\{literalinclude\} (\S+)$", text, re.MULTILINE)
+    assert [name for name in included if f"]({name})" not in text] == []
 
 
 @pytest.mark.parametrize("index", INDEXES, ids=name_of)

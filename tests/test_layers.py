@@ -24,7 +24,7 @@ LAYERS: tuple[tuple[str, ...], ...] = tuple(
     for row in (
         "words",
         "errors arrays",
-        "checks",
+        "checks plugins",
         "fields workers",
         "game",
         "games chains stats physics",

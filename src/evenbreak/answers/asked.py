@@ -42,6 +42,7 @@ ASKED = {
     "chips odds": Place("chips:ChipOdds", "chips:chip_odds"),
     "chips audit": Place("chips:ChipAudit", "chips:chip_audit"),
     "chips design": Place("chips:ChipDesign", "chips:chip_design"),
+    "systems": Place("charts:Systems", "chart.asked:systems"),
     "chart list": Place("charts:ChartList", "chart.asked:list_"),
     "chart show": Place("charts:ChartShow", "chart.asked:show"),
     "chart audit": Place("charts:ChartAudit", "chart.asked:audit"),

@@ -5,7 +5,7 @@ import click
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 COMMANDS = {
-    "list": Entry("", "List the charts that come with evenbreak."),
+    "list": Entry("", "List the charts that there are."),
     "show": Entry("", "Show a chart: who needs how many games."),
     "audit": Entry("", "Check how fair a chart is, and which ratings it fits."),
     "design": Entry("", "Design the fairest chart for given ratings."),

@@ -48,6 +48,7 @@ SECTIONS = {
         "league": Entry("league.office", "A league's office: its table and its fixtures."),
     },
     "Handicap systems": {
+        "systems": Entry("", "The handicap systems there are, and their rules."),
         "chart": Entry("chart", "Handicap charts: list, show, audit or design one."),
         "ladder": Entry("", "How far off ratings get under a handicap system."),
         "sandbag": Entry("sandbag", "What losing on purpose gains, and how to spot it."),

@@ -278,7 +278,7 @@ def _square(content: bytes, source: str) -> csc_array[np.float64]:
         *shape, entries, _, _, _ = mminfo(io.BytesIO(content))
         if max(shape) > 2 * entries or entries > len(content):  # room would be made for them all
             raise ValueError(f"it does not hold the {entries:,} entries of {max(shape):,} states")
-        read: Any = mmread(io.BytesIO(content))
+        read: Any = mmread(io.BytesIO(content), spmatrix=False)
     except Exception as error:
         reason = printable(" ".join(str(error).split()))
         raise refusal(
@@ -376,7 +376,7 @@ def matrix_market_bytes(chain: Chain) -> bytes:
     >>> from evenbreak.chains import chain_of
     >>> from scipy.io import mmread
     >>> chain = chain_of([("rain", "rain", 0.7), ("rain", "sun", 0.3), ("sun", "rain", 1.0)])
-    >>> mmread(io.BytesIO(matrix_market_bytes(chain))).toarray()
+    >>> mmread(io.BytesIO(matrix_market_bytes(chain)), spmatrix=False).toarray()
     array([[0.7, 1. ],
            [0.3, 0. ]])
     """

@@ -15,16 +15,14 @@ from evenbreak.files.tables.header import missing_column
 from evenbreak.files.tables.problems import Problems, printable, refusal
 from evenbreak.files.tables.schema import Number, Schema, Whole
 from evenbreak.files.tables.table import TextTable
-from evenbreak.handicaps.charts.chart import CHARTS, Chart, ChartDraft, ChartRow, chart, row_faults
-from evenbreak.handicaps.charts.chart_of import catalogue_name
-from evenbreak.handicaps.charts.level_chart import (
-    LEVEL_CHARTS,
-    POINTS_CHARTS,
-    LevelChart,
-    PointsChart,
-    level_chart,
-    points_chart,
+from evenbreak.handicaps.charts.chart import Chart, ChartDraft, ChartRow, row_faults
+from evenbreak.handicaps.charts.chart_of import (
+    EVERY_CHART,
+    catalogue_name,
+    chart_names,
+    named_chart,
 )
+from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
 from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS, ChipChart, ChipRow
 from evenbreak.words import listed, say
 
@@ -286,12 +284,14 @@ def read_chart(path: str | Path) -> Chart | LevelChart | PointsChart:
 
 
 def find_chart(name_or_path: str | Path) -> Chart | LevelChart | PointsChart:
-    """Return the chart of this name that comes with the package, or else the one in this file.
+    """Return the chart of this name, ours or an installed package's, or the one in this file.
 
     Raises
     ------
     DataError
         if there is neither, or as for `read_chart`.
+    InputError
+        if the package's chart breaks a law.
 
     >>> find_chart("NPL-10").race(12)
     (5, 4)
@@ -300,21 +300,18 @@ def find_chart(name_or_path: str | Path) -> Chart | LevelChart | PointsChart:
 
 
 def find_chart_file(name_or_path: str | Path) -> ChartFile:
-    """Return the chart of this name that comes with the package, or else the content of a file."""
-    key = catalogue_name(str(name_or_path))
-    if key in CHARTS:
-        return ChartFile(ChartDraft(key, tuple(chart(key).rows)), (), ())
-    if key in LEVEL_CHARTS:
-        return ChartFile(level_chart(key), (), ())
-    if key in POINTS_CHARTS:
-        return ChartFile(points_chart(key), (), ())
-    if str(name_or_path) != "-" and not _exists(name_or_path):
+    """Return a chart of this name, ours or an installed package's, or the content of a file."""
+    name = str(name_or_path)
+    if name == "-" or (catalogue_name(name) not in EVERY_CHART and _exists(name)):
+        return read_chart_file(name_or_path)
+    if (found := named_chart(name)) is None:
         raise refusal(
-            printable(str(name_or_path)),
+            printable(name),
             "there is no such file, and no chart has this name; name a file, or {charts}",
-            charts=", ".join((*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS)),
+            charts=", ".join(chart_names()),
         )
-    return read_chart_file(name_or_path)
+    draft = ChartDraft(found.name, tuple(found.rows)) if isinstance(found, Chart) else found
+    return ChartFile(draft, (), ())
 
 
 def _exists(path: str | Path) -> bool:

@@ -9,6 +9,7 @@ from .breaks import winner_breaks as winner_breaks
 from .catalogue import CATALOGUE as CATALOGUE
 from .catalogue import game_of_catalogue as game_of_catalogue
 from .drill import Drill as Drill
+from .laws import broken_laws as broken_laws
 from .match import Match as Match
 from .one_ball import OneBall as OneBall
 from .one_ball import OneBallLookAhead as OneBallLookAhead

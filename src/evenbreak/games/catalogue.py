@@ -54,10 +54,10 @@ def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
     Parameters
     ----------
     name
-        its name, or words of it that no other game has.
+        its name, or words of it that no other game has; or that of an installed package's game.
     chances
         p1 and p2 of its racks or shots, or one chance: of its racks, whoever breaks, or of a
-        shot in a drill. None: those of the catalogue.
+        shot in a drill; of what it says, a package's. None: those of the catalogue.
 
     Raises
     ------
@@ -75,8 +75,13 @@ def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
         entry for entry in CATALOGUE if words and set(words) <= set(_words(entry))
     ]
     if len(matching) != 1:
+        from evenbreak.games.laws import lawful_game
+        from evenbreak.plugins import added, plugin
+
+        if (theirs := plugin("game", name, lawful_game, *chances)) is not None:
+            return name.strip().lower(), theirs
         close = get_close_matches("".join(words), joined, n=3)
-        near = matching or [joined[text] for text in close] or list(CATALOGUE)
+        near = matching or [joined[text] for text in close] or [*CATALOGUE, *added("game")]
         which = "names several games" if matching else "is not a game of the catalogue"
         raise InputError(
             "{name!r} {which}; give one of: {near}", name=name, which=which, near="; ".join(near)

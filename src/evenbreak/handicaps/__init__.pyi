@@ -2,15 +2,16 @@ from .charts.audit import AuditRow as AuditRow
 from .charts.audit import ChartAudit as ChartAudit
 from .charts.audit import ChartFit as ChartFit
 from .charts.audit import audit as audit
-from .charts.audit import even_doublings as even_doublings
 from .charts.audit import win_matrix as win_matrix
 from .charts.chart import CHARTS as CHARTS
 from .charts.chart import Chart as Chart
 from .charts.chart import ChartDraft as ChartDraft
 from .charts.chart import ChartRow as ChartRow
 from .charts.chart import chart as chart
+from .charts.chart_of import EVERY_CHART as EVERY_CHART
 from .charts.chart_of import chart_of as chart_of
 from .charts.chart_of import level_chart_of as level_chart_of
+from .charts.chart_of import named_chart as named_chart
 from .charts.chart_of import points_chart_of as points_chart_of
 from .charts.chart_of import scale_of_chart as scale_of_chart
 from .charts.design import design as design
@@ -23,6 +24,7 @@ from .charts.fair_scale import FairScale as FairScale
 from .charts.fair_scale import LeagueChart as LeagueChart
 from .charts.fair_scale import league_chart as league_chart
 from .charts.gap import Gap as Gap
+from .charts.laws import broken_chart_laws as broken_chart_laws
 from .charts.level_audit import LevelAudit as LevelAudit
 from .charts.level_audit import LevelCell as LevelCell
 from .charts.level_audit import PointsAudit as PointsAudit
@@ -44,6 +46,7 @@ from .charts.played_chart import PlayedChart as PlayedChart
 from .charts.points_odds import PointsOdds as PointsOdds
 from .charts.points_odds import loser_share as loser_share
 from .charts.points_odds import points_odds as points_odds
+from .charts.race_grid import even_doublings as even_doublings
 from .charts.race_of_pair import Fairest as Fairest
 from .ladders.closed_league import ClosedPair as ClosedPair
 from .ladders.closed_league import in_step_law as in_step_law

@@ -206,14 +206,14 @@ def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
         there = plan.begun_with if week < first else len(skill)
         night, wins = _night(plan, rating[:there], rng)
         nights.append(night)
-        dates.append(np.full(night.shape[1], _FIRST_NIGHT + 7 * week))
+        dates.append(np.full(night.shape[1], _FIRST_NIGHT + np.timedelta64(7 * week, "D")))
         columns = np.concatenate(nights, axis=1)
         rating[:there] = fit(
             Results(names[:there], *columns, date=np.concatenate(dates)),
             scale=plan.scale,
             anchor=centre,
             half_life=plan.half_life,
-            as_of=_FIRST_NIGHT + 7 * week,
+            as_of=_FIRST_NIGHT + np.timedelta64(7 * week, "D"),
         ).rating
         error = rating - skill
         if week < first:

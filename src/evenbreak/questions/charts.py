@@ -33,9 +33,18 @@ Chart: TypeAlias = Annotated[str, Field(_CHART, argument=True)]
 
 @dataclass(frozen=True, kw_only=True)
 class ChartList(Question):
-    """List the charts that come with evenbreak.
+    """List the charts that there are, ours and those of installed packages.
 
     Each is shown with its number of different races and the length of its longest match.
+    """
+
+
+@dataclass(frozen=True, kw_only=True)
+class Systems(Question):
+    """List the handicap systems that there are, ours and those of installed packages.
+
+    Each is shown with the chart that sets its races and the package that it is from; in files, with
+    its rule too.
     """
 
 

@@ -19,7 +19,7 @@ MOST_JOBS = 512
 
 
 def chart_names() -> list[str]:
-    """Return the names of the charts that come with the program."""
+    """Return the names of charts, ours and those of installed packages."""
     from evenbreak.handicaps.charts import chart_of
 
     return chart_of.chart_names()

@@ -48,8 +48,9 @@ SystemOf: TypeAlias = Annotated[
         "none [GAMES], fargo-like, level-review, apa-like, tap-like, level-steps [STEPS], "
         "averages, win-percent, napa-like, or a class of your own as MODULE:CLASS.",
         usual="npl",
-        more="Put a name with a blank in quotes, or write a hyphen: `step-2`. Open parameters are "
-        "set by name: `'level-review window=15'`. See [Systems](../systems.md).",
+        more="`evenbreak systems` lists them, with those of installed packages. Put a name with a "
+        "blank in quotes, or write a hyphen: `step-2`. Open parameters are set by name: "
+        "`'level-review window=15'`. See [Systems](../systems.md).",
     ),
 ]
 """A handicap system; `asked.system or system_of("npl")` is the one that is meant."""

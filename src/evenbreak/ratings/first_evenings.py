@@ -49,7 +49,7 @@ class FirstEvenings:
     def __init__(self, results: Results, known: Bools | None = None) -> None:
         self._players = players = max(len(results.players), 1)
         rows = _rows_with_a_day(results)
-        self._row_date = np.full(len(results), np.datetime64("NaT"), "datetime64[D]")
+        self._row_date = np.full(len(results), np.datetime64("NaT", "D"))
         if results.date is not None:
             self._row_date[rows] = results.date[rows]
         self._last = _BEFORE

@@ -13,14 +13,10 @@ import pandas as pd
 
 from evenbreak.answers.league.roster_matchups import OfferedRaces, all_pairs
 from evenbreak.arrays import Floats, Ints
-from evenbreak.handicaps.charts.chart import CHARTS, Chart
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import EVERY_CHART
 from evenbreak.handicaps.charts.gap import Gap, averaging_rule
-from evenbreak.handicaps.charts.level_chart import (
-    LEVEL_CHARTS,
-    POINTS_CHARTS,
-    LevelChart,
-    PointsChart,
-)
+from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
 from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.matches.form import MOST_NODES, normal_rule
 from evenbreak.ratings.roster import Roster
@@ -73,7 +69,7 @@ class LeagueRaces:
     @property
     def _chart(self) -> str:
         name = getattr(self.rule, "name", "")
-        return {**CHARTS, **LEVEL_CHARTS, **POINTS_CHARTS}.get(name, name)
+        return EVERY_CHART.get(name, name)
 
     @property
     def levels(self) -> dict[str, int]:

@@ -20,7 +20,7 @@ from evenbreak.files.league.values import MOST_SETS
 from evenbreak.files.lists.roster import refuse_to_read
 from evenbreak.files.lists.teams import TeamList, form_of_lists, read_team
 from evenbreak.files.tables.names import clean_name, is_name
-from evenbreak.handicaps.charts.chart import CHARTS
+from evenbreak.handicaps.charts.chart_of import EVERY_CHART
 from evenbreak.handicaps.charts.level_chart import (
     LEVEL_CHARTS,
     POINTS_CHARTS,
@@ -53,9 +53,6 @@ FIELDS = fields_named(
     Lineup, "sets", "order", "count", "doubles", "cap", "at_most", "times", "sure"
 )
 """What the form asks as `evenbreak lineup` does."""
-
-EVERY_CHART = {**CHARTS, **LEVEL_CHARTS, **POINTS_CHARTS}
-"""The charts that races may come from, with their titles."""
 
 TIMES = fields_named(OnTables, "discipline", "tables")
 """What it asks to say when the night ends."""

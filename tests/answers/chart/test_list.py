@@ -1,14 +1,10 @@
 from evenbreak.answers.chart.show import chart_list_answer
-from evenbreak.handicaps import CHARTS, LEVEL_CHARTS, POINTS_CHARTS
+from evenbreak.handicaps import EVERY_CHART
 
 
 def test_every_chart_is_listed_with_its_title():
     rows = chart_list_answer().to_dict()["charts"]
-    assert {row["chart"]: row["what"] for row in rows} == {
-        **CHARTS,
-        **LEVEL_CHARTS,
-        **POINTS_CHARTS,
-    }
+    assert {row["chart"]: row["what"] for row in rows} == EVERY_CHART
 
 
 def test_the_races_of_a_chart_are_counted_once():

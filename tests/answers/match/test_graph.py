@@ -60,7 +60,7 @@ def test_written_chances_out_of_a_state_add_up_to_1(name):
     for out in chances.values():
         assert math.fsum(map(float, out)) == 1.0
         assert abs(sum(map(Fraction, out)) - 1) < 2**-52
-    matrix = mmread(io.BytesIO(matrix_market_bytes(road.chain))).tocsc()
+    matrix = mmread(io.BytesIO(matrix_market_bytes(road.chain)), spmatrix=False).tocsc()
     for start, end in zip(matrix.indptr, matrix.indptr[1:], strict=False):
         assert math.fsum(matrix.data[start:end]) == 1.0
 

@@ -138,7 +138,7 @@ def test_other_programs_open_the_files(write) -> None:
     linked = nx.node_link_graph(json.loads((folder / "graph.json").read_text()), edges="edges")
     assert nx.utils.graphs_equal(nx.DiGraph(graph.edges), nx.DiGraph(linked.edges))
     states = [row["state"] for row in rows_of(folder / "states.csv")]
-    matrix = mmread(folder / "matrix.mtx").toarray()
+    matrix = mmread(folder / "matrix.mtx", spmatrix=False).toarray()
     np.testing.assert_allclose(matrix.sum(axis=0), 1.0, rtol=1e-15)
     for j, i, p in graph.edges(data="probability"):
         assert matrix[states.index(i), states.index(j)] == p
@@ -146,7 +146,7 @@ def test_other_programs_open_the_files(write) -> None:
 
 def test_eigenpairs_are_those_of_the_matrix(write) -> None:
     _, folder = write("drill 9-ball --p 0.7")
-    matrix = mmread(folder / "matrix.mtx").toarray()
+    matrix = mmread(folder / "matrix.mtx", spmatrix=False).toarray()
     values = np.array([float(row["real"]) for row in rows_of(folder / "eigenvalues.csv")])
     vectors = rows_of(folder / "eigenvectors.csv")
     n = len(values)

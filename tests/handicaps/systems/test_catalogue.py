@@ -1,9 +1,7 @@
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps.systems import own
 from evenbreak.handicaps.systems.catalogue import system_of
-from evenbreak.handicaps.systems.none import NoHandicap
 from evenbreak.handicaps.systems.step import step_system
 from rows import each_of
 
@@ -53,20 +51,6 @@ def test_a_system_is_its_own_name():
 def test_what_names_no_system_is_told_with_what_does(written, message):
     with pytest.raises(InputError, match=message):
         system_of(written)
-
-
-class _Added:
-    name = "Ours"
-
-    def load(self):
-        return NoHandicap
-
-
-def test_the_systems_of_installed_packages_are_found_by_their_names(monkeypatch):
-    monkeypatch.setattr(own, "entry_points", lambda group: [_Added()] * (group == own.GROUP))
-    assert system_of("ours") == NoHandicap()
-    with pytest.raises(InputError, match="napa-like or ours"):
-        system_of("theirs")
 
 
 @each_of(

@@ -49,7 +49,7 @@ def test_a_notebook_shows_it_in_a_line(found):
 def test_undated_and_unscored_matches_count_as_they_do_for_the_best_prior():
     results = season(0.6, matches=300)
     dates = results.date.copy()
-    dates[:20] = np.datetime64("NaT")
+    dates[:20] = np.datetime64("NaT", "D")
     unscored = np.arange(300) >= 280
     none = np.where(unscored, 0, results.score_a), np.where(unscored, 0, results.score_b)
     five, winner = np.full(300, 5), np.where(results.score_a == 5, 1, 2)

@@ -8,6 +8,7 @@ from evenbreak import handicaps
 from evenbreak.answers.chart.show import (
     chart_list_answer,
     chart_show_answer,
+    system_list_answer,
     team_handicap_answer,
 )
 from evenbreak.answers.kit.answer import Answer
@@ -15,7 +16,14 @@ from evenbreak.answers.kit.systems import chart_by_difference
 from evenbreak.errors import InputError
 from evenbreak.fields.question import refuse
 from evenbreak.files.charts import find_chart_file
-from evenbreak.questions.charts import ChartAudit, ChartDesign, ChartList, ChartShow, ChartTeam
+from evenbreak.questions.charts import (
+    ChartAudit,
+    ChartDesign,
+    ChartList,
+    ChartShow,
+    ChartTeam,
+    Systems,
+)
 from evenbreak.ratings.scale import Scale
 from evenbreak.words import Parameter, Sentence, say
 
@@ -29,6 +37,11 @@ SAME_SCALE = 0.1
 def list_(asked: ChartList) -> Answer:  # noqa: ARG001
     """Return the charts that there are."""
     return chart_list_answer()
+
+
+def systems(asked: Systems) -> Answer:  # noqa: ARG001
+    """Return the systems that there are."""
+    return system_list_answer()
 
 
 def show(asked: ChartShow) -> Answer:

@@ -1,6 +1,6 @@
-"""The charts that come with the package."""
+"""The charts and the systems that there are, and the races of a chart."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
@@ -8,57 +8,105 @@ from evenbreak.answers.kit.columns import column_of, columns_of, in_files, quant
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.wording import count_of, percent, race, range_words
+from evenbreak.errors import InputError
 from evenbreak.files.charts import chart_table
-from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
-from evenbreak.handicaps.charts.level_chart import (
-    LEVEL_CHARTS,
-    POINTS_CHARTS,
-    LevelChart,
-    PointsChart,
-    level_chart,
-)
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.chart_of import EVERY_CHART, named_chart
+from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+from evenbreak.handicaps.systems.catalogue import FAMILIES, system_of
 from evenbreak.handicaps.systems.team_handicap import TeamHandicap
+from evenbreak.plugins import Kind, added
 from evenbreak.ratings.scale import Scale
 
 
 def chart_list_answer() -> Answer:
-    """Return the charts that come with the package, with the races of each.
+    """Return the charts that there are, ours and those of installed packages, with their races.
 
     >>> [row["chart"] for row in chart_list_answer().to_dict()["charts"]][-1]
     'apa_9ball'
     """
+    ours = {name: named_chart(name) for name in EVERY_CHART}
+    theirs, warnings = _added("chart", named_chart)
+    charts = [*ours.values(), *theirs.values()]
+    kinds = [sum(isinstance(chart, kind) for chart in charts) for kind in _LOOKED_UP]
     return Answer(
-        "Handicap charts that come with evenbreak",
+        "Handicap charts",
         [
-            f"There are {count_of(len(CHARTS), 'chart')} by rating difference, "
-            f"{count_of(len(LEVEL_CHARTS), 'chart')} by skill level and "
-            f"{count_of(len(POINTS_CHARTS), 'chart')} of points by skill level. `evenbreak chart "
+            f"There are {count_of(kinds[0], 'chart')} by rating difference, "
+            f"{count_of(kinds[1], 'chart')} by skill level and "
+            f"{count_of(kinds[2], 'chart')} of points by skill level. `evenbreak chart "
             "show NAME` prints one; `evenbreak matchups --chart NAME` takes tonight's races from "
             "one, unless it is a chart of points.",
             Table(
                 "charts",
                 columns_of("chart_name what looked_up_by even_race longest_games -races"),
                 [
-                    _row(name, title)
-                    for name, title in {**CHARTS, **LEVEL_CHARTS, **POINTS_CHARTS}.items()
+                    *((name, EVERY_CHART[name], *_races(chart)) for name, chart in ours.items()),
+                    *(
+                        (name, f"of the package {package}", *_races(chart))
+                        for (name, package), chart in theirs.items()
+                    ),
                 ],
             ),
         ],
+        warnings=warnings,
     )
 
 
-def _row(name: str, title: str) -> tuple[Any, ...]:
-    if name in POINTS_CHARTS:
-        return name, title, "skill level", None, None, None
-    if name in CHARTS:
-        by, races = "difference", {row[2:] for row in chart(name).rows}
+def system_list_answer() -> Answer:
+    """Return the handicap systems that there are, ours and those of installed packages.
+
+    >>> system_list_answer().to_dict()["systems"][0]["name"]
+    'npl'
+    """
+    ours = [
+        (family.grammar, family.make(*family.samples[0]), "evenbreak")
+        for family in FAMILIES.values()
+    ]
+    theirs, warnings = _added("system", system_of)
+    every = [*ours, *((name, system, package) for (name, package), system in theirs.items())]
+    return Answer(
+        "Handicap systems",
+        [
+            "`evenbreak simulate PLAYERS.csv --compare NAME --compare NAME` plays seasons under "
+            "several of them, side by side.",
+            Table(
+                "systems",
+                columns_of("system_name own_chart package -system_rule"),
+                [
+                    (name, getattr(system.chart, "name", None), package, system.in_words)
+                    for name, system, package in every
+                ],
+            ),
+        ],
+        warnings=warnings,
+    )
+
+
+def _added(kind: Kind, find: Callable[[str], Any]) -> tuple[dict[tuple[str, str], Any], list[str]]:
+    """Return what installed packages add, by name and package, and why some of it is left out."""
+    found, warnings = {}, []
+    for name, package in added(kind).items():
+        try:
+            found[name, package] = find(name)
+        except InputError as error:
+            warnings.append(str(error))
+    return found, warnings
+
+
+_LOOKED_UP = {Chart: "difference", LevelChart: "skill level", PointsChart: "skill level"}
+
+
+def _races(chart: Any) -> tuple[Any, ...]:
+    by = next(words for kind, words in _LOOKED_UP.items() if isinstance(chart, kind))
+    if isinstance(chart, PointsChart):
+        return by, None, None, None
+    if isinstance(chart, Chart):
+        races = {tuple(row[2:]) for row in chart.rows}
     else:
-        table = level_chart(name)
-        pairs = [(i, j) for i in table.levels for j in table.levels if i >= j]
-        by, races = "skill level", {table.race(*pair) for pair in pairs}
+        races = {chart.race(i, j) for i in chart.levels for j in chart.levels if i >= j}
     even = [m for m, n in races if m == n]
-    longest = max(m + n - 1 for m, n in races)
-    return name, title, by, (min(even), max(even)), longest, len(races)
+    return by, (min(even), max(even)), max(m + n - 1 for m, n in races), len(races)
 
 
 def chart_show_answer(

@@ -71,8 +71,9 @@ def scales(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[
 def systems(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:  # noqa: ARG001
     """Return the names of handicap systems."""
     from evenbreak.handicaps import SYSTEMS
+    from evenbreak.plugins import added
 
-    return offered(SYSTEMS, incomplete)
+    return offered([*SYSTEMS, *added("system")], incomplete)
 
 
 def _names_or_files(

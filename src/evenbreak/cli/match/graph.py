@@ -131,7 +131,7 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
             refuse(f"{name!r} is not a game; did you mean {meant!r}?")
         charts = "" if chances else f"; or a chart: {', '.join(CHARTS)}"
         refuse(f"{error}; or a match, such as 7:5 or race to 7{charts}")
-    shown = chances or _example_chances(played)
+    shown = chances or (_example_chances(played) if title in CATALOGUE else ())
     return f"{title[0].upper()}{title[1:]}{_with(shown)}", played
 
 

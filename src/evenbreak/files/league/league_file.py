@@ -358,8 +358,8 @@ class _Reader:
 
             try:
                 find_chart_file(name)
-            except DataError as error:
-                for problem in error.problems:
+            except (DataError, InputError) as error:
+                for problem in getattr(error, "problems", (error.sentence,)):
                     self.note(keys, "chart: {problem}", problem=problem)
             return name
         near = get_close_matches(name, [one.name for one in self.folder.iterdir()], n=1)

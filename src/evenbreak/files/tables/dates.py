@@ -16,7 +16,7 @@ from evenbreak.files.tables.schema import Column
 from evenbreak.files.tables.table import TextTable, Values
 from evenbreak.words import Parameter, say
 
-_NO_DAY = np.datetime64("NaT")
+_NO_DAY = np.datetime64("NaT", "D")
 
 DateOrder = Literal["mdy", "dmy"]
 """What comes first in 9/3/2024: the month or the day."""

@@ -12,11 +12,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
-from scipy.special import betaincinv
 
 from evenbreak.arrays import Floats
 from evenbreak.checks import whole
@@ -24,7 +22,7 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart, ChartDraft, ChartRow
 from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.charts.gap import Gap
-from evenbreak.matches.parameters import in_shape
+from evenbreak.handicaps.charts.race_grid import even_doublings
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.fitted import Ratings
 from evenbreak.ratings.scale import Scale, scale_of
@@ -187,34 +185,6 @@ def audit(chart: Chart | ChartDraft | str, *, scale: Any = None) -> ChartAudit:
         tuple(_audited(rows, even, used)),
         *_gaps_and_overlaps(rows),
     )
-
-
-@overload
-def even_doublings(m: float, n: float) -> float: ...
-@overload
-def even_doublings(m: ArrayLike, n: ArrayLike) -> Floats: ...
-def even_doublings(m: Any, n: Any) -> Any:
-    """Return how many times the odds of a game must double to make the race m:n even.
-
-    Multiplied by the points that double the odds, this is the rating difference at which the
-    race is even: positive where player 1 needs more games.
-
-    Parameters
-    ----------
-    m, n
-        the games that player 1 and player 2 need, 1 or more; numbers or arrays.
-
-    Notes
-    -----
-    Source: P5.5, solved for p at W(p; m, n) = 1/2. Both p and 1 - p are found by inverting
-    the incomplete beta function, so that neither loses digits.
-
-    >>> round(100.0 * even_doublings(7, 4), 2)
-    86.09
-    """
-    mine, theirs = np.asarray(m, dtype=float), np.asarray(n, dtype=float)
-    odds = np.asarray(betaincinv(mine, theirs, 0.5)) / betaincinv(theirs, mine, 0.5)
-    return in_shape(np.log2(odds), odds.shape)
 
 
 def _in_order(chart: Chart | ChartDraft) -> list[ChartRow]:

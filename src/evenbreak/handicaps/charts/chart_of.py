@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar, cast
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import CHARTS, Chart, chart
@@ -17,6 +17,9 @@ from evenbreak.handicaps.charts.level_chart import (
     points_chart,
 )
 from evenbreak.ratings.scale import SCALES, Scale
+
+EVERY_CHART = {**CHARTS, **LEVEL_CHARTS, **POINTS_CHARTS}
+"""The charts that come with the package, of all kinds: the title of each, by name."""
 
 AnyChart = TypeVar("AnyChart", Chart, LevelChart, PointsChart)
 
@@ -35,8 +38,10 @@ def scale_of_chart(chart: Chart | LevelChart | PointsChart | None) -> Scale | No
 
 
 def chart_names() -> list[str]:
-    """Return the names of the charts that come with the program, of every kind."""
-    return [*CHARTS, *LEVEL_CHARTS, *POINTS_CHARTS]
+    """Return the names of charts of every kind, ours and those of installed packages."""
+    from evenbreak.plugins import added
+
+    return [*EVERY_CHART, *added("chart")]
 
 
 def catalogue_name(text: str) -> str:
@@ -46,6 +51,27 @@ def catalogue_name(text: str) -> str:
     ('npl_10', 'apa_8ball')
     """
     return re.sub(r"(?<=\d)_ball$", "ball", re.sub(r"[-\s]+", "_", text.strip().lower()))
+
+
+def named_chart(name: str) -> Chart | LevelChart | PointsChart | None:
+    """Return a chart by its name in the catalogue or in an installed package; None: nobody's.
+
+    Raises
+    ------
+    InputError
+        if a package has a chart of this name that breaks a law (`broken_chart_laws`).
+
+    >>> named_chart("APA 9-ball").points[-1], named_chart("nobody's")
+    (75, None)
+    """
+    key = catalogue_name(name)
+    for kind in _KINDS.values():
+        if key in kind.names:
+            return cast("Chart | LevelChart | PointsChart", kind.read(key))
+    from evenbreak.handicaps.charts.laws import lawful_chart
+    from evenbreak.plugins import plugin
+
+    return cast("Chart | LevelChart | PointsChart | None", plugin("chart", name, lawful_chart))
 
 
 def chart_of(chart_or_name: Any) -> Chart:
@@ -114,14 +140,13 @@ def _found(wanted: Any, cls: type[AnyChart]) -> AnyChart:
     """Return a chart of one kind, as it is or by its name, or refuse what is none."""
     if isinstance(wanted, cls):
         return wanted
-    name, kind = catalogue_name(wanted) if isinstance(wanted, str) else "", _KINDS[cls]
-    if name in kind.names:
-        named: AnyChart = kind.read(name)
+    kind, named = _KINDS[cls], wanted
+    if isinstance(wanted, str) and isinstance(named := named_chart(wanted), cls):
         return named
     others = (
         f", {other_kind.words}"
         for other_class, other_kind in _KINDS.items()
-        if isinstance(wanted, other_class) or name in other_kind.names
+        if isinstance(named, other_class)
     )
     shown = wanted.name if isinstance(wanted, Chart | LevelChart | PointsChart) else wanted
     raise InputError(

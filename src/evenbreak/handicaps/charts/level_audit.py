@@ -16,9 +16,9 @@ import numpy as np
 
 from evenbreak.arrays import Floats
 from evenbreak.checks import number
-from evenbreak.handicaps.charts.audit import even_doublings
 from evenbreak.handicaps.charts.chart_of import level_chart_of, points_chart_of
 from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+from evenbreak.handicaps.charts.race_grid import even_doublings
 from evenbreak.matches.straight_pool import StraightPool, straight_pool_odds
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of

@@ -12,18 +12,46 @@ player 1 wins of the first k, if all of them were played,
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import betainc
+from scipy.special import betainc, betaincinv
 
 from evenbreak.arrays import Floats
 from evenbreak.games.race import Race
-from evenbreak.handicaps.charts.audit import even_doublings
 from evenbreak.matches.length import match_length
+from evenbreak.matches.parameters import in_shape
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import Scale
+
+
+@overload
+def even_doublings(m: float, n: float) -> float: ...
+@overload
+def even_doublings(m: ArrayLike, n: ArrayLike) -> Floats: ...
+def even_doublings(m: Any, n: Any) -> Any:
+    """Return how many times the odds of a game must double to make the race m:n even.
+
+    Multiplied by the points that double the odds, this is the rating difference at which the
+    race is even: positive where player 1 needs more games.
+
+    Parameters
+    ----------
+    m, n
+        the games that player 1 and player 2 need, 1 or more; numbers or arrays.
+
+    Notes
+    -----
+    Source: P5.5, solved for p at W(p; m, n) = 1/2. Both p and 1 - p are found by inverting
+    the incomplete beta function, so that neither loses digits.
+
+    >>> round(100.0 * even_doublings(7, 4), 2)
+    86.09
+    """
+    mine, theirs = np.asarray(m, dtype=float), np.asarray(n, dtype=float)
+    odds = np.asarray(betaincinv(mine, theirs, 0.5)) / betaincinv(theirs, mine, 0.5)
+    return in_shape(np.log2(odds), odds.shape)
 
 
 def win_grid(scale: Scale, m: ArrayLike, n: ArrayLike, differences: ArrayLike) -> Floats:

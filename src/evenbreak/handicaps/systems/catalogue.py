@@ -173,12 +173,12 @@ def _value(option: str, text: str, usual: Any) -> Any:
 
 def _added(name: Any, written: str) -> System:
     """Return the system of an installed package, or refuse a name that nobody has."""
-    from evenbreak.handicaps.systems.own import added_system, added_systems
+    from evenbreak.handicaps.systems.own import lawful_system
+    from evenbreak.plugins import added, plugin
 
-    added = added_systems()
-    if written in added:
-        return added_system(written, added[written])
-    *listed, last = [*(family.grammar for family in FAMILIES.values()), *sorted(added)]
+    if (system := plugin("system", written, lawful_system)) is not None:
+        return cast("System", system)
+    *listed, last = [*(family.grammar for family in FAMILIES.values()), *added("system")]
     raise InputError(
         "system is {name!r}; give {listed} or {last}",
         name=name,

@@ -5,15 +5,16 @@ from __future__ import annotations
 import pickle
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from evenbreak.arrays import Floats
-from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.systems.history import Entries, History, Matches
 from evenbreak.handicaps.systems.system import System, checked_races, checked_ratings, updated
+from evenbreak.plugins import broken_of
 from evenbreak.ratings.scale import SCALES
 
 _PLAYERS, _REPLICAS, _NIGHTS = 8, 3, 5
@@ -38,17 +39,7 @@ def broken_laws(system: System, *, seed: int = 1) -> list[str]:
     >>> broken_laws(system_of("npl"))
     []
     """
-    broken = []
-    for law in _LAWS:
-        try:
-            broken += list(law(system, np.random.default_rng(seed)))
-        except InputError as error:
-            broken.append(str(error))
-            break
-        except Exception as error:
-            broken.append(f"the system {system.name} raised {type(error).__name__}: {error}")
-            break
-    return broken
+    return broken_of(partial(law, system, np.random.default_rng(seed)) for law in _LAWS)
 
 
 def entries_for(system: System, rng: np.random.Generator, replicas: int = _REPLICAS) -> Entries:

@@ -1,18 +1,14 @@
-"""Systems of one's own: a class by its module, or by an entry point of another package."""
+"""Systems of one's own: classes by their modules, and what installed packages add."""
 
 from __future__ import annotations
 
-import inspect
 from importlib import import_module
-from importlib.metadata import entry_points
 from typing import Any
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.systems.laws import broken_laws
 from evenbreak.handicaps.systems.system import System
-
-GROUP = "evenbreak.systems"
-"""The entry points by which packages add systems."""
+from evenbreak.plugins import lawful, made, why
 
 
 def own_system(name: str) -> System:
@@ -30,7 +26,7 @@ def own_system(name: str) -> System:
     """
     module, _, attribute = name.partition(":")
     try:
-        made = getattr(import_module(module), attribute)
+        return lawful_system(made(getattr(import_module(module), attribute)))
     except ImportError as error:
         raise InputError(
             "system is {name!r}, but {error}; start in the folder of {module}.py, or install it",
@@ -45,47 +41,18 @@ def own_system(name: str) -> System:
             module=module,
             attribute=attribute,
         ) from None
-    return _checked(name, made)
+    except Exception as error:
+        raise InputError("system is {name!r}: {why}", name=name, why=why(error)) from error
 
 
-def added_systems() -> dict[str, Any]:
-    """Return the entry points of installed packages, by the names of their systems."""
-    return {point.name.lower(): point for point in entry_points(group=GROUP)}
-
-
-def added_system(name: str, point: Any) -> System:
-    """Return the system of an entry point."""
-    return _checked(name, point.load())
-
-
-def _checked(name: str, made: Any) -> System:
-    """Return a system that holds to the laws, or refuse it by the first that it breaks."""
-    if inspect.isclass(made) and issubclass(made, System):
-        lacking = sorted(getattr(made, "__abstractmethods__", ()))
-        if lacking:
-            raise InputError(
-                "system is {name!r}, a class without {lacking}; write it",
-                name=name,
-                lacking=" and ".join(lacking),
-            )
-    try:
-        system = made() if callable(made) else made
-    except TypeError as error:
-        raise InputError(
-            "system is {name!r}, which cannot be made without arguments ({error}); give each a "
-            "default",
-            name=name,
-            error=str(error),
-        ) from None
+def lawful_system(system: Any) -> System:
+    """Return a system that holds to `broken_laws`, or refuse it by the first law that it breaks."""
     if not isinstance(system, System):
         raise InputError(
-            "system is {name!r}, which is no System; let the class be one: class {short}(System)",
-            name=name,
-            short=getattr(made, "__name__", "Mine"),
+            "it is no System; let the class be one: class {short}(System)",
+            short=type(system).__name__,
         )
     if not isinstance(getattr(system, "name", None), str):
-        raise InputError("system is {name!r}, whose systems have no name; give it one", name=name)
-    broken = broken_laws(system)
-    if broken:
-        raise InputError("system is {name!r}: {broken}", name=name, broken=broken[0])
+        raise InputError("its systems have no name; give it one")
+    lawful(system, broken_laws(system))
     return system

@@ -19,13 +19,8 @@ from evenbreak.evenings import log
 from evenbreak.evenings.log import Kinds
 from evenbreak.evenings.log import Undone as Undone
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.handicaps.charts.level_chart import (
-    LEVEL_CHARTS,
-    POINTS_CHARTS,
-    LevelChart,
-    level_chart,
-    points_chart,
-)
+from evenbreak.handicaps.charts.chart_of import named_chart
+from evenbreak.handicaps.charts.level_chart import LevelChart
 from evenbreak.handicaps.charts.level_skills import LevelSkills, Source, level_skills
 from evenbreak.handicaps.charts.race_of_pair import Fairest
 from evenbreak.matches.form import MOST_FORM
@@ -336,12 +331,8 @@ def _levels(plan: NightPlan, race: SetRace) -> LevelSkills | None:
 
 
 def _race(plan: NightPlan) -> SetRace:
-    if plan.chart in LEVEL_CHARTS:
-        return level_chart(plan.chart)
-    if plan.chart in POINTS_CHARTS:
-        return points_chart(plan.chart)
     if plan.chart:
-        return chart(plan.chart)
+        return named_chart(plan.chart) or chart(plan.chart)
     race = whole(plan.race, "race", at_least=1)
     return Fairest(race) if plan.handicapped else race
 

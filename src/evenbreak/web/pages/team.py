@@ -27,6 +27,7 @@ from evenbreak.answers.team.night import (
 )
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.store.team_night import add_team_events
+from evenbreak.handicaps.charts.chart_of import EVERY_CHART
 from evenbreak.questions.teams import ORDERS, Lineup, OnTables
 from evenbreak.ratings.scale import NAMES
 from evenbreak.teams.evening import moves
@@ -51,7 +52,7 @@ from evenbreak.web.sessions import (
     wrong_pin,
 )
 from evenbreak.web.site import Site
-from evenbreak.web.team_form import EVERY_CHART, FIELDS, TIMES, plan_of
+from evenbreak.web.team_form import FIELDS, TIMES, plan_of
 from evenbreak.web.team_night import TeamNow, night_on
 from evenbreak.web.team_view import captain_values, plain_options, set_views
 from evenbreak.words import Sentence, say

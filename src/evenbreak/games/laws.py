@@ -1,0 +1,109 @@
+"""What every game has to hold to, as one from somebody else's package may not."""
+
+from __future__ import annotations
+
+import math
+import pickle
+from collections.abc import Iterator
+from functools import partial
+from itertools import islice
+from typing import Any, cast
+
+from evenbreak.errors import InputError
+from evenbreak.game import Game, arcs_of
+from evenbreak.plugins import broken_of, lawful
+
+MOST_TRIED = 2_000
+"""States on which the laws are tried: the first ones from the start."""
+
+_LONGEST = 40
+
+
+def broken_laws(game: Game) -> list[str]:
+    """Return what a game does not hold to, in sentences; empty if it holds to everything.
+
+    Tried, on the first 2,000 states from its start: moves have chances that sum to 1, and are the
+    same each time; nobody has won while there are moves, and a winner is 1, 2, ... or None; states
+    can be told apart in print; arcs that it gives as arrays are its moves; and that it can be sent
+    to other processes.
+
+    >>> from evenbreak.games import OneBall
+    >>> broken_laws(OneBall(0.4, 0.8))
+    []
+    """
+    laws = (_it_is_a_value, _chances_sum_to_1, _winners_end_it, _states_print_well, _arcs_are_moves)
+    return broken_of(partial(law, game) for law in laws)
+
+
+def lawful_game(game: Any) -> Game:
+    """Return a game that breaks no law, or refuse it by the first that it breaks."""
+    lacking = [name for name in ("start", "moves", "winner") if not hasattr(game, name)]
+    if lacking:
+        raise InputError("it has no {lacking}; a game needs them", lacking=" and no ".join(lacking))
+    return cast("Game", lawful(game, broken_laws(game)))
+
+
+def _states(game: Game) -> Iterator[Any]:
+    """Yield the states that can be reached, breadth-first."""
+    known = {game.start: None}
+    states = [game.start]
+    for state in states:
+        yield state
+        fresh = [target for target, p in game.moves(state).items() if p and target not in known]
+        known.update(dict.fromkeys(fresh))
+        states += fresh
+
+
+def _tried(game: Game) -> list[Any]:
+    return list(islice(_states(game), MOST_TRIED))
+
+
+def _it_is_a_value(game: Game) -> Iterator[str]:
+    if pickle.loads(pickle.dumps(game)).moves(game.start) != game.moves(game.start):  # noqa: S301
+        yield "it is another game after it was sent to another process"
+
+
+def _chances_sum_to_1(game: Game) -> Iterator[str]:
+    for state in _tried(game):
+        moves = game.moves(state)
+        if moves != game.moves(state):
+            yield f"the moves from {state!r} are others when asked for again"
+        for target, p in moves.items():
+            if not 0.0 <= p <= 1.0:
+                yield f"the move {state!r} -> {target!r} has probability {p!r}; give 0 to 1"
+        if moves and not math.isclose(total := sum(moves.values()), 1.0, abs_tol=1e-9):
+            yield f"the moves from {state!r} have chances that sum to {float(total):.9g}, and not 1"
+
+
+def _winners_end_it(game: Game) -> Iterator[str]:
+    for state in _tried(game):
+        winner = game.winner(state)
+        if game.moves(state):
+            if winner is not None:
+                yield f"player {winner} has won in {state!r}, but there are moves from it"
+        elif winner is not None and winner not in range(1, 1000):
+            yield f"the winner in {state!r} is {winner!r}; give 1, 2, ..., or None if nobody won"
+
+
+def _states_print_well(game: Game) -> Iterator[str]:
+    seen: dict[str, Any] = {}
+    for state in _tried(game):
+        text = str(state)
+        if len(text) > _LONGEST or " object at " in text or "\n" in text:
+            yield f"the state {text[:_LONGEST]!r} does not print in {_LONGEST} letters and one line"
+        if seen.setdefault(text, state) != state:
+            yield f"two states print as {text!r}"
+
+
+def _arcs_are_moves(game: Game) -> Iterator[str]:
+    states = _tried(game)
+    if not hasattr(game, "arcs") or len(states) == MOST_TRIED:
+        return
+    arcs = arcs_of(game)
+    given = zip(arcs.sources, arcs.targets, arcs.probabilities, strict=True)
+    listed = {(arcs.states[i], arcs.states[j]): float(p) for i, j, p in given}
+    walked = {(one, to): float(p) for one in states for to, p in game.moves(one).items() if p}
+    if listed.keys() != walked.keys() or any(
+        abs(p - walked[arc]) > 1e-9 for arc, p in listed.items()
+    ):
+        yield "the arcs that it gives as arrays are not its moves"

@@ -1,0 +1,82 @@
+"""What every chart has to hold to, as one from somebody else's package may not."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Iterator
+from functools import partial
+from typing import Any, cast
+
+import numpy as np
+
+from evenbreak.errors import InputError
+from evenbreak.handicaps.charts.chart import Chart
+from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+from evenbreak.handicaps.charts.race_grid import even_doublings
+from evenbreak.plugins import broken_of, lawful
+
+AnyChart = Chart | LevelChart | PointsChart
+
+
+def broken_chart_laws(chart: AnyChart) -> list[str]:
+    """Return what a chart does not hold to, in sentences; empty if it holds to everything.
+
+    Its shape is looked at when it is made. Tried are: the race of a pair is the same seen from
+    either side; no race is easier for the stronger player than one at a smaller difference, or
+    for the higher of two levels than against a higher one; and that it can be sent to other
+    processes.
+
+    >>> from evenbreak.handicaps import Chart, chart
+    >>> broken_chart_laws(chart("npl_10"))
+    []
+    >>> broken_chart_laws(Chart("dip", [(0, 9, 5, 5), (10, 19, 5, 3), (20, None, 5, 4)]))
+    ['the race of row 3, 5:4, is easier for the stronger player than that of row 2, 5:3']
+    """
+    laws = (_it_is_a_value, _races_are_turned_round, _races_get_harder)
+    return broken_of(partial(law, chart) for law in laws)
+
+
+def lawful_chart(chart: Any) -> AnyChart:
+    """Return a chart that breaks no law, or refuse it by the first that it breaks."""
+    if not isinstance(chart, Chart | LevelChart | PointsChart):
+        raise InputError(
+            "it is of the type {type}; let it be a Chart, a LevelChart or a PointsChart",
+            type=type(chart).__name__,
+        )
+    return cast("AnyChart", lawful(chart, broken_chart_laws(chart)))
+
+
+def _it_is_a_value(chart: AnyChart) -> Iterator[str]:
+    if pickle.loads(pickle.dumps(chart)) != chart:  # noqa: S301
+        yield "it is another chart after it was sent to another process"
+
+
+def _races_are_turned_round(chart: AnyChart) -> Iterator[str]:
+    if isinstance(chart, Chart):
+        pairs = [(row.difference_from, -row.difference_from) for row in chart.rows]
+        seen = [(chart.race(one), chart.race(other)) for one, other in pairs]
+    else:
+        pairs = [(one, other) for one in chart.levels for other in chart.levels]
+        seen = [(chart.race(one, other), chart.race(other, one)) for one, other in pairs]
+    for pair, (race, turned) in zip(pairs, seen, strict=True):
+        if race != turned[::-1]:
+            yield f"the race at {pair[0]} is {race}, but {turned} at {pair[1]}; turn it round"
+
+
+def _races_get_harder(chart: AnyChart) -> Iterator[str]:
+    if isinstance(chart, Chart):
+        needs = np.array([row[2:] for row in chart.rows])
+        for k in np.flatnonzero(np.diff(even_doublings(*needs.T)) < -1e-9) + 1:
+            (m, n), (m_before, n_before) = needs[k], needs[k - 1]
+            yield (
+                f"the race of row {k + 1}, {m}:{n}, is easier for the stronger player than that of "
+                f"row {k}, {m_before}:{n_before}"
+            )
+    elif isinstance(chart, LevelChart):
+        needs = np.array(chart.needs)
+        even = even_doublings(needs, needs.T)
+        for i, j in zip(*np.nonzero(np.diff(even, axis=0) < -1e-9), strict=True):
+            low, high, opponent = chart.levels[i], chart.levels[i + 1], chart.levels[j]
+            yield (
+                f"the race against level {opponent} is easier for level {high} than for level {low}"
+            )

@@ -1,0 +1,148 @@
+"""Systems, charts and games of installed packages, known by name to every command.
+
+A package declares them as entry points of the groups `evenbreak.systems`, `evenbreak.charts` and
+`evenbreak.games`. None is looked for before a name is asked for that is not one of ours, and then
+only the package that has the name is imported: a broken one stops nobody else.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable, Iterable
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any, Literal
+
+from evenbreak.errors import EvenbreakError, InputError
+
+Kind = Literal["system", "chart", "game"]
+
+
+def added(kind: Kind) -> dict[str, str]:
+    """Return the package of each system, chart or game that is added, by name; import none."""
+    return {point.name: package_of(point) for point in _points(kind)}
+
+
+def plugin(kind: Kind, name: str, admit: Callable[[Any], Any], *arguments: Any) -> Any:
+    """Return what an installed package adds under a name; None if none has this name.
+
+    Parameters
+    ----------
+    kind
+        what it is.
+    name
+        its name; blanks, hyphens, underscores and case do not matter.
+    admit
+        takes an object that a package adds, and returns it, or refuses it by a law that it breaks.
+    arguments
+        for the class or the function that makes the object.
+
+    Raises
+    ------
+    InputError
+        if the package cannot be imported, what it adds is refused, or two packages have the name.
+    """
+    points = [point for point in _points(kind) if plain(point.name) == plain(name)]
+    if not points:
+        return None
+    if len(points) > 1:
+        raise InputError(
+            "{kind} is {name!r}, which {packages} both add; uninstall one of them",
+            kind=kind,
+            name=name,
+            packages=" and ".join(map(package_of, points[:2])),
+        )
+    try:
+        return _admitted(points[0], admit, arguments)
+    except (Exception, SystemExit) as error:
+        raise InputError(
+            "{kind} is {name!r}, of the package {package}: {why}",
+            kind=kind,
+            name=name,
+            package=package_of(points[0]),
+            why=why(error),
+        ) from error
+
+
+def made(named: Any, *arguments: Any) -> Any:
+    """Return what a class or a function makes of its arguments, or an object as it is.
+
+    Raises
+    ------
+    InputError
+        if it takes other arguments, or a class lacks methods.
+
+    >>> made(dict, [("a", 1)]), made(3)
+    ({'a': 1}, 3)
+    """
+    if not callable(named):
+        return named
+    if lacking := sorted(getattr(named, "__abstractmethods__", ())):
+        raise InputError("it is a class without {lacking}; write it", lacking=" and ".join(lacking))
+    try:
+        inspect.signature(named).bind(*arguments)
+    except TypeError as error:
+        raise InputError(
+            "it cannot be made {of} ({error}); give each parameter a default",
+            of=f"of {len(arguments)} numbers" if arguments else "without arguments",
+            error=str(error),
+        ) from None
+    except ValueError:  # what is written in C may not say what it takes
+        pass
+    return named(*arguments)
+
+
+def broken_of(laws: Iterable[Callable[[], Iterable[str]]]) -> list[str]:
+    """Return what is broken of laws, in sentences, up to the first that raises an error.
+
+    >>> broken_of([lambda: [], lambda: ["it is late"], lambda: 1 / 0, lambda: ["never asked"]])
+    ['it is late', 'it raised ZeroDivisionError: division by zero']
+    """
+    broken: list[str] = []
+    for law in laws:
+        try:
+            broken += law()
+        except Exception as error:
+            return [*broken, why(error)]
+    return broken
+
+
+def lawful(value: Any, broken: Iterable[str]) -> Any:
+    """Return a value that breaks no law, or refuse it by the first that it breaks."""
+    for sentence in broken:
+        raise InputError("{sentence}", sentence=sentence)
+    return value
+
+
+def why(error: BaseException) -> str:
+    """Return what an error says, with its kind where it is not one of ours.
+
+    >>> why(InputError("k is 0")), why(ImportError("No module named 'numpyy'"))
+    ('k is 0', "it raised ImportError: No module named 'numpyy'")
+    """
+    ours = isinstance(error, EvenbreakError)
+    return str(error) if ours else f"it raised {type(error).__name__}: {error}"
+
+
+def package_of(point: EntryPoint) -> str:
+    """Return the package of an entry point, with its version."""
+    return f"{point.dist.name} {point.dist.version}" if point.dist else point.value
+
+
+def plain(name: str) -> str:
+    """Return a name without what does not matter in it.
+
+    >>> plain(" Last_Ten")
+    'last ten'
+    """
+    return re.sub(r"[-_\s]+", " ", name.strip().lower())
+
+
+@cache
+def _admitted(point: EntryPoint, admit: Callable[[Any], Any], arguments: tuple[Any, ...]) -> Any:
+    return admit(made(point.load(), *arguments))
+
+
+def _points(kind: Kind) -> list[EntryPoint]:
+    return sorted(entry_points(group=f"evenbreak.{kind}s"), key=lambda point: point.name)
