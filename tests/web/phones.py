@@ -17,7 +17,7 @@ from functools import partial
 from html import unescape
 from http.cookiejar import CookieJar
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from evenbreak.web.evening_view import match_view
 from evenbreak.web.server import server_of
@@ -196,10 +196,10 @@ def free_port() -> int:
 
 
 @contextmanager
-def running(path: Path, *, port: int = 0) -> Iterator[Site]:
+def running(path: Path, *, port: int = 0, **asked: Any) -> Iterator[Site]:
     """Serve a file while the block runs."""
     port = port or free_port()
-    site = Site(path, address=f"http://127.0.0.1:{port}")
+    site = Site(path, address=f"http://127.0.0.1:{port}", **asked)
     server = server_of(site, port=port)
     thread = threading.Thread(target=server.run, daemon=True)
     thread.start()

@@ -145,7 +145,7 @@ def test_matches_and_tables_are_named_as_people_do(tmp_path: Path) -> None:
     add_events(path, lambda state: [Event(AT, moves.call(state, "F", 1))])
     scored(path, 3)
     called, score = (got.data for got in followed(Site(path), after=2))
-    both = {"match": "1", "players": ["Ann", "Bo"]}
+    both = {"match": "F", "number": "1", "players": ["Ann", "Bo"]}
     assert (
         called == {"id": 3, "at": AT, "kind": "called", "event": 1, "entry": 3, "table": "1"} | both
     )

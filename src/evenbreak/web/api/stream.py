@@ -57,7 +57,8 @@ class Change:
     ]
     event: EventNumber | None = None
     entry: Annotated[int | None, Meta(description="Its number in its event.")] = None
-    match: Number | None = None
+    match: Annotated[str | None, Meta(description="Its name, as in /tonight/matches.")] = None
+    number: Number | None = None
     players: Annotated[tuple[str, str] | None, Meta(description="Of the match.")] = None
     score: Annotated[tuple[int, int] | None, Meta(description="Their games.")] = None
     winner: Annotated[str | None, Meta(description="Of a result.")] = None
@@ -104,9 +105,8 @@ def _details(row: Row, state: Evening | None) -> dict[str, Any]:
         found = {name: what[name] for name in _SHOWN.get(row.kind, ()) if what.get(name)}
         if "entry" in found:
             found["of"] = found.pop("entry")
-        if match := found.pop("match", None):
-            number = state.number_of(match) if state else 0
-            found |= {"match": str(number)} if number else {}
+        if "match" in found and state and (number := state.number_of(found["match"])):
+            found["number"] = str(number)
         if table := found.pop("table", None):
             found |= {"table": state.plan.table_name(table)} if state else {}
         msgspec.convert({"id": 1, "at": "", "kind": "", **found}, Change)

@@ -40,7 +40,8 @@ from evenbreak.words import Sentence, in_face
 _WON = 20.0  # seconds that the winner is shown
 _LONG, _LONGER = 13.5, 16.0  # widths of names, in letters as high, that are written smaller
 _SIZE = 1760.0, 940.0  # of the bracket, in pixels of a picture 1920 wide
-_READABLE = 20.0  # pixels of its letters
+_READABLE = 24.0  # pixels of its letters
+_MOST_CHIPS = 12
 _COLORS = ("accent", "ink", "back")
 
 
@@ -66,6 +67,8 @@ class Plate(NamedTuple):
         who won.
     left
         in how many seconds something else is to be shown; 0: when it happens.
+    chips
+        how many each has left in a chip tournament.
     """
 
     kind: str
@@ -78,6 +81,7 @@ class Plate(NamedTuple):
     race: Sentence | str = ""
     winner: str = ""
     left: float = 0.0
+    chips: tuple[int, ...] = ()
 
     @property
     def size(self) -> str:
@@ -101,7 +105,10 @@ async def table(request: Request) -> Response:
     except EvenbreakError as error:
         return _text(request, error)
     shown = await asyncio.to_thread(_plate, nights, views, number, now)
-    return _page(request, look, plate=shown, label=plan.table_name(number), name=views[0].name)
+    older = any(view.state.drawn and view.view.older for view in views)
+    return _page(
+        request, look, plate=shown, older=older, label=plan.table_name(number), name=views[0].name
+    )
 
 
 def _plate(nights: Sequence[Night], views: Sequence[WallView], number: int, now: str) -> Plate:
@@ -147,6 +154,7 @@ def _match(night: Night, state: Evening, one: TableView) -> Plate:
         None if kind == "two" else band,
         match.number if rack else round_words(state.bracket.match(one.match.name)),
         "" if rack else race_words(one.match.needs),
+        chips=tuple(state.chip_night.chips[name] for name in one.match.players) if rack else (),
     )
 
 
@@ -193,7 +201,18 @@ async def bracket(request: Request) -> Response:
         two = {one.match.name: "two" for one in view.tables if one.state == "two"}
         panels = readable(bracket_panels(view.state, view.chances, two), match)
         drawn = bracket_svg(panels, words=words, chosen=match, within=_SIZE[0] / _SIZE[1])
-    return _page(request, look, plate=None, drawn=drawn, wall=view, name=view.name)
+    older = view.state.drawn and view.view.older
+    left = _chips(view.state)
+    return _page(request, look, plate=None, older=older, drawn=drawn, chips=left, name=view.name)
+
+
+def _chips(state: Evening) -> list[tuple[int, str]]:
+    """Return how many chips the players have who have most, in a chip tournament."""
+    if not state.drawn or state.plan.form != "chips":
+        return []
+    chips = state.chip_night.chips
+    most = sorted(chips, key=lambda name: (-chips[name], name))[:_MOST_CHIPS]
+    return [(chips[name], name) for name in most]
 
 
 def _followed(view: WallView, table: int) -> str:
