@@ -6,6 +6,7 @@ import asyncio
 import json
 import shlex
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
@@ -144,7 +145,8 @@ def test_no_file_and_no_code_can_be_named(
         ({**ODDS, "race": "7:5"}, "race", "give two numbers in a list"),
         ({**ODDS, "ratings": [190, 140], "scale": "snooker"}, "scale", "'snooker'"),
         ({"ratings": [190, 140], "race": [7, 7]}, None, "say which with scale npl, scale fargo"),
-        ({"p": 10**400, "race": [7, 7]}, "p", "0 to 1"),
+        ({"p": 7, "race": [7, 7]}, "p", "0 to 1"),
+        ({"p": 10**400, "race": [7, 7]}, None, "not a number that can be used"),
     ],
 )
 def test_what_is_wrong_is_said(
@@ -153,6 +155,27 @@ def test_what_is_wrong_is_said(
     got = browser.tells("POST", "/api/v1/odds", body)
     assert (got.status, got.json.get("parameter")) == (400, parameter)
     assert words in got.json["detail"]
+
+
+@pytest.mark.parametrize(
+    ("path", "body"),
+    [
+        ("/ladder", {"scale": 1000, "step": 1}),
+        ("/ladder", {"system": "elo 16", "day_sd": 5, "matches_a_night": 20}),
+        ("/odds", {"p": 0.6, "race": [1000, 1000], "set": [1000, 1000]}),
+        ("/odds", {"p": 0.6, "ahead": [1000, 1000], "exact": True, "set_": [10, 10]}),
+        ("/compare", {"p": 0.6, "formats": ["1:1" + " of 1:1" * 3000]}),
+        ("/chart/design", {"games": [1, 1000], "up_to": 1_000_000}),
+    ],
+)
+def test_giants_are_refused_before_they_are_begun(
+    browser: Browser, path: str, body: dict[str, Any]
+) -> None:
+    begun = time.thread_time()
+    got = browser.tells("POST", f"/api/v1{path}", body)
+    assert got.status == 400
+    assert "seconds" not in got.json["detail"].replace("20 seconds", "")
+    assert time.thread_time() - begun < 1.0
 
 
 def test_numbers_are_numbers(browser: Browser) -> None:

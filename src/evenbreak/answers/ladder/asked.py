@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 MANY_MOVES = 20
 """With more different moves than this, nights of several matches take long."""
 
+MANY_POINTS = 500.0
+"""On a scale with more points to a doubling of the odds, the chain is large."""
+
 MOST_APART = 20.0
 """Doublings of the odds that an opponent may be from the player: a game in a million."""
 
@@ -54,6 +57,14 @@ def _ladder(asked: LadderErrors) -> tuple[handicaps.Ladder, str, list[str]]:
     step = asked.step
     system = handicaps.steps_of(asked.system or ("npl" if step is None else f"step {step}"))
     system = on_scale(system, asked.scale)
+    if system.scale.points_per_doubling > MANY_POINTS:
+        takes_long(
+            say(
+                "A scale on which {points:,.0f} points double the odds has so many ratings that "
+                "this can take minutes and gigabytes",
+                points=system.scale.points_per_doubling,
+            )
+        )
     chart, warnings = chart_for(system, asked.chart)
     opponents, name, doubts = _opponents(asked, system.scale)
     refuse_too_varying(asked, system, "day_sd", "match_sd")

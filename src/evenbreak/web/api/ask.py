@@ -60,7 +60,7 @@ def answer_in_json(command: str, values: dict[str, Any]) -> bytes:
     try:
         with told(_refuse):
             return to_json(answer_to(command, question_of(command)(**values))).encode()
-    except (MemoryError, OverflowError):
+    except (MemoryError, OverflowError, RecursionError):
         raise InputError("The numbers of this question are too large. Ask for less.") from None
 
 
