@@ -15,7 +15,7 @@ from pathlib import Path
 import networkx as nx
 import pytest
 
-from places import ROOT, SRC
+from places import ROOT, SRC, trees_of
 
 # A layer may import from itself and from every layer before it; rooms in one row know nothing
 # of each other.
@@ -117,10 +117,10 @@ def own_imports(tree: ast.AST, package: tuple[str, ...]) -> Iterator[tuple[int, 
                         yield node.lineno, room_of([*base[1:], alias.name])
 
 
-def broken_directions(source: str, room: str, package: tuple[str, ...]) -> list[str]:
+def broken_directions(tree: ast.Module, room: str, package: tuple[str, ...]) -> list[str]:
     """List the imports of a module in `room` that do not point to an earlier layer."""
     problems = {}
-    for line, target in own_imports(ast.parse(source), package):
+    for line, target in own_imports(tree, package):
         if target not in DEPTH:
             problems[f"{line}: {target} is not a layer; import from the module itself"] = None
         elif target != room and DEPTH[target] >= DEPTH[room]:
@@ -128,10 +128,10 @@ def broken_directions(source: str, room: str, package: tuple[str, ...]) -> list[
     return list(problems)
 
 
-def outward_uses(source: str) -> list[str]:
+def outward_uses(tree: ast.Module) -> list[str]:
     """List where a module uses files, plots or the terminal."""
     problems = []
-    for node in ast.walk(ast.parse(source)):
+    for node in ast.walk(tree):
         names: list[str] = []
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
@@ -158,10 +158,8 @@ def test_every_room_is_a_layer() -> None:
 def test_imports_point_to_earlier_layers(room: str) -> None:
     assert [
         f"{path.relative_to(ROOT)}:{problem}"
-        for path in ROOMS[room]
-        for problem in broken_directions(
-            path.read_text(encoding="utf-8"), room, ("evenbreak", *module_of(path)[:-1])
-        )
+        for path, tree in zip(ROOMS[room], trees_of(ROOMS[room]), strict=True)
+        for problem in broken_directions(tree, room, ("evenbreak", *module_of(path)[:-1]))
     ] == []
 
 
@@ -169,8 +167,8 @@ def test_imports_point_to_earlier_layers(room: str) -> None:
 def test_only_the_last_rooms_touch_files_and_the_terminal(room: str) -> None:
     assert [
         f"{path.relative_to(ROOT)}:{problem}"
-        for path in ROOMS[room]
-        for problem in outward_uses(path.read_text(encoding="utf-8"))
+        for path, tree in zip(ROOMS[room], trees_of(ROOMS[room]), strict=True)
+        for problem in outward_uses(tree)
     ] == []
 
 
@@ -196,13 +194,16 @@ def circles(modules: dict[str, ast.Module]) -> list[list[str]]:
 
 
 def test_no_modules_import_each_other() -> None:
-    modules = {
-        ".".join(("evenbreak", *module_of(path))).removesuffix(".__init__"): ast.parse(
-            path.read_text(encoding="utf-8")
+    names = [
+        ".".join(("evenbreak", *module_of(path))).removesuffix(".__init__") for path in MODULES
+    ]
+    imports = [
+        ast.Module(
+            [one for one in statements(tree) if isinstance(one, ast.Import | ast.ImportFrom)], []
         )
-        for path in MODULES
-    }
-    assert circles(modules) == []
+        for tree in trees_of(MODULES)
+    ]
+    assert circles(dict(zip(names, imports, strict=True))) == []
 
 
 def test_the_checker_sees_a_circle() -> None:
@@ -243,7 +244,7 @@ def test_modules_are_short(room: str) -> None:
     ],
 )
 def test_the_checker_sees_a_wrong_direction(room: str, source: str) -> None:
-    assert len(broken_directions(source, room, ("evenbreak", *room.split(".")))) == 1
+    assert len(broken_directions(ast.parse(source), room, ("evenbreak", *room.split(".")))) == 1
 
 
 @pytest.mark.parametrize(
@@ -258,12 +259,12 @@ def test_the_checker_sees_a_wrong_direction(room: str, source: str) -> None:
     ],
 )
 def test_the_checker_lets_the_right_direction_pass(room: str, source: str) -> None:
-    assert broken_directions(source, room, ("evenbreak", *room.split("."))) == []
+    assert broken_directions(ast.parse(source), room, ("evenbreak", *room.split("."))) == []
 
 
 def test_a_wrong_import_is_named_by_its_line() -> None:
     source = "import numpy\n\nfrom evenbreak.cli import main, program\n"
-    assert broken_directions(source, "files", ("evenbreak", "files")) == [
+    assert broken_directions(ast.parse(source), "files", ("evenbreak", "files")) == [
         "3: files must not import cli"
     ]
 
@@ -281,12 +282,12 @@ def test_a_wrong_import_is_named_by_its_line() -> None:
     ],
 )
 def test_the_checker_sees_files_and_the_terminal(source: str) -> None:
-    assert len(outward_uses(source)) == 1
+    assert len(outward_uses(ast.parse(source))) == 1
 
 
 @pytest.mark.parametrize("source", ["import io", "table.print()", "sys.maxsize", "opening = 1"])
 def test_the_checker_lets_the_rest_pass(source: str) -> None:
-    assert outward_uses(source) == []
+    assert outward_uses(ast.parse(source)) == []
 
 
 def modules_loaded_by(statement: str) -> set[str]:

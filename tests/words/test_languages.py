@@ -8,7 +8,7 @@ from babel.messages.catalog import Message
 
 from catalogued import collected
 from evenbreak.files.catalogues import FILE, OWN, face_in, languages, problems_of, read_catalogue
-from places import SRC
+from places import SRC, trees_of
 
 CODES = [code for code in languages() if (OWN / code / FILE).is_file()]
 
@@ -59,10 +59,11 @@ ROOMS = ("answers", "tournaments", "teams", "files", "web", "questions")
 @pytest.mark.parametrize("room", ROOMS)
 def test_templates_are_literals_that_can_be_collected(room: str) -> None:
     """A template that is a variable or an f-string would never reach a catalogue."""
+    paths = sorted((SRC / room).rglob("*.py"))
     wrong = [
         f"{path.relative_to(SRC)}:{node.lineno}"
-        for path in (SRC / room).rglob("*.py")
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for path, tree in zip(paths, trees_of(paths), strict=True)
+        for node in ast.walk(tree)
         if isinstance(node, ast.Call)
         and isinstance(node.func, ast.Name)
         and any(isinstance(one, INDIRECT) for one in node.args[: SAYING.get(node.func.id, 0)])

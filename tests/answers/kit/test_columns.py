@@ -14,7 +14,7 @@ from evenbreak.answers.kit.columns import (
     quantities_of,
     quantity_of,
 )
-from places import SRC
+from places import SRC, trees_of
 
 ANSWERS = SRC / "answers"
 MAKERS = {ANSWERS / "kit" / "columns.py", ANSWERS / "columns" / "shown.py"}
@@ -27,7 +27,8 @@ def test_each_key_has_one_entry():
 
 @pytest.mark.parametrize("path", sorted(set(ANSWERS.rglob("*.py")) - MAKERS), ids=lambda p: p.stem)
 def test_only_the_registry_makes_columns_and_quantities(path):
-    calls = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Call)]
+    nodes = [node for tree in trees_of([path]) for node in ast.walk(tree)]
+    calls = [node for node in nodes if isinstance(node, ast.Call)]
     made = [node.lineno for node in calls if getattr(node.func, "id", "") in ("Column", "Quantity")]
     assert made == []
 
