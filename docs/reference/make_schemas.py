@@ -6,6 +6,7 @@ The questions are those of tests/test_faces.py, which holds every answer to the 
 """
 
 import json
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,8 +25,9 @@ SAID = {
 
 
 def schema_of(values: list[Any], said: dict[str, str]) -> dict[str, Any]:
-    """Return the schema that all of some values keep to."""
-    names = sorted({TYPES[type(v)] for v in values if type(v) in TYPES})
+    """Return the schema that all of some values keep to; of any number, it may not be finite."""
+    kinds = {TYPES[type(v)] for v in values if type(v) in TYPES}
+    names = sorted(kinds | ({"null"} if any(isinstance(v, float) for v in values) else set()))
     found: dict[str, Any] = {}
     lists = [v for v in values if isinstance(v, list)]
     objects = [v for v in values if isinstance(v, dict)]
@@ -67,16 +69,26 @@ def main() -> None:
         command = command_of(name)
         answers.setdefault(command, []).append(json.loads(faces.json))
         words.setdefault(command, {}).update(words_of(faces.answer))
+    found = {
+        command: schema_of(answers[command], words[command] | SAID) for command in sorted(answers)
+    }
+    for one in found.values():  # a quantity may be one that there is none of
+        for name, value in one["properties"].items():
+            if value.get("type") == "number" and name not in SAID:
+                value["type"] = ["null", "number"]
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Answers of evenbreak as JSON, by command",
-        "$defs": {
-            command: schema_of(found, words[command] | SAID)
-            for command, found in sorted(answers.items())
-        },
+        "$defs": found,
     }
+    SCHEMA.write_text(text_of(schema), encoding="utf-8")
+
+
+def text_of(schema: Any) -> str:
+    """Return a schema as text, lists of types in one line each."""
     text = json.dumps(schema, indent=1, ensure_ascii=False) + "\n"
-    SCHEMA.write_text(text, encoding="utf-8")
+    lists = re.compile(r'\[\n\s+("[a-z]+"(?:,\n\s+"[a-z]+")*)\n\s+\]')
+    return lists.sub(lambda found: "[" + " ".join(found[1].split()) + "]", text)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,9 @@ from typing import Any
 
 import pytest
 from jsonschema import Draft202012Validator
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import request_response
 
 from evenbreak.files.demo import write_demo_evening
 from evenbreak.web.api import description
@@ -89,6 +92,25 @@ def test_heads_and_options_say_what_a_get_would(begun: Browser) -> None:
     options = begun.tells("OPTIONS", "/api/v1/tonight/bracket")
     assert (options.status, options.headers["allow"]) == (204, "GET, HEAD, OPTIONS")
     assert options.body == b""
+
+
+def test_a_request_without_a_body_needs_no_type(browser: Browser) -> None:
+    assert "missing" in browser.ask("POST", "/api/v1/odds", kind="").json["detail"]
+    assert browser.ask("POST", "/api/v1/odds", {"a": 1}).status == 415
+
+
+def test_what_fails_unforeseen_is_said_in_json(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def fails(_: Request) -> Response:
+        raise ArithmeticError
+
+    route = next(one for one in browser.room.app.routes if one.path == "/api/v1")  # type: ignore[attr-defined]
+    monkeypatch.setattr(route, "app", request_response(fails))
+    browser.expected = (ArithmeticError,)
+    got = browser.tells("GET", "/api/v1")
+    assert (got.status, got.headers["content-type"]) == (500, "application/problem+json")
+    assert got.json["detail"] == "This failed; nothing was changed by it."
 
 
 def test_the_guard_too_answers_programs_in_json(begun: Browser) -> None:

@@ -120,7 +120,7 @@ def _parameters(one: Resource) -> Iterator[dict[str, Any]]:
             "description": "Chosen by the program: the same request again enters nothing twice.",
             "schema": {"type": "string", "minLength": 1, "maxLength": 200},
         }
-    if one.method == "GET":
+    if one.method == "GET" and not one.streams:
         yield {
             "name": "If-None-Match",
             "in": "header",
@@ -147,10 +147,10 @@ def _responses(one: Resource) -> dict[str, Any]:
         }
     }
     refusals = {400, 404} if one.query else set()
-    if one.method == "GET":
+    if one.method == "GET" and not one.streams:
         found["304"] = {"description": "Nothing has changed since."}
         found["200"]["headers"] = {"ETag": {"schema": {"type": "string"}}}
-    else:
+    elif one.method != "GET":
         refusals |= {400, 413, 415, 429}
     if _tag(one) == "questions":
         refusals.add(503)

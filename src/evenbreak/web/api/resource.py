@@ -186,6 +186,8 @@ def _sent(request: Request, tagged: tuple[bytes, str], language: str) -> Respons
 async def body_of(request: Request) -> dict[str, Any]:
     """Return the JSON object in the body of a request; an empty body is an empty object."""
     kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    if not kind and not await request.body():
+        return {}
     if kind != "application/json":
         raise ProblemError(
             "The body must be JSON. Send it with Content-Type: application/json.", status=415
