@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import asyncio
+import json
+import re
 from collections.abc import Iterator
 from contextlib import closing
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from evenbreak.files.demo import write_demo_evening
 from evenbreak.files.store.tokens import draw_token, take_back
 from evenbreak.files.store.tournament import read_events
 from evenbreak.web.site import Site
+from places import ROOT
 from web.asked import Browser, Got, Room
 from web.test_who_may import NEW
 
@@ -160,6 +166,21 @@ def test_a_program_that_runs_wild_is_slowed_down(night: Night) -> None:
     assert night.enters("score", "desk", match="1", score=[2, 0]).status == 200
 
 
+def test_the_example_in_the_reference_is_entered_as_it_says(tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "reference" / "interface.md").read_text(encoding="utf-8")
+    sent = re.search(
+        r"curl \S+(/api/v1/tonight/score) .*?-d '(.*?)'\n```\n\n```json\n(.*?)```", page, re.S
+    )
+    assert sent is not None
+    write_demo_evening(tmp_path / "tonight.db", datetime(2026, 3, 1, 21, 0))
+    token = draw_token(tmp_path / "tonight.db", "board", "scores", AT)
+    with closing(room_on(tmp_path / "tonight.db")) as room:
+        may = f"Bearer {token}"
+        got = Browser(room).tells("POST", sent[1], json.loads(sent[2]), authorization=may)
+    assert {**got.json, "matches": 0} == {**json.loads(sent[3]), "matches": 0}
+    assert [one["number"] for one in got.json["matches"]] == ["11"]
+
+
 def test_a_token_taken_back_between_two_looks_enters_nothing(
     night: Night, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -168,3 +189,18 @@ def test_a_token_taken_back_between_two_looks_enters_nothing(
     take_back(night.path, "board")
     assert night.enters("call", match="1").status == 401
     assert night.count == count
+
+
+def test_a_request_that_comes_in_several_times_at_once_is_entered_once(night: Night) -> None:
+    program, count = Browser(night.room), night.count
+    body = json.dumps({"match": "1", "score": [1, 0]}).encode()
+    head = {"host": "localhost", "content-type": "application/json", "idempotency-key": "1"}
+    head |= {"authorization": f"Bearer {night.tokens['board']}", "content-length": str(len(body))}
+
+    async def together() -> list[Got]:
+        asked = (program._asked("POST", "/api/v1/tonight/score", head, body) for _ in range(5))
+        return await asyncio.gather(*asked)
+
+    got = night.room.loop.run_until_complete(together())
+    assert sorted(one.json["taken_before"] for one in got) == [False, *[True] * 4]
+    assert night.count == count + 1

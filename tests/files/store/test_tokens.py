@@ -1,11 +1,14 @@
 """Tokens of programs: the file has their hashes alone, and are gone when taken back."""
 
+import re
 import sqlite3
 from contextlib import closing
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
+from evenbreak.cli.program import program
 from evenbreak.errors import DataError, InputError
 from evenbreak.evenings.log import PROGRAM
 from evenbreak.files.store import tokens
@@ -84,3 +87,21 @@ def test_a_damaged_token_is_named(path: Path, scope: object) -> None:
         base.execute("INSERT INTO token VALUES ('board', ?, 'x', '')", (scope,))
     with pytest.raises(DataError, match="tokens cannot be read"):
         tokens.kept_tokens(path)
+
+
+def test_a_command_draws_lists_and_takes_back(path: Path) -> None:
+    def says(*words: str) -> str:
+        ran = CliRunner().invoke(program, ["tournament", "token", *words, "--file", str(path)])
+        assert ran.exit_code == (0 if ran.stdout else 1), ran.output
+        return ran.stdout or ran.stderr
+
+    assert "No program can enter anything" in says()
+    (drawn,) = re.findall(r"evenbreak-\w{32}", says("board", "--may", "table:2"))
+    (kept,) = tokens.kept_tokens(path).values()
+    assert (kept.name, kept.scope) == ("board", "table:2")
+    listed = says()
+    assert "only table 2" in listed
+    assert drawn not in listed
+    assert "has a token already" in says("BOARD")
+    assert "no program called tv has a token" in says("tv", "--take-back")
+    assert "No program can enter anything" in says("board", "--take-back")
