@@ -87,7 +87,8 @@ class Phone:
                 with self.opener.open(asked, timeout=20) as got:
                     found += len(got.read())
             except urllib.error.HTTPError as refused:
-                found += len(refused.read())
+                with refused:
+                    found += len(refused.read())
         return found
 
     def token(self) -> str:
@@ -146,7 +147,8 @@ class Phone:
                     got.status, got.read().decode("utf-8", "replace"), got.url, got.headers
                 )
         except urllib.error.HTTPError as error:
-            text = error.read().decode("utf-8", "replace")
+            with error:
+                text = error.read().decode("utf-8", "replace")
             return Shown(error.code, text, error.url or "", error.headers)
 
 

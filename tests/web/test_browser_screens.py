@@ -129,7 +129,8 @@ def test_the_first_visit_is_two_requests_and_60_kb(room: Room) -> None:
             with urllib.request.urlopen(asked) as answer:  # noqa: S310
                 return len(answer.read())
         except urllib.error.HTTPError as error:
-            return len(error.read())
+            with error:
+                return len(error.read())
 
     style = size("director", "/evenbreak.css")
     sizes = {one.name: style + size(one.who, one.path) for one in SCREENS}

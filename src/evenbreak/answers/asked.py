@@ -7,7 +7,6 @@ is all there is to it: what writes files, or runs a tournament, is a command of 
 
 from __future__ import annotations
 
-import json
 from functools import cache
 from importlib import import_module
 from importlib.resources import files
@@ -100,6 +99,8 @@ def answer_to(command: str, asked: Any) -> Answer:
 @cache
 def schemas() -> dict[str, Any]:
     """Return the JSON schema of the answers of each command, by its name."""
+    import json
+
     text = files("evenbreak.answers").joinpath("answers.schema.json").read_text("utf-8")
     found: dict[str, Any] = json.loads(text)["$defs"]
     return found

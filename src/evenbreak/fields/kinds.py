@@ -6,7 +6,6 @@ for it. The terminal and the page read by the same kinds, so they have the same 
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping
@@ -368,6 +367,8 @@ class Named(Kind):
 def _as_json(value: Any) -> str:
     """Return a value as JSON has it: a text in quotes, which no number is."""
     try:
+        import json
+
         text = json.dumps(value, ensure_ascii=False)
     except RecursionError:  # lists in lists without end
         return "…"

@@ -143,7 +143,7 @@ class Reading(Question):
             if is_two_dates(text.strip()):
                 remedy = "say with {dates} mdy or {dates} dmy what comes first, or write 2026-01-31"
             self.refuse("{part} is {day!r}; " + remedy, part=Parameter(name), day=text)
-        if day > np.datetime64("today", "D") + _DAYS_AHEAD:
+        if day > np.datetime64("today", "D") + np.timedelta64(_DAYS_AHEAD, "D"):
             self.refuse(
                 "{part} is {day!r}, more than a year from today; give an earlier day",
                 part=Parameter(name),

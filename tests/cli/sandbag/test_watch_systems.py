@@ -18,7 +18,7 @@ def write_league(folder, rng, *, dumps):
     (folder / "list.csv").write_text("\n".join(["player,skill level,fargo rating", *rows]))
     lines = ["date,player_a,player_b,score_a,score_b,race_a,race_b"]
     for week in range(WEEKS):
-        day = np.datetime64("2026-01-06") + 7 * week
+        day = np.datetime64("2026-01-06") + np.timedelta64(7 * week, "D")
         for a, b in rng.permutation(PLAYERS).reshape(-1, 2).tolist():
             m, n = skills.chart.race(int(levels[a]), int(levels[b]))
             p = float(skills.chance(levels[a], levels[b]))

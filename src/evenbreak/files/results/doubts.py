@@ -144,7 +144,7 @@ def date_warnings(
     ['r.csv:3: date 2204-09-10 is in the future; correct it if it was mistyped']
     """
     today = np.datetime64("today", "D") if today is None else today
-    future = dates > today + 1
+    future = dates > today + np.timedelta64(1, "D")
     far, others = _far(dates, ~future & ~np.isnat(dates))
     warnings = [
         warning(
