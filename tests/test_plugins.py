@@ -268,7 +268,12 @@ def test_the_example_of_the_docs_is_installed_and_judged(
     assert races.stdout.split("\n")[2] == "40,89,5,4"
     house = ("--scale", "fargo", "--chart", "fargo-house")
     assert "6:4" in run("odds", 612, 502, *house, "--text").output
-    assert run("compare", "--p", 0.6, "9:5", "--chart", "fargo-house").exit_code in (0, 2)
+    assert (
+        "the chart fargo_house"
+        in run("matchups", DATA / "demo_roster.csv", *house, "--text").output
+    )
+    ladder = run("graph", "fargo house", "--out", "ladder")
+    assert "The ladder of rating errors on the chart fargo_house" in ladder.output
     drawn = run("graph", "two-in-a-row", "--p", 0.7, "--out", "drawn")
     assert drawn.exit_code == 0, drawn.output
     assert "Two-in-a-row with p = 0.7" in drawn.output

@@ -302,7 +302,7 @@ def test_exact_chances(run):
 
 
 def test_no_numpy_on_the_way():
-    heavy = {"numpy", "scipy", "pandas", "networkx", "rich", "json"}
+    heavy = {"numpy", "scipy", "pandas", "networkx", "rich", "json", "importlib.metadata"}
     code = (
         "import sys\nfrom evenbreak.cli import main\n"
         "sys.argv = 'evenbreak odds 612 521 --scale fargo --race 7:7'.split()\n"

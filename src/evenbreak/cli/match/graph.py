@@ -117,8 +117,10 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
     from evenbreak.games.catalogue import CATALOGUE, game_of_catalogue
     from evenbreak.handicaps.charts.chart import CHARTS
     from evenbreak.handicaps.charts.chart_of import catalogue_name
+    from evenbreak.plugins import added, plain
 
-    if catalogue_name(name) in CHARTS or Path(name).is_file():
+    theirs = {*map(plain, added("chart"))} - {*map(plain, added("game"))}
+    if plain(name) in theirs or catalogue_name(name) in CHARTS or Path(name).is_file():
         if chances:
             refuse("the ladder of a chart has no chances of its own; leave --p, --p1 and --p2 out")
         return _ladder(name)
