@@ -50,7 +50,7 @@ lowest:           ## tests that lean on other libraries, at the lowest versions 
 	$(PYTHON) .ci/lowest_versions.py > .venv-lowest/versions.txt
 	.venv-lowest/bin/python -m pip install -q -c .venv-lowest/versions.txt -e '.[excel,symbolic]' \
 		pytest hypothesis pytest-xdist
-	.venv-lowest/bin/python -m pytest -q -n logical -W ignore::DeprecationWarning \
+	EVENBREAK_TIER=first .venv-lowest/bin/python -m pytest -q -n logical -W ignore::DeprecationWarning \
 		-m "not slow" -k "not extended_precision" $(LEANING)
 
 layers:           ## imports in one direction, files and terminal only at the end

@@ -10,14 +10,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
-from scipy.stats import beta
 
 from evenbreak.files.practice import ScoresFile, ShotsFile
 from evenbreak.matches.straight_pool import StraightPool, even_spot, straight_pool_odds
 from evenbreak.plots.picture import LINES, figure_of, in_our_look, legend_below, new_axes
 from evenbreak.practice.drills import DrillStatistics
 from evenbreak.practice.log_analysis import LogAnalysis
-from evenbreak.practice.single_shots import ShotAnalysis
+from evenbreak.practice.single_shots import ShotAnalysis, share_intervals
 from evenbreak.stats.confidence import MeanInterval
 from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength
@@ -125,9 +124,7 @@ def draw_practice_shots(
     else:
         days, place = np.unique(log.day, return_inverse=True)
         made, tried = (np.bincount(place, each) for each in (log.made, log.tried))
-        tail = (1.0 - confidence) / 2.0
-        lows = np.where(made > 0, beta.ppf(tail, np.maximum(made, 1), tried - made + 1), 0.0)
-        highs = np.where(made < tried, beta.isf(tail, made + 1, np.maximum(tried - made, 1)), 1.0)
+        lows, highs = share_intervals(made, tried, confidence)
         axes.vlines(days, lows, highs, color="0.7", label=f"{share} of a day")
         axes.plot(days, made / tried, "o", color=LINES[0].color, label="made on a day")
         if found.change is not None:

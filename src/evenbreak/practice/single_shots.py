@@ -150,6 +150,15 @@ class ShotAnalysis:
     change: Change | None
 
 
+def share_intervals(made: Ints, tried: Ints, confidence: float) -> tuple[Floats, Floats]:
+    """Return the ends of the exact (Clopper-Pearson) interval of each share made."""
+    from scipy.special import betainccinv, betaincinv
+
+    tail, missed = (1.0 - confidence) / 2.0, tried - made
+    low = np.where(made > 0, betaincinv(np.maximum(made, 1), missed + 1, tail), 0.0)
+    return low, np.where(missed > 0, betainccinv(made + 1, np.maximum(missed, 1), tail), 1.0)
+
+
 def analyse_shots(log: ShotLog, *, confidence: float = 0.95, seed: int = 0) -> ShotAnalysis:
     """Return what a log of single shots says.
 
@@ -166,14 +175,9 @@ def analyse_shots(log: ShotLog, *, confidence: float = 0.95, seed: int = 0) -> S
     >>> [(one.name, round(one.chance, 2), one.p_weakest > 0.99) for one in analyse_shots(log).shots]
     [('bank', 0.24, True), ('cut', 0.66, False)]
     """
-    from scipy.stats import beta
-
     share = open_share(confidence)
     made, tried = log.by_shot()
-    tail = (1.0 - share) / 2.0
-    low = np.where(made > 0, beta.ppf(tail, np.maximum(made, 1), tried - made + 1), 0.0)
-    missed = tried - made
-    high = np.where(missed > 0, beta.isf(tail, made + 1, np.maximum(missed, 1)), 1.0)
+    low, high = share_intervals(made, tried, share)
     chance, weakest = _shrunk(made, tried, np.random.default_rng(seed))
     since = _second_half(log)
     halves = [] if since is None else [log.by_shot(log.day < since), log.by_shot(log.day >= since)]
