@@ -10,6 +10,8 @@ cd "$(mktemp -d)"
 "$program" report demo_league.csv --out sheet --page > report.txt
 test -s sheet/sheet.pdf
 "$program" tournament odds demo_entrants.csv --race 5 > odds.txt
+"$program" tournament odds demo_entrants.csv --race 5 --format swiss --rounds 4 > swiss.txt
+"$program" publish demo_league.csv --out site > site.txt
 "$program" simulate demo_roster.csv --weeks 5 --replicas 8 --jobs 2 > season.txt
 "$program" report demo_league.csv --out book --excel > report.txt
 "$program" matchups book/sheet.xlsx > again.txt

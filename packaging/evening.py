@@ -9,6 +9,7 @@ with exit code 0 if all of that went as it should.
 """
 
 import http.cookiejar
+import json
 import os
 import random
 import re
@@ -141,7 +142,19 @@ def take_home(desk, entered):
     assert desk.open("/share.csv").count("\n") > entered - 1
     desk.open("/desk/history")
     assert "Undo" in desk.text
-    for path in ("", "bracket", "players", "screen", "prizes", "desk/codes", "evenbreak.css"):
+    for path in ("openapi.json", "tonight", "tonight/bracket", "tonight/finish"):
+        assert isinstance(json.loads(desk.open(f"/api/v1/{path}")), dict), path
+    for path in (
+        "overlay/1",
+        "overlay/bracket",
+        "",
+        "bracket",
+        "players",
+        "screen",
+        "prizes",
+        "desk/codes",
+        "evenbreak.css",
+    ):
         desk.open(f"/{path}")
 
 
@@ -149,6 +162,8 @@ def let_phones_in(desk):
     """Let phones in, ask as one, and shut them out."""
     desk.open("/desk/phones")
     desk.send("/desk/phones", open="yes")
+    desk.opener.addheaders = [("Accept-Language", "de")]
+    assert "Handys" in desk.open("/desk/phones"), "no catalogue of German"
     where = re.findall(r"class=\"to\">([^<]+)</figcaption>", desk.text)
     for one in where:
         Browser(f"http://{one}").open("/me")
