@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import asyncio
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from evenbreak.files.store.changes import CLEARED, rows_from
+from evenbreak.errors import DataError
+from evenbreak.files.store.changes import CLEARED, Row, rows_from
 from evenbreak.files.store.tournament import add_events, delete_tournament, new_tournament
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
@@ -70,3 +72,26 @@ def test_an_id_is_never_given_again(tmp_path: Path) -> None:
     assert [(row.id, row.strand) for row in rows] == [(5, CLEARED), (6, "1"), (7, "1")]
     delete_tournament(path)
     assert [row.id for row in rows_from(path, 0, 99)] == [8]
+
+
+def test_a_file_that_cannot_be_read_for_a_moment_is_read_at_the_next_look(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "tonight.db"
+    begun(path)
+    watch, fails = Watch(path, 9), [True, False]
+
+    def sometimes(*asked: Any) -> list[Row]:
+        if fails.pop(0):
+            raise DataError("in use")
+        return rows_from(*asked)
+
+    async def follow() -> tuple[int, int]:
+        async with watch.following("127.0.0.1"):
+            scored(path, 1)
+            monkeypatch.setattr(watch_module, "rows_from", sometimes)
+            monkeypatch.setattr(watch_module, "_LOOK", 0.01)
+            watch.wake()
+            return await asyncio.wait_for(watch.after((0, 2)), 5.0)
+
+    assert asyncio.run(follow()) == (0, 3)

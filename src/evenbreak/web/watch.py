@@ -15,6 +15,7 @@ from pathlib import Path
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from evenbreak.errors import DataError
 from evenbreak.files.store.changes import CLEARED, Row, rows_from
 from evenbreak.web.night import mark_of
 
@@ -124,11 +125,15 @@ class Watch:
             mark, before = mark_of(self.path), self.now
             if mark == self._mark:
                 return
-            rows = await asyncio.to_thread(rows_from, self.path, self.last, MOST)
-            if self.rows and rows[:1] != [self.rows[-1]]:  # another file, or too much at once
+            try:
+                rows = await asyncio.to_thread(rows_from, self.path, self.last, MOST)
+                if another := self.rows and rows[:1] != [self.rows[-1]]:  # or too much at once
+                    rows = await asyncio.to_thread(rows_from, self.path, 0, MOST)
+            except DataError:  # the next look may fare better; the pages say why
+                return
+            if another:
                 self.files += 1
                 self.rows.clear()
-                rows = await asyncio.to_thread(rows_from, self.path, 0, MOST)
             for row in rows[bool(self.rows) :]:
                 if row.strand == CLEARED:
                     self.rows.clear()

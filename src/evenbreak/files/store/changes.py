@@ -10,8 +10,7 @@ import sqlite3
 from pathlib import Path
 from typing import NamedTuple
 
-from evenbreak.errors import DataError
-from evenbreak.files.store.evening_file import opened
+from evenbreak.files.store.evening_file import is_there, opened
 from evenbreak.files.store.formats import ENTRIES, source
 
 CLEARED = "cleared"
@@ -44,19 +43,23 @@ def rows_from(path: str | Path, first: int, most: int) -> list[Row]:
 
     Those that an earlier version wrote have the ids that they keep when the file is brought up to
     date.
+
+    Raises
+    ------
+    DataError
+        if there is a file that cannot be read.
     """
-    asked = "id, strand, number, at, kind, what"
-    try:
-        with opened(path) as base:
-            where = source(base)
-            key = "rowid" if where == ENTRIES else "ROW_NUMBER() OVER ()"
-            rows = base.execute(
-                f"SELECT {asked} FROM (SELECT {key} AS id, * FROM {where}) "  # noqa: S608
-                "WHERE id >= ? ORDER BY id DESC LIMIT ?",
-                (first, most),
-            ).fetchall()
-    except DataError:  # of a file that cannot be read, the pages say why
+    if not is_there(path):
         return []
+    asked = "id, strand, number, at, kind, what"
+    with opened(path) as base:
+        where = source(base)
+        key = "rowid" if where == ENTRIES else "ROW_NUMBER() OVER ()"
+        rows = base.execute(
+            f"SELECT {asked} FROM (SELECT {key} AS id, * FROM {where}) "  # noqa: S608
+            "WHERE id >= ? ORDER BY id DESC LIMIT ?",
+            (first, most),
+        ).fetchall()
     return [Row(*row) for row in reversed(rows)]
 
 
