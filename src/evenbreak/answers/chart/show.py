@@ -1,7 +1,9 @@
 """The charts and the systems that there are, and the races of a chart."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of, in_files, quantities_of
@@ -13,10 +15,11 @@ from evenbreak.files.charts import chart_table
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import EVERY_CHART, named_chart
 from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
-from evenbreak.handicaps.systems.catalogue import FAMILIES, system_of
-from evenbreak.handicaps.systems.team_handicap import TeamHandicap
 from evenbreak.plugins import Kind, added
 from evenbreak.ratings.scale import Scale
+
+if TYPE_CHECKING:
+    from evenbreak.handicaps.systems.team_handicap import TeamHandicap
 
 
 def chart_list_answer() -> Answer:
@@ -59,6 +62,8 @@ def system_list_answer() -> Answer:
     >>> system_list_answer().to_dict()["systems"][0]["name"]
     'npl'
     """
+    from evenbreak.handicaps.systems.catalogue import FAMILIES, system_of
+
     ours = [
         (family.grammar, family.make(*family.samples[0]), "evenbreak")
         for family in FAMILIES.values()

@@ -54,8 +54,8 @@ async def _answered(command: str, call: Call) -> Response:
 def answer_in_json(command: str, values: dict[str, Any]) -> bytes:
     r"""Return the answer to a question, as `--json` prints it; refuse what takes long.
 
-    >>> answer_in_json("odds", {"p": 0.6, "race": (7, 5)})[:29]
-    b'{\n  "p_game_a": 0.6,\n  "p1":'
+    >>> answer_in_json("odds", {"p": 0.6, "race": (7, 5)})[:19]
+    b'{\n  "p_game_a": 0.6'
     """
     try:
         with told(_refuse):
