@@ -79,14 +79,15 @@ class Evenbreak(Engine):
     settings: ClassVar = {
         "prior_sd": (0.25, 0.35, 0.5, 0.7),
         "newcomers": (0.0, 0.8, 1.2),
-        "field": (0.0, 0.5, 0.9),
+        "field": (0.0, 0.9),
+        "half_life": (120.0, 365.0, 1e6),
     }
 
     def walk(self, season: Results, races: Sequence[tuple[Ints, Ints]]) -> Floats:
         """Return P(a wins) of each match, by race; only matches of earlier nights are used."""
-        given = {"prior_sd": 0.5, "newcomers": 0.0, "field": 0.0} | self.set
-        levels = Levels(newcomers=given["newcomers"], field=given["field"])
-        found = walk_forward(season, prior_sd=given["prior_sd"], levels=levels)
+        given = {"prior_sd": 0.5, "half_life": 1e6, "newcomers": 0.0, "field": 0.0} | self.set
+        levels = Levels(newcomers=given.pop("newcomers"), field=given.pop("field"))
+        found = walk_forward(season, levels=levels, **given)
         points, weights = np.polynomial.hermite_e.hermegauss(31)
         p = expit(found.difference[:, None] + found.sd[:, None] * points)
         mean = weights / weights.sum()
@@ -97,7 +98,7 @@ class BradleyTerry(Engine):
     """A Bradley-Terry model with a normal prior, games fading with age, by Newton's method."""
 
     name = "Bradley-Terry, fading"
-    settings: ClassVar = {"prior_sd": (0.25, 0.35, 0.5, 0.7), "half_life": (180.0, 1e6)}
+    settings: ClassVar = {"prior_sd": (0.25, 0.35, 0.5, 0.7), "half_life": (120.0, 365.0, 1e6)}
 
     def start(self) -> None:
         self.skill, self.won = np.zeros(self.players), np.zeros((self.players, self.players))
@@ -177,7 +178,7 @@ class TrueSkill(Engine):
     """TrueSkill, game by game."""
 
     name, needs = "TrueSkill", "trueskill trueskill"
-    settings: ClassVar = {"beta": (0.7, 1.0, 1.5, 2.2, 3.2, 4.5), "tau": (0.0, 0.02)}
+    settings: ClassVar = {"beta": (0.7, 1.0, 1.5, 2.2, 3.2, 4.5), "tau": (0.0, 0.02, 0.06)}
 
     def start(self) -> None:
         import trueskill
@@ -199,7 +200,7 @@ class OpenSkill(Engine):
     """The Plackett-Luce model of openskill, game by game."""
 
     name, needs = "openskill", "openskill openskill"
-    settings: ClassVar = {"beta": (8.0, 12.5, 25.0, 40.0, 60.0), "tau": (0.0, 0.1)}
+    settings: ClassVar = {"beta": (12.5, 25.0, 40.0, 60.0, 90.0), "tau": (0.0, 0.1)}
 
     def start(self) -> None:
         from openskill.models import PlackettLuce
@@ -219,7 +220,7 @@ class WholeHistory(Engine):
     """Whole-history rating: all nights are fitted again, skills moving from day to day."""
 
     name, needs = "whole-history rating", "whr whole-history-rating"
-    settings: ClassVar = {"w2": (0.3, 3.0, 14.0), "prior_wins": (1.5, 3.0, 6.0, 12.0)}
+    settings: ClassVar = {"w2": (0.3, 3.0, 14.0, 40.0), "prior_wins": (3.0, 6.0, 12.0, 24.0)}
 
     def start(self) -> None:
         from whr import WHR

@@ -298,7 +298,7 @@ def judged_systems(names: Sequence[str], replicas: int, seed: int) -> list[dict[
     rows = []
     for k, system in enumerate(systems):
         row: dict[str, Any] = {"season": "simulated league", "name": system.name}
-        for name in ("p_even", "p_better_wins", "sandbagging_pays", "mean_games"):
+        for name in ("p_even", "p_right", "p_better_wins", "sandbagging_pays", "mean_games"):
             row |= {name: float(found[name].value[k]), f"{name}_error": float(found[name].error[k])}
         rows.append(row)
     return rows
@@ -307,7 +307,7 @@ def judged_systems(names: Sequence[str], replicas: int, seed: int) -> list[dict[
 _SHOWN = {
     "game_log_loss": 4, "game_behind": 4, "match_behind": 4, "brier": 4, "slope": 2, "intercept": 2,
     "race_off_even": 4, "race_off_behind": 4,
-    "p_even": 3, "p_better_wins": 3, "sandbagging_pays": 3, "mean_games": 1,
+    "p_even": 3, "p_right": 3, "p_better_wins": 3, "sandbagging_pays": 3, "mean_games": 1,
 }  # fmt: skip
 
 
