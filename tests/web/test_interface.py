@@ -17,6 +17,7 @@ from starlette.responses import Response
 from starlette.routing import request_response
 
 from evenbreak.files.demo import write_demo_evening
+from evenbreak.files.store.tokens import SCORES, draw_token
 from evenbreak.web.api import description
 from evenbreak.web.site import Site
 from places import ROOT
@@ -24,6 +25,11 @@ from web.asked import Browser, Room
 from web.test_interface_shapes import known
 from web.test_who_may import NEW
 
+CURL = re.compile(
+    r"""^\$ curl -s (?:-H "Authorization: Bearer \$TOKEN".* \\\n +--json '(.*)' )?"""
+    r"""\"?http://127.0.0.1:8000(\S+?)"?\n((?:[^$`].*\n)+)""",
+    re.MULTILINE,
+)
 HERE = Path(__file__).parent
 
 
@@ -172,11 +178,12 @@ def test_the_examples_of_the_page_run(tmp_path: Path) -> None:
     with closing(Room(site)) as room:
         browser = Browser(room)
         known(browser)
-        asked = re.findall(
-            r'^\$ curl -s "?http://127.0.0.1:8000(\S+?)"?\n((?:[^$`].*\n)+)', text, re.M
-        )
-        for address, shown in asked:
-            got = browser.tells("GET", address).text
+        token = draw_token(site.path, "board", SCORES, now.isoformat())
+        asked = CURL.findall(text)
+        for body, address, shown in asked:
+            head = {"authorization": f"Bearer {token}"} if body else {}
+            sent = json.loads(body) if body else None
+            got = browser.tells("POST" if body else "GET", address, sent, **head)
             wanted = re.escape(shown.replace("\n", "")).replace(r"\.\.\.", ".*?")
-            assert re.fullmatch(wanted, got), (address, got)
-    assert len(asked) >= 4
+            assert re.fullmatch(wanted, got.text), (address, got.text)
+    assert len(asked) == text.count("$ curl ") >= 5
