@@ -39,7 +39,7 @@ from evenbreak.words import Sentence, in_face
 
 _WON = 20.0  # seconds that the winner is shown
 _LONG, _LONGER = 13.5, 16.0  # widths of names, in letters as high, that are written smaller
-_SIZE = 1760.0, 940.0  # of the bracket, in pixels of a picture 1920 wide
+_SIZE = 1664.0, 848.0  # of the bracket, in pixels of a picture 1920 wide
 _READABLE = 24.0  # pixels of its letters
 _MOST_CHIPS = 12
 _COLORS = ("accent", "ink", "back")
