@@ -80,14 +80,15 @@ class Evenbreak(Engine):
         "prior_sd": (0.25, 0.35, 0.5, 0.7),
         "newcomers": (0.0, 0.8, 1.2),
         "field": (0.0, 0.9),
-        "half_life": (120.0, 365.0, 1e6),
+        "half_life": (120.0, 365.0, math.inf),
     }
 
     def walk(self, season: Results, races: Sequence[tuple[Ints, Ints]]) -> Floats:
         """Return P(a wins) of each match, by race; only matches of earlier nights are used."""
-        given = {"prior_sd": 0.5, "half_life": 1e6, "newcomers": 0.0, "field": 0.0} | self.set
-        levels = Levels(newcomers=given.pop("newcomers"), field=given.pop("field"))
-        found = walk_forward(season, levels=levels, **given)
+        given = {"prior_sd": 0.5, "half_life": math.inf, "newcomers": 0.0, "field": 0.0} | self.set
+        levels = Levels(newcomers=given["newcomers"], field=given["field"])
+        fades = given["half_life"] if given["half_life"] < math.inf else None
+        found = walk_forward(season, prior_sd=given["prior_sd"], half_life=fades, levels=levels)
         points, weights = np.polynomial.hermite_e.hermegauss(31)
         p = expit(found.difference[:, None] + found.sd[:, None] * points)
         mean = weights / weights.sum()
