@@ -105,7 +105,7 @@ def test_a_self_loop_that_nothing_is_left_for_vanishes() -> None:
 
 def test_no_self_loop_is_invented() -> None:
     thirds = [0.7, 0.2, 0.1]
-    assert sum(thirds) != 1.0
+    assert thirds[0] + thirds[1] + thirds[2] != 1.0
     chain = chain_of([("A", target, p) for target, p in zip("BCD", thirds, strict=True)])
     assert chain.matrix[0, 0] == 0
     assert chain.matrix.nnz == 3 + 3

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evenbreak.answers.league.roster_matchups import OfferedRaces, RosterMatchups, roster_matchups
+from evenbreak.arrays import own_arrays
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.level_chart import LevelChart
@@ -42,6 +43,7 @@ class EveningEnd(NamedTuple):
     minutes_p90_error: float
 
 
+@own_arrays
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Round:
     """Who meets whom, and the races that are asked for.
