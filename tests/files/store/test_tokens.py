@@ -92,7 +92,7 @@ def test_a_damaged_token_is_named(path: Path, scope: object) -> None:
 def test_a_command_draws_lists_and_takes_back(path: Path) -> None:
     def says(*words: str) -> str:
         ran = CliRunner().invoke(program, ["tournament", "token", *words, "--file", str(path)])
-        assert ran.exit_code == (0 if ran.stdout else 1), ran.output
+        assert ran.exit_code == (0 if ran.stdout else 2), ran.output
         return ran.stdout or ran.stderr
 
     assert "No program can enter anything" in says()
