@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import json
-import re
 from collections.abc import Iterator
 from contextlib import closing
-from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from evenbreak.files.demo import write_demo_evening
 from evenbreak.files.store.tokens import draw_token, take_back
 from evenbreak.files.store.tournament import read_events
 from evenbreak.web.site import Site
-from places import ROOT
 from web.asked import Browser, Got, Room
 from web.test_who_may import NEW
 
@@ -164,21 +160,6 @@ def test_a_program_that_runs_wild_is_slowed_down(night: Night) -> None:
     got = [night.enters("score", match="1", score=[1, n % 2]).status for n in range(5)]
     assert got == [200] * 3 + [429] * 2
     assert night.enters("score", "desk", match="1", score=[2, 0]).status == 200
-
-
-def test_the_example_in_the_reference_is_entered_as_it_says(tmp_path: Path) -> None:
-    page = (ROOT / "docs" / "reference" / "interface.md").read_text(encoding="utf-8")
-    sent = re.search(
-        r"curl \S+(/api/v1/tonight/score) .*?-d '(.*?)'\n```\n\n```json\n(.*?)```", page, re.S
-    )
-    assert sent is not None
-    write_demo_evening(tmp_path / "tonight.db", datetime(2026, 3, 1, 21, 0))
-    token = draw_token(tmp_path / "tonight.db", "board", "scores", AT)
-    with closing(room_on(tmp_path / "tonight.db")) as room:
-        may = f"Bearer {token}"
-        got = Browser(room).tells("POST", sent[1], json.loads(sent[2]), authorization=may)
-    assert {**got.json, "matches": 0} == {**json.loads(sent[3]), "matches": 0}
-    assert [one["number"] for one in got.json["matches"]] == ["11"]
 
 
 def test_a_token_taken_back_between_two_looks_enters_nothing(
