@@ -83,13 +83,11 @@ from .systems.catalogue import steps_of as steps_of
 from .systems.catalogue import system_of as system_of
 from .systems.elo import elo_system as elo_system
 from .systems.fargo_like import FargoLike as FargoLike
-from .systems.fixed import fixed_length_system as fixed_length_system
 from .systems.laws import broken_laws as broken_laws
 from .systems.level_review import LevelReview as LevelReview
 from .systems.level_review import apa_like as apa_like
 from .systems.level_review import tap_like as tap_like
 from .systems.level_steps import LevelSteps as LevelSteps
-from .systems.margin import margin_system as margin_system
 from .systems.markov import MarkovSystem as MarkovSystem
 from .systems.match_table import MatchTable as MatchTable
 from .systems.match_table import match_table as match_table
@@ -103,6 +101,8 @@ from .systems.rating_changes import RatingChanges as RatingChanges
 from .systems.rating_changes import apply_results as apply_results
 from .systems.rating_changes import chart_of_night as chart_of_night
 from .systems.rating_changes import night_problems as night_problems
+from .systems.step import fixed_length_system as fixed_length_system
+from .systems.step import margin_system as margin_system
 from .systems.step import step_system as step_system
 from .systems.system import System as System
 from .systems.system import checked_races as checked_races

@@ -2,7 +2,7 @@
 
 import pytest
 
-from evenbreak.files.foreign.paper import paper_sheet
+from evenbreak.files.foreign.results import paper_sheet
 
 TITLES = "Date,Match,Player,SL,Wins"
 

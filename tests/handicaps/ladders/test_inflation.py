@@ -10,8 +10,7 @@ from evenbreak.handicaps import (
     lag,
     newcomer_inflation,
 )
-from evenbreak.handicaps.systems.margin import margin_system
-from evenbreak.handicaps.systems.step import step_system
+from evenbreak.handicaps.systems.step import margin_system, step_system
 
 
 @pytest.mark.parametrize(("up", "down"), [(1, 1), (2, 2), (2, 1), (1, 3)])

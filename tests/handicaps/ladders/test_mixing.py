@@ -8,8 +8,7 @@ from evenbreak.chains.mixing import apparent_period
 from evenbreak.errors import InputError
 from evenbreak.handicaps import CHARTS, EQUAL_SKILL, Ladder, chart, ladder_gap, ladder_mixing
 from evenbreak.handicaps.ladders.error_chain import period_of
-from evenbreak.handicaps.systems.margin import margin_system
-from evenbreak.handicaps.systems.step import step_system
+from evenbreak.handicaps.systems.step import margin_system, step_system
 
 
 def dense(ladder, unit=1):

@@ -11,8 +11,7 @@ from evenbreak.handicaps import (
 )
 from evenbreak.handicaps.ladders.unfairness import opponent_pairs_of
 from evenbreak.handicaps.systems.elo import elo_system
-from evenbreak.handicaps.systems.margin import margin_system
-from evenbreak.handicaps.systems.step import step_system
+from evenbreak.handicaps.systems.step import margin_system, step_system
 from evenbreak.stats import Distribution
 from rows import each_of
 

@@ -3,8 +3,8 @@
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps.systems.fixed import fixed_length_system
 from evenbreak.handicaps.systems.npl import NPL
+from evenbreak.handicaps.systems.step import fixed_length_system
 
 
 def test_fixed_length_matches_are_the_pool_leagues_but_for_the_chart():

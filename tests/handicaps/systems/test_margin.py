@@ -6,8 +6,8 @@ from scipy.special import betaincinv
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import chart
 from evenbreak.handicaps.systems.by_match import PlayedMatch
-from evenbreak.handicaps.systems.margin import margin_system
 from evenbreak.handicaps.systems.match_table import match_table
+from evenbreak.handicaps.systems.step import margin_system
 
 
 @pytest.mark.parametrize(

@@ -134,7 +134,7 @@ def _by_points(
     warnings: list[str],
 ) -> Answer:
     """Return the points of each pair by a chart of points."""
-    from evenbreak.answers.league.points_matchups import points_matchups_answer
+    from evenbreak.answers.league.matchups import points_matchups_answer
 
     if asked.games is not None or asked.race_to is not None:
         refuse(f"{chart.name} is a chart of points, and no race in games goes with it")

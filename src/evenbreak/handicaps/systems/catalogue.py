@@ -13,14 +13,12 @@ from evenbreak.handicaps.systems.averages import Averages, WinPercent
 from evenbreak.handicaps.systems.by_match import StepSystem
 from evenbreak.handicaps.systems.elo import elo_system
 from evenbreak.handicaps.systems.fargo_like import FargoLike
-from evenbreak.handicaps.systems.fixed import fixed_length_system
 from evenbreak.handicaps.systems.level_review import LevelReview, apa_like, tap_like
 from evenbreak.handicaps.systems.level_steps import level_steps
-from evenbreak.handicaps.systems.margin import margin_system
 from evenbreak.handicaps.systems.napa_like import NapaLike
 from evenbreak.handicaps.systems.none import NoHandicap
 from evenbreak.handicaps.systems.npl import NPL
-from evenbreak.handicaps.systems.step import step_system
+from evenbreak.handicaps.systems.step import fixed_length_system, margin_system, step_system
 from evenbreak.handicaps.systems.system import System
 
 _NUMBER = re.compile(r"[0-9]{1,9}")

@@ -132,7 +132,7 @@ def _given(win: Wins, name: str) -> Any:
 
 def _table(given: Any, bracket: Bracket) -> Floats:
     players = bracket.players
-    if isinstance(given, HasWin):
+    if not isinstance(given, np.ndarray) and isinstance(given, HasWin):  # of many arrays
         given = given.win
     if callable(given):
         given = [[0.5 if i == j else given(i, j) for j in players] for i in players]
