@@ -13,7 +13,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 check:            ## what CI runs, on the last commit, in new virtual environments
 	.ci/run
 
-check-rest: slow docs lowest doctests types lint check-drift   ## what CI checks after the tests, side by side
+check-rest: slow docs lowest check-drift doctests types lint   ## what CI checks after the tests, side by side, the long steps first
 
 check-drift: docs   ## what the pages are made of is made again once they are done
 	$(MAKE) drift
