@@ -53,7 +53,7 @@ def programs_answer(tokens: Collection[Token], plan: Plan, drawn: str = "") -> A
         said = [say("No program can enter anything.")]
     elif drawn:
         said = [say("The token, which is not shown again: {token}", token=drawn)]
-    columns = columns_of("program may_enter drawn last_entry")
+    columns = columns_of("program may_enter drawn_at last_entry")
     rows = [
         (one.name, scope_words(one, plan), _minute(one.drawn), _minute(one.used)) for one in tokens
     ]
