@@ -7,14 +7,12 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.answers.tournament.tournament import races_words
 from evenbreak.tournaments.brackets.bracket import Place
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
-from evenbreak.tournaments.odds.title import PlaceOdds
+from evenbreak.tournaments.evening.listed import decided_places
 from evenbreak.web.night import Known, score_of
 
 _WALKING = timedelta(minutes=5)  # since the call, that a match without a score counts as called
@@ -236,9 +234,10 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
     """
     titles = {one.name: one for one in favorites_of(known)}
     calls = {name: at for at, name in known.calls} if known and known.of is state else {}
-    places = decided_places(known.odds) if known and known.odds and known.of is state else {}
+    places: Mapping[str, Place] = {}
     playing: dict[str, str] = {}
     if state.drawn:
+        places = decided_places(state)
         playing = {name: match for match in state.standing.to_play for name in state.pair(match)}
     views, provisional = [], provisional_in(state)
     for name, entrant in state.entrants.items():
@@ -276,11 +275,3 @@ def favorites_of(known: Known | None) -> list[Favorite]:
         if row["p_title"] > 0.0:
             found.append(Favorite(row["name"], row["p_title"], band))
     return sorted(found, key=lambda one: (-(one.band[0] if one.band else one.p), -one.p))
-
-
-def decided_places(odds: PlaceOdds) -> dict[str, Place]:
-    """Return the places that are decided, by player."""
-    seats, places = np.nonzero(odds.p_place > 1.0 - 1e-12)
-    names = odds.bracket.players
-    both = zip(seats.tolist(), places.tolist(), strict=True)
-    return {names[seat]: odds.bracket.places[place] for seat, place in both}

@@ -22,7 +22,7 @@ from evenbreak.files.tables.names import clean_name, is_name
 from evenbreak.files.tables.problems import of_list
 from evenbreak.ratings.scale import SCALES, Scale
 from evenbreak.web.guard import MOST_BYTES, RefusalError
-from evenbreak.web.sessions import check_form
+from evenbreak.web.sessions import check_director, check_form
 from evenbreak.words import Parameter, say
 
 Asked = TypeVar("Asked")
@@ -179,6 +179,13 @@ async def form_of(request: Request) -> Form:
         raise HTTPException(400) from None
     check_form(request, form.text("csrf"))
     request.state.form = form
+    return form
+
+
+async def directors_form(request: Request) -> Form:
+    """Read a form of a director's session; refuse everybody else's."""
+    form = await form_of(request)
+    check_director(request)
     return form
 
 

@@ -15,8 +15,9 @@ from evenbreak.tournaments.brackets.bracket import Match, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import Scored, race_words
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.listed import decided_places
 from evenbreak.tournaments.money.payouts import shared_prize
-from evenbreak.web.evening_view import decided_places, is_hill, provisional_in
+from evenbreak.web.evening_view import is_hill, provisional_in
 from evenbreak.web.night import Known, score_of, win_chance
 from evenbreak.words import Sentence, say, say_count
 
@@ -318,12 +319,10 @@ def after(state: Evening, mine: MyMatch, outcome: str, known: Known | None) -> A
 
 
 def place_of(
-    state: Evening, me: str, known: Known | None, prizes: list[float], unit: float = 0.0
+    state: Evening, me: str, prizes: list[float], unit: float = 0.0
 ) -> tuple[str, float | None]:
     """Return where a player finished, and their share of the prizes; '' while that is open."""
-    if known is None or known.of is not state or known.odds is None:
-        return "", None
-    place = decided_places(known.odds).get(me)
+    place = decided_places(state).get(me) if state.drawn else None
     if place is None:
         return "", None
     paid = shared_prize(prizes, place.first, place.last, unit)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
 import hmac
 import itertools
@@ -117,6 +118,11 @@ class Site:
                 night.beside = self.night.beside
                 self._nights[number] = night
         return [self._nights[number] for number in self._numbers[1]]
+
+    @property
+    def begun(self) -> list[Night]:
+        """The events of the night; none where none has begun."""
+        return [night for night in self.nights if night.exists]
 
     @property
     def names(self) -> set[str]:
@@ -252,7 +258,7 @@ class Site:
 
         Whoever plays in two events has one, that of the first.
         """
-        states = [night.state() for night in self.nights if night.exists]
+        states = [night.state() for night in self.begun]
         if self._codes is None or list(map(id, self._codes[0])) != list(map(id, states)):
             found: dict[str, str] = {}
             for state in states:
@@ -312,6 +318,27 @@ def night_of(request: Request) -> Night:
         if night.event == number:
             return night
     raise RefusalError("There is no such page.", status=404)
+
+
+def begun(night: Night) -> Night:
+    """Return an event of the night; refuse one that has not begun."""
+    if not night.exists:
+        raise RefusalError("No tournament is running yet.", status=404)
+    return night
+
+
+async def drawn_state(request: Request) -> Evening:
+    """Return the state of the event that a request is about; refuse it if there is no draw."""
+    state = await asyncio.to_thread(begun(night_of(request)).state)
+    if not state.drawn:
+        raise RefusalError("The draw has not been made yet.", status=404)
+    return state
+
+
+def begun_nights(request: Request) -> list[Night]:
+    """Return the events of the night; refuse if none has begun."""
+    site: Site = request.app.state.site
+    return site.begun or [begun(site.night)]
 
 
 def _token(key: str, what: str) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from typing import NamedTuple
 
+from evenbreak.answers.tournament.bracket_view import Panel, bracket_panels
 from evenbreak.answers.tournament.moves import event_name
 from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.tournaments.evening.calling import ready_matches
@@ -133,6 +134,12 @@ class WallView:
     def state(self) -> Evening:
         """The state of the evening."""
         return self.view.state
+
+    @property
+    def panels(self) -> tuple[Panel, ...]:
+        """The parts of the bracket, with the matches of which the players disagree."""
+        two = {one.match.name: "two" for one in self.tables if one.state == "two"}
+        return bracket_panels(self.state, self.chances, two)
 
     @property
     def final(self) -> Sentence | str:

@@ -7,14 +7,15 @@ from datetime import datetime, timedelta
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from evenbreak.answers.tournament.bracket_view import Box, Panel, bracket_panels
+from evenbreak.answers.tournament.bracket_view import Box, Panel
 from evenbreak.answers.tournament.moves import event_name
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.listed import decided_places
 from evenbreak.web.api import shapes
 from evenbreak.web.api.problem import ProblemError
 from evenbreak.web.api.resource import V1, Call, Kept
-from evenbreak.web.evening_view import decided_places, progress_of
+from evenbreak.web.evening_view import progress_of
 from evenbreak.web.night import Known, Night
 from evenbreak.web.pages.wall import view_for
 from evenbreak.web.wall_view import WallView
@@ -77,20 +78,15 @@ class Seen(NamedTuple):
 
     @property
     def places(self) -> list[tuple[str, str]]:
-        """The places that are decided, as far as they are worked out, and who has them."""
-        if self.view.places:
-            return [(one.place, one.name) for one in self.view.places]
-        odds = self.fresh.odds if self.fresh else None
-        decided = decided_places(odds) if odds else {}
-        return [(str(at), name) for name, at in sorted(decided.items(), key=lambda one: one[1])]
+        """The places that are decided, and who has them."""
+        decided = decided_places(self.state) if self.state.drawn else {}
+        first = sorted(decided.items(), key=lambda one: (one[1].event, one[1]))
+        return [(str(place), name) for name, place in first]
 
     @property
     def panels(self) -> tuple[Panel, ...]:
         """The parts of its bracket; none before the draw."""
-        if not self.state.drawn:
-            return ()
-        two = {one.match.name: "two" for one in self.view.tables if one.state == "two"}
-        return bracket_panels(self.state, self.view.chances, two)
+        return self.view.panels if self.state.drawn else ()
 
 
 async def seen_of(call: Call, night: Night) -> Seen:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import NamedTuple
@@ -24,7 +23,7 @@ from evenbreak.web.night import Known
 from evenbreak.web.page import answer_shown, language, page, page_face, site_of
 from evenbreak.web.pages.desk import sheet_values
 from evenbreak.web.sessions import is_director
-from evenbreak.web.site import event_of, night_of, of_event
+from evenbreak.web.site import drawn_state, event_of, night_of, of_event
 from evenbreak.words import Sentence, in_face
 
 
@@ -40,16 +39,13 @@ class Chosen(NamedTuple):
 
 async def bracket(request: Request) -> Response:
     """Show the bracket, and the match that was tapped."""
-    state = await _drawn(request)
+    state = await drawn_state(request)
     known = await night_of(request).outlook()
     panels = bracket_panels(state, known.chances if known and known.of is state else {})
     asked = request.query_params.get("match", "")
     chosen = _chosen(state, panels, asked, known) if asked else None
-    face = page_face(language(request))
+    words = partial(in_face, face=page_face(language(request)))
     event = event_of(request)
-
-    def words(text: str) -> str:
-        return str(in_face(text, face))
 
     def link(box: Box) -> str:
         return of_event(f"/bracket?match={box.number}", event)
@@ -99,7 +95,7 @@ async def bracket_on_paper(request: Request) -> Response:
     """Return the bracket as a PDF."""
     from evenbreak.sheets.bracket_paper import Sheet, bracket_pdf
 
-    state = await _drawn(request)
+    state = await drawn_state(request)
     live = f"{site_of(request).address}/bracket"
     about, foot, champion = paper_words(state, live)
     sheet = Sheet(state.plan.name or site_of(request).path.stem, about, foot, champion, live)
@@ -120,7 +116,7 @@ async def cards_on_paper(request: Request) -> Response:
     """Return the score cards as a PDF."""
     from evenbreak.sheets.paper_pages import score_cards_pdf
 
-    state = await _drawn(request)
+    state = await drawn_state(request)
     cards = score_cards(state, None)
     if not cards:
         raise RefusalError(
@@ -137,16 +133,6 @@ async def cards_on_paper(request: Request) -> Response:
         address=f"{site_of(request).address}/c/",
     )
     return await _pdf(request, f"cards-{paper}{'-codes' if claims else ''}.pdf", state, make)
-
-
-async def _drawn(request: Request) -> Evening:
-    night = night_of(request)
-    if not night.exists:
-        raise RefusalError("No tournament is running yet.", status=404)
-    state = await asyncio.to_thread(night.state)
-    if not state.drawn:
-        raise RefusalError("The draw has not been made yet.", status=404)
-    return state
 
 
 async def _pdf(request: Request, name: str, state: Evening, make: Callable[[], bytes]) -> Response:

@@ -15,10 +15,9 @@ from evenbreak.tournaments.evening.events import Event
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import entered_name, entered_rating, form_of
 from evenbreak.web.guard import RefusalError
-from evenbreak.web.night import Night
 from evenbreak.web.page import done, page, site_of
 from evenbreak.web.sessions import check_director, phone_of
-from evenbreak.web.site import night_of
+from evenbreak.web.site import begun, night_of
 
 _ASKED = "asked to play"
 
@@ -26,8 +25,8 @@ _ASKED = "asked to play"
 async def check_in(request: Request) -> Response:
     """Show who is here and who has paid."""
     check_director(request)
-    night = night_of(request)
-    state = await _state(night)
+    night = begun(night_of(request))
+    state = await asyncio.to_thread(night.state)
     money = await asyncio.to_thread(kept_prizes, night.path, night.event)
     names = list(state.entrants)  # in one order, so that no tap moves a row from under a finger
     # Where nobody is ticked off, everybody plays: a house that needs no check-in just draws.
@@ -47,15 +46,9 @@ async def check_in(request: Request) -> Response:
     )
 
 
-async def _state(night: Night) -> Evening:
-    if not night.exists:
-        raise RefusalError("No tournament is running yet.", status=404)
-    return await asyncio.to_thread(night.state)
-
-
 async def play(request: Request) -> Response:
     """Show a phone how to register, and what has become of it."""
-    state = await _state(night_of(request))
+    state = await asyncio.to_thread(begun(night_of(request)).state)
     name = str(request.session.get(_ASKED, ""))
     if name and name in state.entrants:
         return RedirectResponse("/", status_code=303)

@@ -40,12 +40,11 @@ from evenbreak.web.desk_view import (
     waits_words,
 )
 from evenbreak.web.evening_view import EveningView, view_of
-from evenbreak.web.forms import form_of
-from evenbreak.web.guard import RefusalError
+from evenbreak.web.forms import directors_form
 from evenbreak.web.night import Known, Night
 from evenbreak.web.page import page, site_of
 from evenbreak.web.sessions import check_director, is_director
-from evenbreak.web.site import night_of
+from evenbreak.web.site import begun, night_of
 from evenbreak.words import say
 
 _READ = "read"
@@ -56,10 +55,9 @@ async def desk(request: Request) -> Response:
     """Show all that the director can do now, what is urgent first."""
     check_director(request)
     site = site_of(request)
-    if not site.night.exists:
-        if await site.teams.now() is not None:
-            return RedirectResponse("/team", status_code=303)
-        raise RefusalError("No tournament is running yet.", status=404)
+    if not site.night.exists and await site.teams.now() is not None:
+        return RedirectResponse("/team", status_code=303)
+    begun(site.night)
     event, nights = night_of(request).event, site.nights
     knowns = [await night.outlook() for night in nights]
     states = {night.event: await asyncio.to_thread(night.state) for night in nights}
@@ -279,8 +277,7 @@ def _undone_last(state: Evening) -> dict[str, Any] | None:
 
 async def read(request: Request) -> Response:
     """Keep that the director has read what was entered last."""
-    form = await form_of(request)
-    check_director(request)
+    form = await directors_form(request)
     entries = [text.partition(".") for text in form.texts("entry")]
     numbers = [(event, rest) if rest else ("1", event) for event, _, rest in entries]
     request.session[_READ] = {

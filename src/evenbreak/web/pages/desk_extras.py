@@ -24,13 +24,13 @@ from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.plan import FORMATS, FORMATS_WITH
 from evenbreak.tournaments.evening.undoing import free_entries, redoable
-from evenbreak.web.forms import form_of
+from evenbreak.web.forms import directors_form
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.night import Night
 from evenbreak.web.page import answer_shown, done, page, site_of
 from evenbreak.web.pages.me import phone_label, phone_words
 from evenbreak.web.sessions import DIRECTOR, author_words, check_director, let_in
-from evenbreak.web.site import event_of, night_of, of_event
+from evenbreak.web.site import begun, event_of, night_of, of_event
 from evenbreak.words import say
 
 RACES = {
@@ -44,9 +44,7 @@ RACES = {
 async def more(request: Request) -> Response:
     """Show what the desk itself does not: settings, lists, prints."""
     check_director(request)
-    site, night = site_of(request), night_of(request)
-    if not night.exists:
-        raise RefusalError("No tournament is running yet.", status=404)
+    site, night = site_of(request), begun(night_of(request))
     state = await asyncio.to_thread(night.state)
     plan = state.plan
     return page(
@@ -89,8 +87,7 @@ def _races(plan: Plan) -> dict[str, tuple[str, int]]:
 
 async def calling(request: Request) -> Response:
     """Keep whether a result calls the next match to the table that it frees."""
-    form = await form_of(request)
-    check_director(request)
+    form = await directors_form(request)
     itself = bool(form.text("itself"))
     await asyncio.to_thread(site_of(request).let_call, itself)
     said = say("A result now calls the next match.") if itself else say("You call each match.")
@@ -99,8 +96,7 @@ async def calling(request: Request) -> Response:
 
 async def save(request: Request) -> Response:
     """Write a copy of the file."""
-    await form_of(request)
-    check_director(request)
+    await directors_form(request)
     copy = await asyncio.to_thread(back_up, site_of(request).path, datetime.now())
     return done(
         request,
@@ -111,8 +107,7 @@ async def save(request: Request) -> Response:
 
 async def change_pin(request: Request) -> Response:
     """Draw another PIN; the other phones of directors have to enter it."""
-    await form_of(request)
-    check_director(request)
+    await directors_form(request)
     site = site_of(request)
     await asyncio.to_thread(site.change_pin)
     let_in(request, DIRECTOR, site.director_mark)
@@ -130,9 +125,7 @@ async def change_pin(request: Request) -> Response:
 async def time(request: Request) -> Response:
     """Show when it ends, and what would change that."""
     check_director(request)
-    site, night = site_of(request), night_of(request)
-    if not night.exists:
-        raise RefusalError("No tournament is running yet.", status=404)
+    site, night = site_of(request), begun(night_of(request))
     state = await asyncio.to_thread(night.state)
     if not state.drawn:
         raise RefusalError("There is no draw yet.", status=409)
@@ -148,9 +141,7 @@ async def time(request: Request) -> Response:
 async def history(request: Request) -> Response:
     """Show who entered what, and when; what nothing follows from can be taken back there."""
     check_director(request)
-    night = night_of(request)
-    if not night.path.exists():
-        raise RefusalError("No tournament is running yet.", status=404)
+    night = begun(night_of(request))
     rows, again = await asyncio.to_thread(_entries, night)
     return page(request, "history.html", rows=rows, again=again, undo=True)
 

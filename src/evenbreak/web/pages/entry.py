@@ -53,9 +53,9 @@ from evenbreak.web.forms import (
     Fields,
     Form,
     asked_in,
+    directors_form,
     fields_named,
     form_fields,
-    form_of,
     list_of,
     read_upload,
     scale_in,
@@ -67,7 +67,7 @@ from evenbreak.web.page import asked_again, done, in_words, page, site_of
 from evenbreak.web.pages.players import UNITS, money_fields, money_of
 from evenbreak.web.pasted import Known, ListError, entered_list, lines_of
 from evenbreak.web.sessions import DIRECTORS_PAGE, check_director
-from evenbreak.web.site import Site
+from evenbreak.web.site import Site, begun
 from evenbreak.words import say
 
 CHECK_IN = "/desk/check-in"
@@ -107,10 +107,8 @@ async def ask(request: Request) -> Response:
 async def again(request: Request) -> Response:
     """Show the form filled in for the next edition: same people, same options."""
     check_director(request)
+    state = await asyncio.to_thread(begun(site_of(request).night).state)
     choices = await _choices(site_of(request))
-    if choices["there"] is None:
-        raise RefusalError("No tournament is running yet.", status=404)
-    state = await asyncio.to_thread(site_of(request).night.state)
     _, entrants = next_edition(state)
     plan, known = state.plan, choices["of_league"]
     new = plan.newcomer("")
@@ -178,8 +176,7 @@ async def begin(request: Request) -> Response:
 
     A list that can mean more than one thing is asked about first, line by line.
     """
-    form, site = await form_of(request), site_of(request)
-    check_director(request)
+    form, site = await directors_form(request), site_of(request)
     content = list_of(form, "entrants", "file")
     try:
         listed: Collection[str] = ()
@@ -239,8 +236,7 @@ def _ask_about(
 
 async def delete(request: Request) -> Response:
     """Take the tournament out of the file, once it is asked whether that is meant; keep a copy."""
-    form, site = await form_of(request), site_of(request)
-    check_director(request)
+    form, site = await directors_form(request), site_of(request)
     there = await asyncio.to_thread(_there, site)
     if there is None:
         raise RefusalError("No tournament is running yet.", status=404)

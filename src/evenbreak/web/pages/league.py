@@ -22,12 +22,11 @@ from evenbreak.questions.common import USUAL_RACE
 from evenbreak.questions.ratings import Report
 from evenbreak.ratings.scale import DEFAULT_SCALE, NAMES, SCALES
 from evenbreak.tournaments.evening.fold import Evening
-from evenbreak.web.forms import form_of, list_of, value_of
+from evenbreak.web.forms import directors_form, list_of, value_of
 from evenbreak.web.guard import MOST_BYTES, RefusalError
 from evenbreak.web.league import League
 from evenbreak.web.page import answer_shown, done, page, site_of
-from evenbreak.web.sessions import check_director
-from evenbreak.web.site import Site
+from evenbreak.web.site import Site, begun
 from evenbreak.words import joined, say
 
 if TYPE_CHECKING:
@@ -86,8 +85,7 @@ async def league(request: Request) -> Response:
 
 async def give(request: Request) -> Response:
     """Take the league's results, from a file or pasted."""
-    form = await form_of(request)
-    check_director(request)
+    form = await directors_form(request)
     content = list_of(form, "results", "file", longest=MOST_BYTES)
     if not content.strip():
         raise RefusalError("Nothing was sent. Choose a file or paste the results.")
@@ -101,8 +99,7 @@ async def give(request: Request) -> Response:
 
 async def add_tonight(request: Request) -> Response:
     """Add the results of tonight's tournament to the league's."""
-    await form_of(request)
-    check_director(request)
+    await directors_form(request)
     site = site_of(request)
     state = await asyncio.to_thread(tournament_of, site)
     begun = datetime.fromisoformat(state.events[0].at)
@@ -123,9 +120,7 @@ async def results(request: Request) -> Response:
 
 def tournament_of(site: Site) -> Evening:
     """Return tonight's tournament, of which something has been played."""
-    if not site.night.exists:
-        raise RefusalError("No tournament is running yet.", status=404)
-    state = site.night.state()
+    state = begun(site.night).state()
     if not state.counted:
         raise RefusalError("No match has been played yet.", status=409)
     return state

@@ -33,7 +33,7 @@ from evenbreak.files.store.desk import (
 from evenbreak.tournaments.evening.fold import ELIMINATIONS, Evening
 from evenbreak.web import taps
 from evenbreak.web.codes import code_in
-from evenbreak.web.forms import form_of
+from evenbreak.web.forms import directors_form, form_of
 from evenbreak.web.guard import MovedOnError, RefusalError
 from evenbreak.web.my_night import (
     MyMatch,
@@ -52,11 +52,10 @@ from evenbreak.web.sessions import (
     DIRECTORS_PAGE,
     address_of,
     author_words,
-    check_director,
     phone_of,
     phones_of,
 )
-from evenbreak.web.site import event_of, names_event, night_of
+from evenbreak.web.site import begun_nights, event_of, names_event, night_of
 from evenbreak.words import say
 
 
@@ -68,7 +67,7 @@ async def me(request: Request) -> Response:
 async def _shown(request: Request, why: RefusalError | None = None) -> Response:
     """Return a player's page as it is now, and why a tap was refused."""
     site = site_of(request)
-    if not any(night.exists for night in site.nights):
+    if not site.begun:
         return page(request, "begin.html")
     plays = [one for night in site.nights if (one := await _place_in(request, night))]
     status = why.status if why else 200
@@ -98,7 +97,7 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
         "lost": sum(one.loser == name for one in played),
         "eliminates": state.plan.form in ELIMINATIONS,
         "dropped": name in state.dropped,
-        "finished": place_of(state, name, known, night.prizes(), night.unit),
+        "finished": place_of(state, name, night.prizes(), night.unit),
         "state": state,
     }
     if mine and mine.pair:
@@ -149,8 +148,7 @@ def _urgent(place: Place) -> tuple[bool, bool, bool, bool, str]:
 
 def _who_plays(request: Request) -> dict[str, bool]:
     """Return who plays tonight, in any event, and whether they have a phone."""
-    nights = [night for night in site_of(request).nights if night.exists]
-    states = [(night.state(), night.phones().claims) for night in nights]
+    states = [(night.state(), night.phones().claims) for night in site_of(request).begun]
     return {
         name: name in claims
         for state, claims in states
@@ -168,7 +166,7 @@ async def claim(request: Request) -> Response:
 
 async def shown_by_code(request: Request) -> Response:
     """Ask whether this is the player who has a code; if their phone it is already, go on."""
-    await _nights(request)
+    begun_nights(request)
     if request.method == "HEAD":
         return Response()
     code = code_in(request.path_params["code"])
@@ -184,7 +182,7 @@ async def shown_by_code(request: Request) -> Response:
 async def claim_by_code(request: Request) -> Response:
     """Keep that this phone is the player's who has this code, whichever was before."""
     form = await form_of(request)
-    await _nights(request)
+    begun_nights(request)
     name = _with_code(request, code_in(form.text("code")))
     await asyncio.to_thread(_claim, request, name, form.key(request.url.path), by_code=True)
     return done(request, "/me")
@@ -226,10 +224,7 @@ def _claim(request: Request, name: str, key: str, *, by_code: bool = False) -> N
 
 def _night_with(request: Request, name: str) -> Night:
     """Return the first event of the night that somebody plays in."""
-    nights = [night for night in site_of(request).nights if night.exists]
-    if not nights:
-        raise RefusalError("No tournament is running yet.", status=404)
-    for night in nights:
+    for night in begun_nights(request):
         if name in night.state().entrants:
             return night
     raise RefusalError("{name} isn't playing tonight.", status=404, name=name)
@@ -238,7 +233,7 @@ def _night_with(request: Request, name: str) -> Night:
 async def leave(request: Request) -> Response:
     """Give a phone up, for another player to have it."""
     key = (await form_of(request)).key(request.url.path)
-    night, phone = (await _nights(request))[0], phone_of(request)
+    night, phone = begun_nights(request)[0], phone_of(request)
 
     def decide(phones: Phones) -> Act | None:
         name = phones.of(phone)
@@ -250,8 +245,7 @@ async def leave(request: Request) -> Response:
 
 async def release(request: Request) -> Response:
     """Take a player's phone from whoever has it."""
-    form = await form_of(request)
-    check_director(request)
+    form = await directors_form(request)
     name, key = form.text("player"), form.key(request.url.path)
 
     def decide(phones: Phones) -> Act | None:
@@ -269,7 +263,7 @@ async def tap(request: Request) -> Response:
     """Take the score of the player's match; a full score is proposed as the result."""
     form = await form_of(request)
     try:
-        await _nights(request)
+        begun_nights(request)
         state = await asyncio.to_thread(night_of(request).state)
         one = taps.tap_in(request, form, state)
 
@@ -318,7 +312,7 @@ async def coming(request: Request) -> Response:
 
 async def _noted(request: Request, kind: str, what: dict[str, int] | None = None) -> Response:
     form = await form_of(request)
-    await _nights(request)
+    begun_nights(request)
     night, match, key = night_of(request), form.text("match"), form.key(request.url.path)
     state = await asyncio.to_thread(night.state)
     if not state.drawn or match not in state.standing.to_play:
@@ -340,14 +334,6 @@ def _count(request: Request, what: str) -> None:
     if tries.full(what):
         raise RefusalError("Too many taps. Wait a moment.", status=429)
     tries.count(what)
-
-
-async def _nights(request: Request) -> list[Night]:
-    """Return the events of the night; refuse if none has begun."""
-    nights = [night for night in site_of(request).nights if night.exists]
-    if not nights:
-        raise RefusalError("No tournament is running yet.", status=404)
-    return nights
 
 
 _DID: dict[str, Callable[..., str]] = {

@@ -31,6 +31,7 @@ from evenbreak.web.entering import Entered, SureError, enter, other_events
 from evenbreak.web.forms import (
     Fields,
     Form,
+    directors_form,
     entered_name,
     entered_rating,
     form_of,
@@ -211,8 +212,7 @@ def _asked_about(form: Form, would: Entered) -> list[tuple[str, Any]]:
 
 async def second_chance(request: Request) -> Response:
     """Begin a second event for those who are out by now."""
-    form = await form_of(request)
-    check_director(request)
+    form = await directors_form(request)
     at, race = site_of(request).clock(), form.whole("race", 1, LONGEST_RACE, default=0)
 
     def begin(state: Evening) -> list[Event]:

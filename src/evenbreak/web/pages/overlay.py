@@ -12,6 +12,7 @@ import urllib.parse
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
+from functools import partial
 from typing import Any, NamedTuple
 
 from markupsafe import Markup
@@ -20,7 +21,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
-from evenbreak.answers.tournament.bracket_view import Box, Panel, bracket_panels
+from evenbreak.answers.tournament.bracket_view import Box, Panel
 from evenbreak.answers.tournament.short_names import rough_width
 from evenbreak.errors import EvenbreakError
 from evenbreak.sheets.bracket_drawing import drawing
@@ -34,6 +35,7 @@ from evenbreak.web.night import Night
 from evenbreak.web.page import language, page, page_face, reason, site_of
 from evenbreak.web.pages.table import last_on
 from evenbreak.web.pages.wall import view_for
+from evenbreak.web.site import begun_nights
 from evenbreak.web.wall_view import TableView, WallView
 from evenbreak.words import Sentence, in_face
 
@@ -92,14 +94,11 @@ class Plate(NamedTuple):
 
 async def table(request: Request) -> Response:
     """Show the match on a table."""
-    site = site_of(request)
-    nights = [night for night in site.nights if night.exists]
-    now = site.clock()
-    views = [(await view_for(request, night, now))[0] for night in nights]
+    now = site_of(request).clock()
     try:
         look = _look(request.query_params)
-        if not nights:
-            raise RefusalError("No tournament is running yet.", status=404)
+        nights = begun_nights(request)
+        views = [(await view_for(request, night, now))[0] for night in nights]
         plan = views[0].state.plan
         number = plan.table_number(request.path_params["table"])
     except EvenbreakError as error:
@@ -176,14 +175,10 @@ def _won(state: Evening, last: Result, left: float) -> Plate:
 
 async def bracket(request: Request) -> Response:
     """Show the bracket, or what can be read of it around the match on the streamed table."""
-    site = site_of(request)
-    now, asked = site.clock(), request.query_params.get("table", "")
-    nights = [night for night in site.nights if night.exists]
-    views = [(await view_for(request, night, now))[0] for night in nights]
+    now, asked = site_of(request).clock(), request.query_params.get("table", "")
     try:
         look = _look(request.query_params)
-        if not nights:
-            raise RefusalError("No tournament is running yet.", status=404)
+        views = [(await view_for(request, night, now))[0] for night in begun_nights(request)]
         plan = views[0].state.plan
         number = plan.table_number(asked) if asked else (*plan.streamed, 0)[0]
     except EvenbreakError as error:
@@ -192,14 +187,9 @@ async def bracket(request: Request) -> Response:
     view = (followed or [one for one in views if not one.view.over] or views)[0]
     drawn = Markup("")
     if view.state.drawn and view.state.plan.form != "chips":
-        face = page_face(language(request))
-
-        def words(text: str) -> str:
-            return str(in_face(text, face))
-
+        words = partial(in_face, face=page_face(language(request)))
         match = _followed(view, number)
-        two = {one.match.name: "two" for one in view.tables if one.state == "two"}
-        panels = readable(bracket_panels(view.state, view.chances, two), match)
+        panels = readable(view.panels, match)
         drawn = bracket_svg(panels, words=words, chosen=match, within=_SIZE[0] / _SIZE[1])
     older = view.state.drawn and view.view.older
     left = _chips(view.state)

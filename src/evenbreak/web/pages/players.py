@@ -18,11 +18,11 @@ from evenbreak.files.store.prizes import kept_prizes
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import PAYOUTS, PrizeMoney
 from evenbreak.web.evening_view import player_views
-from evenbreak.web.forms import Form, form_of
+from evenbreak.web.forms import Form, directors_form
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import answer_shown, done, page, reason, site_of
-from evenbreak.web.sessions import check_director, is_director
-from evenbreak.web.site import night_of, of_event
+from evenbreak.web.sessions import is_director
+from evenbreak.web.site import begun, night_of, of_event
 from evenbreak.words import Parameter, say
 
 _MONEY = re.compile(r"[0-9]{1,7}(\.[0-9]{1,2})?", re.ASCII)
@@ -38,13 +38,11 @@ UNITS = (
 
 async def players(request: Request) -> Response:
     """Show the players, the highest rating first; to the director with what can be changed."""
-    night = night_of(request)
-    if not night.exists:
-        raise RefusalError("No tournament is running yet.", status=404)
+    night = begun(night_of(request))
     known = await night.outlook()
     state = await asyncio.to_thread(night.state)
     director = is_director(request)
-    begun = _begun(state)
+    played = _begun(state)
     phones = await asyncio.to_thread(night.phones) if director else None
     return page(
         request,
@@ -52,8 +50,8 @@ async def players(request: Request) -> Response:
         live=not director,
         state=state,
         players=player_views(state, known),
-        begun_to_play=begun,
-        movable=[name for name in state.order if name not in begun] if state.drawn else [],
+        begun_to_play=played,
+        movable=[name for name in state.order if name not in played] if state.drawn else [],
         codes=site_of(request).player_codes() if director else {},
         claimed=phones.claims if phones else (),
     )
@@ -72,9 +70,7 @@ def _begun(state: Evening) -> set[str]:
 
 async def prizes(request: Request) -> Response:
     """Show what each place is paid, and what each player may expect."""
-    night = night_of(request)
-    if not night.exists:
-        raise RefusalError("No tournament is running yet.", status=404)
+    night = begun(night_of(request))
     kept = await asyncio.to_thread(kept_prizes, night.path, night.event) or PrizeMoney()
     query = Form(request.query_params)
     asked = money_of(query) or kept if "fee" in request.query_params else kept
@@ -104,8 +100,7 @@ async def prizes(request: Request) -> Response:
 
 async def keep(request: Request) -> Response:
     """Keep the prizes with the tournament."""
-    form, night = await form_of(request), night_of(request)
-    check_director(request)
+    form, night = await directors_form(request), night_of(request)
     money = money_of(form) or PrizeMoney()
     state = await asyncio.to_thread(night.state)
     money.amounts(len(state.entrants), state.payers)

@@ -6,7 +6,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.web.forms import form_of
+from evenbreak.web.forms import directors_form
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import done, page, site_of
 from evenbreak.web.pages.wall import code
@@ -26,8 +26,7 @@ async def phones(request: Request) -> Response:
 
 async def let(request: Request) -> Response:
     """Let phones in, or shut them out."""
-    form = await form_of(request)
-    check_director(request)
+    form = await directors_form(request)
     room = site_of(request).room
     if room is None or not is_here(request):
         raise RefusalError("Do that on the computer that runs this page.", status=409)

@@ -21,7 +21,7 @@ from evenbreak.files.store.desk import NO_TABLET, OBJECTED, TABLET, Act, Phones,
 from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web import taps
-from evenbreak.web.forms import form_of
+from evenbreak.web.forms import directors_form, form_of
 from evenbreak.web.guard import MovedOnError, RefusalError
 from evenbreak.web.my_night import chances, match_at
 from evenbreak.web.night import Night
@@ -35,7 +35,7 @@ from evenbreak.web.sessions import (
     phone_of,
     tablet_of,
 )
-from evenbreak.web.site import night_of
+from evenbreak.web.site import begun_nights, drawn_state, night_of
 from evenbreak.words import say
 
 _JUST_NOW = 60.0  # seconds in which "That's wrong" stays in reach, whatever comes next
@@ -171,8 +171,7 @@ async def wrong(request: Request) -> Response:
 
 async def tablet(request: Request) -> Response:
     """Make this the table's tablet, or take the table from every tablet that has it."""
-    form = await form_of(request)
-    check_director(request)
+    form = await directors_form(request)
     state, number = await _table(request)
     give, key = form.one_of("give", ("yes", "no")) == "yes", form.key(request.url.path)
     act, by = Act(TABLET if give else NO_TABLET, str(number)), "" if give else DIRECTORS_PAGE
@@ -195,8 +194,7 @@ async def codes(request: Request) -> Response:
     site = site_of(request)
     to: list[tuple[str, str]] = [(say("Tonight"), site.address)]
     shown: dict[str, Any] = {"players": {}, "claims": {}}
-    nights = [night for night in site.nights if night.exists]
-    if nights:
+    if nights := site.begun:
         state = await asyncio.to_thread(nights[0].state)
         names = [state.plan.table_name(k) for k in range(1, state.plan.tables + 1)]
         to += [
@@ -223,9 +221,7 @@ def _code(text: str) -> str:
 
 async def _nights(request: Request) -> list[Night]:
     """Return the events of the night that are drawn; refuse if none is."""
-    begun = [night for night in site_of(request).nights if night.exists]
-    if not begun:
-        raise RefusalError("No tournament is running yet.", status=404)
+    begun = begun_nights(request)
     drawn = [night for night in begun if (await asyncio.to_thread(night.state)).drawn]
     if not drawn:
         raise RefusalError("The draw has not been made yet.", status=404)
@@ -234,10 +230,7 @@ async def _nights(request: Request) -> list[Night]:
 
 async def _table(request: Request) -> tuple[Evening, int]:
     """Return the event that a form is about, and its table."""
-    await _nights(request)
-    state = await asyncio.to_thread(night_of(request).state)
-    if not state.drawn:
-        raise RefusalError("The draw has not been made yet.", status=404)
+    state = await drawn_state(request)
     return state, state.plan.table_number(request.path_params["table"])
 
 

@@ -34,7 +34,7 @@ from evenbreak.teams.evening import moves
 from evenbreak.teams.evening.events import Event, Pick, Undone, What, check_plan
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.web.defaults import of_league
-from evenbreak.web.forms import RACES, Form, form_fields, form_of
+from evenbreak.web.forms import RACES, Form, directors_form, form_fields, form_of
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.page import asked_again, done, page, site_of
 from evenbreak.web.sessions import (
@@ -159,8 +159,7 @@ async def _choices(site: Site) -> dict[str, Any]:
 async def begin(request: Request) -> Response:
     """Begin a team night; a form that is refused comes back as it was filled in."""
     site = site_of(request)
-    form = await form_of(request)
-    check_director(request)
+    form = await directors_form(request)
     try:
         plan, warnings = await asyncio.to_thread(plan_of, form, site.league, site.rules)
         await site.night.beside.run(partial(check_plan, plan))
@@ -266,8 +265,7 @@ async def result(request: Request) -> Response:
 
 async def undo(request: Request) -> Response:
     """Take back what happened last, if nothing has come in since the page was made."""
-    form = await form_of(request)
-    check_director(request)
+    form = await directors_form(request)
     seen = form.whole("seen", 0, 10**7)
 
     def decide(events: list[Event], _: TeamEvening | None) -> Sequence[What]:

@@ -11,7 +11,7 @@ import asyncio
 import re
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import segno
@@ -20,7 +20,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.tournament.bracket_view import Panel, bracket_panels
+from evenbreak.answers.tournament.bracket_view import Panel
 from evenbreak.answers.tournament.story import clock_words, remarks
 from evenbreak.files.store.desk import disputes
 from evenbreak.sheets.bracket_page import bracket_svg
@@ -83,17 +83,12 @@ def _picture(
     values: dict[str, Any] = {"picture": picture, "wall": view, "code": code(site.address)}
     values |= {"drawn": "", "remarks": [], "since": "", "until": view.clock}
     if picture == "bracket":
-        two = {one.match.name: "two" for one in view.tables if one.state == "two"}
-        panels = bracket_panels(view.state, view.chances, two)
+        panels = view.panels
         rows = -(-len(view.tables) // 4)
         room = _ROOM / (_HIGH - (8.0 * rows if rows < 3 else 0.0))
-
-        def words(text: str) -> str:
-            return str(in_face(text, face))
-
         if len(view.state.order) > _WHOLE:
             panels = (_open_part(panels, turn),)
-        values["drawn"] = bracket_svg(panels, words=words, within=room)
+        values["drawn"] = bracket_svg(panels, words=partial(in_face, face=face), within=room)
     if picture == "end" and story and not (story.whole and story.over):
         story = None  # the last matches are still being added to it
     if story and picture in ("story", "end"):
