@@ -16,11 +16,8 @@ from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.remarks import file_name
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.systems import (
-    LEAVE_OUT,
     LEVELS_DOUBLE,
-    SAY_WHICH,
-    refuse_levels,
-    refuse_other_scale,
+    scale_of_list,
     with_starters,
 )
 from evenbreak.answers.kit.wording import count_of, percent
@@ -38,7 +35,6 @@ from evenbreak.tournaments.chips.endgame import heads_up, last_players
 from evenbreak.tournaments.chips.play import play_chips, rack_chances
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
 from evenbreak.tournaments.odds.fairness import upper_half
-from evenbreak.words import Parameter
 
 _FIELD = 16  # players of a made-up field
 _EXACT = 4  # players at most whose chances are exact
@@ -351,11 +347,7 @@ def _field_of(asked: questions.ChipField, entrants: str | None) -> tuple[ChipFie
     if entrants is None:
         return spread_field(asked.scale or SCALES["fargo"], asked.tables), []
     file = read_entrants(entrants)
-    if asked.scale is not None:
-        refuse_other_scale(file, asked.scale, Parameter("scale"), LEAVE_OUT, stated=True)
-    else:
-        refuse_levels(file, LEVELS_DOUBLE)
-    scale = file.scale_by(asked.scale, SAY_WHICH)
+    scale = scale_of_list(file, asked.scale, LEVELS_DOUBLE)
     roster = with_starters(file.roster, scale, asked.starter, asked.starter_sd)
     if not 2 <= len(roster) <= MOST_PLAYERS:
         refuse(

@@ -24,7 +24,7 @@ SECTIONS = {
     },
     "Run a tournament": {
         "tournament": Entry("tournament", "Tonight's tournament: title odds, and when it ends."),
-        "chips": Entry("chips", "Chip tournaments: their odds, and fair chip charts."),
+        "chips": Entry("groups:chips", "Chip tournaments: their odds, and fair chip charts."),
         "serve": Entry("start:serve", "Tonight's tournament as a page: phones, screen, director."),
     },
     "Run teams": {
@@ -45,13 +45,13 @@ SECTIONS = {
             "league.ratings:validate", "How well the ratings predict your own results."
         ),
         "simulate": Entry("league.simulate", "A season played out many times: who benefits?"),
-        "league": Entry("league.office", "A league's office: its table and its fixtures."),
+        "league": Entry("groups:league", "A league's office: its table and its fixtures."),
     },
     "Handicap systems": {
         "systems": Entry("", "The handicap systems there are, and their rules."),
-        "chart": Entry("chart", "Handicap charts: list, show, audit or design one."),
+        "chart": Entry("groups:chart", "Handicap charts: list, show, audit or design one."),
         "ladder": Entry("", "How far off ratings get under a handicap system."),
-        "sandbag": Entry("sandbag", "What losing on purpose gains, and how to spot it."),
+        "sandbag": Entry("groups:sandbag", "What losing on purpose gains, and how to spot it."),
     },
     "Practise": {
         "practice": Entry("", "Practice scores: are you getting better?"),
@@ -60,7 +60,7 @@ SECTIONS = {
         "oneball": Entry("", "The one-ball game: who wins, and which shot to play."),
     },
     "The physics of the table": {
-        "physics": Entry("physics", "Ball, cloth and cue: throw, aim, spin, speed."),
+        "physics": Entry("groups:physics", "Ball, cloth and cue: throw, aim, spin, speed."),
     },
     "The engine": {
         "graph": Entry("match.graph", "A game as graph, matrix, eigenvalues and limit, in files."),

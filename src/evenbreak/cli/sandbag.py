@@ -1,4 +1,4 @@
-"""`evenbreak sandbag`: what losing on purpose pays, and whether it can be seen."""
+"""`evenbreak sandbag watch`: whether losing on purpose can be seen."""
 
 from __future__ import annotations
 
@@ -20,28 +20,12 @@ from evenbreak.answers.kit.systems import (
     refuse_too_varying,
 )
 from evenbreak.cli.kit.asked import command_of
-from evenbreak.cli.kit.groups import Entry, LazyGroup
 from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.kit.terminal import write_plot
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.questions.ladders import SandbagWatch
 from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES, Scale
 from evenbreak.words import FilePath, Parameter, say
-
-COMMANDS = {
-    "pay": Entry("", "Show what it pays to lose matches on purpose."),
-    "watch": Entry("sandbag:watch", "Check the results of a league for sandbagging."),
-}
-"""Each command, with its line of help."""
-
-
-@click.command("sandbag", cls=LazyGroup, table=COMMANDS)
-def command() -> None:
-    """Show what losing on purpose pays, and whether it can be seen.
-
-    A sandbagger loses matches that count for little, so that their rating falls and they
-    are given games in the matches that count.
-    """
 
 
 @command_of(SandbagWatch, "watch")

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from evenbreak.answers.chart.asked import other_chart
+from evenbreak.answers.chart.audit import other_chart
 from evenbreak.ratings.scale import scale_of
 
 ROWS = "difference_from,difference_to,stronger_needs,weaker_needs\n"

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evenbreak.cli.chart import COMMANDS, command
+from evenbreak.cli.groups import CHART as COMMANDS
+from evenbreak.cli.groups import chart as command
 
 
 def test_the_group_lists_its_commands(run):

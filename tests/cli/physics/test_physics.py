@@ -6,7 +6,8 @@ import sys
 import click
 import pytest
 
-from evenbreak.cli.physics import COMMANDS, command
+from evenbreak.cli.groups import PHYSICS as COMMANDS
+from evenbreak.cli.groups import physics as command
 from rows import each_of
 
 USUAL = {

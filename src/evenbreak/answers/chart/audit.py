@@ -1,21 +1,25 @@
 """How fair a chart is, and which ratings it was made for."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, astuple
+from dataclasses import asdict, astuple, replace
 from typing import Any
 
 import numpy as np
 
+from evenbreak import handicaps
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.wording import decimals, percent, race, range_words
+from evenbreak.fields.question import refuse
+from evenbreak.files.charts import find_chart_file
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit, ChartFit
 from evenbreak.handicaps.charts.level_audit import LevelAudit, LevelCell, PointsAudit, audit_points
 from evenbreak.handicaps.charts.level_chart import PointsChart
 from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.matches.win import race_win_probability
-from evenbreak.ratings.scale import NAMES, SCALES
+from evenbreak.questions import charts as questions
+from evenbreak.ratings.scale import NAMES, SCALES, Scale
 from evenbreak.words import listed
 
 SAME_SCALE = 0.05
@@ -389,3 +393,42 @@ def _wrong_level(*reports: PointsAudit) -> str:
 
 def _as_next(report: PointsAudit) -> list[float]:
     return [one.p_win_as_next for one in report.levels if one.p_win_as_next is not None]
+
+
+_DRAWN_TOGETHER = 0.1
+"""Charts whose scales differ by a smaller share are drawn on the same scale."""
+
+
+def audit(asked: questions.ChartAudit) -> Answer:
+    """Return how fair a chart is."""
+    file = find_chart_file(asked.chart)
+    warnings = (*file.warnings, *file.problems)
+    if isinstance(file.found, handicaps.LevelChart):
+        if asked.plot is not None:
+            asked.refuse("a chart by skill level has no rating differences; leave {plot} out")
+        levels = handicaps.audit_levels(file.found, scale=asked.scale or "npl")
+        return level_audit_answer(
+            levels, skills=handicaps.level_skills(file.found), warnings=warnings
+        )
+    if isinstance(file.found, handicaps.PointsChart):
+        if asked.plot is not None or asked.scale is not None:
+            asked.refuse(
+                "a chart of points has no rating differences; leave {scale} and {plot} out"
+            )
+        return points_audit_answer(file.found, warnings=warnings)
+    report = handicaps.audit(file.found, scale=asked.scale)
+    other = None if asked.beside is None else other_chart(asked.beside, report.scale)
+    return replace(chart_audit_answer(report, warnings=warnings), drawn=(report, other))
+
+
+def other_chart(chart: str, scale: Scale) -> handicaps.ChartAudit:
+    """Return the audit of the chart beside, on the same scale if it was made for about that."""
+    draft = find_chart_file(chart).found
+    if not isinstance(draft, handicaps.ChartDraft):
+        refuse("{beside} names a chart by skill level, which has no rating differences to plot")
+    on_same = handicaps.audit(draft, scale=scale)
+    if on_same.best_fit is None:
+        return on_same
+    own = on_same.best_fit.points_per_doubling
+    is_near = abs(own / scale.points_per_doubling - 1.0) < _DRAWN_TOGETHER
+    return on_same if is_near else handicaps.audit(draft)

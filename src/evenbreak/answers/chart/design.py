@@ -10,6 +10,7 @@ from evenbreak.answers.chart.show import chart_rows
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Table
+from evenbreak.answers.kit.systems import chart_by_difference
 from evenbreak.answers.kit.wording import count_of, percent, race, range_words
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
@@ -17,7 +18,9 @@ from evenbreak.handicaps.charts.design import races_to_try
 from evenbreak.handicaps.charts.fair import RaceLimits
 from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, measure_chart
 from evenbreak.handicaps.charts.race_grid import games_quantiles, mean_games_grid, win_grid
+from evenbreak.questions.charts import ChartDesign
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import Parameter, Sentence, say
 
 MOST_LISTED = 10
 """The most ranges with other races that a person is shown for one chart."""
@@ -243,3 +246,34 @@ def _without_wishes(task: DesignTask) -> Iterator[tuple[str, Chart]]:
             shorter = replace(task.limits, games=(low, most))
             chart, _ = replace(task, limits=shorter).design()
             yield f"matches of at most {count_of(most, 'game')}", chart
+
+
+_FIELDS = {"rows": "most_rows", "weaker_least": "least", "stronger_least": "least"}
+"""What a parameter of a design is called in the question."""
+
+
+def design(asked: ChartDesign) -> Answer:
+    """Return the fairest chart."""
+    charts = tuple(chart_by_difference(name, "beside") for name in asked.beside)
+    try:
+        task = DesignTask(
+            asked.scale,
+            RaceLimits(asked.games, *asked.least, asked.games_p90),
+            target=asked.target,
+            tilt=asked.tilt,
+            up_to=asked.up_to,
+            rows=asked.most_rows,
+            beside=charts,
+        )
+        return chart_design_answer(task, task.design())
+    except InputError as error:
+        raise InputError(_of_the_question(error.sentence)) from error
+
+
+def _of_the_question(sentence: Sentence) -> Sentence:
+    """Return what is wrong with a design, with its parameters as the question calls them."""
+    values = {name: Parameter(field) for name, field in _FIELDS.items()}
+    for name, value in sentence.values.items():
+        is_one = isinstance(value, Parameter)
+        values[name] = Parameter(_FIELDS.get(value, value)) if is_one else value
+    return say(sentence.template, **values)

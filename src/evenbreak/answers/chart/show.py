@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of, in_files, quantities_of
@@ -11,18 +11,17 @@ from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
 from evenbreak.answers.kit.wording import count_of, percent, race, range_words
 from evenbreak.errors import InputError
-from evenbreak.files.charts import chart_table
+from evenbreak.files.charts import chart_table, find_chart_file
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import EVERY_CHART, named_chart
 from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
+from evenbreak.handicaps.systems.team_handicap import TeamHandicap, team_handicap
 from evenbreak.plugins import Kind, added
+from evenbreak.questions.charts import ChartShow, ChartTeam
 from evenbreak.ratings.scale import Scale
 
-if TYPE_CHECKING:
-    from evenbreak.handicaps.systems.team_handicap import TeamHandicap
 
-
-def chart_list_answer() -> Answer:
+def chart_list_answer(_: object = None) -> Answer:
     """Return the charts that there are, ours and those of installed packages, with their races.
 
     >>> [row["chart"] for row in chart_list_answer().to_dict()["charts"]][-1]
@@ -56,7 +55,7 @@ def chart_list_answer() -> Answer:
     )
 
 
-def system_list_answer() -> Answer:
+def system_list_answer(_: object = None) -> Answer:
     """Return the handicap systems that there are, ours and those of installed packages.
 
     >>> system_list_answer().to_dict()["systems"][0]["name"]
@@ -237,4 +236,29 @@ def _how(found: TeamHandicap, match_ups: int) -> str:
         f"{text} That is rounded down and then multiplied by the games of a match-up, "
         f"{found.games}. {found.even_points:.2f} points would make the round even, so the rounding "
         f"keeps {percent(found.given_away)} of them from the weaker team."
+    )
+
+
+def show(asked: ChartShow) -> Answer:
+    """Return the races of a chart."""
+    file = find_chart_file(asked.chart)
+    return chart_show_answer(file.chart, warnings=file.warnings)
+
+
+def team(asked: ChartTeam) -> Answer:
+    """Return the points that the weaker of two teams gets."""
+    handicap = team_handicap(
+        asked.average_1,
+        asked.average_2,
+        match_ups=asked.match_ups,
+        games=asked.single_games,
+        points_won=asked.won,
+        points_lost=asked.lost,
+        scale=asked.scale,
+    )
+    return team_handicap_answer(
+        (asked.average_1, asked.average_2),
+        handicap,
+        match_ups=asked.match_ups,
+        scale=asked.scale,
     )

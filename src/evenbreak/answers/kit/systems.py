@@ -150,6 +150,15 @@ def refuse_levels(file: files.RosterFile | files.SeasonPlayers, remedy: str = SA
         )
 
 
+def scale_of_list(file: files.RosterFile, stated: Scale | None, remedy: str = SAY_LEVELS) -> Scale:
+    """Return the scale of a list: stated, its own, or that of its ratings; refuse one of levels."""
+    if stated is not None:
+        refuse_other_scale(file, stated, Parameter("scale"), LEAVE_OUT, stated=True)
+    else:
+        refuse_levels(file, remedy)
+    return file.scale_by(stated, SAY_WHICH)
+
+
 def chart_by_difference(name: str, parameter: str = "chart") -> handicaps.Chart:
     """Return a chart of rating differences, or refuse one of skill levels."""
     found = files.find_chart(name)

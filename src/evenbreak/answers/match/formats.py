@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 from evenbreak.answers.kit.answer import Answer
@@ -16,6 +17,7 @@ from evenbreak.matches.crossings import Crossing, Crossings
 from evenbreak.matches.formats import MatchFormat
 from evenbreak.matches.odds import MatchOdds
 from evenbreak.practice.breaks import BreakFormatValue, compare_break_formats
+from evenbreak.questions.games import Breaks
 from evenbreak.words import listed
 
 SAME = 1e-12
@@ -264,3 +266,11 @@ def _in_a_session(best: BreakFormatValue) -> str:
         f"Over 100 racks with {best.name} breaks, A comes out {ahead if points else 'even'} on "
         f"average, give or take {10 * best.sd_points:,.0f}."
     )
+
+
+def breaks(asked: Breaks) -> Answer:
+    """Return break formats side by side."""
+    rack = Rack(asked.p1 or 0.0, asked.p2 or 0.0)
+    first = "ab".index(asked.first_break) + 1
+    answer = breaks_answer(rack, win=asked.win, lose=asked.lose, first_breaker=first, via=asked.via)
+    return replace(answer, drawn=(rack, first))

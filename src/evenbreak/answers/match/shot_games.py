@@ -1,6 +1,8 @@
 """Games shot by shot: which shot to take in one-ball, and a match of straight pool."""
 
 from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 from evenbreak.answers.kit.answer import Answer
@@ -23,6 +25,8 @@ from evenbreak.practice.shots import (
     compare_shots,
     critical_p2,
 )
+from evenbreak.questions.games import OneBall, Straight
+from evenbreak.stats.runs import shot_chance
 from evenbreak.words import listed
 
 SAME = 1e-12
@@ -256,3 +260,33 @@ def _in_words(match: StraightPool, odds: StraightPoolOdds, spot: Spot) -> str:
         f"{text}For an even match, {' AB'[spot.weaker]} should play to "
         f"{count_of(spot.points, 'point')}: A then wins {percent(spot.p_win_1)} of the time."
     )
+
+
+def oneball(asked: OneBall) -> Answer:
+    """Return the best shot."""
+    shots = [
+        ShotChoice(str(number), shot[0], shot[1], shot[2:])
+        for number, shot in enumerate(asked.shots, start=1)
+    ]
+    return replace(oneball_answer(shots, look_ahead=asked.ahead, via=asked.via), drawn=shots)
+
+
+def straight(asked: Straight) -> Answer:
+    """Return the odds of a match of straight pool."""
+    safety, averages = asked.safety, asked.averages
+    shots: list[Fraction | float] = (
+        [shot_chance(average, safety) for average in averages]
+        if averages
+        else [asked.p1 or 0.0, asked.p2 or 0.0]
+    )
+    if asked.plot is not None and (not any(shots) or not safety):
+        asked.refuse("nobody ever makes a ball, so there is nothing to draw; leave {plot} out")
+    match = StraightPool(
+        *asked.points,
+        *shots,
+        safety_1=safety,
+        safety_2=safety,
+        first="ab".index(asked.first) + 1,
+    )
+    answer = straight_answer(match, (averages[0], averages[1]) if averages else None)
+    return replace(answer, drawn=match)

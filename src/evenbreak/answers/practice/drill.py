@@ -1,8 +1,10 @@
 """Where a progressive drill settles, and which level to practise."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 
+from evenbreak import files, games, practice
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.by_way import by_way, luck_words
 from evenbreak.answers.kit.columns import columns_of, quantities_of
@@ -13,6 +15,7 @@ from evenbreak.files.practice import DrillLogFile
 from evenbreak.practice.drills import MORE, DrillStatistics, drill_statistics
 from evenbreak.practice.log_analysis import LogAnalysis
 from evenbreak.practice.log_tests import PlayedAgainTest
+from evenbreak.questions.practice import EIGHT_BALL_LEVELS, DrillPlayed
 from evenbreak.stats.summary import Distribution
 
 
@@ -328,3 +331,42 @@ def _often(difference: float) -> str:
         return "as often"
     many = count_of(abs(hundredths), "time")
     return f"{many} in 100 {'more' if hundredths > 0 else 'less'} often"
+
+
+NINE_BALL_LEVELS = 9
+
+MOST_DRAWS = 20_000_000
+"""The most attempts simulated for a test, so that a long log takes seconds."""
+
+
+def drill(asked: DrillPlayed) -> Answer:
+    """Return where a drill settles."""
+    if asked.log is not None:
+        return _drill_log(asked, asked.log)
+    if asked.p is None:
+        played = games.Drill(asked.success or ())
+        description = "A drill with the given chance of success at each level"
+    elif asked.game == "8-ball":
+        played = games.Drill.eight_ball(asked.p, asked.levels or EIGHT_BALL_LEVELS)
+        description = (
+            "The progressive 8-ball drill: i balls of each group and the 8-ball at level i, which "
+            f"takes i good shots, each with chance {asked.p:g}"
+        )
+    else:
+        played = games.Drill.progressive(asked.p, asked.levels or NINE_BALL_LEVELS)
+        description = (
+            f"A drill in which level i takes i - 1 good shots, each with chance {asked.p:g}"
+        )
+    statistics = drill_statistics(played, via=asked.via)
+    return replace(drill_answer(statistics, description, via=asked.via), drawn=statistics)
+
+
+def _drill_log(asked: DrillPlayed, path: str) -> Answer:
+    import numpy as np
+
+    seed = 1 if asked.seed is None else asked.seed
+    file = files.read_drill_log(path, levels=asked.levels, drill=asked.drill)
+    replicas = min(1999, max(199, MOST_DRAWS // len(file.log)))
+    analysis = practice.analyse_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
+    answer = drill_log_answer(file, analysis, seed=seed, levels_given=asked.levels is not None)
+    return replace(answer, drawn=analysis)

@@ -1,14 +1,15 @@
 """What a player runs in an inning, or scores in several."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import quantities_of, quantity_of
 from evenbreak.answers.kit.parts import Quantities
 from evenbreak.answers.kit.wording import percent
+from evenbreak.questions.practice import Runs
 from evenbreak.stats.innings import InningsScore
-from evenbreak.stats.runs import RunLength
+from evenbreak.stats.runs import RunLength, shot_chance
 
 FAIR = 0.005
 """A bet that wins with a chance as near to 1/2 is fair at even money."""
@@ -138,3 +139,17 @@ def _heading(law: RunLength | InningsScore, innings: int) -> str:
     first = "" if safety == 1 else f", the first one of an inning with {float(law.p) * safety:.4g}"
     played = "The run in one inning" if innings == 1 else f"The score of {innings} innings"
     return f"{played}, for a player who makes a shot with probability {float(law.p):.4g}{first}"
+
+
+def runs(asked: Runs) -> Answer:
+    """Return how long runs get."""
+    law, ranges = _law(asked), Asked(asked.at_least, asked.between, asked.over)
+    return replace(runs_answer(law, ranges), drawn=(law, list(ranges.ranges.values())))
+
+
+def _law(asked: Runs) -> RunLength | InningsScore:
+    p, safety = asked.p, asked.safety
+    chance = shot_chance(asked.mean or 0.0, safety) if p is None else p
+    if asked.innings == 1:
+        return RunLength(chance, safety)
+    return InningsScore(chance, asked.innings, safety)

@@ -1,14 +1,27 @@
 """A log of single shots: which to practice next, and whether the player got better."""
 
 import math
+from dataclasses import replace
 
+from evenbreak import practice
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.wording import count_of, how_often, luck_words, percent
-from evenbreak.answers.practice.practice import LUCK
-from evenbreak.files.practice import ShotsFile
+from evenbreak.answers.practice.practice import (
+    LUCK,
+    before_and_after_answer,
+    getting_better_answer,
+    interval_of,
+    new_score_answer,
+)
+from evenbreak.errors import DataError
+from evenbreak.fields.question import worded
+from evenbreak.files.practice import ScoresFile, ShotsFile, read_practice, read_scores
 from evenbreak.practice.single_shots import Change, ShotAnalysis
+from evenbreak.questions.practice import Scores
+from evenbreak.stats.compare import compare
+from evenbreak.words import Parameter
 
 _CLEAR = 0.5
 """From this chance on a shot is the weakest; below, some are too close to tell."""
@@ -128,3 +141,60 @@ def _table(found: ShotAnalysis) -> Table:
             [name, one.made, one.tried, one.chance, one.low, one.high, one.p_weakest, *later]
         )
     return Table("shots", columns, rows)
+
+
+def scores(asked: Scores) -> Answer:
+    """Return whether a player is getting better."""
+    file = read_practice(asked.scores, drill=asked.drill, dates=asked.dates)
+    if isinstance(file, ShotsFile):
+        return _shots(asked, file)
+    if asked.versus is None:
+        return _one_list(asked, file)
+    return _versus(asked, file, read_scores(asked.versus, drill=asked.drill, dates=asked.dates))
+
+
+def _shots(asked: Scores, file: ShotsFile) -> Answer:
+    for name in ("new", "versus"):
+        if getattr(asked, name) is not None:
+            asked.refuse(
+                "{part} is for scores, and {source} is a log of single shots; leave it out",
+                part=Parameter(name),
+                source=file.source,
+            )
+    found = practice.analyse_shots(file.log, confidence=asked.confidence)
+    answer = shots_answer(file, found, confidence=asked.confidence)
+    return replace(answer, drawn=(file, found))
+
+
+def _one_list(asked: Scores, file: ScoresFile) -> Answer:
+    own = interval_of(file, asked.confidence)
+    if asked.new is not None and own is None:
+        raise DataError(
+            [
+                worded(
+                    "{file}: {new} needs at least two different scores; add some", file=file.source
+                )
+            ]
+        )
+    if asked.new is not None:
+        answer = new_score_answer(file, asked.new, confidence=asked.confidence)
+    else:
+        answer = getting_better_answer(file, confidence=asked.confidence)
+    return replace(answer, drawn=file)
+
+
+def _versus(asked: Scores, before: ScoresFile, after: ScoresFile) -> Answer:
+    short = [
+        worded(
+            "{file}: has {scores}; a comparison needs two or more"
+            + (", but {new} takes a single new one" if file is after else ""),
+            file=file.source,
+            scores=count_of(len(file.scores), "score"),
+        )
+        for file in (before, after)
+        if len(file.scores) < 2
+    ]
+    if short:
+        raise DataError(short)
+    change = compare(before.scores, after.scores, confidence=asked.confidence)
+    return replace(before_and_after_answer(before, after, change), drawn=(before, after))

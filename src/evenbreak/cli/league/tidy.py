@@ -17,7 +17,7 @@ from evenbreak.files.league import is_league
 from evenbreak.files.league.league_file import LeagueFile, Source, read_league
 from evenbreak.files.league.sources import LeagueResults, NameDoubt, league_results
 from evenbreak.questions.of_league import text_of
-from evenbreak.questions.tidy import LeagueTidy
+from evenbreak.questions.tables import LeagueTidy
 
 
 @command_of(LeagueTidy, "tidy")

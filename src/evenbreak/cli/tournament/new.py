@@ -23,13 +23,11 @@ def command(asked: NewTournament) -> Answer:
     """Start a tournament."""
     from dataclasses import replace
 
-    import numpy as np
-
     from evenbreak.answers.tournament.time import venue_words
     from evenbreak.files.store.tournament import begin_beside, new_tournament
-    from evenbreak.tournaments.evening.events import Drawn, Entrant, Event
+    from evenbreak.tournaments.evening.events import Drawn, Event
     from evenbreak.tournaments.evening.fold import evening
-    from evenbreak.tournaments.evening.plan import opened
+    from evenbreak.tournaments.evening.plan import entrants_of, opened
 
     if asked.like is not None:
         return _like(asked, asked.like)
@@ -44,10 +42,7 @@ def command(asked: NewTournament) -> Answer:
     roster, lines = entered.roster, None
     if asked.seeding == "drawn":
         roster, _, lines = drawn_up(roster, asked.seeding, asked.seed)
-    errors = np.nan_to_num(roster.standard_error)
-    columns = (one.tolist() for one in (roster.rating, errors, roster.provisional))
-    entrants = tuple(Entrant(*one) for one in zip(roster.players, *columns, strict=True))
-    events: list[Event] = [Event(at, opened(plan, entrants))]
+    events: list[Event] = [Event(at, opened(plan, entrants_of(roster)))]
     if lines is not None:
         events.append(Event(at, Drawn(roster.players, tuple(lines))))
     state = evening(events)
@@ -157,6 +152,7 @@ def import_(asked: Import) -> Answer:
     from evenbreak.ratings.scale import DEFAULT_SCALE, SCALES
     from evenbreak.tournaments.evening.events import Entrant, Plan
     from evenbreak.tournaments.evening.fold import evening
+    from evenbreak.tournaments.evening.plan import entrants_of
 
     saved, scale, at = asked.saved, asked.scale, moment(asked.at)
     known: dict[str, Entrant] = {}
@@ -167,18 +163,9 @@ def import_(asked: Import) -> Answer:
         points, warnings = file.scale_by(scale, SAY_WHICH), [*file.warnings]
         filled = file.roster.with_starters(points.centre, points.points_per_doubling, points)
         warnings += filter(None, [games_words(file.roster, filled)])
-        errors = np.nan_to_num(filled.standard_error).tolist()
-        known = {
-            name: Entrant(name, rating, error, few)
-            for name, rating, error, few in zip(
-                file.roster.players,
-                file.roster.rating.tolist(),
-                errors,
-                file.roster.provisional.tolist(),
-                strict=True,
-            )
-            if np.isfinite(rating)
-        }
+        rated = np.isfinite(file.roster.rating)
+        found = zip(entrants_of(filled), rated, strict=True)
+        known = {one.name: one for one, is_rated in found if is_rated}
     plan = Plan(
         "imported",
         asked.race or 0,

@@ -9,12 +9,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from evenbreak import files, ratings, tournaments
 from evenbreak.answers.kit.scales import chart_doubts
 from evenbreak.answers.kit.systems import (
-    LEAVE_OUT,
     LEVELS_DOUBLE,
-    SAY_WHICH,
     chart_by_difference,
-    refuse_levels,
-    refuse_other_scale,
+    scale_of_list,
     with_starters,
 )
 from evenbreak.cli.kit.said import refuse
@@ -26,7 +23,7 @@ from evenbreak.questions.tournament import NewTournament, OfEntrants, Tournament
 from evenbreak.tournaments.evening.events import Plan
 from evenbreak.tournaments.evening.format import MOST_PLAYERS
 from evenbreak.tournaments.evening.plan import BYE, bracket_of, races_of
-from evenbreak.words import Parameter, Sentence, say
+from evenbreak.words import Sentence, say
 
 if TYPE_CHECKING:
     from evenbreak.answers.tournament.tournament import Tournament
@@ -151,11 +148,7 @@ def _scale(
     """Return the scale of the ratings, and what is doubtful about it."""
     from evenbreak.answers.kit.scales import far_doubts, league_doubts, starter_doubts
 
-    if stated is not None:
-        refuse_other_scale(file, stated, Parameter("scale"), LEAVE_OUT, stated=True)
-    else:
-        refuse_levels(file, LEVELS_DOUBLE)
-    scale = file.scale_by(stated, SAY_WHICH)
+    scale = scale_of_list(file, stated, LEVELS_DOUBLE)
     warnings = []
     if file.scale is None:
         remedy = "if they are on another scale, name it with --scale"

@@ -8,8 +8,11 @@ from dataclasses import asdict, replace
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
 from evenbreak.errors import InputError
 from evenbreak.fields.question import declared
+from evenbreak.ratings.roster import Roster
 from evenbreak.tournaments.brackets.bracket import Bracket, Slot, Source
 from evenbreak.tournaments.brackets.double import (
     double_elimination,
@@ -60,6 +63,17 @@ TO_DRAW = "to draw"
 
 Drawn = Mapping[str, tuple[str | None, ...]]
 """What has been drawn, by stage: the players of a round in pairs, or where qualifiers come from."""
+
+
+def entrants_of(roster: Roster) -> tuple[Entrant, ...]:
+    """Return the players of a list; one whose error it does not state is rated exactly.
+
+    >>> entrants_of(Roster(["Ann"], [600.0]))
+    (Entrant(name='Ann', rating=600.0, standard_error=0.0, provisional=False),)
+    """
+    errors = np.nan_to_num(roster.standard_error)
+    columns = (one.tolist() for one in (roster.rating, errors, roster.provisional))
+    return tuple(Entrant(*one) for one in zip(roster.players, *columns, strict=True))
 
 
 def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:

@@ -42,7 +42,7 @@ from evenbreak.tournaments.evening.edition import next_edition, tables_text
 from evenbreak.tournaments.evening.events import Entrant, Event, Plan
 from evenbreak.tournaments.evening.format import LONGEST_RACE, Format
 from evenbreak.tournaments.evening.later_draws import can_draw
-from evenbreak.tournaments.evening.plan import FORMATS, opened
+from evenbreak.tournaments.evening.plan import FORMATS, entrants_of, opened
 from evenbreak.tournaments.money.payouts import PAYOUTS
 from evenbreak.web.defaults import of_league
 from evenbreak.web.forms import (
@@ -421,13 +421,12 @@ def _entrants(
     filled: Roster, league: League | None, listed: Collection[str]
 ) -> tuple[Entrant, ...]:
     """Return the entrants, those of the league with its ratings, unless the list's count."""
-    errors = np.nan_to_num(filled.standard_error)
-    columns = filled.rating.tolist(), errors.tolist(), filled.provisional.tolist()
-    rows = zip(filled.players, *columns, strict=True)
-    return tuple(
-        Entrant(*((league.known(one[0]) if league and one[0] not in listed else None) or one))
-        for one in rows
-    )
+
+    def known(one: Entrant) -> Entrant:
+        found = league.known(one.name) if league and one.name not in listed else None
+        return Entrant(*found) if found else one
+
+    return tuple(map(known, entrants_of(filled)))
 
 
 ROUTES = [
