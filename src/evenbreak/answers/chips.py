@@ -168,66 +168,34 @@ def chip_odds_answer(
     return Answer(heading, parts, warnings=list(warnings), csv=table)
 
 
-def chip_audit_answer(
-    field: ChipField, chart: ChipChart, *, seed: int = 0, warnings: Sequence[str] = ()
-) -> Answer:
-    """Return whom a chip chart favours: over a tournament, and between the last two players.
-
-    Parameters
-    ----------
-    field
-        the players of the tournament.
-    chart
-        the chips by rating.
-    seed
-        of the simulation.
-    warnings
-        about the question.
-    """
-    found = chip_fairness(field.ratings, chart, scale=field.scale, tables=field.tables, seed=seed)
+def chip_audit(asked: questions.ChipAudit) -> Answer:
+    """Return whom a chip chart favours: over a tournament, and between the last two players."""
+    field, warnings = _field_of(asked, asked.entrants)
+    chart = chip_chart_of(asked.chart)
+    found = chip_fairness(
+        field.ratings, chart, scale=field.scale, tables=field.tables, seed=asked.seed
+    )
     by_row = _row_table(chart, found)
     between = _heads_up_table(chart, field.scale)
     parts: list[Part] = [_favour_words(field, found), _fairness(found), by_row, between]
     parts.append(_luck_words(found.odds.runs, found.odds.error[:, 0]))
     if chart.source:
         parts.append(f"Chart: {chart.source}.")
-    heading = f"{chart.name}: {field.words}"
-    return Answer(heading, parts, warnings=list(warnings), csv=by_row)
+    return Answer(f"{chart.name}: {field.words}", parts, warnings=warnings, csv=by_row)
 
 
-def chip_design_answer(
-    field: ChipField,
-    *,
-    bands: Sequence[float] | None = None,
-    fewest: int = 2,
-    most: int = 10,
-    seed: int = 0,
-    warnings: Sequence[str] = (),
-) -> Answer:
-    """Return the chip chart that makes a tournament as even as a search can.
-
-    Parameters
-    ----------
-    field
-        the players of the tournament.
-    bands
-        where the rows of the chart begin; None: a row for each half doubling of the odds.
-    fewest, most
-        the fewest and the most chips of a player.
-    seed
-        of the simulation.
-    warnings
-        about the question.
-    """
-    starts = _bands(field) if bands is None else sorted(bands)
+def chip_design(asked: questions.ChipDesign) -> Answer:
+    """Return the chip chart that makes a tournament as even as a search can."""
+    field, warnings = _field_of(asked, asked.entrants)
+    starts = _bands(field) if asked.bands is None else sorted(asked.bands)
     found = fairest_chips(
         field.ratings,
         bands=starts,
-        fewest=fewest,
-        most=most,
+        fewest=asked.fewest,
+        most=asked.most,
         scale=field.scale,
         tables=field.tables,
-        seed=seed,
+        seed=asked.seed,
     )
     chart = _chart_of(field.ratings, found, starts)
     rows = [[_start(row), row.chips] for row in chart.rows]
@@ -235,8 +203,7 @@ def chip_design_answer(
     table = Table("chart", columns, rows, title="The chart")
     parts: list[Part] = [_favour_words(field, found), _fairness(found), table]
     parts += [_row_table(chart, found), _luck_words(found.odds.runs, found.odds.error[:, 0])]
-    heading = f"A fairer chip chart: {field.words}"
-    return Answer(heading, parts, warnings=list(warnings), csv=table)
+    return Answer(f"A fairer chip chart: {field.words}", parts, warnings=warnings, csv=table)
 
 
 def _start(row: ChipRow) -> float | None:
@@ -320,26 +287,6 @@ def chip_odds(asked: questions.ChipOdds) -> Answer:
     field, warnings = _field_of(asked, asked.entrants)
     chart = None if asked.chips is None else chip_chart_of(asked.chips)
     return chip_odds_answer(field, chart, asked.left, seed=asked.seed, warnings=warnings)
-
-
-def chip_audit(asked: questions.ChipAudit) -> Answer:
-    """Return whom a chip chart favours."""
-    field, warnings = _field_of(asked, asked.entrants)
-    chart = chip_chart_of(asked.chart)
-    return chip_audit_answer(field, chart, seed=asked.seed, warnings=warnings)
-
-
-def chip_design(asked: questions.ChipDesign) -> Answer:
-    """Return a fair chip chart."""
-    field, warnings = _field_of(asked, asked.entrants)
-    return chip_design_answer(
-        field,
-        bands=asked.bands,
-        fewest=asked.fewest,
-        most=asked.most,
-        seed=asked.seed,
-        warnings=warnings,
-    )
 
 
 def _field_of(asked: questions.ChipField, entrants: str | None) -> tuple[ChipField, list[str]]:

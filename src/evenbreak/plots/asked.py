@@ -5,13 +5,31 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from evenbreak.answers.ladder.comparison import NEWCOMERS, LadderComparison
+from evenbreak.answers.ladder.ladder import ladder_title
+from evenbreak.answers.practice.practice import interval_of, trend_line_of
+from evenbreak.files.practice import ScoresFile
+from evenbreak.plots.charts import draw_chart
+from evenbreak.plots.contours import breaks_figure, draw_shots
+from evenbreak.plots.ladders import SystemPoint, draw_systems, ladder_figure
+from evenbreak.plots.league import draw_pay
+from evenbreak.plots.matches import course_figure, draw_formats
+from evenbreak.plots.practice import (
+    draw_drill,
+    draw_log,
+    draw_practice_shots,
+    draw_score,
+    draw_scores,
+    draw_spot,
+    draw_two_lists,
+)
+from evenbreak.plots.traced_shot import shot_on_table
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from evenbreak.answers.kit.answer import Answer
-    from evenbreak.answers.ladder.comparison import LadderComparison
-    from evenbreak.plots.ladders import SystemPoint
 
 Picture = Callable[[Any, "Answer"], "Axes | Figure"]
 
@@ -29,16 +47,7 @@ def picture_of(command: str, asked: Any, answer: Answer) -> Axes | Figure:
     return _PICTURES[command](asked, answer)
 
 
-def _live(asked: Any, answer: Answer) -> Axes | Figure:  # noqa: ARG001
-    from evenbreak.plots.matches import course_figure
-
-    players, odds = answer.drawn
-    return course_figure(odds, title=answer.heading, names=players.names)
-
-
-def _compare(asked: Any, answer: Answer) -> Axes | Figure:  # noqa: ARG001
-    from evenbreak.plots.matches import draw_formats
-
+def _compare(_: Any, answer: Answer) -> Axes | Figure:
     players, formats, line, pairs = answer.drawn
     return draw_formats(
         formats,
@@ -50,39 +59,10 @@ def _compare(asked: Any, answer: Answer) -> Axes | Figure:  # noqa: ARG001
     )
 
 
-def _breaks(asked: Any, answer: Answer) -> Axes | Figure:  # noqa: ARG001
-    from evenbreak.plots.contours import breaks_figure
-
-    rack, first = answer.drawn
-    return breaks_figure(rack, first_breaker=first)
-
-
-def _oneball(asked: Any, answer: Answer) -> Axes | Figure:
-    from evenbreak.plots import draw_shots
-
-    return draw_shots(answer.drawn, look_ahead=asked.ahead)
-
-
-def _straight(asked: Any, answer: Answer) -> Axes | Figure:  # noqa: ARG001
-    from evenbreak.plots.practice import draw_spot
-
-    return draw_spot(answer.drawn)
-
-
-def _chart(asked: Any, answer: Answer) -> Axes | Figure:  # noqa: ARG001
-    from evenbreak.plots.charts import draw_chart
-
-    return draw_chart(*answer.drawn)
-
-
 def _ladder(asked: Any, answer: Answer) -> Axes | Figure:
-    from evenbreak.plots.ladders import draw_systems, ladder_figure
-
     if asked.compare:
         comparison = answer.drawn
         return draw_systems(_points_of(comparison), chart=comparison.chart.name)
-    from evenbreak.answers.ladder.ladder import ladder_title
-
     findings = answer.drawn
     return ladder_figure(
         findings.law,
@@ -94,9 +74,6 @@ def _ladder(asked: Any, answer: Answer) -> Axes | Figure:
 
 
 def _points_of(comparison: LadderComparison) -> list[SystemPoint]:
-    from evenbreak.answers.ladder.comparison import NEWCOMERS
-    from evenbreak.plots.ladders import SystemPoint
-
     points = [
         SystemPoint(row.system, 100.0 * row.sd_doublings, row.settling_mean, best)
         for row, best in comparison.steps
@@ -109,23 +86,7 @@ def _points_of(comparison: LadderComparison) -> list[SystemPoint]:
     return points
 
 
-def _sandbag_pay(asked: Any, answer: Answer) -> Axes | Figure:  # noqa: ARG001
-    from evenbreak.plots.league import draw_pay
-
-    return draw_pay(answer.drawn)
-
-
-def _drill(asked: Any, answer: Answer) -> Axes | Figure:
-    from evenbreak.plots.practice import draw_drill, draw_log
-
-    return draw_drill(answer.drawn) if asked.log is None else draw_log(answer.drawn)
-
-
 def _practice(asked: Any, answer: Answer) -> Axes | Figure:
-    from evenbreak.answers.practice.practice import interval_of, trend_line_of
-    from evenbreak.files.practice import ScoresFile
-    from evenbreak.plots.practice import draw_practice_shots, draw_scores, draw_two_lists
-
     confidence = asked.confidence
     if isinstance(answer.drawn, ScoresFile):
         file = answer.drawn
@@ -138,30 +99,19 @@ def _practice(asked: Any, answer: Answer) -> Axes | Figure:
     return draw_two_lists(one.scores, other.scores, ("before", "after"), intervals)
 
 
-def _runs(asked: Any, answer: Answer) -> Axes | Figure:
-    from evenbreak.plots.practice import draw_score
-
-    law, shaded = answer.drawn
-    return draw_score(law, asked.innings, asked=shaded)
-
-
-def _shot(asked: Any, answer: Answer) -> Axes | Figure:  # noqa: ARG001
-    from evenbreak.plots import shot_on_table
-
-    return shot_on_table(answer.drawn)
-
-
 _PICTURES: dict[str, Picture] = {
-    "live": _live,
+    "live": lambda _, answer: course_figure(
+        answer.drawn[1], title=answer.heading, names=answer.drawn[0].names
+    ),
     "compare": _compare,
-    "breaks": _breaks,
-    "oneball": _oneball,
-    "straight": _straight,
-    "chart audit": _chart,
+    "breaks": lambda _, answer: breaks_figure(answer.drawn[0], first_breaker=answer.drawn[1]),
+    "oneball": lambda asked, answer: draw_shots(answer.drawn, look_ahead=asked.ahead),
+    "straight": lambda _, answer: draw_spot(answer.drawn),
+    "chart audit": lambda _, answer: draw_chart(*answer.drawn),
     "ladder": _ladder,
-    "sandbag pay": _sandbag_pay,
-    "drill": _drill,
+    "sandbag pay": lambda _, answer: draw_pay(answer.drawn),
+    "drill": lambda asked, answer: (draw_drill if asked.log is None else draw_log)(answer.drawn),
     "practice": _practice,
-    "runs": _runs,
-    "physics shot": _shot,
+    "runs": lambda asked, answer: draw_score(answer.drawn[0], asked.innings, asked=answer.drawn[1]),
+    "physics shot": lambda _, answer: shot_on_table(answer.drawn),
 }

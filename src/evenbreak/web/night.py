@@ -318,10 +318,7 @@ def win_chance(
 
 def score_of(state: Evening, match: str) -> tuple[int, int] | None:
     """Return the games so far in a match in play; None: none was entered."""
-    if match not in state.live:
-        return None
-    what = state.live[match].what
-    return what.score if what.players == state.pair(match) else what.score[::-1]
+    return state.live[match].of(state.pair(match)) if match in state.live else None
 
 
 def means_of(night: Outlook) -> dict[str, float]:

@@ -132,9 +132,7 @@ def called_words(before: Evening, after: Evening) -> list[Sentence]:
 
 def _live(state: Evening, match: str) -> str:
     """Return the score of a match in play, in the order of its players."""
-    games = state.live[match].what
-    score = games.score if games.players == state.pair(match) else games.score[::-1]
-    return "{}-{}".format(*score)
+    return "{}-{}".format(*state.live[match].of(state.pair(match)))
 
 
 def and_words(names: Sequence[str]) -> Sentence | str:

@@ -151,9 +151,10 @@ def match_rows(state: Evening) -> list[MatchRow]:
             state_now = "not needed"
         elif result is not None:
             state_now = "forfeit" if result.forfeit else "over"
-            score = None if result.forfeit else _in_order(pair, result.players, result.score)
+            if not result.forfeit:
+                score = result.score if pair == result.players else result.score[::-1]
         elif live is not None:
-            state_now, score = "playing", _in_order(pair, live.what.players, live.what.score)
+            state_now, score = "playing", live.of(pair)
         elif name in state.on_tables:
             state_now = "playing"
         table, called = _call(state, name, pair, over=result is not None)
@@ -186,12 +187,6 @@ def _both(games: tuple[int, int] | None) -> tuple[int | None, int | None]:
 def _named(state: Evening, seats: tuple[int | None, int | None]) -> tuple[str | None, str | None]:
     one, other = (state.order[k] if k is not None and k != NOBODY else None for k in seats)
     return one, other
-
-
-def _in_order(
-    pair: tuple[str | None, str | None], players: tuple[str, str], score: tuple[int, int]
-) -> tuple[int, int]:
-    return score if pair == players else (score[1], score[0])
 
 
 def _call(

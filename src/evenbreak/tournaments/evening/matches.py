@@ -53,6 +53,10 @@ class LiveScore(NamedTuple):
     what: Scored
     at: str
 
+    def of(self, pair: tuple[str | None, ...]) -> tuple[int, int]:
+        """Return it in the order of its players."""
+        return self.what.score if self.what.players == pair else self.what.score[::-1]
+
 
 class Matches:
     """What has happened in the matches so far."""

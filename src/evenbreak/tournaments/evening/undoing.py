@@ -286,8 +286,7 @@ def _no_longer_played(before: Evening, after: Evening, about: set[str]) -> Itera
         if name in before.on_tables and not (ended or _plays(on.get(name), now)):
             table = before.on_tables[name].call.table
         if name in before.live and not _plays(live.get(name), now):
-            games = before.live[name].what
-            score = games.score if games.players == pair else games.score[::-1]
+            score = before.live[name].of(pair)
         if table is not None or (score is not None and any(score)):
             yield Loss(name, pair, table, score)
 
