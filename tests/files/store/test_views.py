@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.demo import write_demo_evening
+from evenbreak.files.store import evening_file
 from evenbreak.files.store.tournament import (
     add_events,
     begin_beside,
@@ -168,6 +169,57 @@ def test_an_entry_of_an_earlier_version_shows_until_the_next(tmp_path):
     assert "New" in [row["name"] for row in selected(path, "SELECT name FROM players")]
     delete_tournament(path)
     assert selected(path, "SELECT * FROM events") == []
+
+
+FAILING = {
+    **{name: [f"DROP VIEW {name}", f"CREATE TABLE {name} (a)"] for name in VIEWS[::2]},
+    **{name: [f"DROP VIEW {name}", f"CREATE VIEW {name} AS SELECT 7 AS a"] for name in VIEWS[1::2]},
+    "in capitals": ["DROP VIEW players", "CREATE VIEW Players AS SELECT event FROM players_rows"],
+    "rows": ["DROP TABLE matches_rows", "CREATE TABLE matches_rows (a)"],
+    "trigger": [
+        "CREATE TRIGGER own AFTER INSERT ON players_rows BEGIN SELECT RAISE(ABORT, 'no'); END"
+    ],
+}
+
+
+@pytest.mark.parametrize("how", FAILING)
+def test_views_that_cannot_be_written_refuse_no_entry_and_nothing_of_others_is_lost(
+    how, tmp_path, caplog
+):
+    path = tmp_path / "tonight.db"
+    begun(path, "single", 4)
+    with closing(sqlite3.connect(path)) as base:
+        for statement in FAILING[how]:
+            base.execute(statement)
+        asked = "SELECT name, sql FROM sqlite_master"
+        before = base.execute(asked).fetchall()
+        enter(path, lambda state: [moves.late(state, Entrant("New", 500.0))])
+        keep_prizes(path, PrizeMoney(20.0, payout="50/30/20"))
+        renew_views(path)
+        assert "New" in read_tournament(path).entrants
+        after = base.execute(asked).fetchall()
+        assert {*before} <= {*after}
+        assert "are left as they were" in caplog.text
+        known = "SELECT MAX(entry) FROM events_rows"
+        assert base.execute(known).fetchone() == (1,)  # all of them, so that they fit together
+        delete_tournament(path)
+
+
+def test_a_file_that_can_only_be_read_is_shown_with_the_views_it_has(tmp_path, monkeypatch):
+    path = tmp_path / "tonight.db"
+    begun(path, "single", 4)
+    with closing(sqlite3.connect(path)) as base:
+        base.execute("DROP VIEW players")
+
+    def only_read(place: Path, *_: object) -> sqlite3.Connection:
+        where = f"{place.absolute().as_uri()}?mode=ro"
+        return sqlite3.connect(where, uri=True, isolation_level=None)
+
+    monkeypatch.setattr(evening_file, "_connection", only_read)
+    renew_views(path)
+    assert list(read_tournament(path).entrants) == ["P0", "P1", "P2", "P3"]
+    with pytest.raises(EvenbreakError, match="can only be read"):
+        enter(path, lambda state: [moves.drop(state, "P0")])
 
 
 @pytest.mark.parametrize("name", ["tournament", "chips", "swiss", "groups"])

@@ -20,7 +20,7 @@ from evenbreak.files.store.evening_file import begin, changing, is_there, opened
 from evenbreak.files.store.formats import TEAM_NIGHT, TOURNAMENT, bring_up_to_date
 from evenbreak.files.store.log import Rules, TakenBeforeError, add, entries, tournaments, was_taken
 from evenbreak.files.store.prizes import write_prizes
-from evenbreak.files.store.views import are_current, renew
+from evenbreak.files.store.views import apart, are_current, renew
 from evenbreak.files.tables.problems import refusal
 from evenbreak.files.tables.rows import text_of
 from evenbreak.tournaments.clock.event_pace import EarlierNight
@@ -120,7 +120,8 @@ def renew_views(path: str | Path) -> None:
 
 
 def _renew(base: sqlite3.Connection, path: str | Path) -> None:
-    renew(base, path, night_of(path, _entered(base, path)))
+    with apart(base, path):
+        renew(base, path, night_of(path, _entered(base, path)))
 
 
 def _entered(base: sqlite3.Connection, path: str | Path) -> dict[int, list[Event]]:

@@ -6,13 +6,16 @@ after it. Only rows that have changed are written.
 
 The views stand on tables of their own, so that their columns have types, and nobody who looks at a
 view can change it. `events` says up to which entry they go: a file to which an earlier version has
-added entries is behind until the next entry of this one.
+added entries is behind until the next entry of this one. So is a file whose views cannot be
+written, say because a table of somebody else's has the name of one: no entry is refused for that.
 """
 
 from __future__ import annotations
 
+import logging
 import sqlite3
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple, get_args, get_type_hints
@@ -30,6 +33,7 @@ from evenbreak.tournaments.evening.listed import (
     standing_rows,
 )
 
+_LOG = logging.getLogger(__name__)
 _TYPES = {int: "INTEGER", bool: "INTEGER", float: "REAL", str: "TEXT"}
 
 
@@ -60,12 +64,19 @@ class _View(NamedTuple):
         """What makes the table and the view, by name."""
         types = get_type_hints(self.rows).items()
         columns = [f"{name} {_TYPES[(get_args(kind) or (kind,))[0]]}" for name, kind in types]
-        names = ", ".join(["event", *self.rows._fields])
+        names = ", ".join(self.rows._fields)
+        (table, of_table), (view, of_view) = self.begin.items()
         return {
-            self.table: f"CREATE TABLE {self.table} (event INTEGER, row INTEGER, "
-            f"{', '.join(columns)}, PRIMARY KEY (event, row)) WITHOUT ROWID",
-            self.name: f"CREATE VIEW {self.name} AS SELECT {names}{self.more} "  # noqa: S608
-            f"FROM {self.table} ORDER BY event, {self.order}",
+            table: f"{of_table}{', '.join(columns)}, PRIMARY KEY (event, row)) WITHOUT ROWID",
+            view: f"{of_view}{names}{self.more} FROM {table} ORDER BY event, {self.order}",
+        }
+
+    @property
+    def begin(self) -> dict[str, str]:
+        """How the statements begin in every version of this program, and in nobody else's file."""
+        return {
+            self.table: f"CREATE TABLE {self.table} (event INTEGER, row INTEGER, ",
+            self.name: f"CREATE VIEW {self.name} AS SELECT event, ",
         }
 
 
@@ -114,15 +125,37 @@ def renew(base: sqlite3.Connection, path: str | Path, night: Mapping[int, Evenin
     night
         the events of the night by their numbers; what the file has of others is removed.
     """
-    if not _are_there(base):
+    with apart(base, path):
+        if not _are_there(base):
+            _make(base)
         for view in _VIEWS:
-            base.execute(f"DROP VIEW IF EXISTS {view.name}")
-            base.execute(f"DROP TABLE IF EXISTS {view.table}")
-        for statement in _statements().values():
-            base.execute(statement)
+            each = {n: _rows(base, path, n, state, view.rows) for n, state in night.items()}
+            _write(base, view, {(n, k): row for n in each for k, row in enumerate(each[n], 1)})
+
+
+@contextmanager
+def apart(base: sqlite3.Connection, path: str | Path) -> Iterator[None]:
+    """Keep what the block writes to the views only as a whole, and go on with the rest without."""
+    base.execute("SAVEPOINT views")
+    try:
+        yield
+    except Exception as error:
+        if not base.in_transaction:  # SQLite has dropped the entry too
+            raise
+        base.execute("ROLLBACK TO views")
+        _LOG.warning("the views in %s are left as they were: %s", Path(path).name, error)
+    base.execute("RELEASE views")
+
+
+def _make(base: sqlite3.Connection) -> None:
+    """Make the tables and views, in place of those of an earlier version."""
+    there = base.execute("SELECT type, name, sql FROM sqlite_master WHERE sql NOT NULL").fetchall()
     for view in _VIEWS:
-        each = {n: _rows(base, path, n, state, view.rows) for n, state in night.items()}
-        _write(base, view, {(n, k): row for n in each for k, row in enumerate(each[n], 1)})
+        for kind, name, text in there:
+            if text.startswith(view.begin.get(name, "\0")):  # else it is somebody else's
+                base.execute(f"DROP {kind} {name}")
+        for statement in view.statements.values():
+            base.execute(statement)
 
 
 def _rows(
