@@ -19,6 +19,7 @@ from starlette.routing import request_response
 from evenbreak.files.demo import write_demo_evening
 from evenbreak.files.store.tokens import SCORES, draw_token
 from evenbreak.web.api import description
+from evenbreak.web.night import Night
 from evenbreak.web.site import Site
 from places import ROOT
 from web.asked import Browser, Room
@@ -153,6 +154,33 @@ def refs(told: Any) -> Iterator[str]:
         told = list(told.values())
     for one in told if isinstance(told, list) else ():
         yield from refs(one)
+
+
+@pytest.mark.parametrize("address", ["tables", "matches", "bracket"])
+def test_a_score_comes_with_its_chance(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, address: str
+) -> None:
+    """Nobody has to ask again once the odds of the whole night are worked out."""
+
+    async def nothing(_: Night) -> None:
+        return None
+
+    monkeypatch.setattr(Night, "outlook", nothing)
+    path = tmp_path / "tonight.db"
+    write_demo_evening(path, datetime(2026, 3, 1, 20, 0))
+    with closing(Room(Site(path, hosts=frozenset({"localhost"})))) as room:
+        text = Browser(room).open(f"/api/v1/tonight/{address}").text
+    played = re.findall(r'"players":\[[^]]*\],"state":"(?:called|playing)"', text)
+    assert len(played) >= 3
+    assert not any('"chance":null' in one for one in played)
+
+
+def test_generators_of_clients_read_the_answers() -> None:
+    """Some know no `items: false`, and a client would stop at a word that is added later."""
+    text = json.dumps(description()["components"]["schemas"])
+    assert "prefixItems" not in text
+    assert '"items": false' not in text
+    assert '"enum"' not in text
 
 
 def test_each_route_is_described_and_the_reverse(browser: Browser) -> None:

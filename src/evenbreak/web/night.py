@@ -71,8 +71,6 @@ class Known:
     next_starts
         when each player's next match begins: early, in the middle and late, in minutes since the
         start; only of players who may still play.
-    chances
-        the first player's of each match that is played or ready.
     means
         what each player's rating is on average, given tonight's games.
     starts
@@ -90,7 +88,6 @@ class Known:
     day: str = ""
     odds: PlaceOdds | None = None
     next_starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
-    chances: Mapping[str, float] = field(default_factory=dict)
     means: Mapping[str, float] = field(default_factory=dict)
     starts: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
     problem: str = ""
@@ -253,12 +250,11 @@ class Night:
             calls = next_calls(night) if to_play else []
             queue = tuple(night.queue) if to_play and state.plan.form != "chips" else ()
             starts = _next_starts(night) if to_play else {}
-            chances, means = match_chances(night), means_of(night)
             later = _starts(night) if to_play else {}
             begun, day = begun_at(night), night.start.date().isoformat()
             when: Any = {"start": begun, "day": day, "next_starts": starts, "starts": later}
-            both: Any = {"odds": night.odds, "chances": chances, "means": means}
-            return Known(state, 0.0, data, calls, queue, **when, **both)
+            means = means_of(night)
+            return Known(state, 0.0, data, calls, queue, odds=night.odds, means=means, **when)
 
         try:
             found = await self.beside.run(work)
@@ -280,11 +276,14 @@ def problem_of(error: Exception) -> str:
     return say(str(error) or type(error).__name__)
 
 
-def match_chances(night: Outlook) -> dict[str, float]:
-    """Return the first player's chance in each match that can be played, from its score on."""
-    if night.state.plan.form == "chips":
+def match_chances(state: Evening, known: Known | None) -> dict[str, float]:
+    """Return the first player's chance in each match that can be played, from its score on.
+
+    It is by the ratings as far as they are known: nobody waits for the odds of the whole night.
+    """
+    if state.plan.form == "chips" or not state.drawn:
         return {}
-    state, means = night.state, means_of(night)
+    means = known.means if known else {}
     return {
         name: win_chance(
             state,

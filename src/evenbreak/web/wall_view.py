@@ -24,7 +24,7 @@ from evenbreak.web.evening_view import (
     progress_of,
     view_of,
 )
-from evenbreak.web.night import Known
+from evenbreak.web.night import Known, match_chances
 from evenbreak.words import Sentence, say
 
 _TURN = 15  # seconds that each picture of the wall is shown
@@ -215,7 +215,7 @@ def wall_view(
     """
     view = view_of(state, known)
     fresh = known if known and known.of is state else None
-    chances = fresh.chances if fresh else {}
+    chances = match_chances(state, known)
     tables = [
         _table(state, one, now, chances.get(one.name), one.name in disputed)
         for one in (*view.playing, *view.calls)

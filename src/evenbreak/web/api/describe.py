@@ -57,7 +57,7 @@ def describe(resources: Sequence[Resource]) -> dict[str, Any]:
         "tags": [{"name": name, "description": does} for name, does in _TAGS.items()],
         "paths": paths,
         "components": {
-            "schemas": components,
+            "schemas": open_to_more(components),
             "securitySchemes": {
                 _BEARER: {
                     "type": "http",
@@ -67,6 +67,28 @@ def describe(resources: Sequence[Resource]) -> dict[str, Any]:
             },
         },
     }
+
+
+def open_to_more(schema: Any) -> Any:
+    """Return a schema of answers that generators of clients read, and that more words fit later.
+
+    A client that knows the words of today only must not stop at a new one.
+
+    >>> open_to_more({"enum": ["free", "playing"]})["examples"]
+    ['free', 'playing']
+    """
+    if isinstance(schema, list):
+        return [open_to_more(one) for one in schema]
+    if not isinstance(schema, dict):
+        return schema
+    found = {key: open_to_more(one) for key, one in schema.items()}
+    if words := found.pop("enum", None):
+        found |= {"type": "string", "examples": words}
+    if "prefixItems" in found:
+        each = found.pop("prefixItems")
+        same = all(one == each[0] for one in each)
+        found["items"] = each[0] if same else {"anyOf": each}
+    return found
 
 
 def operation_id(resource: Resource) -> str:

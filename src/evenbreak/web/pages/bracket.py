@@ -19,7 +19,7 @@ from evenbreak.sheets.bracket_page import bracket_both
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.desk_view import progress
 from evenbreak.web.guard import RefusalError
-from evenbreak.web.night import Known
+from evenbreak.web.night import Known, match_chances
 from evenbreak.web.page import answer_shown, language, page, page_face, site_of
 from evenbreak.web.pages.desk import sheet_values
 from evenbreak.web.sessions import is_director
@@ -41,7 +41,7 @@ async def bracket(request: Request) -> Response:
     """Show the bracket, and the match that was tapped."""
     state = await drawn_state(request)
     known = await night_of(request).outlook()
-    panels = bracket_panels(state, known.chances if known and known.of is state else {})
+    panels = bracket_panels(state, match_chances(state, known))
     asked = request.query_params.get("match", "")
     chosen = _chosen(state, panels, asked, known) if asked else None
     words = partial(in_face, face=page_face(language(request)))
