@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+from evenbreak.errors import InputError
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.calling import (
     calls_after,
@@ -124,6 +125,28 @@ def test_a_result_is_taken_back_with_the_calls_that_it_made() -> None:
     assert (back.on_tables, back.counted) == (before.on_tables, before.counted)
     again = night.add(*redo(back))
     assert (again.on_tables, again.counted) == (state.on_tables, state.counted)
+
+
+def test_what_cannot_be_taken_back_says_why() -> None:
+    night = called(Night(tables=3))
+    result = len(night.enter("W1.1").log) - 1
+    again = night.add(CalledBack("W1.2", night.state.pair("W1.2")))
+    calls = {
+        number: event.what.match
+        for number, event in zip(again.numbers, again.events, strict=True)
+        if isinstance(event.what, Called)
+    }
+    why = {number: f"match {again.number_of(name)} has been played or called again"
+           for number, name in calls.items() if name in ("W1.1", "W1.2")}  # fmt: skip
+    assert len(why) == 2
+    why |= {result + 1: f"entry {result + 1} came with entry {result}", 99: "there is no entry 99"}
+    assert not {*why} & free_entries(again)
+    for entry, words in why.items():
+        with pytest.raises(InputError, match=words):
+            undo(again, entry)
+    back = night.add(*undo(again))
+    with pytest.raises(InputError, match="is an undo or a redo"):
+        undo(back, len(back.log))
 
 
 def test_a_match_that_was_called_by_itself_and_has_begun_stays_on_its_table() -> None:

@@ -85,6 +85,22 @@ def test_scores_of_a_program_are_not_what_the_director_takes_back(night: Night) 
     assert not night.room.site.night.state().on_tables
 
 
+def test_a_program_takes_back_the_entry_that_it_names_alone(night: Night) -> None:
+    night.enters("call", match="1", table="1")
+    entry = night.enters("result", match="1", score=[3, 1]).json["entries"][0]
+    night.enters("score", "desk", match="2", score=[1, 0])
+    count = night.count
+    for move in ("undo", "redo"):
+        got = night.enters(move, "desk")
+        assert (got.status, got.json["parameter"]) == (400, "entry")
+    for wrong, why in ((3, "Match 1 has been played"), (99, "There is no entry 99")):
+        refused = night.enters("undo", "desk", entry=wrong)
+        assert (refused.status, refused.json["detail"][: len(why)]) == (400, why)
+    assert night.count == count
+    assert night.enters("undo", "desk", entry=entry).status == 200
+    assert night.enters("redo", "desk", entry=entry).status == 200
+
+
 def test_the_same_request_is_entered_once_also_after_a_restart(night: Night) -> None:
     scored = {"match": "1", "score": [1, 0], "_idempotency_key": "7"}
     first = night.enters("score", **scored)

@@ -251,15 +251,15 @@ class Change(Entry):
 class Undo(Entry):
     """Take back the director's last entry; once more takes back the one before that.
 
-    Scores that players tap on their phones stay. A result that both players entered is taken back
-    only if {entry} names it, or corrected.
+    Scores that players tap on their phones stay. What is older, or was entered by both players, is
+    taken back only if {entry} names it and nothing follows from it.
     """
 
     entry: Annotated[
         int | None,
         Field(
             Whole(2, 10**7),
-            "A result that both players entered, by its number in the history.",
+            "The entry, by its number in the history.",
             usual="the director's last entry",
         ),
     ] = None

@@ -27,6 +27,7 @@ from evenbreak.tournaments.evening.events import (
 )
 from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.matches import LiveScore, OnTable
+from evenbreak.words import Sentence, say
 
 _LIGHT = Called | CalledBack | Scored | Waits | CheckedIn | Registered | Declined
 """Entries that no result rests on."""
@@ -80,8 +81,9 @@ def is_free(state: Evening, entry: int) -> bool:
     if entry not in events or entry == 1:
         return False
     what, at = events[entry].what, state.events[-1].at
-    act = _act(events, entry) if isinstance(what, Called | Result) else [entry]
-    own = [number for number in act if events[number].by != BY_ITSELF] or [entry]
+    if isinstance(what, Called | CalledBack) and _is_past(state, entry, what.match):
+        return False
+    own = _own(events, entry)
     if (isinstance(what, Scored) and events[entry].by_phones) or own[-1] != entry:
         return False
     back = _taken_back(state, events, entry)
@@ -94,6 +96,22 @@ def is_free(state: Evening, entry: int) -> bool:
         )
     except InputError:
         return False
+
+
+def _own(events: Mapping[int, Event], entry: int) -> list[int]:
+    """Return what was entered with an entry, without the calls that were made by themselves."""
+    act = _act(events, entry) if isinstance(events[entry].what, Called | Result) else [entry]
+    return [number for number in act if events[number].by != BY_ITSELF] or [entry]
+
+
+def _is_past(state: Evening, entry: int, match: str) -> bool:
+    """Return whether a match is over, or has been called again, since a call of it."""
+    if not state.drawn or match not in state.standing.to_play:
+        return True
+    return any(
+        number > entry and isinstance(event.what, Called | CalledBack) and event.what.match == match
+        for number, event in zip(state.numbers, state.events, strict=True)
+    )
 
 
 def _open_behind(before: Evening, after: Evening) -> bool:
@@ -133,15 +151,29 @@ def undo(state: Evening, entry: int | None = None) -> list[Undone]:
     chosen = own if entry is None else entry
     if chosen is None:
         raise InputError("there is nothing to undo")
-    if chosen not in undoable(state) and not is_free(state, chosen):
-        if chosen in state.undone:
-            raise InputError("entry {entry} has already been undone", entry=chosen)
-        raise InputError(
-            "other entries follow from entry {entry}; undo those first, or correct it",
-            entry=chosen,
-        )
     events = dict(zip(state.numbers, state.events, strict=True))
+    if chosen not in undoable(state) and not is_free(state, chosen):
+        raise InputError(_why_not(state, events, chosen))
     return _taken_back(state, events, chosen)
+
+
+def _why_not(state: Evening, events: Mapping[int, Event], entry: int) -> Sentence:
+    """Return why an entry cannot be taken back."""
+    if not 1 <= entry <= len(state.log):
+        return say("there is no entry {entry}", entry=entry)
+    if entry in state.undone:
+        return say("entry {entry} has already been undone", entry=entry)
+    if entry not in events:
+        return say("entry {entry} is an undo or a redo; those can't be undone", entry=entry)
+    what = events[entry].what
+    if isinstance(what, Called | CalledBack) and _is_past(state, entry, what.match):
+        match = state.match_words(what.match) if state.drawn else what.match
+        return say("{match} has been played or called again since that call", match=match)
+    if entry not in (own := _own(events, entry)):
+        return say("entry {entry} came with entry {other}; undo that", entry=entry, other=own[-1])
+    return say(
+        "other entries follow from entry {entry}; undo those first, or correct it", entry=entry
+    )
 
 
 def _taken_back(state: Evening, events: Mapping[int, Event], entry: int) -> list[Undone]:

@@ -11,7 +11,7 @@ import json
 import re
 import secrets
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import MISSING, dataclass
 from functools import partial
 from typing import Annotated, Any
 
@@ -54,6 +54,7 @@ _SEEN = Declared(
     None,
 )
 _OWN = ("sure", "seen")
+_ENTRY = "The entry, by its number: of `entries` in an answer, of the stream, or of the history."
 _TAPS = ("score", "result")
 _NAMES = (PLAYER, Text("NAME"))
 _LONGEST_NAME = 80
@@ -223,7 +224,12 @@ async def _matches(call: Call, night: Night, done: Entered) -> list[shapes.Match
 
 def _resources() -> Iterator[Resource]:
     for name, move in MOVES.items():
-        fields = [one for one in declared(move.question) if one.name not in (*OF_COMMANDS, "event")]
+        fields = [
+            # What was entered last may be another program's: the entry must be named.
+            Declared("entry", Field(one.kind, _ENTRY), MISSING) if one.name == "entry" else one
+            for one in declared(move.question)
+            if one.name not in (*OF_COMMANDS, "event")
+        ]
         more: Sequence[Declared] = [_SEEN, _SURE] if name in _TAPS else [_SURE]
         yield Resource(
             f"/tonight/{name}",

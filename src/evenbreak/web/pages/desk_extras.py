@@ -17,8 +17,7 @@ from evenbreak.answers.tournament.night import played_words
 from evenbreak.answers.tournament.under_way import time_under_way
 from evenbreak.files.store.desk import ENTERED, back_up, phone_entries
 from evenbreak.tournaments.evening.edition import tables_text
-from evenbreak.tournaments.evening.events import Called, CalledBack, Plan, Scored
-from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.tournaments.evening.events import Plan, Scored
 from evenbreak.tournaments.evening.format import names_text
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.outlook import Outlook
@@ -154,7 +153,7 @@ def _entries(night: Night) -> tuple[list[tuple[int, str, str, str, str]], set[in
     """
     state = night.state()
     found = state.log
-    free = free_entries(state) - _old_calls(state)
+    free = free_entries(state)
     rows: list[tuple[str, int, str, str, str]] = [
         (
             one.at,
@@ -179,14 +178,6 @@ def _entries(night: Night) -> tuple[list[tuple[int, str, str, str, str]], set[in
         for at, number, what, by, how in rows[::-1]
     ]
     return shown, set() if redo is None else {redo}
-
-
-def _old_calls(state: Evening) -> set[int]:
-    """Return the calls of matches that are over, or have been called again."""
-    calls = {n: e.what for n, e in zip(state.numbers, state.events, strict=True)}
-    called = [(n, one.match) for n, one in calls.items() if isinstance(one, Called | CalledBack)]
-    last = {match: n for n, match in called if match in state.standing.to_play}
-    return {n for n, _ in called} - set(last.values())
 
 
 ROUTES = [
