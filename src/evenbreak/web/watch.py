@@ -9,15 +9,19 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections import Counter, deque
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
+from itertools import islice
 from pathlib import Path
 
+from starlette.requests import Request
+from starlette.responses import Response, StreamingResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from evenbreak.errors import DataError
 from evenbreak.files.store.changes import CLEARED, Row, rows_from
 from evenbreak.web.night import mark_of
+from evenbreak.web.sessions import address_of
 
 MOST = 1000
 """Entries that are kept for those who come back; who missed more reads everything anew."""
@@ -45,7 +49,6 @@ class Watch:
         self.most = most
         self.followers: Counter[str] = Counter()
         self.rows: deque[Row] = deque(maxlen=MOST)
-        self.files = 0  # how many files have been under this name
         self.closing = False
         self._mark: tuple[int, int, int] | None = None
         self._task: asyncio.Task[None] | None = None
@@ -53,16 +56,17 @@ class Watch:
         self._woken, self._changed = asyncio.Event(), asyncio.Event()
 
     @property
-    def last(self) -> int:
-        """The id of the last entry; 0 if there is none."""
-        return self.rows[-1].id if self.rows else 0
+    def last(self) -> str:
+        """What the last entry is known by; "0" if there is none."""
+        return self.rows[-1].mark if self.rows else "0"
 
-    @property
-    def first(self) -> int:
-        """The id after which all entries are known."""
-        if not self.rows:
-            return 0
-        return self.rows[0].id - (self.rows[0].strand != CLEARED)
+    def since(self, last: str) -> list[Row] | None:
+        """Return the entries after one; None if it is not of this file, or too long ago."""
+        if last == "0" and (not self.rows or self.rows[0].id == 1):
+            return list(self.rows)
+        number = last.partition("-")[0]
+        known = [k for k, row in enumerate(self.rows) if str(row.id) == number and row.mark == last]
+        return [*islice(self.rows, known[0] + 1, None)] if known else None
 
     def is_full(self, address: str) -> bool:
         """Return whether no more can follow from an address."""
@@ -92,23 +96,11 @@ class Watch:
                 self._task.cancel()
                 self._task = None
 
-    async def after(self, seen: tuple[int, int]) -> tuple[int, int]:
-        """Wait until there is something else, but no longer than `ALIVE`.
-
-        Parameters
-        ----------
-        seen
-            the file and the id of its last entry, as they were.
-        """
-        if self.now == seen and not self.closing:
+    async def after(self, last: str) -> None:
+        """Wait until the last entry is another one, but no longer than `ALIVE`."""
+        if self.last == last and not self.closing:
             with suppress(TimeoutError):
                 await asyncio.wait_for(self._changed.wait(), ALIVE)
-        return self.now
-
-    @property
-    def now(self) -> tuple[int, int]:
-        """Which file it is by now, and the id of its last entry."""
-        return self.files, self.last
 
     async def _look_on(self) -> None:
         while self.followers and not self.closing:
@@ -122,26 +114,60 @@ class Watch:
 
     async def _look(self) -> None:
         async with self._reading:
-            mark, before = mark_of(self.path), self.now
+            mark, before = mark_of(self.path), self.last
             if mark == self._mark:
                 return
             try:
-                rows = await asyncio.to_thread(rows_from, self.path, self.last, MOST)
+                first = self.rows[-1].id if self.rows else 0
+                rows = await asyncio.to_thread(rows_from, self.path, first, MOST)
                 if another := self.rows and rows[:1] != [self.rows[-1]]:  # or too much at once
                     rows = await asyncio.to_thread(rows_from, self.path, 0, MOST)
             except DataError:  # the next look may fare better; the pages say why
                 return
             if another:
-                self.files += 1
                 self.rows.clear()
             for row in rows[bool(self.rows) :]:
                 if row.strand == CLEARED:
                     self.rows.clear()
                 self.rows.append(row)
             self._mark = mark
-        if self.now != before:
+        if self.last != before:
             self._changed.set()
             self._changed = asyncio.Event()
+
+
+def stream_of(
+    request: Request, told: Callable[[str | None], Awaitable[bytes]], last: str | None = None
+) -> Response:
+    """Stream server-sent events: one at once, and another whenever something was entered.
+
+    Parameters
+    ----------
+    request
+        who follows.
+    told
+        returns the next, given what the last entry was known by that was told; it looks at what was
+        entered after all that it waits for.
+    last
+        the last entry that they know.
+    """
+    watch: Watch = request.app.state.watch
+    here = address_of(request)
+    kind = "text/event-stream"
+    if request.method == "HEAD" or watch.is_full(here):  # whoever it is asks again by itself
+        return Response("retry: 30000\n\n", media_type=kind)
+
+    async def stream() -> AsyncIterator[bytes]:
+        async with watch.following(here):
+            seen, first = last, b"retry: 2000\n"
+            while first or not watch.closing:
+                new = await told(seen)
+                seen = watch.last
+                yield first + new
+                first = b""
+                await watch.after(seen)
+
+    return StreamingResponse(stream(), media_type=kind, headers={"cache-control": "no-store"})
 
 
 class Waking:

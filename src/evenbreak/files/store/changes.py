@@ -1,7 +1,8 @@
 """All entries of a file in the one order in which they came in, whatever strand they are in.
 
 An entry is known by the number of its row, which is the same for every program that reads the file
-and is never given again: where a tournament is taken out, a row says so.
+and is never given again: where a tournament is taken out, a row says so. A sum of what the entry
+says stands beside the number, for other files have a row of that number too.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import sqlite3
 from pathlib import Path
 from typing import NamedTuple
+from zlib import crc32
 
 from evenbreak.files.store.evening_file import is_there, opened
 from evenbreak.files.store.formats import ENTRIES, source
@@ -36,6 +38,15 @@ class Row(NamedTuple):
     at: str
     kind: str
     what: str
+
+    @property
+    def mark(self) -> str:
+        """What the entry is known by wherever files are replaced by others, or copied.
+
+        >>> Row(7, "1", 3, "2025-03-01T19:30:00", "redone", '{"entry": 2}').mark
+        '7-cde79473'
+        """
+        return f"{self.id}-{crc32(ascii(tuple(self)).encode()):08x}"
 
 
 def rows_from(path: str | Path, first: int, most: int) -> list[Row]:

@@ -1,33 +1,32 @@
 """The stream of what is entered, for programs that follow the night.
 
-A message's id is that of its entry (`evenbreak.files.store.changes`), so that whoever was cut off
-goes on after the last one they had, at any server of the file. What is entered unseen stays so:
-phones and team nights are only said to have changed, and nobody's address or author is sent.
+A message's id is what its entry is known by (`evenbreak.files.store.changes`): whoever was cut off
+goes on after the last one they had, at any server of the file, and learns if it is another file.
+What is entered unseen stays so: phones and team nights are only said to have changed, and nobody's
+address or author is sent.
 """
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import takewhile
 from typing import Annotated, Any
 
 import msgspec
 from msgspec import Meta
-from starlette.responses import Response, StreamingResponse
+from starlette.responses import Response
 
 from evenbreak.errors import DataError, EvenbreakError
-from evenbreak.fields.kinds import Whole
+from evenbreak.fields.kinds import Text
 from evenbreak.fields.question import Declared, Field
 from evenbreak.files.store.changes import Row
 from evenbreak.files.store.formats import PHONES, TEAM_NIGHT
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.api.resource import Call, Resource
 from evenbreak.web.api.shapes import EventNumber, Number
-from evenbreak.web.sessions import address_of
 from evenbreak.web.site import Site
-from evenbreak.web.watch import Watch
+from evenbreak.web.watch import Watch, stream_of
 
 _UNSEEN = {PHONES: "phones", TEAM_NIGHT: "team night"}
 _MATCH = ("match", "players")
@@ -46,7 +45,13 @@ _SHOWN = {
 class Change:
     """An entry of tonight; only what its kind has is there besides id, at and kind."""
 
-    id: Annotated[int, Meta(description="Its place among all entries; send it back to go on.")]
+    id: Annotated[
+        str,
+        Meta(
+            description="Its place among all entries, and a sum of what it says, so that another "
+            "file is noticed; send it back as it is to go on."
+        ),
+    ]
     at: Annotated[str, Meta(description="When it was entered.")]
     kind: Annotated[
         str,
@@ -82,21 +87,21 @@ def message(row: Row, state: Evening | None) -> bytes:
 
     >>> row = Row(7, "1", 3, "2025-03-01T19:30:00", "redone", '{"entry": 2}')
     >>> print(message(row, None).decode())
-    id: 7
+    id: 7-cde79473
     event: entry
-    data: {"id":7,"at":"2025-03-01T19:30:00","kind":"redone","event":1,"entry":3,"of":2}
+    data: {"id":"7-cde79473","at":"2025-03-01T19:30:00","kind":"redone","event":1,"entry":3,"of":2}
     <BLANKLINE>
     <BLANKLINE>
     """
     if row.strand in _UNSEEN:
-        change = Change(row.id, row.at, _UNSEEN[row.strand])
+        change = Change(row.mark, row.at, _UNSEEN[row.strand])
     elif row.strand.isdigit():
         own = int(row.strand), row.number
-        change = Change(row.id, row.at, row.kind, *own, **_details(row, state))
+        change = Change(row.mark, row.at, row.kind, *own, **_details(row, state))
     else:
         return b""
     data = {name: one for name, one in msgspec.to_builtins(change).items() if one is not None}
-    return _message("entry", row.id, data)
+    return _message("entry", row.mark, data)
 
 
 def _details(row: Row, state: Evening | None) -> dict[str, Any]:
@@ -109,21 +114,17 @@ def _details(row: Row, state: Evening | None) -> dict[str, Any]:
             found["number"] = str(number)
         if table := found.pop("table", None):
             found |= {"table": state.plan.table_name(table)} if state else {}
-        msgspec.convert({"id": 1, "at": "", "kind": "", **found}, Change)
+        msgspec.convert({"id": "", "at": "", "kind": "", **found}, Change)
     except (msgspec.MsgspecError, EvenbreakError, TypeError, UnicodeError):
         return {}  # of a damaged entry, the pages say so
     return found
 
 
-def _message(event: str, number: int, data: dict[str, Any]) -> bytes:
-    return b"id: %d\nevent: %s\ndata: %s\n\n" % (
-        number,
-        event.encode(),
-        msgspec.json.encode(data),
-    )
+def _message(event: str, mark: str, data: dict[str, Any]) -> bytes:
+    return f"id: {mark}\nevent: {event}\ndata: ".encode() + msgspec.json.encode(data) + b"\n\n"
 
 
-def since(watch: Watch, states: Mapping[str, Evening], files: int, last: int) -> bytes:
+def since(watch: Watch, states: Mapping[str, Evening], last: str) -> bytes:
     """Return what has come in after an entry, or that all is to be read anew.
 
     Parameters
@@ -132,13 +133,13 @@ def since(watch: Watch, states: Mapping[str, Evening], files: int, last: int) ->
         what was entered.
     states
         of the events of the night, by their strands.
-    files, last
-        the file and the last entry that are known there.
+    last
+        what the last entry is known by that is known there.
     """
-    if files != watch.files or not watch.first <= last <= watch.last:
+    new = watch.since(last)
+    if new is None:
         return _message("reset", watch.last, {"id": watch.last})
-    new = list(takewhile(lambda row: row.id > last, reversed(watch.rows)))
-    return b"".join(message(row, states.get(row.strand)) for row in reversed(new))
+    return b"".join(message(row, states.get(row.strand)) for row in new)
 
 
 async def _states(site: Site) -> dict[str, Evening]:
@@ -155,38 +156,25 @@ async def _states(site: Site) -> dict[str, Evening]:
 
 async def changes(call: Call) -> Response:
     """Stream what is entered, from now on or after an entry."""
-    request, after = call.request, call.values["after"]
+    request = call.request
     watch: Watch = request.app.state.watch
-    here = address_of(request)
-    if request.method == "HEAD" or watch.is_full(here):  # the program asks again by itself
-        return Response("retry: 30000\n\n", media_type="text/event-stream")
-    given = request.headers.get("last-event-id", "")
-    if given:
-        after = int(given) if given.isascii() and given.isdigit() and len(given) < 16 else -1
 
-    async def stream() -> AsyncIterator[bytes]:
-        async with watch.following(here):
-            states = await _states(call.site)
-            seen = watch.now
-            new = b"" if after is None else since(watch, states, seen[0], after)
-            yield b"retry: 2000\n\n" + (new or b"id: %d\n\n" % seen[1])
-            while not watch.closing:
-                await watch.after(seen)
-                states = await _states(call.site)
-                before, seen = seen, watch.now
-                yield since(watch, states, *before) or b": alive\n\n"
+    async def told(last: str | None) -> bytes:
+        states = await _states(call.site)
+        if last is None:
+            return f"id: {watch.last}\n\n".encode()
+        return since(watch, states, last) or b": alive\n\n"
 
-    return StreamingResponse(
-        stream(), media_type="text/event-stream", headers={"cache-control": "no-store"}
-    )
+    after = request.headers.get("last-event-id") or call.values["after"]
+    return stream_of(request, told, after)
 
 
 _AFTER = Declared(
     "after",
     Field(
-        Whole(0, 10**15),
-        "The id of the last entry that is known, for programs that cannot send Last-Event-ID; "
-        "without either, from now on.",
+        Text(),
+        "The id of the last entry that is known, for programs that cannot send Last-Event-ID: "
+        "0 for all entries. Without either, from now on.",
     ),
     None,
 )

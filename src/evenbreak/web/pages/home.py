@@ -7,10 +7,9 @@ changed.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator
 
 from starlette.requests import Request
-from starlette.responses import RedirectResponse, Response, StreamingResponse
+from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
 from evenbreak.web.forms import form_of
@@ -18,7 +17,6 @@ from evenbreak.web.page import choose_language, done, page, site_of
 from evenbreak.web.pages.wall import view_for
 from evenbreak.web.sessions import (
     DIRECTOR,
-    address_of,
     check_tries,
     is_here,
     let_in,
@@ -26,7 +24,7 @@ from evenbreak.web.sessions import (
     wrong_pin,
 )
 from evenbreak.web.site import night_of
-from evenbreak.web.watch import Watch
+from evenbreak.web.watch import Watch, stream_of
 
 
 async def tonight(request: Request) -> Response:
@@ -79,23 +77,13 @@ async def speak(request: Request) -> Response:
 
 
 async def events(request: Request) -> Response:
-    """Stream the id of the last entry whenever there is another."""
+    """Stream what the last entry is known by whenever there is another."""
     watch: Watch = request.app.state.watch
-    here = address_of(request)
-    if watch.is_full(here):  # the phone asks again by itself
-        return Response("retry: 30000\n\n", media_type="text/event-stream")
 
-    async def stream() -> AsyncIterator[bytes]:
-        async with watch.following(here):
-            seen = watch.now
-            yield f"retry: 2000\ndata: {watch.last}\n\n".encode()
-            while not watch.closing:
-                seen = await watch.after(seen)
-                yield f"data: {watch.last}\n\n".encode()
+    async def told(_: str | None) -> bytes:
+        return f"data: {watch.last}\n\n".encode()
 
-    return StreamingResponse(
-        stream(), media_type="text/event-stream", headers={"cache-control": "no-store"}
-    )
+    return stream_of(request, told)
 
 
 ROUTES = [
