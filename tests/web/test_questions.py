@@ -6,6 +6,7 @@ import asyncio
 import json
 import shlex
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import closing
@@ -27,7 +28,7 @@ from places import ROOT
 from test_faces import ASKED as GOLDEN
 from test_faces import SLOW, command_of
 from test_faces import ask as by_command
-from web.asked import Browser, Room
+from web.asked import Browser, Got, Room
 
 QUESTIONS = {one.path[1:].replace("/", " "): one for one in ask.RESOURCES}
 ODDS = {"ratings": [612, 521], "scale": "fargo", "race": [7, 5]}
@@ -146,7 +147,10 @@ def test_no_file_and_no_code_can_be_named(
         ({**ODDS, "ratings": [190, 140], "scale": "snooker"}, "scale", "'snooker'"),
         ({"ratings": [190, 140], "race": [7, 7]}, None, "say which with scale npl, scale fargo"),
         ({"p": 7, "race": [7, 7]}, "p", "0 to 1"),
-        ({"p": 10**400, "race": [7, 7]}, None, "not a number that can be used"),
+        ({"p": "0.6", "race": [7, 7]}, "p", "'p': \"0.6\" is text; leave out the quotes"),
+        ({"p": 0.6, "race": ["7", 7]}, "race", "'race': \"7\" is text; leave out the quotes"),
+        ({"p": [], "race": [7, 7]}, "p", "'p': [] is not a number"),
+        ({"p": 10**400, "race": [7, 7]}, None, "a number that is too large"),
     ],
 )
 def test_what_is_wrong_is_said(
@@ -208,10 +212,33 @@ def test_many_questions_are_too_many(browser: Browser) -> None:
     browser.room.site.questions.most = 2
     statuses = [browser.tells("POST", "/api/v1/odds", ODDS).status for _ in range(3)]
     assert statuses == [200, 200, 429]
-    other = Browser(browser.room, address="127.0.0.8")
-    browser.room.site.asked.waiting = ask.MOST_WAITING
-    got = other.tells("POST", "/api/v1/odds", ODDS)
-    assert (got.status, got.headers["retry-after"]) == (503, "5")
+
+
+def test_no_address_takes_the_answers_of_the_others(browser: Browser) -> None:
+    """Those that are refused while it waits do not count; when all places are taken, all wait."""
+    room, gate = browser.room, threading.Event()
+    room.site.questions.most = 4
+
+    async def asks(guest: int) -> Got:
+        sent = json.dumps(ODDS).encode()
+        head = {"host": "localhost", "content-type": "application/json"}
+        one = Browser(room, address=f"10.0.0.{guest}")
+        return await one._asked("POST", "/api/v1/odds", head, sent)
+
+    async def together(*guests: int) -> list[Got]:
+        asked = [asyncio.ensure_future(asks(guest)) for guest in guests]
+        refused = len(asked) - ask.MOST_WAITING
+        while sum(one.done() for one in asked) < refused:
+            await asyncio.sleep(0.001)
+        gate.set()
+        return await asyncio.gather(*asked)
+
+    with patch.object(ask, "answer_in_json", lambda *_: b"{}" if gate.wait(10) else b""):
+        got = room.loop.run_until_complete(together(*[1] * 8, *range(2, 10)))
+        assert [one.status for one in got] == [200] * 2 + [503] * 6 + [200] * 6 + [503] * 2
+        assert got[2].headers["retry-after"] == "5"
+        again = [room.loop.run_until_complete(asks(1)).status for _ in range(3)]
+        assert again == [200, 200, 429]
 
 
 def test_the_example_of_the_docs(browser: Browser) -> None:

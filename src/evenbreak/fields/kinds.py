@@ -138,7 +138,7 @@ class Whole(Kind):
     def load(self, value: Any) -> int:
         """Return the number that JSON has; 7.0 is 7 there."""
         whole = isinstance(value, float) and value.is_integer()
-        return self.read(_as_json(int(value) if whole else value))
+        return self.read(_number_typed(int(value) if whole else value))
 
     @property
     def limits(self) -> str:
@@ -185,7 +185,7 @@ class Number(Kind):
 
     def load(self, value: Any) -> float:
         """Return the number that JSON has."""
-        return self.read(_as_json(value))
+        return self.read(_number_typed(value))
 
     @property
     def needed(self) -> str:
@@ -231,7 +231,10 @@ class NumberOr(Kind):
 
     def load(self, value: Any) -> float | str:
         """Return the number or the word that JSON has."""
-        return self.read(self.word if value == self.word else _as_json(value))
+        if isinstance(value, str) and value != self.word:
+            raise InputError("{value!r}; give {wanted}, or {word}", value=value[:_SHOWN],
+                             wanted=self.wanted, word=self.word)  # fmt: skip
+        return self.read(value if value == self.word else _number_typed(value))
 
     def schema(self) -> dict[str, Any]:
         """Return what a JSON schema says of such a value."""
@@ -362,6 +365,15 @@ class Named(Kind):
     def words(self, value: Any) -> str:
         """Return a value as it is typed."""
         return self.spelled(value)
+
+
+def _number_typed(value: Any) -> str:
+    """Return a number that JSON has as it is typed; refuse what is none."""
+    if isinstance(value, str):
+        raise InputError("{value} is text; leave out the quotes", value=_as_json(value))
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise InputError("{value} is not a number", value=_as_json(value))
+    return _as_json(value)
 
 
 def _as_json(value: Any) -> str:

@@ -24,12 +24,12 @@ class Beside:
     """
 
     def __init__(self) -> None:
-        self.waiting = 0  # how many wait for it, or for what it works on
+        self.waiting: list[str] = []  # who waits for it, or for what it works on
         self._asked: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._thread: threading.Thread | None = None
 
-    async def run(self, work: Callable[[], Found]) -> Found:
-        """Return what a function returns, or raise what it raises."""
+    async def run(self, work: Callable[[], Found], by: str = "") -> Found:
+        """Return what a function returns, or raise what it raises; `by` is who waits for it."""
         if self._thread is None:
             self._thread = threading.Thread(target=self._serve, daemon=True)
             self._thread.start()
@@ -49,11 +49,11 @@ class Beside:
                 loop.call_soon_threadsafe(settle, *outcome)
 
         self._asked.put(job)
-        self.waiting += 1
+        self.waiting.append(by)
         try:
             return await done
         finally:
-            self.waiting -= 1
+            self.waiting.remove(by)
 
     def _serve(self) -> None:
         while True:

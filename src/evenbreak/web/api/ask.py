@@ -27,6 +27,8 @@ MOST_SECONDS = 5.0
 """Of the processor, for one question."""
 MOST_WAITING = 8
 """The most questions that wait for their answers."""
+MOST_OF_ONE = 2
+"""The most of them that one address can have waiting."""
 
 
 async def _answered(command: str, call: Call) -> Response:
@@ -36,16 +38,17 @@ async def _answered(command: str, call: Call) -> Response:
         raise ProblemError(
             "Too many questions. Wait a minute.", status=429, headers={"retry-after": "60"}
         )
-    site.questions.count(address)
-    if site.asked.waiting >= MOST_WAITING:
+    waiting = site.asked.waiting
+    if len(waiting) >= MOST_WAITING or waiting.count(address) >= MOST_OF_ONE:
         raise ProblemError(
-            "Many wait for answers already. Ask again in a moment.",
+            "Too many questions are waiting. Try again in a moment.",
             status=503,
             headers={"retry-after": "5"},
         )
+    site.questions.count(address)
     work = partial(answer_in_json, command, call.values)
     try:
-        body = await site.asked.run(Limited(work, MOST_SECONDS))
+        body = await site.asked.run(Limited(work, MOST_SECONDS), address)
     except TimeoutError:
         _refuse(say("This takes longer than {n:.0f} seconds", n=MOST_SECONDS))
     return Response(body, media_type="application/json")

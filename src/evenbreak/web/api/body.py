@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+import re
+from collections import Counter
 from typing import Any, NoReturn
+
+import msgspec
 
 from evenbreak.web.api.problem import ProblemError
 
 _DEEPEST = 8
-_DIGITS = 40
+_LARGEST = 10**40
 
 
 def object_in(body: bytes) -> dict[str, Any]:
@@ -20,80 +24,55 @@ def object_in(body: bytes) -> dict[str, Any]:
     Raises
     ------
     ProblemError
-        if it is something else, or has what JSON has not: a name twice, NaN, numbers without end.
+        if it is something else, has a name twice, or is too deep or too large to be meant.
     """
     try:
-        found = json.loads(
-            body.decode() or "{}",
-            object_pairs_hook=_object,
-            parse_constant=_refuse_number,
-            parse_int=_whole,
-            parse_float=_number,
-        )
-    except json.JSONDecodeError as error:
+        found = msgspec.json.decode(body or b"{}", type=dict[str, Any])
+        _check(found)
+    except msgspec.ValidationError as error:
+        if "Number out of range" in str(error) or "Integer value" in str(error):
+            _refuse_number()
+        raise ProblemError(
+            "The body is not a JSON object, such as {example}.", example="{}"
+        ) from None
+    except msgspec.DecodeError as error:
+        at = re.search(r"\(byte (\d+)\)", str(error))
+        before = body[: int(at[1])] if at else body
         raise ProblemError(
             "The body is not JSON: line {line}, column {column}.",
-            line=error.lineno,
-            column=error.colno,
+            line=before.count(b"\n") + 1,
+            column=len(before) - before.rfind(b"\n"),
         ) from None
     except UnicodeDecodeError:
         raise ProblemError("The body is not in UTF-8.") from None
     except RecursionError:
         _refuse_depth()
-    if not isinstance(found, dict):
-        raise ProblemError("The body is not a JSON object, such as {example}.", example="{}")
-    _check(found)
+    json.loads(body or b"{}", object_pairs_hook=_once)
     return found
 
 
-def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for name, value in pairs:
-        if name in found:
-            shown = name[:_DIGITS].encode(errors="replace").decode()
-            raise ProblemError(
-                "{field!r} is in the body twice; give it once.", parameter=shown, field=shown
-            )
-        found[name] = value
-    return found
+def _once(pairs: list[tuple[str, Any]]) -> None:
+    name, times = Counter(name for name, _ in pairs).most_common(1)[0] if pairs else ("", 1)
+    if times > 1:
+        raise ProblemError(
+            "{field!r} is in the body twice; give it once.", parameter=name[:40], field=name[:40]
+        )
 
 
-def _whole(text: str) -> int:
-    return int(text) if len(text) <= _DIGITS else _refuse_number(text)
-
-
-def _number(text: str) -> float:
-    number = float(text) if len(text) <= _DIGITS else 0.0
-    return number if len(text) <= _DIGITS and abs(number) < 1e300 else _refuse_number(text)
-
-
-def _refuse_number(text: str) -> NoReturn:
-    raise ProblemError("{value} is not a number that can be used here.", value=text[:_DIGITS])
+def _refuse_number() -> NoReturn:
+    raise ProblemError("The body has a number that is too large.")
 
 
 def _refuse_depth() -> NoReturn:
-    raise ProblemError("The body has lists in lists without end.")
+    raise ProblemError("The body has too many lists inside lists.")
 
 
-def _check(found: Any) -> None:
-    """Refuse what is nested deeply, and halves of letters."""
-    level = [found]
-    for _ in range(_DEEPEST):
-        texts = [one for one in level if isinstance(one, str)]
-        texts += [name for one in level if isinstance(one, dict) for name in one]
-        if any(map(_is_cut, texts)):
-            raise ProblemError("The body has half a letter: a surrogate by itself.")
-        lists = [one for one in level if isinstance(one, list)]
-        lists += [[*one.values()] for one in level if isinstance(one, dict)]
-        level = [part for one in lists for part in one]
-        if not level:
-            return
-    _refuse_depth()
-
-
-def _is_cut(text: str) -> bool:
-    try:
-        text.encode()
-    except UnicodeEncodeError:
-        return True
-    return False
+def _check(value: Any, deeper: int = _DEEPEST) -> None:
+    """Refuse what is nested deeply, and numbers that nobody means."""
+    if not deeper:
+        _refuse_depth()
+    if isinstance(value, int | float) and abs(value) >= _LARGEST:
+        _refuse_number()
+    parts = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    for part in parts:
+        _check(part, deeper - 1)
