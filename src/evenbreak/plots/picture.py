@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, nullcontext
 from functools import wraps
 from textwrap import fill
@@ -104,6 +104,18 @@ def image_bytes(figure: Figure | Axes, kind: Literal["png", "svg"] = "svg") -> b
     with our_look(), mpl.rc_context({"svg.hashsalt": "evenbreak"}):
         whole.savefig(out, format=kind, dpi=150, metadata=metadata or {"Software": None})
     return small_svg(out.getvalue().decode()).encode() if kind == "svg" else out.getvalue()
+
+
+def image_files(figures: Mapping[str, Figure | Axes]) -> dict[str, bytes]:
+    """Return figures as files, by their names: each as a PNG and as an SVG."""
+    return {
+        f"{name}.{kind}": image_bytes(figure, kind)
+        for name, figure in figures.items()
+        for kind in _KINDS
+    }
+
+
+_KINDS: tuple[Literal["png", "svg"], ...] = ("png", "svg")
 
 
 class LineStyle(NamedTuple):

@@ -16,7 +16,7 @@ from markupsafe import Markup
 
 from evenbreak.answers.tournament.bracket_view import Box, Line, Panel
 from evenbreak.answers.tournament.short_names import rough_width, short_names
-from evenbreak.sheets.bracket_drawing import BOX_HIGH, BOX_WIDE, Drawing, Placed, drawing
+from evenbreak.sheets.bracket_drawing import BOX_HIGH, BOX_WIDE, Placed, drawing
 from evenbreak.sheets.html_page import Section, html_page, own_file, shown_name
 from evenbreak.words import Figure, say
 
@@ -80,7 +80,6 @@ def bracket_svg(
     link: Link = no_link,
     chosen: str = "",
     within: float = 0.0,
-    drawn: Drawing | None = None,
 ) -> Markup:
     """Return the drawing of a bracket as inline SVG.
 
@@ -96,13 +95,11 @@ def bracket_svg(
         a match that was tapped, by name.
     within
         the width of the room by its height, where the drawing is to fill it; 0: as wide as usual.
-    drawn
-        the drawing of these parts, if it has been made.
 
     >>> "<svg" in bracket_svg([Panel("winners", "", (), ())])
     True
     """
-    drawn = drawn or drawing(panels)
+    drawn = drawing(panels)
     high = drawn.high * ROW + 4.0
     column = min(1.7 * COLUMN, max(COLUMN, within * high / max(1.0, drawn.wide)))
     page = _Page(column, words, link, _written(panels, column), chosen)

@@ -57,9 +57,6 @@ MARGIN = 0.5
 POINTS = 72.0
 """In an inch."""
 
-LEAST = 0.8
-"""The least part of its size at which a name is still written in full."""
-
 UNKNOWN = "\N{WHITE SQUARE}"
 """Stands for a letter that the font lacks."""
 
@@ -202,9 +199,7 @@ def shortened(text: str, size: float, width: float) -> str:
     return f"{text[: max(fitting - 1, 0)].rstrip()}…"
 
 
-def fitted(
-    text: str, size: float, width: float, *, short: str = "", bold: bool = False
-) -> tuple[str, float]:
+def fitted(text: str, size: float, width: float, *, bold: bool = False) -> tuple[str, float]:
     """Return a text that is never cut, and the size at which all of it fits a width in inches.
 
     Parameters
@@ -213,18 +208,14 @@ def fitted(
         what is written, and the size of its letters in points where there is room.
     width
         the room.
-    short
-        what is written instead where the text would be less than `LEAST` of that size.
     bold
         whether the letters are bold.
 
-    >>> fitted("Ann Lee", 10, 2.0), fitted("Maximiliane Lee", 10, 0.5, short="M. Lee")
-    (('Ann Lee', 10.0), ('M. Lee', 10.0))
+    >>> fitted("Ann Lee", 10, 2.0), fitted("Maximiliane Lee", 10, 0.5)[1] < 6.0
+    (('Ann Lee', 10.0), True)
     """
     room = 0.98 * width  # a screen rounds the widths of letters
     wide = width_of(text, size, bold=bold)
-    if short and wide * LEAST > room:
-        text, wide = short, width_of(short, size, bold=bold)
     return text, size * min(1.0, room / wide) if wide else size
 
 

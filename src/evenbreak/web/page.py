@@ -80,6 +80,14 @@ FORMS = {
 }
 """What is on the pages in place of a command."""
 
+_TYPES = {
+    "csv": "text/csv; charset=utf-8",
+    "pdf": "application/pdf",
+    "png": "image/png",
+    "xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+    "html": "text/html; charset=utf-8",
+}
+
 
 @cache
 def _templates() -> jinja2.Environment:
@@ -360,6 +368,12 @@ def _number(value: float, places: int = 0) -> Figure:
 
 def _rating(value: float) -> Figure:
     return Figure(round(value, 1), "g")
+
+
+def as_file(content: bytes, name: str, how: str = "attachment") -> Response:
+    """Return a file: to be kept ("attachment"), or to be looked at ("inline")."""
+    head = {"content-disposition": f'{how}; filename="{name}"'}
+    return Response(content, media_type=_TYPES[name.rpartition(".")[2]], headers=head)
 
 
 def done(request: Request, to: str, *said: str) -> Response:

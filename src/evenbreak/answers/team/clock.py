@@ -60,7 +60,7 @@ class NightClock:
     end: Band
 
 
-def night_clock(state: TeamEvening, now: str, *, runs: int = RUNS, seed: int = 0) -> NightClock:
+def night_clock(state: TeamEvening, now: str) -> NightClock:
     """Return when the sets that are left start, and when the night ends.
 
     Parameters
@@ -69,31 +69,29 @@ def night_clock(state: TeamEvening, now: str, *, runs: int = RUNS, seed: int = 0
         the state of the night, with all picks.
     now
         what time it is, such as 2025-03-01T19:30:00.
-    runs, seed
-        how many nights are played out, and the seed of their luck.
 
     Notes
     -----
     A set without players is as long as those between the players who are left, on average.
     """
     begun = _begun(state)
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     pace = learned_pace(state.plan.discipline, _timed(state, begun))
-    evening = lognormal(ndtri(stratified_uniforms(rng, runs)), pace.evening_sd)
+    evening = lognormal(ndtri(stratified_uniforms(rng, RUNS)), pace.evening_sd)
     left = [line for line in state.sets if line.score is None]
     on_tables = [k for k, line in enumerate(left) if line.number in begun]
-    minutes = np.empty((runs, len(left)))
+    minutes = np.empty((RUNS, len(left)))
     for k, line in enumerate(left):
         started = begun.get(line.number)
         since = None if started is None else max(0.0, _minutes(started, now))
         minutes[:, k] = _minutes_of(_lengths(state, line), pace, evening, since, rng)
-    turnover = np.array([turnovers(None, stratified_uniforms(rng, runs)) for _ in left]).T
+    turnover = np.array([turnovers(None, stratified_uniforms(rng, RUNS)) for _ in left]).T
     planned = schedule(
         _waiting(state, left),
         minutes,
         np.ones(minutes.shape, dtype=bool),
         turnover.reshape(minutes.shape),
-        np.zeros((runs, max(state.plan.tables, len(on_tables)))),
+        np.zeros((RUNS, max(state.plan.tables, len(on_tables)))),
         priority=-np.arange(len(left), dtype=float),
         under_way=on_tables,
     )

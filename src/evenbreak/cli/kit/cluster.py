@@ -19,8 +19,8 @@ _PATIENCE = 8.0
 
 
 @contextmanager
-def cluster_at(address: str) -> Iterator[distributed.Client]:
-    """Connect to a dask cluster.
+def cluster_at(address: str | None) -> Iterator[distributed.Client | None]:
+    """Connect to a dask cluster; None where there is no address.
 
     Raises
     ------
@@ -29,6 +29,9 @@ def cluster_at(address: str) -> Iterator[distributed.Client]:
     WorkerError
         if no scheduler answers, or it has no worker; in the block, for whatever dask raises.
     """
+    if address is None:
+        yield None
+        return
     try:
         from distributed import Client
     except ImportError:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from evenbreak import files, handicaps, league, plots
+from evenbreak import files, handicaps, league
 from evenbreak.answers.kit.systems import SAY_WHICH, stated_pace
 from evenbreak.cli.kit.cluster import cluster_at
 from evenbreak.cli.kit.progress import Progress
@@ -58,10 +57,7 @@ def compared(asked: Simulate, file: files.SeasonPlayers) -> Answer:
     _refuse_without_teams(asked, file)
     systems, warnings = _systems(asked, file)
     world, assumed = _world(asked, file, systems[0])
-    with (
-        nullcontext() if asked.dask is None else cluster_at(asked.dask) as client,
-        Progress("seasons") as progress,
-    ):
+    with cluster_at(asked.dask) as client, Progress("seasons") as progress:
         contest = league.play_systems(
             world,
             systems,
@@ -102,6 +98,7 @@ def _refuse_without_teams(asked: Simulate, file: files.SeasonPlayers) -> None:
 def _files(comparison: Any) -> dict[str, bytes]:
     from evenbreak.answers.league import compare
     from evenbreak.plots.league import draw_errors_compared, draw_even
+    from evenbreak.plots.picture import image_files
 
     frames = {
         "measures": compare.measures_frame(comparison),
@@ -114,11 +111,7 @@ def _files(comparison: Any) -> dict[str, bytes]:
         "errors_by_night": draw_errors_compared(frames["nights"]),
     }
     content = {f"{name}.csv": to_csv(frame) for name, frame in frames.items()}
-    return content | {
-        f"{name}.{kind}": plots.image_bytes(figure, kind)
-        for name, figure in figures.items()
-        for kind in ("png", "svg")
-    }
+    return content | image_files(figures)
 
 
 def _systems(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -14,6 +13,7 @@ from evenbreak import answers, files, handicaps
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.systems import SAY_WHICH, chart_by_difference, refuse_for_system
 from evenbreak.cli.kit.asked import command_of
+from evenbreak.cli.kit.cluster import cluster_at
 from evenbreak.cli.kit.league import league_in
 from evenbreak.cli.kit.progress import Progress
 from evenbreak.cli.kit.said import number_of, refuse
@@ -213,7 +213,7 @@ def validate(asked: Validate) -> Answer:
     prior_sd = prior_in_log_odds(asked, scale) if isinstance(asked.prior, float) else None
     file = files.read_seasons(asked.results, **asked.reading)
     try:
-        with _workers(asked) as client, Progress("steps") as progress:
+        with cluster_at(asked.dask) as client, Progress("steps") as progress:
             validation = validated(
                 file.results,
                 prior_sd=prior_sd,
@@ -232,15 +232,6 @@ def validate(asked: Validate) -> Answer:
         write_plot(draw_calibration(validation), asked.plot)
     chart = handicaps.league_chart(file.results)
     return answers.validate_answer(file, validation, scale, seed=asked.seed, chart=chart)
-
-
-def _workers(asked: Validate) -> AbstractContextManager[Any]:
-    """Connect to the cluster that is asked for, if there is one."""
-    if asked.dask is None:
-        return nullcontext()
-    from evenbreak.cli.kit.cluster import cluster_at
-
-    return cluster_at(asked.dask)
 
 
 # How to rate, as `report` does too.

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
-from evenbreak import files, handicaps, league, plots
+from evenbreak import files, handicaps, league
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.systems import SAY_WHICH, chart_for, on_scale, refuse_other_scale
 from evenbreak.cli.kit.asked import command_of
@@ -73,10 +72,7 @@ def command(asked: Simulate) -> Answer:
 
 
 def _simulated(season: league.Season, asked: Simulate) -> league.Tally:
-    with (
-        nullcontext() if asked.dask is None else cluster_at(asked.dask) as client,
-        Progress("seasons") as progress,
-    ):
+    with cluster_at(asked.dask) as client, Progress("seasons") as progress:
         return league.simulate(
             season,
             replicas=asked.replicas,
@@ -109,17 +105,15 @@ def _one_season(season: league.Season, seed: int) -> dict[str, bytes]:
 
 def _pictures(tables: SeasonTables) -> dict[str, bytes]:
     from evenbreak.plots.league import draw_errors, draw_gaps, draw_standings
+    from evenbreak.plots.picture import image_files
 
-    figures = {
-        "errors_by_week": draw_errors(tables.weeks),
-        "wins_by_gap": draw_gaps(tables.fairness),
-        "standings": draw_standings(tables.standings),
-    }
-    return {
-        f"{name}.{kind}": plots.image_bytes(figure, kind)
-        for name, figure in figures.items()
-        for kind in ("png", "svg")
-    }
+    return image_files(
+        {
+            "errors_by_week": draw_errors(tables.weeks),
+            "wins_by_gap": draw_gaps(tables.fairness),
+            "standings": draw_standings(tables.standings),
+        }
+    )
 
 
 # The season that is asked for.

@@ -368,9 +368,9 @@ TITLES = ("number", "at", "kind", "what", "by")
 _BEGINNING = ",".join(TITLES[:4])  # of the lists of 0.2.0 too, which have no authors
 
 
-def event_rows(events: Sequence[Event], first: int = 1) -> list[tuple[int, str, str, str, str]]:
+def event_rows(events: Sequence[Event]) -> list[tuple[int, str, str, str, str]]:
     """Return the rows below `TITLES`; `what` holds the details as JSON."""
-    return _RULES.rows(events, first)
+    return _RULES.rows(events)
 
 
 def is_event_list(path: str | Path) -> bool:

@@ -20,7 +20,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.desk_view import progress
 from evenbreak.web.guard import RefusalError
 from evenbreak.web.night import Known, match_chances
-from evenbreak.web.page import answer_shown, language, page, page_face, site_of
+from evenbreak.web.page import answer_shown, as_file, language, page, page_face, site_of
 from evenbreak.web.pages.desk import sheet_values
 from evenbreak.web.sessions import is_director
 from evenbreak.web.site import drawn_state, event_of, night_of, of_event
@@ -137,8 +137,7 @@ async def cards_on_paper(request: Request) -> Response:
 
 async def _pdf(request: Request, name: str, state: Evening, make: Callable[[], bytes]) -> Response:
     content = await site_of(request).made.file(name, state, make)
-    shown = {"content-disposition": f'inline; filename="{name}"'}
-    return Response(content, media_type="application/pdf", headers=shown)
+    return as_file(content, name, "inline")
 
 
 ROUTES = [

@@ -25,7 +25,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.forms import directors_form, list_of, value_of
 from evenbreak.web.guard import MOST_BYTES, RefusalError
 from evenbreak.web.league import League
-from evenbreak.web.page import answer_shown, done, page, site_of
+from evenbreak.web.page import answer_shown, as_file, done, page, site_of
 from evenbreak.web.site import Site, begun
 from evenbreak.words import joined, say
 
@@ -37,12 +37,6 @@ _RACE = declaration(Report, "race_to")
 """What the report of a league asks too."""
 _MOST_LISTED = 1000
 _MOST_MATCHES = 60
-_TYPES = {
-    "csv": "text/csv; charset=utf-8",
-    "pdf": "application/pdf",
-    "xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
-    "html": "text/html; charset=utf-8",
-}
 
 
 class Row(NamedTuple):
@@ -115,7 +109,7 @@ async def results(request: Request) -> Response:
     """Return the matches that were played tonight, as a file."""
     site = site_of(request)
     state = await asyncio.to_thread(tournament_of, site)
-    return saved(matches_csv(state, site.path.stem), "results.csv")
+    return as_file(matches_csv(state, site.path.stem), "results.csv")
 
 
 def tournament_of(site: Site) -> Evening:
@@ -225,13 +219,8 @@ def _made(name: str) -> Callable[[Sheet], bytes]:
 async def download(request: Request, name: str) -> Response:
     """Return the sheet, or its tables, as a file."""
     sheet = _sheet(request)
-    return saved(await site_of(request).made.file(name, sheet, partial(_made(name), sheet)), name)
-
-
-def saved(content: bytes, name: str) -> Response:
-    """Return a file to be kept."""
-    head = {"content-disposition": f'attachment; filename="{name}"'}
-    return Response(content, media_type=_TYPES[name.rpartition(".")[2]], headers=head)
+    content = await site_of(request).made.file(name, sheet, partial(_made(name), sheet))
+    return as_file(content, name)
 
 
 def _league(request: Request) -> League:

@@ -8,13 +8,13 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from evenbreak.answers.faces.to_csv import to_csv
-from evenbreak.answers.tournament.printed import paper_words, tournament_matches_answer
+from evenbreak.answers.tournament.printed import paper_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import with_prizes
 from evenbreak.web.evening_view import view_of
 from evenbreak.web.guard import RefusalError
-from evenbreak.web.page import language, page, page_face, site_of
+from evenbreak.web.page import as_file, language, page, page_face, site_of
+from evenbreak.web.pages.league import matches_csv
 from evenbreak.web.site import night_of
 
 
@@ -41,7 +41,7 @@ async def as_page(request: Request) -> Response:
 
     file = f"night-{language(request)}-{len(places)}-{story.whole}.html"
     content = await site_of(request).made.file(file, state, make)
-    answer = _file(request, content, "html", "text/html; charset=utf-8")
+    answer = _file(request, content, "html")
     answer.headers["content-security-policy"] = f"{OF_DRAWINGS}; frame-ancestors 'none'"
     return answer
 
@@ -62,20 +62,19 @@ async def as_picture(request: Request) -> Response:
         return image_bytes(bracket_figure(bracket_panels(state), sheet), "png")
 
     content = await site_of(request).made.file("night.png", state, make)
-    return _file(request, content, "png", "image/png")
+    return _file(request, content, "png")
 
 
 async def as_table(request: Request) -> Response:
     """Return the matches as CSV, which the league's ratings read."""
     state, _ = await _finished(request)
-    answer = tournament_matches_answer(state, state.plan.name or site_of(request).path.stem)
-    return _file(request, "".join(to_csv(answer)).encode(), "csv", "text/csv; charset=utf-8")
+    content = matches_csv(state, state.plan.name or site_of(request).path.stem)
+    return _file(request, content, "csv")
 
 
-def _file(request: Request, content: bytes, ending: str, kind: str) -> Response:
+def _file(request: Request, content: bytes, ending: str) -> Response:
     how = "attachment" if request.query_params.get("save") else "inline"
-    headers = {"content-disposition": f'{how}; filename="night.{ending}"'}
-    return Response(content, media_type=kind, headers=headers)
+    return as_file(content, f"night.{ending}", how)
 
 
 async def _finished(request: Request) -> tuple[Evening, list[tuple[str, str, float]]]:
