@@ -25,7 +25,9 @@ def table() -> str:
 def _row(one: Resource) -> str:
     names = ", ".join(f"`{asked.name}`" for asked in one.asks if asked.name != "event")
     if one.method == "POST" and not one.scope:
-        names = f"[as the command](commands.md): `evenbreak {one.path[1:]} --help`"
+        names = (
+            f"[as the command](commands.md): `evenbreak {one.path[1:].replace('/', ' ')} --help`"
+        )
     return f"| `{one.method} {V1}{one.path}` | {one.does} | {names} | {_WHO[one.scope]} |"
 
 

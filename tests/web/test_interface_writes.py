@@ -147,6 +147,25 @@ def test_a_score_that_has_moved_on_is_not_written_over(night: Night) -> None:
     assert night.enters("result", match="1", score="3:0", seen=[1, 0]).status == 200
 
 
+def test_an_event_is_named_in_one_way_for_reads_and_writes(night: Night) -> None:
+    entrants = "player,rating\nA,600\nB,500\nC,400\nD,300"
+    second = {**NEW, "entrants": entrants, "name": "Second", "beside": "1"}
+    assert night.director.send("/new", **second).status == 303
+    assert night.director.send("/desk/draw", event=2).status == 303
+    for event, table in (("02", "1"), ("%2B2", "2"), ("2", "1"), ("002", "2")):
+        got = night.enters(f"call?event={event}", match="1", table=table)
+        read = night.director.tells("GET", f"/api/v1/tonight/matches?event={event}")
+        assert (got.status, read.status) in ((200, 200), (400, 400)), event
+        if got.status == 200:
+            assert got.json["event"] == read.json["event"] == 2
+    for method in ("GET", "POST"):
+        path = "/api/v1/tonight/call" if method == "POST" else "/api/v1/tonight"
+        may = f"Bearer {night.tokens['board']}"
+        got = night.director.tells(method, f"{path}?event=3", {}, authorization=may)
+        assert (got.status, got.json["detail"]) == (404, "There is no event 3 tonight.")
+    assert not night.room.site.night.state().on_tables
+
+
 def test_a_token_of_a_table_is_for_the_match_on_it(night: Night) -> None:
     scored = {"match": "1", "score": [1, 0]}
     assert night.enters("score", "tv", **scored).status == 403

@@ -17,6 +17,9 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from evenbreak.errors import EvenbreakError
 
+ROOT = "/api"
+"""Where the addresses of the interface begin: all below it is answered in JSON."""
+
 MOST_BYTES = 2 << 20
 """The largest body: a season of results, pasted or uploaded."""
 
@@ -155,7 +158,7 @@ async def turn_away(
 ) -> None:
     """Refuse a request before anything of it is read: its language is not known either."""
     kind, body = "text/plain; charset=utf-8", f"{words}\n"
-    if f"{scope['path']}/".startswith("/api/"):
+    if f"{scope['path']}/".startswith(f"{ROOT}/"):
         told = {"title": HTTPStatus(status).phrase, "status": status, "detail": words}
         kind, body = "application/problem+json", json.dumps(told)
     plain: Any = [(b"content-type", kind.encode()), (b"connection", b"close"), *more]

@@ -406,4 +406,4 @@ def swiss_table(state: Evening) -> list[Part]:
         return []
     columns = columns_of("name matches_won buchholz")
     title = say("Standings after round {n}", n=over)
-    return [Table("standings", columns, [list(row) for row in rows], title=title)]
+    return [Table("standings", columns, [list(row[:3]) for row in rows], title=title)]

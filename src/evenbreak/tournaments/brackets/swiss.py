@@ -39,11 +39,14 @@ class SwissRank(NamedTuple):
         matches won; a bye counts as one.
     buchholz
         the sum of the opponents' scores, the usual tie-break.
+    lost
+        matches lost.
     """
 
     player: str
     score: int
     buchholz: int
+    lost: int
 
 
 @dataclass(frozen=True)
@@ -151,19 +154,20 @@ def swiss_standings(event: Swiss, played: Sequence[Sequence[Pairing]]) -> list[S
     >>> event = swiss(["Ann", "Bo", "Cy"], 2)
     >>> first = [Pairing("Ann", "Bo", "Bo"), Pairing("Cy", None)]
     >>> swiss_standings(event, [first])[0]
-    SwissRank(player='Bo', score=1, buchholz=0)
+    SwissRank(player='Bo', score=1, buchholz=0, lost=0)
     """
     check_rounds(event, played)
-    score = dict.fromkeys(event.players, 0)
+    score, lost = dict.fromkeys(event.players, 0), dict.fromkeys(event.players, 0)
     met: dict[str, list[str]] = {player: [] for player in event.players}
     for pairings in played:
         for first, second, winner in pairings:
             score[winner or first] += 1
             if second is not None:
+                lost[first if winner == second else second] += 1
                 met[first].append(second)
                 met[second].append(first)
     rows = [
-        SwissRank(player, score[player], sum(score[other] for other in met[player]))
+        SwissRank(player, score[player], sum(score[other] for other in met[player]), lost[player])
         for player in event.players
     ]
     return sorted(rows, key=lambda row: (-row.score, -row.buchholz))

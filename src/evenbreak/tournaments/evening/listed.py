@@ -7,12 +7,12 @@ correction, another name. Nothing in a row depends on the time at which it is re
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from evenbreak.tournaments.brackets.bracket import Place, Source
+from evenbreak.tournaments.brackets.bracket import Group, Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY, Standing, ranked
 from evenbreak.tournaments.brackets.swiss import SwissRank, swiss_standings
 from evenbreak.tournaments.evening.fold import Evening
@@ -124,6 +124,29 @@ class StandingRow(NamedTuple):
     buchholz: int | None
     chips: int | None
     prize: float | None
+
+
+class RankRow(NamedTuple):
+    """How a player stands among those of a group, a Swiss or a chip tournament.
+
+    Parameters
+    ----------
+    rank
+        from 1; players who are level have the same.
+    name
+        the player.
+    won, lost
+        matches of the group, or of the finished rounds of a Swiss; a bye of a Swiss is won.
+    buchholz, chips
+        as in `StandingRow`.
+    """
+
+    rank: int
+    name: str
+    won: int
+    lost: int
+    buchholz: int | None = None
+    chips: int | None = None
 
 
 def match_rows(state: Evening) -> list[MatchRow]:
@@ -277,10 +300,8 @@ def standing_rows(
     if not state.drawn:
         return []
     places = decided_places(state)
-    won, lost, games = Counter[str](), Counter[str](), Counter[tuple[str, str]]()
+    (won, lost), games = _record(state, state.counted), Counter[tuple[str, str]]()
     for result in state.counted.values():
-        won[result.winner] += 1
-        lost[result.loser] += 1
         if not result.forfeit:
             one, other = result.players
             games.update({(one, "won"): result.games[one], (one, "lost"): result.games[other]})
@@ -312,6 +333,55 @@ def standing_rows(
             )
         )
     return found
+
+
+def group_rows(state: Evening) -> dict[str, list[RankRow]]:
+    """Return how each group stands, the best first, by what the bracket calls it.
+
+    Of a Swiss and of a chip tournament all players are one group, ''.
+    """
+    if not state.drawn:
+        return {}
+    if state.plan.form == "swiss":
+        ranks = swiss_ranks(state)[1]
+        places = _shared([(one.player, one[1:3]) for one in ranks])
+        return {"": [RankRow(places[one.player].first, one.player, one.score, one.lost,
+                             one.buchholz) for one in ranks]}  # fmt: skip
+    if state.plan.form == "chips":
+        night, (won, lost) = state.chip_night, _record(state, state.counted)
+        still = sorted(night.order, key=lambda name: -night.chips[name])
+        level: list[tuple[str, object]] = [(name, night.chips[name]) for name in still]
+        level += [(name, name) for name in reversed(night.gone)]
+        return {"": [RankRow(place.first, name, won[name], lost[name], None, night.chips[name])
+                     for name, place in _shared(level).items()]}  # fmt: skip
+    return {
+        state.bracket.match(group.matches[0]).side: _ranks(state, group)
+        for group in state.bracket.groups
+        if group.matches
+    }
+
+
+def _ranks(state: Evening, group: Group) -> list[RankRow]:
+    """Return how a group stands, its ties broken if they have been."""
+    won, lost = _record(state, group.matches)
+    over = [
+        (pair, state.order.index(state.counted[name].winner))
+        for name, pair in zip(group.matches, group.pairs, strict=True)
+        if name in state.counted
+    ]
+    ahead = ranked(group.members, [pair for pair, _ in over], [winner for _, winner in over])
+    rank = {state.order[k]: first + 1 for k, first in zip(group.members, ahead, strict=True)}
+    last = state.results.get(group.name)
+    if isinstance(last, tuple):
+        rank = {name: k for k, name in enumerate(last, 1)}
+    rows = [RankRow(rank[name], name, won[name], lost[name]) for name in rank]
+    return sorted(rows, key=lambda one: one.rank)
+
+
+def _record(state: Evening, matches: Iterable[str]) -> tuple[Counter[str], Counter[str]]:
+    """Return how many of some matches each player has won, and lost."""
+    results = [state.counted[name] for name in matches if name in state.counted]
+    return Counter(one.winner for one in results), Counter(one.loser for one in results)
 
 
 def swiss_ranks(state: Evening) -> tuple[int, list[SwissRank]]:

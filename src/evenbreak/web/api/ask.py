@@ -78,7 +78,7 @@ def _resources() -> Iterator[Resource]:
         if {one.name for one in declared(question) if one.required} <= {one.name for one in asks}:
             yield Resource(
                 "/" + command.replace(" ", "/"),
-                f"{(question.__doc__ or '').partition(chr(10))[0]}",
+                (question.__doc__ or "").partition("\n")[0],
                 partial(_answered, command),
                 schemas()[command],
                 "POST",

@@ -94,7 +94,7 @@ def open_to_more(schema: Any) -> Any:
 def operation_id(resource: Resource) -> str:
     """Return what programs call a resource, such as get_tonight_bracket."""
     words = re.findall(r"\w+", resource.path.replace("-", "_").removesuffix(".json"))
-    return "_".join([resource.method.lower(), *words]) if words else "get_addresses"
+    return "_".join([resource.method.lower(), *words])
 
 
 def _is_typed(gives: Any) -> bool:

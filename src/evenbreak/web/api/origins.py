@@ -13,12 +13,11 @@ from collections.abc import Collection
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from evenbreak.web.guard import turn_away
+from evenbreak.web.guard import ROOT, turn_away
 
 _HEADERS = b"authorization, content-type, idempotency-key, if-none-match, last-event-id"
 _SHOWN = b"etag, retry-after"
 _KEPT = b"600"  # seconds for which a browser need not ask again
-_ROOT = "/api/"
 _PREFLIGHT = b"access-control-request-method"
 _PRIVATE = b"access-control-request-private-network"
 
@@ -40,7 +39,7 @@ class Origins:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer or refuse a request."""
-        if scope["type"] != "http" or not scope["path"].startswith(_ROOT):
+        if scope["type"] != "http" or not scope["path"].startswith(f"{ROOT}/"):
             await self.app(scope, receive, send)
             return
         given = [(name, value) for name, value in scope["headers"] if name != b"cookie"]

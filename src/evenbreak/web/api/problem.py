@@ -14,12 +14,9 @@ from starlette.responses import Response
 
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.catalogues import language_of
-from evenbreak.web.guard import RefusalError
+from evenbreak.web.guard import ROOT, RefusalError
 from evenbreak.web.page import page_face, without_folder
 from evenbreak.words import Face, Sentence, capital_in_face, in_face
-
-ROOT = "/api"
-"""Where the addresses of the interface begin: all below it is answered in JSON."""
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,7 @@ same.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import MISSING
 from typing import Any
 
@@ -19,18 +18,16 @@ from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Text
 from evenbreak.fields.question import Declared, Field
 from evenbreak.teams.evening.fold import EVERYBODY
-from evenbreak.tournaments.brackets.bracket import Group
-from evenbreak.tournaments.brackets.standing import ranked
 from evenbreak.tournaments.evening.calling import night_queue, proposed_calls
 from evenbreak.tournaments.evening.events import Called
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.known import known_player
-from evenbreak.tournaments.evening.listed import swiss_ranks
+from evenbreak.tournaments.evening.listed import group_rows, swiss_ranks
 from evenbreak.tournaments.money.payouts import with_prizes
 from evenbreak.tournaments.odds.races import games_needed
 from evenbreak.web.api import shapes
 from evenbreak.web.api.problem import ProblemError
-from evenbreak.web.api.resource import Call, Resource
+from evenbreak.web.api.resource import EVENT, Call, Resource
 from evenbreak.web.api.seen import PLACES, Seen, match_of, times_of, told
 from evenbreak.web.evening_view import (
     favorites_of,
@@ -109,16 +106,15 @@ def _named(nights: Sequence[Seen]) -> dict[tuple[int, str], shapes.Match]:
     }
 
 
-def _tables(call: Call, seen: Seen, every: Sequence[Seen]) -> shapes.Tables:
-    nights = _asked(call, seen, every)
-    matches, proposed = _named(nights), _proposed(every)
+def _tables(_: Call, __: Seen, nights: Sequence[Seen]) -> shapes.Tables:
+    matches, proposed = _named(nights), _proposed(nights)
     on = {
         one.call.table: matches[seen.event, name]
         for seen in nights
         if seen.state.drawn
         for name, one in seen.state.on_tables.items()
     }
-    then = {to.table: matches.get((event, to.match)) for event, to in proposed}
+    then = {to.table: matches[event, to.match] for event, to in proposed}
     plan = nights[0].state.plan
     found = []
     for table in range(1, plan.tables + 1):
@@ -140,11 +136,6 @@ def _tables(call: Call, seen: Seen, every: Sequence[Seen]) -> shapes.Tables:
     return shapes.Tables(found)
 
 
-def _asked(call: Call, seen: Seen, nights: Sequence[Seen]) -> Sequence[Seen]:
-    """Return the event that is named, or all of the night."""
-    return nights if call.values["event"] is None else [seen]
-
-
 def _proposed(nights: Sequence[Seen]) -> list[tuple[int, Called]]:
     states = _states(nights)
     return proposed_calls(states, _order(nights)) if states else []
@@ -161,7 +152,8 @@ def _order(nights: Sequence[Seen]) -> Sequence[tuple[int, str]]:
 
 
 def _queue(call: Call, seen: Seen, every: Sequence[Seen]) -> shapes.Queue:
-    nights, plan = _asked(call, seen, every), every[0].state.plan
+    nights = every if call.values["event"] is None else [seen]
+    plan = every[0].state.plan
     matches = _named(nights)
     to = {(event, one.match): plan.table_name(one.table) for event, one in _proposed(every)}
     queue = night_queue(_states(nights), _order(every))
@@ -209,74 +201,18 @@ def _standings(call: Call, seen: Seen, _: Sequence[Seen]) -> shapes.Standings:
     return shapes.Standings(
         seen.event,
         seen.stage,
-        seen.fresh is not None,
         [shapes.Placed(*one) for one in paid],
-        list(_groups(seen.state)),
+        [
+            shapes.Group(_title(seen.state, side), [shapes.Rank(*row) for row in rows])
+            for side, rows in group_rows(seen.state).items()
+        ],
     )
 
 
-def _groups(state: Evening) -> Iterator[shapes.Group]:
-    if not state.drawn:
-        return
+def _title(state: Evening, side: str) -> str:
     if state.plan.form == "swiss":
-        rounds, ranks = swiss_ranks(state)
-        won = _won(state, [match.name for match in state.bracket.matches])
-        first = [(one.score, one.buchholz) for one in ranks]
-        yield shapes.Group(
-            say("Standings after round {n}", n=rounds),
-            [
-                shapes.Rank(
-                    first.index((one.score, one.buchholz)) + 1,
-                    one.player, one.score, won[one.player][1], one.buchholz, None,
-                )
-                for one in ranks
-            ],
-        )  # fmt: skip
-        return
-    if state.plan.form == "chips":
-        night = state.chip_night
-        won = _won(state, list(state.counted))
-        still = sorted(night.order, key=lambda name: -night.chips[name])
-        left = [night.chips[name] for name in still]
-        both = [*still, *reversed(night.gone)]
-        level = [left.index(chips) + 1 for chips in left]
-        rows = zip([*level, *range(len(still) + 1, len(both) + 1)], both, strict=True)
-        yield shapes.Group(
-            say("Chips"),
-            [shapes.Rank(k, name, *won[name], None, night.chips[name]) for k, name in rows],
-        )
-        return
-    for group in state.bracket.groups:
-        if group.matches:
-            yield _group(state, group)
-
-
-def _group(state: Evening, group: Group) -> shapes.Group:
-    """Return how a group stands, its ties broken if they have been."""
-    names = [state.order[k] for k in group.members]
-    over = [
-        (pair, state.order.index(state.counted[name].winner))
-        for name, pair in zip(group.matches, group.pairs, strict=True)
-        if name in state.counted
-    ]
-    ahead = ranked(group.members, [pair for pair, _ in over], [won for _, won in over])
-    rank = {name: k + 1 for name, k in zip(names, ahead, strict=True)}
-    last = state.results.get(group.name)
-    if isinstance(last, tuple):
-        rank = {name: k for k, name in enumerate(last, 1)}
-    won = _won(state, group.matches)
-    rows = sorted(names, key=lambda name: rank[name])
-    return shapes.Group(
-        title_of(state.bracket.match(group.matches[0]).side),
-        [shapes.Rank(rank[name], name, *won[name], None, None) for name in rows],
-    )
-
-
-def _won(state: Evening, matches: Iterable[str]) -> dict[str, tuple[int, int]]:
-    """Return how many of some matches each player has won and lost."""
-    results = [state.counted[name] for name in matches if name in state.counted]
-    won, lost = Counter(one.winner for one in results), Counter(one.loser for one in results)
-    return {name: (won[name], lost[name]) for name in state.order}
+        return say("Standings after round {n}", n=swiss_ranks(state)[0])
+    return say("Chips") if state.plan.form == "chips" else title_of(side)
 
 
 def _ratings(_: Call, seen: Seen, __: Sequence[Seen]) -> shapes.Ratings:
@@ -297,6 +233,8 @@ def _ratings(_: Call, seen: Seen, __: Sequence[Seen]) -> shapes.Ratings:
 def _race(call: Call, seen: Seen, _: Sequence[Seen]) -> shapes.Race:
     state = seen.state
     pair = _player(state, call, "a"), _player(state, call, "b")
+    if pair[0] == pair[1]:
+        raise ProblemError("A player can't race against themselves.", parameter="b")
     needs = 1, 1
     if state.plan.form != "chips":
         one, other = (state.entrants[name].rating for name in pair)
@@ -341,14 +279,22 @@ RESOURCES = [
         "The tournament: who plays, and what is under way.",
         told(_tonight),
         shapes.Tonight,
+        asks=(EVENT,),
     ),
     Resource(
         "/tonight/bracket",
         "The bracket, all that it takes to draw it.",
         told(_bracket),
         shapes.Bracket,
+        asks=(EVENT,),
     ),
-    Resource("/tonight/matches", "All matches, by number.", told(_all_matches), shapes.Matches),
+    Resource(
+        "/tonight/matches",
+        "All matches, by number.",
+        told(_all_matches),
+        shapes.Matches,
+        asks=(EVENT,),
+    ),
     Resource(
         "/tonight/tables", "What is on each table of the house.", told(_tables), shapes.Tables
     ),
@@ -357,20 +303,29 @@ RESOURCES = [
         "The matches that can be called now, the next first.",
         told(_queue),
         shapes.Queue,
+        asks=(EVENT,),
     ),
-    Resource("/tonight/odds", "Everybody's chance of each place.", told(_odds), shapes.Odds),
-    Resource("/tonight/finish", "When it ends.", told(_finish), shapes.Finish),
+    Resource(
+        "/tonight/odds",
+        "Everybody's chance of each place.",
+        told(_odds),
+        shapes.Odds,
+        asks=(EVENT,),
+    ),
+    Resource("/tonight/finish", "When it ends.", told(_finish), shapes.Finish, asks=(EVENT,)),
     Resource(
         "/tonight/standings",
         "Who has finished where, and how groups stand.",
         told(_standings),
         shapes.Standings,
+        asks=(EVENT,),
     ),
     Resource(
         "/tonight/ratings",
         "The ratings, and how tonight's games have moved them.",
         told(_ratings),
         shapes.Ratings,
+        asks=(EVENT,),
     ),
     Resource(
         "/tonight/race",
@@ -380,6 +335,7 @@ RESOURCES = [
         asks=(
             _asks("a", "A player of tonight; the beginning of a name will do."),
             _asks("b", "The other one."),
+            EVENT,
         ),
     ),
     Resource("/tonight/team", "Tonight's team night.", _team, shapes.TeamNight),

@@ -21,11 +21,12 @@ from evenbreak.fields.question import Declared, Field
 from evenbreak.web.api.body import object_in
 from evenbreak.web.api.problem import ProblemError, encoded, face_of
 from evenbreak.web.api.tokens import check_token
+from evenbreak.web.guard import ROOT
 from evenbreak.web.page import site_of
 from evenbreak.web.site import Site
 from evenbreak.words import say
 
-V1 = "/api/v1"
+V1 = f"{ROOT}/v1"
 """Where the addresses of this version begin."""
 
 MOST_JSON = 64 << 10
@@ -36,10 +37,11 @@ EVENT = Declared(
     Field(
         Whole(1, 99),
         "The number of the event, of a night that has several.",
-        usual="the first; of tables and of the queue all",
+        usual="the first; of the queue all",
     ),
     None,
 )
+"""In the address also where the rest is in the body."""
 _MOST_KEPT = 100
 _SHOWN = 40  # characters of a wrong value that a problem repeats
 
@@ -69,7 +71,7 @@ class Resource:
     Parameters
     ----------
     path
-        below /api/v1, such as "/tonight/bracket"; what is below /tonight takes `?event=2` besides.
+        below /api/v1, such as "/tonight/bracket".
     does
         what it does, in a sentence: the summary in OpenAPI and in the reference.
     answer
@@ -79,9 +81,11 @@ class Resource:
     method
         of HTTP.
     asks
-        the parameters of the address (GET), or of the JSON body (POST).
+        the parameters of the address (GET, and `EVENT`), or of the JSON body (POST).
     scope
         who may ask: "" everybody in the room, else whoever has a token for "scores" or "director".
+    streams
+        whether it goes on answering.
     """
 
     path: str
@@ -91,23 +95,17 @@ class Resource:
     method: str = "GET"
     asks: tuple[Declared, ...] = ()
     scope: str = ""
+    streams: bool = False
 
     @property
     def query(self) -> tuple[Declared, ...]:
         """The parameters of the address."""
-        own = self.asks if self.method == "GET" else ()
-        of_one_event = self.path.startswith("/tonight") and not self.streams
-        return (*own, EVENT) if of_one_event else own
-
-    @property
-    def streams(self) -> bool:
-        """Whether it goes on answering, of all events of the night."""
-        return self.path.endswith("/changes")
+        return tuple(one for one in self.asks if self.method == "GET" or one is EVENT)
 
     @property
     def body(self) -> tuple[Declared, ...]:
         """The parameters of the JSON body."""
-        return () if self.method == "GET" else self.asks
+        return tuple(one for one in self.asks if one not in self.query)
 
 
 class Kept(NamedTuple):

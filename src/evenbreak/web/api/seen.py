@@ -89,6 +89,15 @@ class Seen(NamedTuple):
         return self.view.panels if self.state.drawn else ()
 
 
+def night_asked(call: Call) -> Night:
+    """Return the event that is named, else the first."""
+    event = call.values.get("event") or 1
+    for night in call.site.nights:
+        if night.event == event:
+            return night
+    raise ProblemError("There is no event {n} tonight.", status=404, parameter="event", n=event)
+
+
 async def seen_of(call: Call, night: Night) -> Seen:
     """Return an event as everybody sees it."""
     now = call.site.clock()
@@ -109,14 +118,10 @@ def told(make: Callable[[Call, Seen, Sequence[Seen]], Any]) -> Callable[[Call], 
                     "Tonight is a team night. It is at {address}.", status=404, address=_TEAM
                 )
             raise ProblemError("No tournament is running yet.", status=404)
+        asked = night_asked(call)
         nights = [await seen_of(call, night) for night in call.site.nights]
         of = [part for one in nights for part in (one.state, one.known or "", one.view.marks)]
-        event = call.values["event"] or 1
-        mine = next((one for one in nights if one.event == event), None)
-        if mine is None:
-            raise ProblemError(
-                "There is no event {n} tonight.", status=404, parameter="event", n=event
-            )
+        mine = next(one for one in nights if one.event == asked.event)
         return Kept(("api", *of), lambda: make(call, mine, nights))
 
     return answer

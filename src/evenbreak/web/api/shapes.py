@@ -244,7 +244,7 @@ class Rank:
 
     rank: Annotated[int, Meta(ge=1, description="The same of players who are level.")]
     name: str
-    won: Annotated[int, Meta(description="Matches won.")]
+    won: Annotated[int, Meta(description="Matches won, in a Swiss after the finished rounds.")]
     lost: Annotated[int, Meta(description="Matches lost.")]
     buchholz: Annotated[int | None, Meta(description="Of a Swiss.")]
     chips: Annotated[int | None, Meta(description="Left, of a chip tournament.")]
@@ -264,7 +264,6 @@ class Standings:
 
     event: EventNumber
     state: Stage
-    known: Annotated[bool, Meta(description="False: the places are not worked out yet.")]
     places: Annotated[list[Placed], Meta(description="Those that are decided.")]
     groups: list[Group]
 

@@ -186,6 +186,7 @@ RESOURCES = [
         changes,
         Change,
         asks=(_AFTER,),
+        streams=True,
     )
 ]
 """The stream of the interface."""

@@ -29,15 +29,14 @@ from evenbreak.tournaments.evening.known import known_match
 from evenbreak.tournaments.evening.undoing import losses
 from evenbreak.web.api import shapes
 from evenbreak.web.api.problem import Lost, ProblemError
-from evenbreak.web.api.resource import Call, Resource
-from evenbreak.web.api.seen import match_of, seen_of
+from evenbreak.web.api.resource import EVENT, Call, Resource
+from evenbreak.web.api.seen import match_of, night_asked, seen_of
 from evenbreak.web.api.tokens import check_still, token_of
 from evenbreak.web.entering import Entered, SureError, enter
 from evenbreak.web.forms import LONGEST
 from evenbreak.web.guard import MovedOnError
 from evenbreak.web.night import Night
 from evenbreak.web.pages.moves import OF_COMMANDS
-from evenbreak.web.site import night_of
 from evenbreak.words import Parameter, joined, say
 
 _SURE = Declared(
@@ -76,7 +75,7 @@ class Written:
 
 async def _entered(name: str, call: Call) -> Written:
     """Enter what a program asks."""
-    night, move, request = night_of(call.request), MOVES[name], call.request
+    night, move, request = night_asked(call), MOVES[name], call.request
     if not night.exists:
         raise ProblemError("No tournament is running yet.", status=404)
     values = {key: value for key, value in call.values.items() if key not in (*_OWN, "event")}
@@ -237,7 +236,7 @@ def _resources() -> Iterator[Resource]:
             partial(_entered, name),
             Written,
             "POST",
-            (*fields, *more),
+            (*fields, *more, EVENT),
             SCORES if name in MOVES_OF_SCORES else DIRECTOR,
         )
 
