@@ -2,8 +2,8 @@
 
     pip install glicko2 trueskill openskill whole-history-rating
 
-Each has the settings that its users turn, and values around its usual ones; `fairness.py` chooses
-among them by the first half of each season.
+Each has the settings that its users turn, and values around its usual ones. The chance of a race is
+averaged over the error of the difference of two players where an engine knows one.
 """
 
 from __future__ import annotations
@@ -13,31 +13,30 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
-from scipy.special import betainc, expit
+from scipy.special import betainc, expit, ndtr
 
 from evenbreak.arrays import Floats, Ints
 from evenbreak.ratings import Levels, Results, walk_forward
 
+POINTS, _weights = np.polynomial.hermite_e.hermegauss(31)
+WEIGHTS = _weights / _weights.sum()
+"""A mean over a normal distribution is that over these points, with these weights."""
+
 
 class Engine:
-    """A rating engine, made anew for each season: `Mine(players=40, **settings)`.
-
-    `learn(night)` gets the matches of a night, in order; before it, `chance(a, b, (m, n))` is asked
-    for P(player a wins m games before player b wins n) of each of them. Players are numbers.
-    """
+    """A rating engine that knows how far two players are apart, made as `Mine(40, **settings)`."""
 
     name = ""
     needs = ""
     """The module that it imports and the package that has it: "whr whole-history-rating"."""
     settings: ClassVar[Mapping[str, Sequence[float]]] = {}
-    """What can be set, and the values to choose from."""
 
     def __init__(self, players: int, **settings: float) -> None:
         self.players, self.set = players, settings
         self.start()
 
     def start(self) -> None:
-        """Make everybody a beginner."""
+        """Start everyone as a newcomer."""
 
     def learn(self, night: Results) -> None:
         """Learn from the matches of a night: game by game, as `games_of` orders them."""
@@ -45,12 +44,19 @@ class Engine:
             self.beat(winner, loser)
 
     def chance(self, a: int, b: int, race: tuple[int, int]) -> float:
-        """Return P(a wins the race), by the chance of a game."""
-        return float(betainc(*race, self.game(a, b)))
+        """Return P(a wins the race), averaged over the error of the difference."""
+        apart, error = self.apart(a, b)
+        if not error:
+            return float(betainc(*race, self.curve(apart)))
+        return float(betainc(*race, self.curve(apart + error * POINTS)) @ WEIGHTS)
 
-    def game(self, a: int, b: int) -> float:
-        """Return P(a wins a game)."""
+    def apart(self, a: int, b: int) -> tuple[float, float]:
+        """Return how much better a is than b, and its standard error, 0 if that is not known."""
         raise NotImplementedError
+
+    def curve(self, apart: Any) -> Any:
+        """Return P(a wins a game) by how much better a is."""
+        return expit(apart)
 
     def beat(self, winner: int, loser: int) -> None:
         """Learn from a game."""
@@ -77,10 +83,10 @@ class Evenbreak(Engine):
 
     name = "evenbreak"
     settings: ClassVar = {
-        "prior_sd": (0.25, 0.35, 0.5, 0.7),
-        "newcomers": (0.0, 0.8, 1.2),
-        "field": (0.0, 0.9),
-        "half_life": (120.0, 365.0, math.inf),
+        "prior_sd": (0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 1.0),
+        "newcomers": (0.0, 0.8, 1.2, 1.8, 2.7),
+        "field": (0.0, 0.45, 0.9, 1.5, 2.5),
+        "half_life": (30.0, 60.0, 120.0, 365.0, math.inf),
     }
 
     def walk(self, season: Results, races: Sequence[tuple[Ints, Ints]]) -> Floats:
@@ -89,17 +95,18 @@ class Evenbreak(Engine):
         levels = Levels(newcomers=given["newcomers"], field=given["field"])
         fades = given["half_life"] if given["half_life"] < math.inf else None
         found = walk_forward(season, prior_sd=given["prior_sd"], half_life=fades, levels=levels)
-        points, weights = np.polynomial.hermite_e.hermegauss(31)
-        p = expit(found.difference[:, None] + found.sd[:, None] * points)
-        mean = weights / weights.sum()
-        return np.array([betainc(m[:, None], n[:, None], p) @ mean for m, n in races])
+        p = expit(found.difference[:, None] + found.sd[:, None] * POINTS)
+        return np.array([betainc(m[:, None], n[:, None], p) @ WEIGHTS for m, n in races])
 
 
 class BradleyTerry(Engine):
     """A Bradley-Terry model with a normal prior, games fading with age, by Newton's method."""
 
     name = "Bradley-Terry, fading"
-    settings: ClassVar = {"prior_sd": (0.25, 0.35, 0.5, 0.7), "half_life": (120.0, 365.0, 1e6)}
+    settings: ClassVar = {
+        "prior_sd": (0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 1.0),
+        "half_life": (30.0, 60.0, 120.0, 365.0, math.inf),
+    }
 
     def start(self) -> None:
         self.skill, self.won = np.zeros(self.players), np.zeros((self.players, self.players))
@@ -123,24 +130,25 @@ class BradleyTerry(Engine):
             bend = np.diag(weight.sum(1) + tight) - weight
             self.skill = self.skill + np.linalg.solve(bend, slope)
 
-    def game(self, a: int, b: int) -> float:
-        return float(expit(self.skill[a] - self.skill[b]))
+    def apart(self, a: int, b: int) -> tuple[float, float]:
+        return float(self.skill[a] - self.skill[b]), 0.0
 
 
 class Elo(Engine):
     """Elo's ratings, moved by each game."""
 
     name = "Elo"
-    settings: ClassVar = {"step": (0.02, 0.03, 0.045, 0.07, 0.1, 0.15, 0.2, 0.3)}
+    settings: ClassVar = {"step": (0.01, 0.02, 0.03, 0.045, 0.07, 0.1, 0.15, 0.2, 0.3)}
 
     def start(self) -> None:
         self.rating = [0.0] * self.players
 
-    def game(self, a: int, b: int) -> float:
-        return 1.0 / (1.0 + math.exp(self.rating[b] - self.rating[a]))
+    def apart(self, a: int, b: int) -> tuple[float, float]:
+        return self.rating[a] - self.rating[b], 0.0
 
     def beat(self, winner: int, loser: int) -> None:
-        change = self.set["step"] * (1.0 - self.game(winner, loser))
+        expected = 1.0 / (1.0 + math.exp(self.rating[loser] - self.rating[winner]))
+        change = self.set["step"] * (1.0 - expected)
         self.rating[winner] += change
         self.rating[loser] -= change
 
@@ -150,20 +158,20 @@ class Glicko2(Engine):
 
     name, needs = "Glicko-2", "glicko2 glicko2"
     settings: ClassVar = {
-        "deviation": (40.0, 60.0, 90.0, 120.0, 180.0, 350.0), "volatility": (0.01, 0.06),
-    }  # fmt: skip
+        "deviation": (25.0, 40.0, 60.0, 90.0, 120.0, 180.0, 350.0),
+        "volatility": (0.001, 0.01, 0.03, 0.06, 0.1, 0.2),
+    }
 
     def start(self) -> None:
         import glicko2
 
         usual = {"rd": self.set["deviation"], "vol": self.set["volatility"]}
         self.player = [glicko2.Player(rating=1500, **usual) for _ in range(self.players)]
+        self.known = set[int]()
 
-    def game(self, a: int, b: int) -> float:
-        one, other = self.player[a], self.player[b]
-        spread = math.hypot(one.rd, other.rd) * math.log(10.0) / 400.0
-        g = 1.0 / math.sqrt(1.0 + 3.0 * (spread / math.pi) ** 2)
-        return float(1.0 / (1.0 + 10.0 ** (-g * (one.rating - other.rating) / 400.0)))
+    def apart(self, a: int, b: int) -> tuple[float, float]:
+        one, other, unit = self.player[a], self.player[b], math.log(10.0) / 400.0
+        return unit * (one.rating - other.rating), unit * math.hypot(one.rd, other.rd)
 
     def learn(self, night: Results) -> None:
         seen: dict[int, list[tuple[float, float, bool]]] = {}
@@ -173,13 +181,18 @@ class Glicko2(Engine):
                 seen.setdefault(k, []).append((rival.rating, rival.rd, won))
         for k, games in seen.items():
             self.player[k].update_player(*map(list, zip(*games, strict=True)))
+        for k in self.known - seen.keys():
+            self.player[k].did_not_compete()
+        self.known |= seen.keys()
 
 
 class TrueSkill(Engine):
     """TrueSkill, game by game."""
 
     name, needs = "TrueSkill", "trueskill trueskill"
-    settings: ClassVar = {"beta": (0.7, 1.0, 1.5, 2.2, 3.2, 4.5), "tau": (0.0, 0.02, 0.06)}
+    settings: ClassVar = {
+        "beta": (0.7, 1.0, 1.5, 2.2, 3.2, 4.5), "tau": (0.0, 0.02, 0.06, 0.15),
+    }  # fmt: skip
 
     def start(self) -> None:
         import trueskill
@@ -187,30 +200,31 @@ class TrueSkill(Engine):
         self.env = trueskill.TrueSkill(mu=0.0, sigma=1.0, draw_probability=0.0, **self.set)
         self.rating = [self.env.create_rating() for _ in range(self.players)]
 
-    def game(self, a: int, b: int) -> float:
+    def apart(self, a: int, b: int) -> tuple[float, float]:
         one, other = self.rating[a], self.rating[b]
-        spread = math.sqrt(2.0 * self.set["beta"] ** 2 + one.sigma**2 + other.sigma**2)
-        return float(self.env.cdf((one.mu - other.mu) / spread))
+        return one.mu - other.mu, math.hypot(one.sigma, other.sigma)
+
+    def curve(self, apart: Any) -> Any:
+        return ndtr(apart / (math.sqrt(2.0) * self.set["beta"]))
 
     def beat(self, winner: int, loser: int) -> None:
         both = self.env.rate_1vs1(self.rating[winner], self.rating[loser])
         self.rating[winner], self.rating[loser] = both
 
 
-class OpenSkill(Engine):
+class OpenSkill(TrueSkill):
     """The Plackett-Luce model of openskill, game by game."""
 
     name, needs = "openskill", "openskill openskill"
-    settings: ClassVar = {"beta": (12.5, 25.0, 40.0, 60.0, 90.0), "tau": (0.0, 0.1)}
+    settings: ClassVar = {
+        "beta": (6.0, 12.5, 25.0, 40.0, 60.0, 90.0, 140.0), "tau": (0.0, 0.1, 0.3, 1.0),
+    }  # fmt: skip
 
     def start(self) -> None:
         from openskill.models import PlackettLuce
 
         self.model = PlackettLuce(mu=25.0, sigma=25 / 3, **self.set)
         self.rating = [self.model.rating() for _ in range(self.players)]
-
-    def game(self, a: int, b: int) -> float:
-        return float(self.model.predict_win([[self.rating[a]], [self.rating[b]]])[0])
 
     def beat(self, winner: int, loser: int) -> None:
         both = self.model.rate([[self.rating[winner]], [self.rating[loser]]])
@@ -221,7 +235,9 @@ class WholeHistory(Engine):
     """Whole-history rating: all nights are fitted again, skills moving from day to day."""
 
     name, needs = "whole-history rating", "whr whole-history-rating"
-    settings: ClassVar = {"w2": (0.3, 3.0, 14.0, 40.0), "prior_wins": (3.0, 6.0, 12.0, 24.0)}
+    settings: ClassVar = {
+        "w2": (0.3, 3.0, 14.0, 40.0, 100.0, 250.0), "prior_wins": (1.5, 3.0, 6.0, 12.0, 24.0, 48.0),
+    }  # fmt: skip
 
     def start(self) -> None:
         from whr import WHR
@@ -229,11 +245,11 @@ class WholeHistory(Engine):
         self.model = WHR({"w2": self.set["w2"], "initial_prior_wins": self.set["prior_wins"]})
         self.known, self.first = set[int](), None
 
-    def game(self, a: int, b: int) -> float:
-        if not {a, b} & self.known:
-            return 0.5
-        found = self.model.probability_future_match(str(a), str(b), account_for_uncertainty=True)
-        return min(max(float(found[0]), 1e-6), 1.0 - 1e-6)
+    def apart(self, a: int, b: int) -> tuple[float, float]:
+        last = {k: self.model.player_by_name(str(k)).days[-1] for k in {a, b} & self.known}
+        elo = [last[k].elo if k in last else 0.0 for k in (a, b)]
+        error = math.sqrt(sum(max(day.uncertainty, 0.0) for day in last.values()))
+        return (elo[0] - elo[1]) * math.log(10.0) / 400.0, error
 
     def learn(self, night: Results) -> None:
         assert night.date is not None

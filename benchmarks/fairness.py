@@ -1,4 +1,4 @@
-"""Fairness of rating engines and of handicap systems, all judged on the same seasons.
+"""Fairness of rating engines, judged on the same seasons, and of handicap systems.
 
     pip install glicko2 trueskill openskill whole-history-rating  # one that is missing is left out
     python benchmarks/fairness.py --engine mine:Engine --system mine:Handicap --csv fairness.csv
@@ -12,17 +12,21 @@
 
 Each match is predicted before its night is learned. What users of an engine can set, it names with
 the values to choose from, `settings = {"step": (0.05, 0.1)}`; they are passed by name to
-`__init__`. The first half of the nights chooses (by the log-loss of games), and the second half
-judges. An engine that walks through a season by itself has `walk(season, races)` in place of
-`learn` and `chance`; whether it predicts the first half without the second is checked. `engines.py`
-has evenbreak's and those of other packages.
+`__init__`. The first half of the nights chooses (by the log-loss of games, one setting after the
+other until none can be bettered), and the second half judges. A star marks an engine that chose
+the first or last of a setting's values somewhere: there wider ones might do better. An engine that
+walks through a season by itself has `walk(season, races)` in place of `learn` and `chance`; then
+the results of several nights and all later ones are turned round, and what it says of matches up
+to that night must stay the same. `engines.py` has evenbreak's and those of other packages.
 
 **A handicap system** is a `System` by its name, that of an entry point of an installed package, or
-`module:Class`: see docs/how-to/your-own-system.md.
+`module:Class`: see docs/how-to/your-own-system.md. Systems play a simulated league of their own.
 
 The seasons: results of snooker (`--season FILE`; left out if it is not there), and simulated
-leagues with true skills that are known (`synthetic_seasons.py`) and steady, or drift. Standard
-errors take the matches of a night as one cluster; differences from the first engine are paired.
+leagues with true skills that are known (`synthetic_seasons.py`) and steady, or drift. What an
+engine knows of a player carries over from night to night, so standard errors take each league as
+one cluster, and twelve blocks of nights where there is one season; differences from the first
+engine are paired.
 """
 
 from __future__ import annotations
@@ -33,7 +37,10 @@ import itertools
 import math
 import sys
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -44,7 +51,7 @@ from engines import ENGINES
 from scipy.special import betainc, expit, logit
 from synthetic_seasons import season_with_truth
 
-from evenbreak.arrays import Floats, Ints
+from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.ratings import Results
 from evenbreak.ratings.estimates import logistic_coefficient
 from evenbreak.ratings.validation.walk_forward import even_races
@@ -52,6 +59,10 @@ from evenbreak.ratings.validation.walk_forward import even_races
 PLACE = Path(__file__).resolve().parents[2] / "shared/data/snooker_2016_17_results.csv"
 OFFERED = [(7, 7), *(race for n in range(6, 1, -1) for race in ((7, n), (n, 7)))]
 """The races of which the fairest is offered to two players, by their chances."""
+BLOCKS = 12
+"""Into how many blocks of nights, as clusters, a season is cut that is the only one of its kind."""
+CHECKED = 5
+"""At how many nights it is checked that an engine which walks by itself doesn't look ahead."""
 SYSTEMS = ("fargo-like", "npl", "elo", "apa-like", "none")
 
 
@@ -70,7 +81,7 @@ class Season(NamedTuple):
 
 
 class Truth:
-    """Knows how good everybody is: nobody can do better."""
+    """Knows the true skills; no engine can do better."""
 
     name, settings = "the true chances", {}
 
@@ -90,7 +101,7 @@ class Judged(NamedTuple):
     score: Floats
     games: Floats
     won: Floats
-    night: Ints
+    cluster: Ints
     uneven: Floats
 
     @property
@@ -126,20 +137,56 @@ def walked(engine: Any, played: Results, races: Sequence[tuple[Ints, Ints]]) -> 
     return np.clip(found, 1e-9, 1.0 - 1e-9)
 
 
-def ways_of(kind: Any) -> Iterator[dict[str, float]]:
-    """Yield every combination of an engine's settings."""
-    settings: Mapping[str, Sequence[float]] = getattr(kind, "settings", {})
-    for values in itertools.product(*settings.values()):
-        yield dict(zip(settings, values, strict=True))
+def chosen(kind: Any, loss: Callable[[dict[str, float]], float]) -> dict[str, float]:
+    """Return the settings with the least loss, found from the middle one setting at a time."""
+    values: Mapping[str, Sequence[float]] = getattr(kind, "settings", {})
+    way = {name: each[len(each) // 2] for name, each in values.items()}
+    losses: dict[tuple[float, ...], float] = {}
+
+    def known(way: dict[str, float]) -> float:
+        key = tuple(way.values())
+        if key not in losses:
+            losses[key] = loss(way)
+        return losses[key]
+
+    while True:
+        before = way
+        for name, each in values.items():
+            way = min(({**way, name: value} for value in each), key=known)
+        if way == before:
+            return way
+
+
+def edges(kind: Any, way: Mapping[str, float]) -> list[str]:
+    """Return the settings that are the first or last of their values, and could be wider."""
+    values: Mapping[str, Sequence[float]] = getattr(kind, "settings", {})
+    return [
+        f"{name} {value:g}"
+        for name, value in way.items()
+        if value in (values[name][0], values[name][-1]) and value not in (0.0, math.inf)
+    ]
+
+
+def turned(played: Results, rows: Bools) -> Results:
+    """Return results in which the other player has won some matches: 7-4 becomes 4-7."""
+    race_a, race_b, won = even_races(played)
+    a = np.where(won == 1.0, np.minimum(played.score_b, race_a - 1), race_a)
+    b = np.where(won == 1.0, race_b, np.minimum(played.score_a, race_b - 1))
+    a, b = np.where(race_a > 0, (a, b), (played.score_b, played.score_a))
+    return replace(
+        played,
+        score_a=np.where(rows, a, played.score_a),
+        score_b=np.where(rows, b, played.score_b),
+    )
 
 
 def judge(kind: Any, season: Season) -> tuple[dict[str, float], Judged]:
     """Return the settings that the first half of the nights chooses; what it says of the rest."""
-    played = season.played
+    played, nights = season.played, season.nights
     race_a, race_b, won = even_races(played)
     ones = np.ones(len(played), dtype=int)
     games, score = (played.score_a + played.score_b).astype(float), played.score_a.astype(float)
-    late = season.nights > season.nights.max() // 2
+    late = nights > nights.max() // 2
     early = np.flatnonzero(~late)
 
     def loss(settings: Mapping[str, float]) -> float:
@@ -147,23 +194,26 @@ def judge(kind: Any, season: Season) -> tuple[dict[str, float], Judged]:
         p = walked(made_of(kind, season, settings), part, [(ones[early], ones[early])])[0]
         return float(-(score[early] * np.log(p) + (games - score)[early] * np.log1p(-p)).sum())
 
-    ways = list(ways_of(kind))
-    settings = min(ways, key=loss) if len(ways) > 1 else ways[0]
+    settings = chosen(kind, loss)
     races = [(ones, ones), (race_a, race_b)]
     if season.better is not None:
         races += [(m * ones, n * ones) for m, n in OFFERED]
     found = walked(made_of(kind, season, settings), played, races)
-    if hasattr(kind, "walk"):
-        again = walked(made_of(kind, season, settings), played.select(early), [(ones[early],) * 2])
-        if np.abs(again[0] - found[0, early]).max() > 1e-5:
-            raise SystemExit(f"{name_of(kind)} knows of matches that come later")
+    checked = np.unique(np.linspace(1, nights.max(), CHECKED).astype(int))
+    for night in checked.tolist() if hasattr(kind, "walk") else []:
+        other = turned(played, nights >= night)
+        again = walked(made_of(kind, season, settings), other, races)
+        if np.abs(again - found)[:, nights <= night].max() > 1e-5:
+            raise SystemExit(f"{name_of(kind)} knows results of night {night} or later before it")
     uneven = np.full(len(played), np.nan)
     if season.better is not None:
         m, n = np.array(OFFERED)[np.abs(found[2:] - 0.5).argmin(axis=0)].T
         uneven = np.abs(betainc(m, n, expit(season.better)) - 0.5)
     rows = late & (race_a > 0)
-    columns = found[0], found[1], score, games, won, season.nights, uneven
-    return settings, Judged(*(column[rows] for column in columns))
+    night = np.unique(nights[rows], return_inverse=True)[1]
+    block = night * BLOCKS // (night.max() + 1)
+    said = (column[rows] for column in (found[0], found[1], score, games, won))
+    return settings, Judged(*said, block, uneven[rows])
 
 
 class Estimate(NamedTuple):
@@ -173,61 +223,44 @@ class Estimate(NamedTuple):
     error: float
 
 
-def mean_of(amount: Floats, weight: Floats, night: Ints) -> Estimate:
-    """Return a mean over games or matches; each night is a cluster."""
+def mean_of(amount: Floats, weight: Floats, cluster: Ints) -> Estimate:
+    """Return a mean over games or matches; those of a cluster may depend on each other."""
     value = float(amount.sum() / weight.sum())
-    miss = np.bincount(night, amount - value * weight)
-    many = len(np.unique(night))
+    miss = np.bincount(cluster, amount - value * weight)
+    many = len(np.unique(cluster))
     error = math.sqrt(float(miss @ miss) * many / (many - 1)) / float(weight.sum())
     return Estimate(value, error)
 
 
-def line_of(p: Floats, won: Floats, night: Ints) -> tuple[Estimate, Estimate]:
+def line_of(p: Floats, won: Floats, cluster: Ints) -> tuple[Estimate, Estimate]:
     """Return the slope of the log-odds of winning on those that were stated; the favorites' gap.
 
     Right chances have slope 1 (below, they are too extreme) and gap 0 (above, favorites win more).
     """
     x, leads, ones = logit(p), p > 0.5, np.ones(len(p))
-    slope = logistic_coefficient(x, won, ones, night)
+    slope = logistic_coefficient(x, won, ones, cluster)
     favorite = np.where(leads, won, 1.0 - won)
-    gap = logistic_coefficient(ones, favorite, ones, night, offset=np.abs(x))
+    gap = logistic_coefficient(ones, favorite, ones, cluster, offset=np.abs(x))
     return tuple(  # type: ignore[return-value]
         Estimate(one.value, (one.high - one.low) / 3.92) if one else Estimate(math.nan, math.nan)
         for one in (slope, gap)
     )
 
 
-def bins_of(p: Floats, won: Floats) -> list[tuple[float, float, int]]:
-    """Return the favorite's mean chance, how often they won, and the matches, by chance."""
-    chance, wins = np.where(p > 0.5, p, 1.0 - p), np.where(p > 0.5, won, 1.0 - won)
-    place = np.minimum(((chance - 0.5) * 10.0).astype(int), 4)
-    rows = [place == k for k in range(5) if (place == k).any()]
-    return [(float(chance[k].mean()), float(wins[k].mean()), int(k.sum())) for k in rows]
-
-
-def binned(its: Judged) -> str:
-    """Return the bins as text: stated chance, share of wins, matches."""
-    bins = bins_of(its.match, its.won)
-    return "; ".join(f"{stated:.3f} {seen:.3f} {n}" for stated, seen, n in bins)
-
-
 def measures(its: Judged, first: Judged) -> dict[str, Estimate]:
     """Return what is said of an engine, and of how far it is behind the first."""
     many = np.ones(len(its.won))
-    slope, intercept = line_of(its.match, its.won, its.night)
-    bins = bins_of(its.match, its.won)
-    miss = sum(n * abs(p - seen) for p, seen, n in bins) / len(its.won)
+    slope, intercept = line_of(its.match, its.won, its.cluster)
     return {
-        "game_log_loss": mean_of(its.game_losses, its.games, its.night),
-        "game_behind": mean_of(its.game_losses - first.game_losses, its.games, its.night),
-        "match_log_loss": mean_of(its.match_losses, many, its.night),
-        "match_behind": mean_of(its.match_losses - first.match_losses, many, its.night),
-        "brier": mean_of((its.match - its.won) ** 2, many, its.night),
+        "game_log_loss": mean_of(its.game_losses, its.games, its.cluster),
+        "game_behind": mean_of(its.game_losses - first.game_losses, its.games, its.cluster),
+        "match_log_loss": mean_of(its.match_losses, many, its.cluster),
+        "match_behind": mean_of(its.match_losses - first.match_losses, many, its.cluster),
+        "brier": mean_of((its.match - its.won) ** 2, many, its.cluster),
         "slope": slope,
         "intercept": intercept,
-        "bins_off_by": Estimate(miss, math.nan),
-        "race_off_even": mean_of(its.uneven, many, its.night),
-        "race_off_behind": mean_of(its.uneven - first.uneven, many, its.night),
+        "from_even": mean_of(its.uneven, many, its.cluster),
+        "from_even_behind": mean_of(its.uneven - first.uneven, many, its.cluster),
     }
 
 
@@ -236,25 +269,29 @@ def name_of(kind: Any) -> str:
     return str(getattr(kind, "name", "") or kind.__name__)
 
 
-def judged_engines(kinds: Sequence[Any], seasons: Sequence[Season]) -> Iterator[dict[str, Any]]:
+def judged_engines(
+    kinds: Sequence[Any], seasons: Sequence[Season], share: Callable[..., Iterable[Any]] = map
+) -> Iterator[dict[str, Any]]:
     """Yield a row for each kind of season and engine; seasons of a kind are taken together."""
     for kind in dict.fromkeys(season.kind for season in seasons):
         alike = [season for season in seasons if season.kind == kind]
         first: Judged | None = None
         for engine in [*kinds, *([Truth] if alike[0].better is not None else [])]:
-            found = [judge(engine, season) for season in alike]
-            nights = itertools.accumulate((int(s.nights.max()) + 1 for s in alike), initial=0)
-            parts = [
-                one._replace(night=one.night + before)
-                for (_, one), before in zip(found, nights, strict=False)
-            ]
+            ways, parts = zip(*share(judge, [engine] * len(alike), alike), strict=True)
             its = Judged(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+            if len(alike) > 1:
+                leagues = np.repeat(np.arange(len(alike)), [len(part.won) for part in parts])
+                its = its._replace(cluster=leagues)
             first = first or its
-            shown = {", ".join(f"{k} {v:g}" for k, v in way.items()) for way, _ in found}
             row = {"season": kind, "name": name_of(engine), "matches": len(its.won)}
             for name, (value, error) in measures(its, first).items():
                 row |= {name: value, f"{name}_error": error}
-            yield row | {"settings": " | ".join(sorted(shown)), "bins": binned(its)}
+            texts = (", ".join(f"{k} {v:g}" for k, v in way.items()) for way in ways)
+            at_edge = Counter(edge for way in ways for edge in edges(engine, way))
+            yield row | {
+                "settings": " | ".join(sorted(set(texts))),
+                "edges": "; ".join(f"{edge} in {n} of {len(alike)}" for edge, n in at_edge.items()),
+            }
 
 
 def simulated(leagues: int, seed: int, *, matches: int = 640, players: int = 40) -> list[Season]:
@@ -285,14 +322,14 @@ def judged_systems(names: Sequence[str], replicas: int, seed: int) -> list[dict[
     A league of 24 for two seasons of 30 weeks, a fifth new each season, a tenth sandbaggers.
     """
     from evenbreak.answers.league.compare import Comparison
-    from evenbreak.handicaps import system_of
     from evenbreak.league import LeaguePlayers, World, play_systems
+    from evenbreak.questions.systems import ANY_SYSTEM
     from evenbreak.ratings.scale import SCALES
 
     skill = np.random.default_rng(seed).normal(0.0, 70.0, 24)
     players = LeaguePlayers.of(np.rint(525.0 + skill))
     world = World(players, SCALES["fargo"], weeks=30, seasons=2, sandbaggers=0.1)
-    systems = [system_of(name) for name in names]
+    systems = [ANY_SYSTEM.read(name) for name in names]
     contest = play_systems(world, systems, replicas=replicas, seed=seed)
     found = Comparison(contest, world, systems).measures
     rows = []
@@ -306,7 +343,7 @@ def judged_systems(names: Sequence[str], replicas: int, seed: int) -> list[dict[
 
 _SHOWN = {
     "game_log_loss": 4, "game_behind": 4, "match_behind": 4, "brier": 4, "slope": 2, "intercept": 2,
-    "race_off_even": 4, "race_off_behind": 4,
+    "from_even": 4, "from_even_behind": 4,
     "p_even": 3, "p_right": 3, "p_better_wins": 3, "sandbagging_pays": 3, "mean_games": 1,
 }  # fmt: skip
 
@@ -323,7 +360,9 @@ def table(rows: Sequence[Mapping[str, Any]]) -> str:
             if row[f"{name}_error"] > 0.0 else f"{row[name]:.{_SHOWN[name]}f}"
             for name in shown
         ]  # fmt: skip
-        lines.append(f"| {row['name']} | {' | '.join(cells)} |")
+        lines.append(f"| {row['name']}{' *' * bool(row.get('edges'))} | {' | '.join(cells)} |")
+    stars = [f"{row['name']}: {row['edges']}" for row in rows if row.get("edges")]
+    lines += ["\n* chose the first or last of its values. " + ". ".join(stars)] * bool(stars)
     return "\n".join(lines)
 
 
@@ -334,13 +373,11 @@ def engine_of(name: str) -> Any:
     return getattr(import_module(module), attribute)
 
 
-def installed(only: str = "") -> list[Any]:
-    """Return the engines that are here: evenbreak's, and those with this in their names."""
+def installed() -> list[Any]:
+    """Return the engines that are here."""
     found: list[Any] = []
     for engine in ENGINES:
         module, _, package = engine.needs.partition(" ")
-        if found and only.lower() not in engine.name.lower():
-            continue
         if module and find_spec(module) is None:
             print(f"{engine.name} is left out: pip install {package}", file=sys.stderr)
             continue
@@ -357,17 +394,18 @@ def main() -> None:
     how.add_argument("--leagues", type=int, default=5, help="simulated, of each kind")
     how.add_argument("--replicas", type=int, default=200, help="leagues of each system")
     how.add_argument("--seed", type=int, default=1)
-    how.add_argument("--only", default="", help="engines with this in their names, and the first")
+    how.add_argument("--jobs", type=int, default=1, help="processes")
     how.add_argument("--csv", type=Path, help="write all that was found here")
     asked = how.parse_args()
     warnings.simplefilter("ignore")
-    kinds = installed(asked.only)
-    kinds += [engine_of(name) for name in asked.engine]
+    kinds = [*installed(), *(engine_of(name) for name in asked.engine)]
     seasons = [*real(asked.season), *simulated(asked.leagues, asked.seed)]
-    rows, found = list[dict[str, Any]](), judged_engines(kinds, seasons)
-    for _, alike in itertools.groupby(found, key=lambda row: row["season"]):
-        rows += (part := list(alike))
-        print(table(part) + "\n", flush=True)
+    rows = list[dict[str, Any]]()
+    with ProcessPoolExecutor(asked.jobs) as pool:
+        found = judged_engines(kinds, seasons, pool.map)
+        for _, alike in itertools.groupby(found, key=lambda row: row["season"]):
+            rows += (part := list(alike))
+            print(table(part) + "\n", flush=True)
     systems = judged_systems([*asked.system, *SYSTEMS], asked.replicas, asked.seed)
     print(table(systems))
     if asked.csv:

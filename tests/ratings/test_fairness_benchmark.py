@@ -2,13 +2,13 @@
 
 import sys
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.special import betainc, expit
 
-from evenbreak.ratings import walk_forward
+from evenbreak.ratings import Results, walk_forward
 from places import ROOT
 
 MINE = """
@@ -30,12 +30,19 @@ class Share:  # the share of games won, shrunk to a half
         p, q = ((self.won[k] + self.doubt / 2) / (self.played[k] + self.doubt) for k in (a, b))
         return betainc(*race, p * (1 - q) / (p * (1 - q) + q * (1 - p)))
 """
+HANDICAP = """
+from evenbreak.handicaps.systems.none import NoHandicap
+
+class Handicap(NoHandicap):
+    def __init__(self):
+        super().__init__(name="my handicap")
+"""
 
 
 @pytest.fixture
 def fairness(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> ModuleType:
     """Return the script, with a stranger's engine in the folder."""
-    (tmp_path / "mine.py").write_text(MINE)
+    (tmp_path / "mine.py").write_text(MINE + HANDICAP)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", [str(ROOT / "benchmarks"), *sys.path])
     for name in ("engines", "fairness", "synthetic_seasons", "mine"):
@@ -46,17 +53,18 @@ def fairness(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> ModuleType:
 
 
 def test_the_engine_of_a_stranger_is_judged_and_the_truth_is_best(fairness):
-    seasons = fairness.simulated(2, 5, matches=240, players=16)[:2]
+    seasons = fairness.simulated(3, 5, matches=240, players=16)[:3]
     kinds = [fairness.engine_of("mine:Share"), *(k for k in fairness.ENGINES if k.name == "Elo")]
     mine, elo, truth = fairness.judged_engines(kinds, seasons)
     assert (mine["name"], elo["name"], truth["name"]) == ("Share", "Elo", "the true chances")
     assert "doubt" in mine["settings"]
     assert mine["game_behind"] == 0.0
     for other in (mine, elo):
-        for name in ("game_log_loss", "match_log_loss", "brier", "race_off_even"):
+        for name in ("game_log_loss", "match_log_loss", "brier", "from_even"):
             assert truth[name] < other[name], name
-    assert truth["race_off_behind"] < -2.0 * truth["race_off_behind_error"] < 0.0
-    assert fairness.table([mine, elo, truth]).count("\n") == 4
+    assert truth["from_even_behind"] < -2.0 * truth["from_even_behind_error"] < 0.0
+    lines = fairness.table([mine, elo, truth]).splitlines()
+    assert [line[:5] for line in lines[2:5]] == ["| Sha", "| Elo", "| the"]
 
 
 def test_the_true_chances_are_the_best_calibrated(fairness):
@@ -82,15 +90,85 @@ def test_evenbreaks_engine_is_its_walk_and_whoever_looks_ahead_is_found_out(fair
     class Cheat:
         def __init__(self, players: int) -> None: ...
         def walk(self, played, races):
-            ahead = played.score_a.sum() / (played.score_a + played.score_b).sum()
-            return np.array([betainc(m, n, np.full(len(played), ahead)) for m, n in races])
+            return np.array([betainc(m, n, self.known(played)) for m, n in races])
 
-    with pytest.raises(SystemExit, match="Cheat knows of matches that come later"):
-        fairness.judge(Cheat, season)
+    def everything(_, played):
+        share = played.score_a.sum() / (played.score_a + played.score_b).sum()
+        return np.full(len(played), share)
+
+    def own_result(_, played):
+        return np.clip(played.score_a / (played.score_a + played.score_b), 0.02, 0.98)
+
+    def next_night(_, played):  # only what comes next week, and only of the second half
+        night = np.unique(played.date, return_inverse=True)[1]
+        a_won = np.bincount(night, played.score_a > played.score_b)
+        return 0.4 + 0.2 * np.append(a_won, 0)[np.where(night > 25, night + 1, -1)] / len(played)
+
+    for known in (everything, own_result, next_night):
+        Cheat.known = known
+        with pytest.raises(SystemExit, match="Cheat knows results of night"):
+            fairness.judge(Cheat, season)
+
+
+def test_turned_results_are_those_of_the_other_winner(fairness):
+    ours = {"race_a": [7, 7, -1, 7], "race_b": [5, 5, -1, 5]}
+    played = Results.from_names(["A"] * 4, ["B"] * 4, [7, 6, 4, 7], [2, 5, 7, 4], **ours)
+    other = fairness.turned(played, np.array([True, True, True, False]))
+    assert other.score_a.tolist() == [2, 7, 7, 7]
+    assert other.score_b.tolist() == [5, 4, 4, 4]
+
+
+def test_leagues_are_clusters_and_blocks_of_nights_of_a_single_season(fairness):
+    seasons = fairness.simulated(4, 9, matches=100, players=10)[:4]
+    kinds = [fairness.engine_of("mine:Share"), fairness.Truth]
+    judged = [[fairness.judge(kind, season)[1] for season in seasons] for kind in kinds]
+    for part in judged[0]:
+        assert len(np.unique(part.cluster)) == fairness.BLOCKS
+        assert (np.diff(part.cluster) >= 0).all()  # blocks of nights that follow each other
+    behind = fairness.mean_of(judged[1][0].uneven, judged[1][0].won * 0 + 1, judged[1][0].cluster)
+    alone = list(fairness.judged_engines(kinds[:1], seasons[:1]))[1]
+    assert alone["from_even_error"] == behind.error
+
+    # A ratio's error by hand: what each league's sum is beyond its share.
+    together = list(fairness.judged_engines(kinds[:1], seasons))[1]
+    apart = [truth.uneven - mine.uneven for mine, truth in zip(*judged, strict=True)]
+    mean = sum(each.sum() for each in apart) / sum(map(len, apart))
+    beyond = np.array([each.sum() - mean * len(each) for each in apart])
+    error = np.sqrt((beyond**2).sum() * 4 / 3) / sum(map(len, apart))
+    np.testing.assert_allclose(together["from_even_behind"], mean, rtol=1e-9)
+    np.testing.assert_allclose(together["from_even_behind_error"], error, rtol=1e-9)
+
+
+def test_settings_are_chosen_where_none_can_be_bettered_and_edges_are_marked(fairness):
+    values = {"step": (0.1, 0.2, 0.4), "fade": (0.0, 1.0, 2.0), "age": (1.0, 2.0)}
+    kind = SimpleNamespace(settings=values)
+
+    def loss(way):
+        return (way["step"] - 0.4) ** 2 + way["fade"] + (way["age"] - 2.0) ** 2
+
+    way = fairness.chosen(kind, loss)
+    assert way == {"step": 0.4, "fade": 0.0, "age": 2.0}
+    assert fairness.edges(kind, way) == ["step 0.4", "age 2"]  # nothing is less than no fading
+    row = {"season": "a season", "name": "Kind", "edges": "step 0.4 in 2 of 3"}
+    assert fairness.table([row]).splitlines()[2].startswith("| Kind * |")
+    assert fairness.table([row]).endswith("Kind: step 0.4 in 2 of 3")
+
+
+def test_an_engine_that_knows_its_error_averages_over_it(fairness):
+    engine = next(kind for kind in fairness.ENGINES if kind.name == "Elo")(2)
+    drawn = expit(0.7 + 0.5 * np.random.default_rng(1).normal(size=200_000))
+    for race in ((1, 1), (7, 5)):
+        seen = betainc(*race, drawn)
+        engine.apart = lambda *_: (0.7, 0.5)
+        assert abs(engine.chance(0, 1, race) - seen.mean()) < 4.0 * seen.std() / 447.0
+        engine.apart = lambda *_: (0.7, 0.0)
+        assert engine.chance(0, 1, race) == betainc(*race, expit(0.7))
 
 
 @pytest.mark.slow
 def test_systems_are_judged_by_how_even_they_make_matches(fairness):
-    rows = {row["name"]: row for row in fairness.judged_systems(["npl", "none"], 40, 1)}
+    names = ["npl", "none", "mine:Handicap"]
+    rows = {row["name"]: row for row in fairness.judged_systems(names, 40, 1)}
+    assert rows["my handicap"] == rows["none"] | {"name": "my handicap"}
     assert rows["npl"]["p_even"] > rows["none"]["p_even"] + 0.1
     assert abs(rows["npl"]["p_better_wins"] - 0.5) < abs(rows["none"]["p_better_wins"] - 0.5)
