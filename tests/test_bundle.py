@@ -1,5 +1,6 @@
 """What the bundled program does by its words; that it is built and runs, the workflow tries."""
 
+import os
 import runpy
 import sys
 from io import BytesIO
@@ -35,6 +36,8 @@ def test_a_double_click_opens_the_page_and_words_are_commands(
     with patch("evenbreak.cli.main"):
         runpy.run_path(str(PROGRAM))["run"]()
     assert sys.argv[1:] == run
+    assert os.environ["LD_LIBRARY_PATH"] == "of the system"  # for the browser and other programs
+    assert "LD_LIBRARY_PATH_ORIG" not in os.environ
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell script stands for the program")

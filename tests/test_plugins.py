@@ -17,7 +17,7 @@ from rows import each_of
 
 EXAMPLE = ROOT / "docs/how-to/league_rules"
 BROKEN = """
-from evenbreak.games import Rack
+from evenbreak.games import OneBall
 from evenbreak.handicaps import Chart, System
 from evenbreak.handicaps.systems.none import NoHandicap
 
@@ -47,6 +47,24 @@ class Leaky:
 
 class Pieces(Leaky):
     moves = None
+
+class Club(NoHandicap):
+    pass
+
+class Ended(NoHandicap):
+    def __init__(self):
+        raise SystemExit("no license")
+
+class Unset(NoHandicap):
+    def __init__(self):
+        self.nobodys
+
+class Importing(NoHandicap):
+    def __init__(self):
+        import nowhere
+
+HOUSE = Chart("house", [(0, None, 5, 5)])
+COIN = OneBall(0.4, 0.8)
 """
 POINTS = """
 [evenbreak.systems]
@@ -57,11 +75,13 @@ one-sided = broken_rules:OneSided
 text = broken_rules:BROKEN
 fine = evenbreak.handicaps.systems.none:NoHandicap
 npl = broken_rules:OneSided
+elo-club = broken_rules:Club
 
 [evenbreak.charts]
 dip = broken_rules:DIP
 gap = broken_rules:gap
 absent = nowhere:CHART
+NPL-10 = broken_rules:HOUSE
 wrong = broken_rules:Leaky
 house = evenbreak.handicaps.charts.level_chart:level_chart
 
@@ -69,6 +89,8 @@ house = evenbreak.handicaps.charts.level_chart:level_chart
 leaky = broken_rules:Leaky
 pieces = broken_rules:Pieces
 absent = nowhere:Game
+coin = broken_rules:COIN
+9-ball = broken_rules:COIN
 """
 
 
@@ -104,18 +126,18 @@ def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, forgotten: None) -> 
 @each_of(
     "kind, name, why",
     [
-        ("system", "absent", "it raised ModuleNotFoundError: No module named 'nowhere'"),
+        ("system", "absent", "it failed with ModuleNotFoundError: No module named 'nowhere'"),
         ("system", "lazy", "it is a class without initial and update; write it"),
         ("system", "nameless", "it cannot be made without arguments (missing a required"),
         ("system", "one-sided", "race of the system none is"),
-        ("system", "text", "it is no System; let the class be one"),
+        ("system", "text", "it isn't a System; derive its class from System: class int(System)"),
         ("chart", "dip", "the race of row 3, 5:4, is easier for the stronger player than"),
         ("chart", "gap", "row 2 begins at 12, but row 1 ends at 9"),
-        ("chart", "absent", "it raised ModuleNotFoundError"),
+        ("chart", "absent", "it failed with ModuleNotFoundError"),
         ("chart", "wrong", "it is of the type Leaky; let it be a Chart"),
         ("game", "leaky", "the moves from 0 have chances that sum to 0.9, and not 1"),
-        ("game", "pieces", "it raised TypeError"),
-        ("game", "absent", "it raised ModuleNotFoundError"),
+        ("game", "pieces", "it failed with TypeError"),
+        ("game", "absent", "it failed with ModuleNotFoundError"),
     ],
 )
 def test_what_breaks_a_law_is_refused_in_a_sentence_with_its_package(
@@ -129,7 +151,7 @@ def test_what_breaks_a_law_is_refused_in_a_sentence_with_its_package(
     done = run(*words)
     said = " ".join(done.stderr.split())
     assert done.exit_code == 2, done.output
-    assert f"{kind} is '{name}', of the package broken-rules 0.1: {why}" in said
+    assert f"{kind} '{name}' of package broken-rules 0.1: {why}" in said
     assert not Path("nothing").exists()
 
 
@@ -143,11 +165,18 @@ def test_a_broken_package_stops_nothing_that_does_not_name_it() -> None:
     listed = run("systems", "--csv")
     assert listed.exit_code == 0
     assert "broken-rules 0.1" in next(row for row in listed.stdout.split("\n") if "fine" in row)
-    assert "'lazy', of the package broken-rules 0.1" in " ".join(listed.stderr.split())
+    assert "'lazy' of package broken-rules 0.1" in " ".join(listed.stderr.split())
+    assert [row[:21] for row in listed.stdout.split("\n") if row[:4] == "npl,"] == [
+        "npl,npl_10,evenbreak,"
+    ]
+    hidden = "of package broken-rules 0.1 is hidden by ours"
+    assert f"system 'npl' {hidden}" in " ".join(listed.stderr.split())
     charts = run("chart", "list", "--csv")
     assert charts.exit_code == 0
     assert "dip" not in charts.stdout
-    assert "'dip', of the package broken-rules 0.1" in " ".join(charts.stderr.split())
+    assert "broken-rules" not in charts.stdout
+    assert f"chart 'NPL-10' {hidden}" in " ".join(charts.stderr.split())
+    assert "'dip' of package broken-rules 0.1" in " ".join(charts.stderr.split())
 
 
 @pytest.mark.usefixtures("broken")
@@ -163,7 +192,59 @@ def test_a_name_that_two_packages_have_is_refused_with_both(
 def test_nobody_elses_name_is_refused_with_ours_and_theirs() -> None:
     with pytest.raises(ValueError, match="system is 'theirs'; give npl, step"):
         handicaps.system_of("theirs")
-    assert plugins.plugin("chart", "theirs", handicaps.broken_chart_laws) is None
+    assert handicaps.named_chart("theirs") is None
+
+
+@pytest.mark.usefixtures("broken")
+def test_names_that_begin_as_ours_or_are_a_word_of_ours_are_reached() -> None:
+    assert type(handicaps.system_of("Elo Club")).__name__ == "Club"
+    assert handicaps.system_of("elo-10").name == "elo 10"
+    with pytest.raises(ValueError, match=r"write it as elo \[K\]"):
+        handicaps.system_of("elo league")
+    assert games.game_of_catalogue("9-ball")[0] == "9-ball"
+    assert games.game_of_catalogue("drill 9-ball")[0] == "drill, progressive 9-ball"
+
+
+@pytest.mark.usefixtures("broken")
+def test_chances_for_a_game_that_takes_none_are_refused(tmp_path: Path) -> None:
+    assert games.game_of_catalogue("coin")[1] == games.OneBall(0.4, 0.8)
+    done = run("graph", "coin", "--p", 0.7, "--out", tmp_path / "drawn")
+    assert done.exit_code == 2
+    assert "'coin' of package broken-rules 0.1: it is made already and takes no chances" in (
+        " ".join(done.stderr.split())
+    )
+
+
+@pytest.mark.usefixtures("broken")
+@each_of(
+    "name, why",
+    [
+        ("Ended", "it failed with SystemExit: no license"),
+        ("Unset", "it failed with AttributeError: 'Unset' object has no attribute 'nobodys'"),
+        ("Importing", "it failed with ModuleNotFoundError: No module named 'nowhere'"),
+        ("Nobodys", "but broken_rules has no Nobodys; name a class of it"),
+        ("Lazy", "it is a class without initial and update; write it"),
+    ],
+)
+def test_an_error_of_ones_own_class_is_told_as_its_own(name: str, why: str) -> None:
+    done = run("ladder", "--system", f"broken_rules:{name}")
+    assert done.exit_code == 2, done.output
+    assert f"system is 'broken_rules:{name}'" in (said := " ".join(done.stderr.split()))
+    assert why in said
+
+
+def test_no_package_is_looked_for_where_a_name_is_ours(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def nobody_looks(kind: str) -> None:
+        pytest.fail(f"packages with a {kind} are looked for")
+
+    monkeypatch.setattr(plugins, "_points", nobody_looks)
+    assert handicaps.system_of("step-2").name == "step 2"
+    assert handicaps.named_chart("NPL 10")
+    for number, game in enumerate([("one-ball",), ("npl_8",), ("3:2", "--p", 0.6)]):
+        done = run("graph", *game, "--out", tmp_path / str(number))
+        assert done.exit_code == 0, done.output
 
 
 @pytest.mark.parametrize("name", handicaps.EVERY_CHART)
@@ -230,7 +311,7 @@ class Arrays(Coin):
         (Winning(), "player 1 has won in 'start', but there are moves"),
         (Nobody(), "the winner in '1' is 'Ann'"),
         (Alike(), "two states print as '1'"),
-        (Fickle(), "are others when asked for again"),
+        (Fickle(), "differ when asked for twice"),
         (Arrays(), "arrays are not its moves"),
     ],
     ids=lambda value: type(value).__name__,

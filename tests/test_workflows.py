@@ -34,6 +34,16 @@ def test_steps_of_the_matrix_are_commands_of_any_shell() -> None:
     assert all(re.fullmatch(r'python -m [\w.\- "\[\]]+', step) for step in steps)
 
 
+def test_nothing_is_published_whose_tests_fail() -> None:
+    publish = (FOLDER / "publish.yml").read_text(encoding="utf-8")
+    needs = dict(
+        re.findall(r"^  (\w+):[^\n]*\n(?:    .*\n)*?    needs: (\w+)$", publish, re.MULTILINE)
+    )
+    assert needs == {"dist": "tests", "publish": "dist"}
+    assert "  tests:\n    uses: ./.github/workflows/tests.yml\n" in publish
+    assert "  workflow_call:\n" in TESTS
+
+
 def test_only_what_publishes_may_ask_for_an_identity() -> None:
     texts = {path.name: path.read_text(encoding="utf-8") for path in FOLDER.glob("*.yml")}
     assert [name for name, text in texts.items() if "id-token:" in text] == ["publish.yml"]

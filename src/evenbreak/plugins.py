@@ -1,15 +1,15 @@
 """Systems, charts and games of installed packages, known by name to every command.
 
 A package declares them as entry points of the groups `evenbreak.systems`, `evenbreak.charts` and
-`evenbreak.games`. None is looked for before a name is asked for that is not one of ours, and then
-only the package that has the name is imported: a broken one stops nobody else.
+`evenbreak.games`. None is looked for where a name is one of ours, and only the package that has
+the name is imported: a broken one stops nobody else.
 """
 
 from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Literal
@@ -57,7 +57,7 @@ def plugin(kind: Kind, name: str, admit: Callable[[Any], Any], *arguments: Any) 
         return _admitted(points[0], admit, arguments)
     except (Exception, SystemExit) as error:
         raise InputError(
-            "{kind} is {name!r}, of the package {package}: {why}",
+            "{kind} {name!r} of package {package}: {why}",
             kind=kind,
             name=name,
             package=package_of(points[0]),
@@ -77,6 +77,8 @@ def made(named: Any, *arguments: Any) -> Any:
     ({'a': 1}, 3)
     """
     if not callable(named):
+        if arguments:
+            raise InputError("it is made already and takes no chances; leave them out")
         return named
     if lacking := sorted(getattr(named, "__abstractmethods__", ())):
         raise InputError("it is a class without {lacking}; write it", lacking=" and ".join(lacking))
@@ -84,8 +86,9 @@ def made(named: Any, *arguments: Any) -> Any:
         inspect.signature(named).bind(*arguments)
     except TypeError as error:
         raise InputError(
-            "it cannot be made {of} ({error}); give each parameter a default",
-            of=f"of {len(arguments)} numbers" if arguments else "without arguments",
+            "it takes other chances ({error}); give those"
+            if arguments
+            else "it cannot be made without arguments ({error}); give each parameter a default",
             error=str(error),
         ) from None
     except ValueError:  # what is written in C may not say what it takes
@@ -97,7 +100,7 @@ def broken_of(laws: Iterable[Callable[[], Iterable[str]]]) -> list[str]:
     """Return what is broken of laws, in sentences, up to the first that raises an error.
 
     >>> broken_of([lambda: [], lambda: ["it is late"], lambda: 1 / 0, lambda: ["never asked"]])
-    ['it is late', 'it raised ZeroDivisionError: division by zero']
+    ['it is late', 'it failed with ZeroDivisionError: division by zero']
     """
     broken: list[str] = []
     for law in laws:
@@ -108,10 +111,10 @@ def broken_of(laws: Iterable[Callable[[], Iterable[str]]]) -> list[str]:
     return broken
 
 
-def lawful(value: Any, broken: Iterable[str]) -> Any:
+def lawful(value: Any, broken: Sequence[str]) -> Any:
     """Return a value that breaks no law, or refuse it by the first that it breaks."""
-    for sentence in broken:
-        raise InputError("{sentence}", sentence=sentence)
+    if broken:
+        raise InputError("{sentence}", sentence=broken[0])
     return value
 
 
@@ -119,10 +122,10 @@ def why(error: BaseException) -> str:
     """Return what an error says, with its kind where it is not one of ours.
 
     >>> why(InputError("k is 0")), why(ImportError("No module named 'numpyy'"))
-    ('k is 0', "it raised ImportError: No module named 'numpyy'")
+    ('k is 0', "it failed with ImportError: No module named 'numpyy'")
     """
     ours = isinstance(error, EvenbreakError)
-    return str(error) if ours else f"it raised {type(error).__name__}: {error}"
+    return str(error) if ours else f"it failed with {type(error).__name__}: {error}"
 
 
 def package_of(point: EntryPoint) -> str:

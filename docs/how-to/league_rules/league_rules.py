@@ -25,7 +25,7 @@ class LastTen(System):
         return np.where(a >= b, 5, fewer), np.where(a >= b, fewer, 5)
 
     def update(self, history):
-        """Publish the new percentages; who has not played keeps the number."""
+        """Publish the new percentages; players who haven't played keep theirs."""
         won = np.nan_to_num(history.last(10, "won", lambda match: match.score_a)).sum(axis=0)
         lost = np.nan_to_num(history.last(10, "lost", lambda match: match.score_b)).sum(axis=0)
         games = won + lost

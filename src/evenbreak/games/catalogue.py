@@ -71,15 +71,15 @@ def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
     """
     words = _words(name)
     joined = {"".join(_words(entry)): entry for entry in CATALOGUE}
-    matching = [entry for text, entry in joined.items() if text == "".join(words)] or [
-        entry for entry in CATALOGUE if words and set(words) <= set(_words(entry))
-    ]
-    if len(matching) != 1:
+    matching = [entry for text, entry in joined.items() if text == "".join(words)]
+    if not matching:
         from evenbreak.games.laws import lawful_game
         from evenbreak.plugins import added, plugin
 
         if (theirs := plugin("game", name, lawful_game, *chances)) is not None:
             return name.strip().lower(), theirs
+        matching = [entry for entry in CATALOGUE if words and set(words) <= set(_words(entry))]
+    if len(matching) != 1:
         close = get_close_matches("".join(words), joined, n=3)
         near = matching or [joined[text] for text in close] or [*CATALOGUE, *added("game")]
         which = "names several games" if matching else "is not a game of the catalogue"

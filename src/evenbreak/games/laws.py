@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import pickle
-from collections.abc import Iterator
-from functools import partial
+from collections.abc import Callable, Iterator
+from functools import cache, partial
 from itertools import islice
-from typing import Any, cast
+from typing import Any, TypeAlias, cast
 
 from evenbreak.errors import InputError
 from evenbreak.game import Game, arcs_of
@@ -17,6 +17,7 @@ MOST_TRIED = 2_000
 """States on which the laws are tried: the first ones from the start."""
 
 _LONGEST = 40
+_Tried: TypeAlias = Callable[[], list[Any]]
 
 
 def broken_laws(game: Game) -> list[str]:
@@ -31,8 +32,9 @@ def broken_laws(game: Game) -> list[str]:
     >>> broken_laws(OneBall(0.4, 0.8))
     []
     """
-    laws = (_it_is_a_value, _chances_sum_to_1, _winners_end_it, _states_print_well, _arcs_are_moves)
-    return broken_of(partial(law, game) for law in laws)
+    laws = (_chances_sum_to_1, _winners_end_it, _states_print_well, _arcs_are_moves)
+    tried = cache(lambda: list(islice(_states(game), MOST_TRIED)))
+    return broken_of([partial(_it_is_a_value, game), *(partial(law, game, tried) for law in laws)])
 
 
 def lawful_game(game: Any) -> Game:
@@ -54,20 +56,16 @@ def _states(game: Game) -> Iterator[Any]:
         states += fresh
 
 
-def _tried(game: Game) -> list[Any]:
-    return list(islice(_states(game), MOST_TRIED))
-
-
 def _it_is_a_value(game: Game) -> Iterator[str]:
     if pickle.loads(pickle.dumps(game)).moves(game.start) != game.moves(game.start):  # noqa: S301
-        yield "it is another game after it was sent to another process"
+        yield "it changes when sent to another process"
 
 
-def _chances_sum_to_1(game: Game) -> Iterator[str]:
-    for state in _tried(game):
+def _chances_sum_to_1(game: Game, tried: _Tried) -> Iterator[str]:
+    for state in tried():
         moves = game.moves(state)
         if moves != game.moves(state):
-            yield f"the moves from {state!r} are others when asked for again"
+            yield f"the moves from {state!r} differ when asked for twice"
         for target, p in moves.items():
             if not 0.0 <= p <= 1.0:
                 yield f"the move {state!r} -> {target!r} has probability {p!r}; give 0 to 1"
@@ -75,8 +73,8 @@ def _chances_sum_to_1(game: Game) -> Iterator[str]:
             yield f"the moves from {state!r} have chances that sum to {float(total):.9g}, and not 1"
 
 
-def _winners_end_it(game: Game) -> Iterator[str]:
-    for state in _tried(game):
+def _winners_end_it(game: Game, tried: _Tried) -> Iterator[str]:
+    for state in tried():
         winner = game.winner(state)
         if game.moves(state):
             if winner is not None:
@@ -85,9 +83,9 @@ def _winners_end_it(game: Game) -> Iterator[str]:
             yield f"the winner in {state!r} is {winner!r}; give 1, 2, ..., or None if nobody won"
 
 
-def _states_print_well(game: Game) -> Iterator[str]:
+def _states_print_well(_: Game, tried: _Tried) -> Iterator[str]:
     seen: dict[str, Any] = {}
-    for state in _tried(game):
+    for state in tried():
         text = str(state)
         if len(text) > _LONGEST or " object at " in text or "\n" in text:
             yield f"the state {text[:_LONGEST]!r} does not print in {_LONGEST} letters and one line"
@@ -95,8 +93,8 @@ def _states_print_well(game: Game) -> Iterator[str]:
             yield f"two states print as {text!r}"
 
 
-def _arcs_are_moves(game: Game) -> Iterator[str]:
-    states = _tried(game)
+def _arcs_are_moves(game: Game, tried: _Tried) -> Iterator[str]:
+    states = tried()
     if not hasattr(game, "arcs") or len(states) == MOST_TRIED:
         return
     arcs = arcs_of(game)

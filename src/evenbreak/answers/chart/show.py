@@ -13,7 +13,7 @@ from evenbreak.answers.kit.wording import count_of, percent, race, range_words
 from evenbreak.errors import InputError
 from evenbreak.files.charts import chart_table, find_chart_file
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.chart_of import EVERY_CHART, named_chart
+from evenbreak.handicaps.charts.chart_of import EVERY_CHART, catalogue_name, named_chart
 from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
 from evenbreak.handicaps.systems.team_handicap import TeamHandicap, team_handicap
 from evenbreak.plugins import Kind, added
@@ -28,7 +28,9 @@ def chart_list_answer(_: object = None) -> Answer:
     'apa_9ball'
     """
     ours = {name: named_chart(name) for name in EVERY_CHART}
-    theirs, warnings = _added("chart", named_chart)
+    theirs, warnings = _added(
+        "chart", named_chart, lambda name: catalogue_name(name) in EVERY_CHART
+    )
     charts = [*ours.values(), *theirs.values()]
     kinds = [sum(isinstance(chart, kind) for chart in charts) for kind in _LOOKED_UP]
     return Answer(
@@ -61,13 +63,13 @@ def system_list_answer(_: object = None) -> Answer:
     >>> system_list_answer().to_dict()["systems"][0]["name"]
     'npl'
     """
-    from evenbreak.handicaps.systems.catalogue import FAMILIES, system_of
+    from evenbreak.handicaps.systems.catalogue import FAMILIES, is_ours, system_of
 
     ours = [
         (family.grammar, family.make(*family.samples[0]), "evenbreak")
         for family in FAMILIES.values()
     ]
-    theirs, warnings = _added("system", system_of)
+    theirs, warnings = _added("system", system_of, is_ours)
     every = [*ours, *((name, system, package) for (name, package), system in theirs.items())]
     return Answer(
         "Handicap systems",
@@ -87,10 +89,15 @@ def system_list_answer(_: object = None) -> Answer:
     )
 
 
-def _added(kind: Kind, find: Callable[[str], Any]) -> tuple[dict[tuple[str, str], Any], list[str]]:
+def _added(
+    kind: Kind, find: Callable[[str], Any], is_ours: Callable[[str], bool]
+) -> tuple[dict[tuple[str, str], Any], list[str]]:
     """Return what installed packages add, by name and package, and why some of it is left out."""
     found, warnings = {}, []
     for name, package in added(kind).items():
+        if is_ours(name):
+            warnings.append(f"{kind} {name!r} of package {package} is hidden by ours")
+            continue
         try:
             found[name, package] = find(name)
         except InputError as error:

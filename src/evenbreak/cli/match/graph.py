@@ -117,14 +117,14 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
     from evenbreak.games.catalogue import CATALOGUE, game_of_catalogue
     from evenbreak.handicaps.charts.chart import CHARTS
     from evenbreak.handicaps.charts.chart_of import catalogue_name
-    from evenbreak.plugins import added, plain
 
-    theirs = {*map(plain, added("chart"))} - {*map(plain, added("game"))}
-    if plain(name) in theirs or catalogue_name(name) in CHARTS or Path(name).is_file():
+    found = _format(name)
+    ours = found or name.strip().lower() in CATALOGUE
+    if catalogue_name(name) in CHARTS or Path(name).is_file() or (not ours and _adds_chart(name)):
         if chances:
             refuse("the ladder of a chart has no chances of its own; leave --p, --p1 and --p2 out")
         return _ladder(name)
-    if (found := _format(name)) and (chances or name not in CATALOGUE):
+    if found and (chances or name not in CATALOGUE):
         return _match(found, chances)
     try:
         title, played = game_of_catalogue(name, *chances)
@@ -135,6 +135,13 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
         refuse(f"{error}; or a match, such as 7:5 or race to 7{charts}")
     shown = chances or (_example_chances(played) if title in CATALOGUE else ())
     return f"{title[0].upper()}{title[1:]}{_with(shown)}", played
+
+
+def _adds_chart(name: str) -> bool:
+    """Return whether an installed package adds a chart of this name, and none a game of it."""
+    from evenbreak.plugins import added, plain
+
+    return plain(name) in {*map(plain, added("chart"))} - {*map(plain, added("game"))}
 
 
 def _meant(name: str) -> str | None:

@@ -41,7 +41,7 @@ def chart_names() -> list[str]:
     """Return the names of charts of every kind, ours and those of installed packages."""
     from evenbreak.plugins import added
 
-    return [*EVERY_CHART, *added("chart")]
+    return [*{**EVERY_CHART, **added("chart")}]
 
 
 def catalogue_name(text: str) -> str:

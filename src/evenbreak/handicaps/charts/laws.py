@@ -48,7 +48,7 @@ def lawful_chart(chart: Any) -> AnyChart:
 
 def _it_is_a_value(chart: AnyChart) -> Iterator[str]:
     if pickle.loads(pickle.dumps(chart)) != chart:  # noqa: S301
-        yield "it is another chart after it was sent to another process"
+        yield "it changes when sent to another process"
 
 
 def _races_are_turned_round(chart: AnyChart) -> Iterator[str]:

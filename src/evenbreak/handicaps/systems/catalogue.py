@@ -101,27 +101,34 @@ def system_of(name: Any) -> System:
     if isinstance(name, System):
         return name
     written = name.strip().lower() if isinstance(name, str) else ""
-    word = next((word for word in _BY_LENGTH if _spelled(word).match(written)), None)
-    if word is None:
-        return _added(name, written)
-    family = FAMILIES[word]
-    rest = re.split(r"\s+|(?<![=e])-", written[len(word) :])[1:]
+    word, rest = _in_parts(written)
+    if not is_ours(written):
+        return _added(name, written, word)
     options = dict(part.split("=", 1) for part in rest if "=" in part)
-    numbers = [part for part in rest if "=" not in part]
-    fewest, most = family.numbers
-    if not fewest <= len(numbers) <= most or not all(_NUMBER.fullmatch(each) for each in numbers):
-        whole = ", in whole numbers" if most else ""
-        raise InputError(
-            "system is {name!r}; write it as {grammar}{whole}",
-            name=name,
-            grammar=family.grammar,
-            whole=whole,
-        )
     try:
-        system = family.make(*map(int, numbers))
+        system = FAMILIES[word].make(*(int(part) for part in rest if "=" not in part))
         return _with_options(system, options, " ".join([word, *rest])) if rest else system
     except InputError as error:
         raise InputError("system is {name!r}: {error}", name=name, error=error) from None
+
+
+def is_ours(written: str) -> bool:
+    """Return whether a name is one of ours, whoever else takes it: its words, and fit numbers.
+
+    >>> is_ours("step-2"), is_ours("elo-club")
+    (True, False)
+    """
+    word, rest = _in_parts(written)
+    numbers = [part for part in rest if "=" not in part]
+    fewest, most = FAMILIES[word].numbers if word else (1, 0)
+    return fewest <= len(numbers) <= most and all(map(_NUMBER.fullmatch, numbers))
+
+
+def _in_parts(written: str) -> tuple[str, list[str]]:
+    """Return the word of ours with which a name begins, if it does, and the parts after it."""
+    written = written.strip().lower()
+    word = next((word for word in _BY_LENGTH if _spelled(word).match(written)), "")
+    return word, re.split(r"\s+|(?<![=e])-", written[len(word) :])[1:]
 
 
 _BY_LENGTH = sorted(FAMILIES, key=len, reverse=True)
@@ -169,13 +176,20 @@ def _value(option: str, text: str, usual: Any) -> Any:
         raise InputError("{option} is {text!r}; give a number", option=option, text=text) from None
 
 
-def _added(name: Any, written: str) -> System:
+def _added(name: Any, written: str, word: str) -> System:
     """Return the system of an installed package, or refuse a name that nobody has."""
     from evenbreak.handicaps.systems.own import lawful_system
     from evenbreak.plugins import added, plugin
 
     if (system := plugin("system", written, lawful_system)) is not None:
         return cast("System", system)
+    if word:
+        raise InputError(
+            "system is {name!r}; write it as {grammar}{whole}",
+            name=name,
+            grammar=FAMILIES[word].grammar,
+            whole=", in whole numbers" if FAMILIES[word].numbers[1] else "",
+        )
     *listed, last = [*(family.grammar for family in FAMILIES.values()), *added("system")]
     raise InputError(
         "system is {name!r}; give {listed} or {last}",

@@ -100,7 +100,7 @@ def _match(
 
 def _it_is_a_system(system: System, rng: np.random.Generator) -> Iterator[str]:  # noqa: ARG001
     if pickle.loads(pickle.dumps(system)).name != system.name:  # noqa: S301
-        yield f"the system {system.name} is another one after it was sent to another process"
+        yield f"the system {system.name} changes when sent to another process"
 
 
 def _races_are_turned_round(system: System, rng: np.random.Generator) -> Iterator[str]:

@@ -26,7 +26,7 @@ def own_system(name: str) -> System:
     """
     module, _, attribute = name.partition(":")
     try:
-        return lawful_system(made(getattr(import_module(module), attribute)))
+        code = import_module(module)
     except ImportError as error:
         raise InputError(
             "system is {name!r}, but {error}; start in the folder of {module}.py, or install it",
@@ -34,14 +34,18 @@ def own_system(name: str) -> System:
             error=str(error),
             module=module,
         ) from None
-    except AttributeError:
+    except (Exception, SystemExit) as error:
+        raise InputError("system is {name!r}: {why}", name=name, why=why(error)) from error
+    if not hasattr(code, attribute):
         raise InputError(
             "system is {name!r}, but {module} has no {attribute}; name a class of it",
             name=name,
             module=module,
             attribute=attribute,
-        ) from None
-    except Exception as error:
+        )
+    try:
+        return lawful_system(made(getattr(code, attribute)))
+    except (Exception, SystemExit) as error:
         raise InputError("system is {name!r}: {why}", name=name, why=why(error)) from error
 
 
@@ -49,7 +53,7 @@ def lawful_system(system: Any) -> System:
     """Return a system that holds to `broken_laws`, or refuse it by the first law that it breaks."""
     if not isinstance(system, System):
         raise InputError(
-            "it is no System; let the class be one: class {short}(System)",
+            "it isn't a System; derive its class from System: class {short}(System)",
             short=type(system).__name__,
         )
     if not isinstance(getattr(system, "name", None), str):
