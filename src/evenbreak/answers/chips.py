@@ -15,11 +15,7 @@ from evenbreak.answers.kit.columns import column_of, columns_of, quantities_of, 
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.remarks import file_name
 from evenbreak.answers.kit.scales import scale_words
-from evenbreak.answers.kit.systems import (
-    LEVELS_DOUBLE,
-    scale_of_list,
-    with_starters,
-)
+from evenbreak.answers.kit.systems import LEVELS_DOUBLE, scale_of_list, with_starters
 from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.answers.tournament.odds import place_errors
 from evenbreak.arrays import Floats
@@ -159,12 +155,7 @@ def chip_odds_answer(
         heading = f"The last {len(names)} of a chip tournament; ratings {scale_words(field.scale)}"
     elif chart is not None:
         heading += f"\nChips by the chart {chart.name}"
-    parts: list[Part] = [
-        words,
-        Quantities(quantities_of({"exact": exact})),
-        table,
-        how,
-    ]
+    parts: list[Part] = [words, Quantities(quantities_of({"exact": exact})), table, how]
     return Answer(heading, parts, warnings=list(warnings), csv=table)
 
 

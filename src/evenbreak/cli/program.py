@@ -12,7 +12,7 @@ from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 SECTIONS = {
     "Start here": {
-        "demo": Entry("start:demo", "Made-up files, and three commands to try on them."),
+        "demo": Entry("start:demo", "Made-up files, and three commands to try on them.")
     },
     "Run a match": {
         "odds": Entry("", "The odds and the length of one match."),
@@ -60,7 +60,7 @@ SECTIONS = {
         "oneball": Entry("", "The one-ball game: who wins, and which shot to play."),
     },
     "The physics of the table": {
-        "physics": Entry("groups:physics", "Ball, cloth and cue: throw, aim, spin, speed."),
+        "physics": Entry("groups:physics", "Ball, cloth and cue: throw, aim, spin, speed.")
     },
     "The engine": {
         "graph": Entry("match.graph", "A game as graph, matrix, eigenvalues and limit, in files."),

@@ -106,11 +106,7 @@ OUTCOME = Outcome(
 SHOTS = Schema(
     "shots",
     made=Whole(
-        "makes, potted, in",
-        "how often it was made",
-        needed=True,
-        filled=True,
-        instead=("outcome",),
+        "makes, potted, in", "how often it was made", needed=True, filled=True, instead=("outcome",)
     ),
     tried=Whole(
         "tries, attempts, attempted, of",
@@ -250,10 +246,7 @@ def read_drill_log(
     rows = rows_of_drill(table, drill, as_above=True)
     table.problems.raise_any()
     log = DrillLog(
-        table["level"][rows],
-        table["success"][rows],
-        session=_sessions(table)[rows],
-        levels=levels,
+        table["level"][rows], table["success"][rows], session=_sessions(table)[rows], levels=levels
     )
     warnings = (*table.warnings, *_jump_warning(table, log, rows))
     return DrillLogFile(log, source_of(table, drill), warnings)

@@ -133,10 +133,7 @@ class ChartDesign(Question):
         float,
         Field(
             Number(
-                0.0,
-                1.0,
-                "; give a number from 0 (the start of a band) to 1 (its end)",
-                metavar="T",
+                0.0, 1.0, "; give a number from 0 (the start of a band) to 1 (its end)", metavar="T"
             ),
             "Where in its band a race should be on target: 0 at the start (the stronger player is "
             "never the underdog), 0.5 in the middle, 1 at the end.",

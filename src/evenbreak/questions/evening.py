@@ -11,11 +11,7 @@ from evenbreak.errors import InputError
 from evenbreak.fields.kinds import NUMBER, Choice, File, Flag, Named, Number, Text, Whole
 from evenbreak.fields.question import Field, Question, Says
 from evenbreak.questions.common import OnPaper, ScaleOf
-from evenbreak.tournaments.evening.format import (
-    LONGEST_RACE,
-    Discipline,
-    Tables,
-)
+from evenbreak.tournaments.evening.format import LONGEST_RACE, Discipline, Tables
 
 
 def minutes_of_day(text: str) -> int:
@@ -220,8 +216,7 @@ class Print(UnderWay, OnPaper):
     match: Annotated[str | None, Field(Text("MATCH"), "The card of this match alone.")] = None
     per_page: Annotated[int, Field(Choice({"1": 1, "4": 4}), "How many cards are on a page.")] = 4
     out: Annotated[
-        str | None,
-        Field(File("FILE.pdf"), "The file.", usual="cards.pdf, bracket.pdf or draw.pdf"),
+        str | None, Field(File("FILE.pdf"), "The file.", usual="cards.pdf, bracket.pdf or draw.pdf")
     ] = None
 
     def check(self) -> None:
@@ -338,7 +333,6 @@ class Import(Question):
     tables: Annotated[Tables | None, Says(usual="as saved")] = None
     discipline: Annotated[Discipline | None, Says(usual="as saved, else 9-ball")] = None
     out: Annotated[
-        str,
-        Field(File("FILE.db"), "The file of the tournament, which must not exist yet."),
+        str, Field(File("FILE.db"), "The file of the tournament, which must not exist yet.")
     ] = "tonight.db"
     at: At = None

@@ -239,8 +239,7 @@ class Chain(ChainFile):
     steps: Annotated[
         int | None,
         Field(
-            Whole(0, 10**40),
-            "Also give the probabilities after N steps; CSV then has only these.",
+            Whole(0, 10**40), "Also give the probabilities after N steps; CSV then has only these."
         ),
     ] = None
     via: ByWay = None

@@ -61,9 +61,7 @@ class LadderErrors(BySystem):
         ),
     ] = None
     start_error: Annotated[
-        int | None,
-        _START_ERROR,
-        Says(usual="one doubling of the odds too low", section=_SETTLING),
+        int | None, _START_ERROR, Says(usual="one doubling of the odds too low", section=_SETTLING)
     ] = None
     within: Annotated[
         int | None,

@@ -92,13 +92,10 @@ class Matchups(Lengths, Starters, Pace):
         ),
     ] = None
     discipline: Annotated[
-        Discipline | None,
-        Says("Give the lengths in minutes, at the usual pace of this game."),
+        Discipline | None, Says("Give the lengths in minutes, at the usual pace of this game.")
     ] = None
     minutes_per_game: Annotated[
-        float | None,
-        MINUTES,
-        Says("Give the lengths in minutes, at this pace on average."),
+        float | None, MINUTES, Says("Give the lengths in minutes, at this pace on average.")
     ] = None
     tables: Annotated[Tables | None, Says("Show when the round ends on T tables.")] = None
     turnover: Annotated[Turnover, Says(usual="10.8", section="Details")] = None
@@ -169,8 +166,7 @@ class Simulate(BySystem):
     scale: Annotated[
         ScaleOf,
         Says(
-            usual="the system's",
-            more="The ratings [must fit it](../files.md#the-scale-of-a-list).",
+            usual="the system's", more="The ratings [must fit it](../files.md#the-scale-of-a-list)."
         ),
     ] = None
     weeks: Annotated[
@@ -225,14 +221,11 @@ class Simulate(BySystem):
     seasons: Annotated[
         int,
         Field(
-            Whole(1, 50),
-            "How many seasons are played in a row, ratings going on.",
-            section=_LEAGUE,
+            Whole(1, 50), "How many seasons are played in a row, ratings going on.", section=_LEAGUE
         ),
     ] = 1
     newcomers: Annotated[
-        float,
-        Field(SHARE_OF, "The share of players who are new in each season.", section=_LEAGUE),
+        float, Field(SHARE_OF, "The share of players who are new in each season.", section=_LEAGUE)
     ] = 0.2
     sandbaggers: Annotated[
         float,
@@ -244,8 +237,7 @@ class Simulate(BySystem):
         ),
     ] = 0.05
     sets: Annotated[
-        int,
-        Field(Whole(1, 15), "Matches of two teams on a night.", section=_LEAGUE),
+        int, Field(Whole(1, 15), "Matches of two teams on a night.", section=_LEAGUE)
     ] = 5
     cap: Annotated[
         float | None,

@@ -326,10 +326,7 @@ class FairTonight(Fair):
     Its races are as long as those of a tournament: one to 1,000 takes seconds to work out.
     """
 
-    race_to: Annotated[
-        int,
-        Field(Whole(1, LONGEST_RACE)),
-    ] = USUAL_RACE
+    race_to: Annotated[int, Field(Whole(1, LONGEST_RACE))] = USUAL_RACE
     top: Annotated[int, Field(Whole(1, MOST_RACES), "How many races to list.")] = 3
 
 

@@ -387,8 +387,7 @@ class CheckIn(TimedUnderWay):
 """
     player: Player
     arrived: Annotated[
-        bool | None,
-        Field(YES, "Whether they're here.", usual="yes, if {paid} is not given"),
+        bool | None, Field(YES, "Whether they're here.", usual="yes, if {paid} is not given")
     ] = None
     paid: Annotated[bool | None, Field(YES, "Whether they have paid.", usual="as before")] = None
 

@@ -80,7 +80,7 @@ OTHERWISE: Mapping[tuple[str, str], str] = {
 """The fields of some questions that have another key, or none."""
 
 ONLY_WITH: Mapping[tuple[str, str], tuple[str, ...]] = {
-    ("Matchups", "tables"): ("pairs", "players_file"),  # no night has all pairs of a league
+    ("Matchups", "tables"): ("pairs", "players_file")  # no night has all pairs of a league
 }
 """The fields whose default is taken only if one of some others is typed."""
 

@@ -18,9 +18,7 @@ MINUTES = Field(
 Turnover: TypeAlias = Annotated[
     float | None,
     Field(
-        values.TURNOVER,
-        "The time between two matches on a table, on average.",
-        metavar="MINUTES",
+        values.TURNOVER, "The time between two matches on a table, on average.", metavar="MINUTES"
     ),
 ]
 EarlierNights: TypeAlias = Annotated[

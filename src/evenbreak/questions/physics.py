@@ -126,16 +126,12 @@ class Hit(Units, BallFriction):
     ] = None
     side: Annotated[
         float,
-        Field(
-            SPIN,
-            "Sidespin as J: right english above 0, left english below; 1.25 is 100%.",
-        ),
+        Field(SPIN, "Sidespin as J: right english above 0, left english below; 1.25 is 100%."),
     ] = 0.0
     speed: Annotated[
         float | None,
         Field(
-            SPEED,
-            "Speed of the cue ball at the hit; friction then falls with it ({mu} by-speed).",
+            SPEED, "Speed of the cue ball at the hit; friction then falls with it ({mu} by-speed)."
         ),
     ] = None
 
@@ -198,12 +194,10 @@ class Equipment(Question):
 
 
 SideOffset: TypeAlias = Annotated[
-    float,
-    Field(OFFSET, "How far the tip hits to the right of the centre; below 0 to the left."),
+    float, Field(OFFSET, "How far the tip hits to the right of the centre; below 0 to the left.")
 ]
 Offset: TypeAlias = Annotated[
-    float,
-    Field(OFFSET, "How far the tip hits above the centre, in ball radii; below 0 for draw."),
+    float, Field(OFFSET, "How far the tip hits above the centre, in ball radii; below 0 for draw.")
 ]
 
 

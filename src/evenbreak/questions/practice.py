@@ -109,8 +109,7 @@ class DrillPlayed(Question):
             self.refuse("{game} says what {p} is about; leave it out")
         if self.game == "8-ball" and (self.levels or 0) > EIGHT_BALL_LEVELS:
             self.refuse(
-                "{levels} is {n}; in 8-ball all 15 balls are on the table at level 7",
-                n=self.levels,
+                "{levels} is {n}; in 8-ball all 15 balls are on the table at level 7", n=self.levels
             )
         if self.success is not None and self.levels is not None:
             self.refuse("{success} already says how many levels there are; leave {levels} out")
@@ -206,8 +205,7 @@ class Runs(Question):
         Safety, Says(more="`--mean` is then the average against such an opponent.")
     ] = 1.0
     innings: Annotated[
-        int,
-        Field(Whole(), "Give the score of M innings instead of the run in one.", metavar="M"),
+        int, Field(Whole(), "Give the score of M innings instead of the run in one.", metavar="M")
     ] = 1
     at_least: Annotated[int | None, Field(Whole(0, MOST_BALLS), "The chance of N or more.")] = None
     between: Annotated[

@@ -86,8 +86,7 @@ class Publish(Results, Lengths):
         "League"
     )
     naming: Annotated[
-        values.Shown,
-        Field(values.NAMES, "How players are named.", option="names", section=_LOOK),
+        values.Shown, Field(values.NAMES, "How players are named.", option="names", section=_LOOK)
     ] = "full"
     color: Annotated[
         str | None,

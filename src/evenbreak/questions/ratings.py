@@ -332,12 +332,7 @@ class Report(Results, HowToRate, Lengths):
     paper: Annotated[PaperName, Says(rare=True)] = None
     provisional: Annotated[int | None, PROVISIONAL] = None
     page: Annotated[
-        bool,
-        Field(
-            Flag(),
-            "Also write sheet.html, for phones and printers.",
-            old=("html",),
-        ),
+        bool, Field(Flag(), "Also write sheet.html, for phones and printers.", old=("html",))
     ] = False
     excel: Annotated[
         bool,

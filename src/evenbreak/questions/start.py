@@ -69,9 +69,7 @@ class LeagueInit(Question):
         Says("The chart of the races: its name, or a file of the folder.", usual="by the players"),
     ] = None
     race_to: Annotated[
-        int | None,
-        HandicappedRace,
-        Says("In place of a chart: the stronger player needs N games."),
+        int | None, HandicappedRace, Says("In place of a chart: the stronger player needs N games.")
     ] = None
     tables: Annotated[Tables | None, Says(usual="left open")] = None
 

@@ -218,8 +218,7 @@ class Fixtures(Reading):
         int, Field(Whole(1, 1440), "How long a match lasts, for the calendar.", section=_WHEN)
     ] = 180
     venue: Annotated[
-        str | None,
-        Field(Text("PLACE"), "Where all play, unless the list says.", section=_WHERE),
+        str | None, Field(Text("PLACE"), "Where all play, unless the list says.", section=_WHERE)
     ] = None
     tables: Annotated[
         int | None,

@@ -9,13 +9,7 @@ from typing import Annotated, ClassVar, TypeAlias
 from evenbreak.errors import InputError
 from evenbreak.fields.kinds import Choice, File, Flag, Named, Text, Whole
 from evenbreak.fields.question import Field, Question, Says
-from evenbreak.files.league.values import (
-    CAP,
-    MOST_SETS,
-    SETS,
-    STRONG,
-    names_in,
-)
+from evenbreak.files.league.values import CAP, MOST_SETS, SETS, STRONG, names_in
 from evenbreak.league.tables.rules import USUAL_RULES
 from evenbreak.questions.common import (
     SCORE,
@@ -226,9 +220,7 @@ class Lineup(OfTeams, Capped):
     absent: Annotated[
         tuple[str, ...],
         Field(
-            Named(names_in, "NAME,..."),
-            "Who is not there tonight, of both teams.",
-            section=_RULES,
+            Named(names_in, "NAME,..."), "Who is not there tonight, of both teams.", section=_RULES
         ),
     ] = ()
     used: Annotated[
@@ -418,8 +410,7 @@ class Season(Question):
     table_points: Annotated[TablePoints, Says(section=_TABLE)] = USUAL_RULES
     ties: Annotated[Ties, Says(section=_TABLE)] = USUAL_RULES.ties
     sure: Annotated[
-        Sure,
-        Says("Take the strengths as right, instead of averaging over them.", section=_WORK),
+        Sure, Says("Take the strengths as right, instead of averaging over them.", section=_WORK)
     ] = False
     seasons: Annotated[
         int,

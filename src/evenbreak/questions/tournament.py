@@ -52,8 +52,7 @@ class NewTournament(TournamentPlan, Starters):
     scale: ScaleOf = None
     seed: Draw = 0
     out: Annotated[
-        str,
-        Field(File("FILE.db"), "The file of the tournament, which must not exist yet."),
+        str, Field(File("FILE.db"), "The file of the tournament, which must not exist yet.")
     ] = "tonight.db"
     beside: Annotated[
         bool,

@@ -138,11 +138,7 @@ _Claims: TypeAlias = Mapping[str, tuple[str, str]]
 
 
 def _card(
-    page: Paper,
-    card: Card,
-    event: str,
-    claims: _Claims,
-    place: tuple[float, float, float, float],
+    page: Paper, card: Card, event: str, claims: _Claims, place: tuple[float, float, float, float]
 ) -> None:
     """Draw a card in a rectangle."""
     left, top, wide, high = place

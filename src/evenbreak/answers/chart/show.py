@@ -264,8 +264,5 @@ def team(asked: ChartTeam) -> Answer:
         scale=asked.scale,
     )
     return team_handicap_answer(
-        (asked.average_1, asked.average_2),
-        handicap,
-        match_ups=asked.match_ups,
-        scale=asked.scale,
+        (asked.average_1, asked.average_2), handicap, match_ups=asked.match_ups, scale=asked.scale
     )

@@ -23,12 +23,7 @@ TOURNAMENT = registry(
     number("matches_won", say("matches\nwon"), name="won"),
     number("buchholz", say("won by their\nopponents")),
     number("p_title", say("title"), share),
-    number(
-        "p_title_band",
-        say("no rating:\nbetween"),
-        shown.band,
-        ("p_title_low", "p_title_high"),
-    ),
+    number("p_title_band", say("no rating:\nbetween"), shown.band, ("p_title_low", "p_title_high")),
     number("p_place", "{place}", share, "{name}"),
     number("p_title_if_sure", say("title, if the\nratings are right"), share),
     detail("p_title_if_sure_error", "standard error\nof that", chance),

@@ -28,11 +28,7 @@ DEFECTIVE = (
 
 
 def by_way(
-    via: Way | None,
-    pairs: Iterable[tuple[Any, Any]],
-    *,
-    beside: Way = "kernel",
-    note: str = "",
+    via: Way | None, pairs: Iterable[tuple[Any, Any]], *, beside: Way = "kernel", note: str = ""
 ) -> list[Part]:
     """Return what an answer says about the way that was asked for; nothing if none was.
 

@@ -107,10 +107,7 @@ def in_files(
 
 
 def table_by_column(
-    name: str,
-    values: Mapping[Any, Iterable[Any]],
-    *,
-    order: Iterable[int] | None = None,
+    name: str, values: Mapping[Any, Iterable[Any]], *, order: Iterable[int] | None = None
 ) -> Table:
     """Return a table whose values are known column by column.
 
@@ -149,11 +146,7 @@ def quantity_of(key: str, value: Any, /, **fields: Any) -> Quantity:
 
 
 def quantities_of(
-    values: Mapping[str, Any],
-    /,
-    *,
-    notes: Mapping[str, str] = NOTHING,
-    **fields: Any,
+    values: Mapping[str, Any], /, *, notes: Mapping[str, str] = NOTHING, **fields: Any
 ) -> list[Quantity]:
     """Return values by their keys as quantities.
 

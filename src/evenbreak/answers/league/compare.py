@@ -47,12 +47,7 @@ class Comparison:
         cycle = math.lcm(*(getattr(system, "cycle", 1) for system in self.systems))
         free = np.array([not Doublings(system, self.world).fixed for system in self.systems])
         return estimate(
-            self.contest,
-            measure,
-            self.world,
-            cycle=cycle,
-            calibrated=free,
-            confidence=confidence,
+            self.contest, measure, self.world, cycle=cycle, calibrated=free, confidence=confidence
         )
 
     @cached_property

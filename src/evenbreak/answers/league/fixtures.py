@@ -67,15 +67,7 @@ def fixtures_table(listed: Sequence[Fixture]) -> Table:
     keys = ["round", "fixture_date", "home", "away", "venue", "table", "turn"]
     columns = [column_of(("" if shown.get(key, True) else "-") + key) for key in keys]
     rows = [
-        [
-            one.round,
-            one.date,
-            one.home,
-            one.away,
-            one.venue,
-            one.table or None,
-            one.turn,
-        ]
+        [one.round, one.date, one.home, one.away, one.venue, one.table or None, one.turn]
         for one in listed
     ]
     return Table("fixtures", columns, rows)

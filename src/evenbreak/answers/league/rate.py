@@ -83,12 +83,7 @@ def rate_answer(
             *groups_table(ratings),
         ],
         csv=table,
-        warnings=[
-            *file.warnings,
-            *file.ties,
-            *prior_warnings(file, ratings, choice),
-            *warnings,
-        ],
+        warnings=[*file.warnings, *file.ties, *prior_warnings(file, ratings, choice), *warnings],
         data={
             **_how(ratings, choice),
             "form": form_data(ratings.form),

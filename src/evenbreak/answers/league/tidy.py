@@ -36,10 +36,7 @@ _ORDER = (
 
 
 def tidy_answer(
-    found: LeagueResults,
-    *,
-    answers: Mapping[str, str] | None = None,
-    roster: Sequence[str] = (),
+    found: LeagueResults, *, answers: Mapping[str, str] | None = None, roster: Sequence[str] = ()
 ) -> Answer:
     """Return what became of a league's results.
 
@@ -104,9 +101,7 @@ def tidy_answer(
         parts += [
             "These names may be one player's and were kept apart:",
             Table(
-                "name_doubts",
-                columns_of("tidy_name tidy_matches other_name other_matches"),
-                doubts,
+                "name_doubts", columns_of("tidy_name tidy_matches other_name other_matches"), doubts
             ),
             "Those that are one player's: put their line below [aliases] in league.toml. Those "
             'that are two: write "Name" = "Name" there for one of them.',

@@ -227,14 +227,7 @@ def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
     for name, estimate in (("the breaker", found.breaker), ("player_a", found.side)):
         if estimate is not None:
             p, low, high = (1.0 / (1.0 + math.exp(-b)) for b in estimate)
-            yield (
-                f"even games won by {name}",
-                None,
-                f"{p:.3f}",
-                "0.500",
-                (low, high),
-                None,
-            )
+            yield (f"even games won by {name}", None, f"{p:.3f}", "0.500", (low, high), None)
 
 
 def _experience(found: Validation, scale: Scale) -> Table:
@@ -248,10 +241,7 @@ def _experience(found: Validation, scale: Scale) -> Table:
         "before matches predicted seen_percent points_off score_spread", show={"points_off": off}
     )
     rows = [
-        (
-            _games_before(one),
-            *(one.matches, one.predicted, one.seen, one.stronger, one.spread),
-        )
+        (_games_before(one), *(one.matches, one.predicted, one.seen, one.stronger, one.spread))
         for one in found.experience
     ]
     title = (

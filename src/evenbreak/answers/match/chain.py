@@ -35,11 +35,7 @@ NAMED = 5
 
 
 def chain_answer(
-    chain: Chain,
-    *,
-    steps: int | None = None,
-    warnings: Sequence[str] = (),
-    via: Way | None = None,
+    chain: Chain, *, steps: int | None = None, warnings: Sequence[str] = (), via: Way | None = None
 ) -> Answer:
     """Return the stochastic limit of a chain from its start, or its density after some steps.
 
@@ -74,11 +70,7 @@ def chain_answer(
     classes = zip(states, structure.label.tolist(), structure.kinds, strict=True)
     return Answer(
         f"A chain of {count_of(len(states), 'state')} that starts in {chain.start!r}",
-        [
-            "\n".join(sentences),
-            table_by_column("", values),
-            *_way(via, limit),
-        ],
+        ["\n".join(sentences), table_by_column("", values), *_way(via, limit)],
         [
             "A transient state is left for good, an absorbing state is never left, and a recurrent "
             "state is returned to again and again."

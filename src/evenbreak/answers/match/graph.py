@@ -26,11 +26,7 @@ LEADING = 6
 SAME = 1e-12
 """Limits that differ by less than this count as the same."""
 
-WAY_WORDS = {
-    "kernel": "the closed form",
-    "elimination": "elimination",
-    "eigen": "the eigenvectors",
-}
+WAY_WORDS = {"kernel": "the closed form", "elimination": "elimination", "eigen": "the eigenvectors"}
 
 
 def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Answer:

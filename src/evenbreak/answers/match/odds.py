@@ -420,11 +420,7 @@ def _refuse_without_odds(players: TwoPlayers, asked: Fair) -> None:
 
 
 def fair_answer(
-    players: TwoPlayers,
-    races: Sequence[FairRace],
-    *,
-    target: float = 0.5,
-    via: Way | None = None,
+    players: TwoPlayers, races: Sequence[FairRace], *, target: float = 0.5, via: Way | None = None
 ) -> Answer:
     """Return races as found by `fair_races`, the nearest to the target first.
 

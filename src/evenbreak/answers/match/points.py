@@ -32,9 +32,7 @@ def points_answer(
     (a, b), (level_a, level_b), (need_a, need_b) = names, levels, odds.needs
     ours, theirs = odds.p_win_1, odds.p_win_2
     winner, p, other = (a, ours, theirs) if ours >= theirs else (b, theirs, ours)
-    texts = [
-        say("{name} wins the match {p} of the time.", name=winner, p=percent(p, other)),
-    ]
+    texts = [say("{name} wins the match {p} of the time.", name=winner, p=percent(p, other))]
     if odds.share_1 is not None and odds.share_2 is not None:
         texts.append(
             say(

@@ -282,11 +282,7 @@ def straight(asked: Straight) -> Answer:
     if asked.plot is not None and (not any(shots) or not safety):
         asked.refuse("nobody ever makes a ball, so there is nothing to draw; leave {plot} out")
     match = StraightPool(
-        *asked.points,
-        *shots,
-        safety_1=safety,
-        safety_2=safety,
-        first="ab".index(asked.first) + 1,
+        *asked.points, *shots, safety_1=safety, safety_2=safety, first="ab".index(asked.first) + 1
     )
     answer = straight_answer(match, (averages[0], averages[1]) if averages else None)
     return replace(answer, drawn=match)

@@ -20,12 +20,7 @@ from evenbreak.physics.deflection import (
     split_roll_cut,
 )
 from evenbreak.physics.friction import SlipFriction
-from evenbreak.physics.offset import (
-    SQUIRTS,
-    TIPS_OF_MOST_ENGLISH,
-    squirt_angle,
-    tips_of_side,
-)
+from evenbreak.physics.offset import SQUIRTS, TIPS_OF_MOST_ENGLISH, squirt_angle, tips_of_side
 from evenbreak.physics.slide import roll_velocity
 from evenbreak.physics.throw import aim, gearing_side, throw_factor, throw_sensitivity
 from evenbreak.words import Parameter, Sentence, joined, say

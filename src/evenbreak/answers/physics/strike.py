@@ -74,8 +74,7 @@ def strike_answer(
     }
     speed = f"; cue at {units.speed.typed(strike.stick_speed)}" if speed_known else ""
     return Answer(
-        f"{tip_words(strike)}{speed}",
-        [sentence, Quantities([*quantities_of(place), *found])],
+        f"{tip_words(strike)}{speed}", [sentence, Quantities([*quantities_of(place), *found])]
     )
 
 

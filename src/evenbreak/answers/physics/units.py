@@ -70,9 +70,7 @@ class Units(NamedTuple):
 
 
 IMPERIAL = Units(
-    Unit(INCH, "in", "inches"),
-    Unit(INCH, "in_s", "inches per second"),
-    Unit(OUNCE, "oz", "ounces"),
+    Unit(INCH, "in", "inches"), Unit(INCH, "in_s", "inches per second"), Unit(OUNCE, "oz", "ounces")
 )
 """Inches, inches per second and ounces."""
 

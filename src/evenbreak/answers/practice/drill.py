@@ -53,10 +53,7 @@ def drill_answer(
     return Answer(
         description,
         [*parts, Table("drill_levels", columns, list(rows)), *_way(via, statistics)],
-        details=[
-            Quantities([*quantities_of({"mean_level": law.mean}), *spread(law)]),
-            GAIN_WORDS,
-        ],
+        details=[Quantities([*quantities_of({"mean_level": law.mean}), *spread(law)]), GAIN_WORDS],
         data={"practise_next": statistics.practise_next, "period": statistics.period},
     )
 

@@ -269,11 +269,7 @@ def _more(players: int) -> Iterator[str]:
 
 
 def sandbag_player_answer(
-    one: Watched,
-    nights: Sequence[PlayedNight],
-    results: Results,
-    *,
-    warnings: Sequence[str] = (),
+    one: Watched, nights: Sequence[PlayedNight], results: Results, *, warnings: Sequence[str] = ()
 ) -> Answer:
     """Return what each match of one player weighs; in files, a row for each match."""
     dates = results.date

@@ -102,12 +102,7 @@ def lineup_answer(
     rests_on = level_words(meeting.race, meeting.levels)
     parts += filter(None, [barred, form, rests_on, _sure_words(found, sure, draws)])
     return Answer(
-        _heading(meeting, found),
-        parts,
-        details=details,
-        data=data,
-        warnings=warnings,
-        csv=table,
+        _heading(meeting, found), parts, details=details, data=data, warnings=warnings, csv=table
     )
 
 

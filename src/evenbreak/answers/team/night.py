@@ -27,10 +27,7 @@ _DECIDED = 1e-9
 
 def night_words(state: TeamEvening) -> str:
     """Return what is played tonight."""
-    played = [
-        say_count("{n} set", "{n} sets", state.plan.sets),
-        race_words(state.meeting.race),
-    ]
+    played = [say_count("{n} set", "{n} sets", state.plan.sets), race_words(state.meeting.race)]
     if state.plan.count == "games":
         played.append(say("all games count"))
     elif state.plan.count == "points":

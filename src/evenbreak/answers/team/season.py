@@ -54,11 +54,7 @@ def team_season_answer(
     season = found.season
     table = _table(found, up, down)
     tonight = _tonight(found, up, down, rounds)
-    parts: list[Part] = [
-        _in_words(found),
-        table,
-        _to_be_sure(found, up, down),
-    ]
+    parts: list[Part] = [_in_words(found), table, _to_be_sure(found, up, down)]
     if tonight is not None:
         parts.append(tonight)
     parts.append(_how(found, known=known))
@@ -68,11 +64,7 @@ def team_season_answer(
         + rules_words(season.rules, sets=True, level="teams that are level", last="lot"),
         parts,
         details=[_places(found)],
-        data={
-            "exact": found.exact,
-            "seasons": found.seasons,
-            "standard_error": _error(found),
-        },
+        data={"exact": found.exact, "seasons": found.seasons, "standard_error": _error(found)},
         warnings=warnings,
         csv=table,
     )

@@ -8,11 +8,7 @@ from evenbreak.answers.kit.wording import some_of
 from evenbreak.answers.league.prior import unrated_words
 from evenbreak.answers.tournament.chips import chip_changes, entered_words, rack_words
 from evenbreak.answers.tournament.night import waits_for
-from evenbreak.answers.tournament.tournament import (
-    against,
-    met_words,
-    place_words,
-)
+from evenbreak.answers.tournament.tournament import against, met_words, place_words
 from evenbreak.tournaments.brackets.bracket import Place, Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import (

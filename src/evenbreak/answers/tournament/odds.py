@@ -117,10 +117,7 @@ def tournament_odds_answer(
     form = form_used_words(tournament.file.form, tournament.scale)
     parts += filter(None, [tournament.byes, unrated, bands_words(bands), form, how])
     return Answer(
-        tournament.heading,
-        parts,
-        warnings=[*tournament.file.warnings, *warnings],
-        csv=table,
+        tournament.heading, parts, warnings=[*tournament.file.warnings, *warnings], csv=table
     )
 
 

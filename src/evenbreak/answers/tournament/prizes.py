@@ -19,11 +19,7 @@ from evenbreak.words import Sentence, joined, say, say_count
 
 
 def tournament_prizes_answer(
-    state: Evening,
-    money: PrizeMoney,
-    odds: PlaceOdds | None,
-    *,
-    source: str = "",
+    state: Evening, money: PrizeMoney, odds: PlaceOdds | None, *, source: str = ""
 ) -> Answer:
     """Return what each place is paid, and what each player may expect.
 

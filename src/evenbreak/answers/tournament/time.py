@@ -161,10 +161,7 @@ def tournament_time_answer(
     lines = [tournament.byes, unrated, learned, assumed, form_words, finish_luck(found.finishes)]
     parts += filter(None, lines)
     return Answer(
-        tournament.heading,
-        parts,
-        warnings=[*tournament.file.warnings, *warnings],
-        csv=table,
+        tournament.heading, parts, warnings=[*tournament.file.warnings, *warnings], csv=table
     )
 
 

@@ -22,11 +22,7 @@ Function = Callable[..., "Answer"]
 
 
 def faces(
-    *,
-    page: bool = True,
-    always_text: bool = False,
-    ask_face: bool = False,
-    ask_page: bool = False,
+    *, page: bool = True, always_text: bool = False, ask_face: bool = False, ask_page: bool = False
 ) -> Callable[[Function], Function]:
     """Return a decorator that prints the `Answer` of a command, as its options ask.
 

@@ -53,11 +53,7 @@ def command(asked: Simulate) -> Answer:
         season,
         tally,
         tables,
-        {
-            "roster_file": PurePath(file.source).name,
-            "seed": asked.seed,
-            "day_sd": asked.day_sd,
-        },
+        {"roster_file": PurePath(file.source).name, "seed": asked.seed, "day_sd": asked.day_sd},
         drawn=file.drawn,
         exact=file.exact,
         warnings=warnings,
@@ -144,11 +140,7 @@ def season_of(file: files.SeasonPlayers, asked: Simulate) -> tuple[league.Season
 
     system = _system(asked)
     refuse_other_scale(
-        file,
-        system.scale,
-        f"the system {system.name}",
-        SAY_WHICH,
-        stated=asked.scale is not None,
+        file, system.scale, f"the system {system.name}", SAY_WHICH, stated=asked.scale is not None
     )
     chart, of_chart = chart_for(system, asked.chart)
     schedule, weeks, of_schedule = schedule_of(file, asked, len(file.players))

@@ -110,8 +110,7 @@ def _events(
 
 def _planned(saved: SavedTournament, plan: Plan) -> Plan:
     game = plan.discipline or next(
-        (name for key, name in _DISCIPLINES.items() if saved.discipline.startswith(key)),
-        "9-ball",
+        (name for key, name in _DISCIPLINES.items() if saved.discipline.startswith(key)), "9-ball"
     )
     tables = plan.tables or max(1, len({match.table for match in saved.matches} - {""}))
     plan = replace(plan, discipline=game, tables=tables)

@@ -430,10 +430,7 @@ class _Reader:
         """Note a key that there is not, with where it may belong or the nearest one."""
         if section := _belongs(key, keys[:-1]):
             self.note(
-                keys,
-                "{key} does not belong here; move it {place}",
-                key=quoted(key),
-                place=section,
+                keys, "{key} does not belong here; move it {place}", key=quoted(key), place=section
             )
         elif near := get_close_matches(key, known, n=1):
             self.note(

@@ -17,12 +17,7 @@ from numpy.typing import NDArray
 
 from evenbreak.files.league.league_file import LeagueFile
 from evenbreak.files.results.aliases import AliasesFile
-from evenbreak.files.results.results_file import (
-    ResultsFile,
-    in_a_row,
-    read_results,
-    refuse_unfound,
-)
+from evenbreak.files.results.results_file import ResultsFile, in_a_row, read_results, refuse_unfound
 from evenbreak.files.tables.dates import DateOrder
 from evenbreak.files.tables.problems import quoted, refusal, warning
 from evenbreak.ratings.results import Results

@@ -88,9 +88,7 @@ ROSTER = Schema(
         "the games that the rating is based on, 0 for a new player",
     ),
     component=Whole(
-        "group",
-        "players linked by a chain of opponents have the same number",
-        least=1,
+        "group", "players linked by a chain of opponents have the same number", least=1
     ),
     matches=_COUNT.called(
         "matches played",
@@ -176,8 +174,7 @@ OF_SEASON = Schema(
     ),
     joins=_WEEK.called("first week, joins in week", "the player's first week; 1 if empty"),
     leaves=_WEEK.called(
-        "last week, leaves after week",
-        "the last week; empty or 0 if the player stays to the end",
+        "last week, leaves after week", "the last week; empty or 0 if the player stays to the end"
     ),
     absence=Number(
         "absent, p absent",

@@ -42,10 +42,7 @@ TEAM = (
 """The players of a team."""
 
 SQUADS = TEAM | Schema(
-    team=Name(
-        about="the team of the player",
-        write=say("the team of each player"),
-    )
+    team=Name(about="the team of the player", write=say("the team of each player"))
 )
 """The players of all teams."""
 

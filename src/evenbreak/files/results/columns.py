@@ -63,8 +63,7 @@ RESULTS = Schema(
         "the winner of the match: `a`, `b`, or a name; checked against scores and races",
     ),
     first_break=Text(
-        "first breaker, breaks first, lag won by",
-        "the player who broke first: `a`, `b`, or a name",
+        "first breaker, breaks first, lag won by", "the player who broke first: `a`, `b`, or a name"
     ),
     break_format=Word(
         "who breaks, breaks next",

@@ -99,11 +99,7 @@ def _pairs(table: TextTable, name: str, read: Callable[[str], Pair | str]) -> li
         pair = meant[code]
         if isinstance(pair, str):
             table.note(
-                row,
-                "{column} {cell} {fault}",
-                column=name,
-                cell=quoted(distinct[code]),
-                fault=pair,
+                row, "{column} {cell} {fault}", column=name, cell=quoted(distinct[code]), fault=pair
             )
             pair = ("0", "0") if name == "score" else ("", "")
         pairs.append(pair)

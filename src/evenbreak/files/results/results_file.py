@@ -17,11 +17,7 @@ from evenbreak.errors import InputError
 from evenbreak.files.foreign.results import export_of
 from evenbreak.files.results.aliases import AliasesFile, read_aliases
 from evenbreak.files.results.columns import NAMES, RESULTS_FILE
-from evenbreak.files.results.doubts import (
-    date_warnings,
-    doubtful_score_warnings,
-    without_bad_rows,
-)
+from evenbreak.files.results.doubts import date_warnings, doubtful_score_warnings, without_bad_rows
 from evenbreak.files.results.matches import one_layout, results_columns, results_rows
 from evenbreak.files.results.proposals import columns_hint
 from evenbreak.files.results.races_by_chart import races_by_chart
@@ -285,10 +281,7 @@ def _merged(names: dict[str, str], source: str) -> list[str]:
         for text, name in names.items()
     ]
     return first_ones(
-        warnings,
-        MOST_RENAMED,
-        source,
-        lambda n: say("and {n:,} more names that are read so", n=n),
+        warnings, MOST_RENAMED, source, lambda n: say("and {n:,} more names that are read so", n=n)
     )
 
 

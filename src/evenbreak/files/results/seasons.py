@@ -9,12 +9,7 @@ from typing import Any
 from evenbreak.files.league.league_file import is_league, read_league
 from evenbreak.files.league.sources import league_results
 from evenbreak.files.results.aliases import read_aliases
-from evenbreak.files.results.results_file import (
-    ResultsFile,
-    in_a_row,
-    read_results,
-    refuse_unfound,
-)
+from evenbreak.files.results.results_file import ResultsFile, in_a_row, read_results, refuse_unfound
 
 
 def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
@@ -60,11 +55,7 @@ def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
 
 
 def _of_league(
-    path: str | Path,
-    *,
-    aliases: str | Path | None = None,
-    skip_bad: bool = False,
-    **reading: Any,
+    path: str | Path, *, aliases: str | Path | None = None, skip_bad: bool = False, **reading: Any
 ) -> ResultsFile:
     """Return the results of a league as one file; what is given here replaces what it says.
 

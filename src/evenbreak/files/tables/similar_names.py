@@ -105,10 +105,7 @@ def similar_name_warnings(
         for group in groups
     ]
     return first_ones(
-        warnings,
-        MOST_LISTED,
-        source,
-        lambda n: say("and {n:,} more groups of similar names", n=n),
+        warnings, MOST_LISTED, source, lambda n: say("and {n:,} more groups of similar names", n=n)
     )
 
 

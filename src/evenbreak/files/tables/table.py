@@ -20,13 +20,7 @@ from numpy.typing import NDArray
 from evenbreak.arrays import array_values
 from evenbreak.files.tables.header import Header, Hint
 from evenbreak.files.tables.problems import Problems, form_warning, quoted_list
-from evenbreak.files.tables.rows import (
-    Export,
-    Rows,
-    fingerprint,
-    table_content,
-    table_rows,
-)
+from evenbreak.files.tables.rows import Export, Rows, fingerprint, table_content, table_rows
 from evenbreak.words import say, say_count
 
 ENOUGH_ROWS = 10
