@@ -71,7 +71,7 @@ def test_a_name_belongs_to_the_first_phone_that_claims_it_all_evening(hall: Hall
     assert "You both agree" in other.sends(3, 1).words
     hall.director.send("/desk/result", match="W1.2", a=3, b=0)
     assert thief.claims(0).status == 409  # in the next match too
-    assert "Winners' round 2" in owner.phone.open("/me").words
+    assert "Quarterfinals" in owner.phone.open("/me").words
 
 
 def test_the_director_or_the_code_takes_a_name_from_a_thief(hall: Hall) -> None:

@@ -64,7 +64,7 @@ def test_the_plate_follows_the_match_on_a_table(night: Night) -> None:
     night.moves("call", "W1.1", 2)
     assert f"{a} Called race {m}-{n} {b}" in night.words()
     night.moves("score", "W1.1", (2, 1))
-    assert f"{a} 2 Winners' round 1 race {m}-{n} 1 {b}" in night.words()
+    assert f"{a} 2 Semifinals race {m}-{n} 1 {b}" in night.words()
     assert night.words("/overlay/2") == night.words()
     night.moves("score", "W1.1", (m - 1, n - 1))
     hill = night.words()

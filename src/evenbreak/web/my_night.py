@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from evenbreak.answers.tournament.bracket_view import source_words
+from evenbreak.answers.tournament.bracket_view import round_names, source_words
 from evenbreak.answers.tournament.time import time_of_day
 from evenbreak.files.store.desk import Phones, Sides
-from evenbreak.tournaments.brackets.bracket import Match, Source
+from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.evening.events import Scored, race_words
 from evenbreak.tournaments.evening.fold import Evening
@@ -24,11 +24,7 @@ from evenbreak.words import Sentence, say, say_count
 _MOST_STEPS = 12
 _TENTH = 1.2816  # standard deviations to the 10th and the 90th of 100
 
-_ROUNDS = {
-    "final": say("Final"),
-    "second final": say("Second final"),
-    "third place": say("Third place"),
-}
+_FINALS = "final", "second final", "third place"
 
 
 class Step(NamedTuple):
@@ -154,7 +150,7 @@ def shown_match(state: Evening, match: str, name: str, known: Known | None) -> M
     found = MyMatch(
         match,
         state.match_words(match),
-        round_words(state.bracket.match(match)),
+        round_names(state).get(match, ""),
         mine,
         None,
         words,
@@ -313,7 +309,8 @@ def after(state: Evening, mine: MyMatch, outcome: str, known: Known | None) -> A
         other = state.order[seat]
     elif isinstance(slot, Source) and slot.match != mine.name:
         other = _from_words(state, slot)
-    where = _ROUNDS.get(there.side) or state.match_words(there.name)
+    final = round_names(state).get(there.name, "") if there.side in _FINALS else ""
+    where = final or state.match_words(there.name)
     times, _ = _times(known, there.name)
     return After(where, times[1] if times else "", other)
 
@@ -327,17 +324,6 @@ def place_of(
         return "", None
     paid = shared_prize(prizes, place.first, place.last, unit)
     return str(place), None if place.event else paid
-
-
-def round_words(match: Match) -> Sentence | str:
-    """Return the round of a match, such as "losers' round 3"."""
-    if match.side in _ROUNDS:
-        return _ROUNDS[match.side]
-    if match.side == "losers":
-        return say("Losers' round {n}", n=match.round)
-    if match.side == "winners":
-        return say("Winners' round {n}", n=match.round)
-    return say("Round {n}", n=match.round)
 
 
 def _from_words(state: Evening, slot: Source) -> Sentence | str:

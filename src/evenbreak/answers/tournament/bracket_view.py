@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import NamedTuple
 
 from evenbreak.tournaments.brackets.bracket import Bracket, Match, Source
@@ -157,6 +158,17 @@ def bracket_panels(
     >>> [(box.number, [line.text for line in box.lines]) for box in panel.boxes[1:]]
     [(2, ['Bo', 'Cy']), (3, ['Ann', 'winner of 2'])]
     """
+    made = _panels(state)
+    return tuple(
+        replace(
+            panel, boxes=tuple(_filled(state, b, chances or {}, states or {}) for b in panel.boxes)
+        )
+        for panel in made
+    )
+
+
+def _panels(state: Evening) -> list[Panel]:
+    """Return the parts of the bracket, their matches still without players."""
     parts: dict[str, list[Match]] = {}
     sides = {match.side for match in state.bracket.matches}
     main = "knock-out" if sides & _THEN else "winners"
@@ -166,12 +178,24 @@ def bracket_panels(
             parts.setdefault(main if final else match.side, []).append(match)
     made = [_panel(state, kind, matches, sides) for kind, matches in parts.items()]
     made.sort(key=lambda panel: panel.kind == "knock-out")  # the sides that lead to it come first
-    return tuple(
-        replace(
-            panel, boxes=tuple(_filled(state, b, chances or {}, states or {}) for b in panel.boxes)
-        )
-        for panel in made
-    )
+    return made
+
+
+_ALONE = {"final": say("Final"), "second final": say("Second final")}
+
+
+@lru_cache(maxsize=4)
+def round_names(state: Evening) -> dict[str, str]:
+    """Return what the round of each match is called away from the bracket, by the match's name."""
+    found = {}
+    for panel in _panels(state):
+        for box in panel.boxes:
+            match, title = state.bracket.match(box.match), panel.rounds[box.column]
+            name = box.title or title.title
+            if panel.kind == "winners" and title.short == str(match.round):
+                name = say("Winners' round {n}", n=match.round)
+            found[box.match] = _ALONE.get(match.side, name)
+    return found
 
 
 def _panel(state: Evening, kind: str, matches: list[Match], sides: set[str]) -> Panel:

@@ -21,7 +21,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
-from evenbreak.answers.tournament.bracket_view import Box, Panel
+from evenbreak.answers.tournament.bracket_view import Box, Panel, round_names
 from evenbreak.answers.tournament.short_names import rough_width
 from evenbreak.errors import EvenbreakError
 from evenbreak.sheets.bracket_drawing import drawing
@@ -30,7 +30,7 @@ from evenbreak.site.look import plate_style
 from evenbreak.tournaments.evening.events import Result, race_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.web.guard import RefusalError
-from evenbreak.web.my_night import chances, match_at, round_words
+from evenbreak.web.my_night import chances, match_at
 from evenbreak.web.night import Night
 from evenbreak.web.page import language, page, page_face, reason, site_of
 from evenbreak.web.pages.table import last_on
@@ -151,7 +151,7 @@ def _match(night: Night, state: Evening, one: TableView) -> Plate:
         None if rack else one.match.needs,
         None if kind == "two" else now,
         None if kind == "two" else band,
-        match.number if rack else round_words(state.bracket.match(one.match.name)),
+        match.number if rack else round_names(state).get(one.match.name, ""),
         "" if rack else race_words(one.match.needs),
         chips=tuple(state.chip_night.chips[name] for name in one.match.players) if rack else (),
     )
@@ -166,7 +166,7 @@ def _won(state: Evening, last: Result, left: float) -> Plate:
         last.players,
         None if plain else last.score,
         None if plain else needs,
-        round="" if rack else round_words(state.bracket.match(last.match)),
+        round="" if rack else round_names(state).get(last.match, ""),
         race="" if plain else race_words(needs),
         winner=last.winner,
         left=left,
