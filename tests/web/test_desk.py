@@ -188,17 +188,21 @@ def test_a_correction_asks_what_happens_to_what_is_played_on_it(full: Hall, foll
     assert follower in full.state.on_tables
 
 
-def test_the_history_undoes_what_nothing_follows_from_and_has_no_taps(full: Hall) -> None:
+def test_the_history_undoes_what_nothing_follows_from_and_folds_scores(full: Hall) -> None:
     first, second, third = (on(full, table) for table in (1, 2, 3))
     taps(full, first, 1)
     taps(full, second, 1)
-    add_events(
-        full.site.path,
-        lambda s: [Event(full.site.clock(), moves.score(s, third, (1, 0)))],
-        by="phone: x",
-    )
+    for by, score in (("phone: x", (1, 0)), ("phone: x", (1, 1)), ("program: tv", (2, 1))):
+        add_events(
+            full.site.path,
+            lambda s, score=score: [Event(full.site.clock(), moves.score(s, third, score))],
+            by=by,
+        )
     shown = full.director.open("/desk/history")
-    assert "score 1-0" not in shown.words
+    name = f"match {full.state.number_of(third)}"
+    count = len(full.state.log)
+    assert f"Score 1-0, 1-1 in {name} #{count - 1}" in shown.words
+    assert f"Score 2-1 in {name} #{count} · program: tv" in shown.words
     entries = [dict(f.fields)["entry"] for f in forms_in(shown.text) if f.action == "/desk/undo"]
     entry = next(
         n

@@ -139,6 +139,34 @@ def test_what_would_be_lost_is_asked_about_first(night: Night) -> None:
     assert sure.json["said"][0] == "Ann has withdrawn."
 
 
+def test_what_is_asked_about_has_not_happened_yet(night: Night) -> None:
+    for move, more in (("drop", {}), ("forfeit", {"match": "1"})):
+        got = night.enters(move, "desk", player="Ann", **more)
+        assert (got.status, "Ann would forfeit to Hal in match 1." in got.json["detail"]) == (
+            409,
+            True,
+        )
+        assert not {"has", "forfeited", "goes"} & {*got.json["detail"].split()}
+
+
+def test_what_is_so_already_is_not_entered_again(night: Night) -> None:
+    same: list[tuple[str, dict[str, Any]]] = [
+        ("call", {"match": "1", "table": "1"}),
+        ("check-in", {"player": "Bo", "paid": "yes"}),
+        ("score", {"match": "1", "score": [1, 0]}),
+        ("result", {"match": "1", "score": [3, 0]}),
+        ("correct", {"match": "1", "score": [3, 1]}),
+    ]
+    for move, asked in same:
+        done = night.enters(move, "desk", **asked)
+        assert done.json.get("entries"), done.json
+        count = night.count
+        again = night.enters(move, "desk", **asked)
+        assert (again.status, again.json["entries"], night.count) == (200, [], count), move
+        (said,) = again.json["said"]
+        assert said[0] == said[0].upper()
+
+
 def test_a_score_that_has_moved_on_is_not_written_over(night: Night) -> None:
     assert night.enters("score", match="1", score=[1, 0], seen=[0, 0]).status == 200
     for move, score in (("score", [1, 1]), ("result", [3, 0])):

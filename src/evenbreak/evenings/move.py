@@ -31,8 +31,9 @@ class Move(Generic[State, What]):
         returns in words what that changed, given the state before and after, and what was asked.
     doubts
         returns in the same way what may be wrong with it, though it was entered.
-    always_asks
-        whether a page asks before it is entered even if it takes nothing away.
+    would
+        returns in words what it would do, of a move that is asked about before it is entered even
+        if it takes nothing away; None: the others.
     by
         who may: the director, or whoever is in the room.
     """
@@ -41,5 +42,5 @@ class Move(Generic[State, What]):
     decide: Callable[[State, Any, str], Sequence[What]]
     said: Callable[[State, State, Any], Sequence[str]]
     doubts: Callable[[State, State, Any], Sequence[str]] = lambda *_: ()
-    always_asks: bool = False
+    would: Callable[[State, State], Sequence[str]] | None = None
     by: Literal["director", "anybody"] = "director"

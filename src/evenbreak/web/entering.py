@@ -53,6 +53,12 @@ class Entered:
         return list(dict.fromkeys(words))
 
     @property
+    def would(self) -> list[str]:
+        """What it would do and take away, in words."""
+        words = self.move.would(self.before, self.after) if self.move.would else ()
+        return [*words, *self.lost] or self.said()
+
+    @property
     def lost(self) -> list[str]:
         """What it takes away, in words."""
         return [*lost_words(self.before, self.after)]
@@ -134,7 +140,7 @@ async def enter(
 
     def ask(before: Evening, after: Evening) -> None:
         would = Entered(move, asked, before, after, already)
-        if (move.always_asks or would.lost) and not (sure and named in ("", would.name)):
+        if (move.would or would.lost) and not (sure and named in ("", would.name)):
             raise SureError(would)
 
     def home(before: Evenings, _: Evenings) -> Sequence[tuple[int, What]]:

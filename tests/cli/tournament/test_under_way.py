@@ -96,7 +96,7 @@ def test_a_match_stands_and_results_count_again(begun):
     assert "Counts again" in shown
     assert not begun("next")["set_aside"]
     undone = begun.run("tournament", "undo", "--file", begun.file, "--text", "--yes")
-    assert "Must be replayed: match 3" in undone.stdout
+    assert "Open again: match 3" in undone.stdout
 
 
 def test_ties_of_a_round_robin(night):

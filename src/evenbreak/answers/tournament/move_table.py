@@ -24,11 +24,12 @@ from evenbreak.answers.tournament.moves import (
     settled_words,
     tie_words,
     undone_words,
+    would_words,
 )
 from evenbreak.answers.tournament.night import next_calls
 from evenbreak.answers.tournament.tournament import races_words
 from evenbreak.errors import InputError
-from evenbreak.evenings.move import Move
+from evenbreak.evenings.move import AlreadyError, Move
 from evenbreak.files.tables.names import NAME, clean_name, is_name
 from evenbreak.questions.moves import (
     Accept,
@@ -57,7 +58,7 @@ from evenbreak.questions.moves import (
     Wait,
 )
 from evenbreak.tournaments.evening import moves, roster, settling, tables, undoing
-from evenbreak.tournaments.evening.events import BY_ITSELF, Entrant, What
+from evenbreak.tournaments.evening.events import BY_ITSELF, Entrant, Event, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.outlook import Outlook
 from evenbreak.tournaments.evening.plan import table_places
@@ -238,9 +239,13 @@ def _entrant(state: Evening, text: str, rating: float | None) -> Entrant:
     return state.plan.newcomer(name) if rating is None else Entrant(name, rating)
 
 
-def _check_in(state: Evening, asked: CheckIn, _: str) -> Sequence[What]:
+def _check_in(state: Evening, asked: CheckIn, at: str) -> Sequence[What]:
     arrived = True if asked.arrived is None is asked.paid else asked.arrived
-    return [roster.check_in(state, asked.player, arrived=arrived, paid=asked.paid)]
+    found = roster.check_in(state, asked.player, arrived=arrived, paid=asked.paid)
+    after = state.then(Event(at, found))
+    if (after.arrived, after.paid) == (state.arrived, state.paid):
+        raise AlreadyError(event_words(found, state))
+    return [found]
 
 
 def _said(_: Evening, after: Evening, __: object) -> list[Sentence]:
@@ -287,13 +292,13 @@ MOVES: dict[str, Move[Evening, What]] = {
         Drop,
         lambda state, asked, _: [moves.drop(state, asked.player)],
         lambda before, after, _: forfeited(before, after),
-        always_asks=True,
+        would=would_words,
     ),
     "forfeit": Move(
         Forfeit,
         lambda state, asked, _: [moves.forfeit(state, asked.player, asked.match)],
         _last_words,
-        always_asks=True,
+        would=would_words,
     ),
     "redo": Move(Redo, lambda state, asked, _: undoing.redo(state, asked.entry), _redone_words),
     "swap-tables": Move(

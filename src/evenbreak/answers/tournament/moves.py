@@ -200,7 +200,7 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentenc
     gone = [n for n in before.counted if n not in after.counted and n in there and n != besides]
     if gone:
         again = some_of([open_words(after, name) for name in gone])
-        said.append(say("Must be replayed: {matches}.", matches=again))
+        said.append(say("Open again: {matches}.", matches=again))
     back = [
         say("{result} in {match}", result=after.result_words(result), match=after.match_words(name))
         for name, result in after.counted.items()
@@ -287,6 +287,24 @@ def _place(state: Evening, match: str, player: str) -> Place | None:
     played = state.bracket.match(match)
     won = state.winners.get(match) == player
     return played.winner_place if won else played.loser_place
+
+
+def would_words(before: Evening, after: Evening) -> list[Sentence]:
+    """Return in words who would go home, and which matches would be forfeited."""
+    gone = set(after.dropped) - set(before.dropped) or set(before.entrants) - set(after.entrants)
+    said = [say("{player} would withdraw.", player=name) for name in sorted(gone)]
+    if after.drawn and after.plan.form != "chips":
+        said += [
+            say(
+                "{loser} would forfeit to {winner} in {match}.",
+                loser=result.loser,
+                winner=result.winner,
+                match=after.match_words(name),
+            )
+            for name, result in after.counted.items()
+            if name not in before.counted and result.forfeit
+        ]
+    return said
 
 
 def forfeited(before: Evening, after: Evening) -> list[Sentence]:

@@ -241,7 +241,16 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
     name = undecided(state, match)
     pair = state.pair(name)
     needs = state.needed(name, pair)
+    live = state.live.get(name)
+    if live is not None and (live.what.players, live.what.score) == (pair, score):
+        raise AlreadyError(
+            "{match} already stands at {a}-{b}",
+            match=state.match_words(name),
+            a=score[0],
+            b=score[1],
+        )
     if score[0] >= needs[0] or score[1] >= needs[1]:
+        winner_of(state, name, pair, score)  # refuses what cannot be
         raise InputError(
             "{a}-{b} ends {match}, a {race}; to enter it: {enter}",
             a=score[0],

@@ -28,7 +28,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.known import known_match
 from evenbreak.tournaments.evening.undoing import losses
 from evenbreak.web.api import shapes
-from evenbreak.web.api.problem import Lost, ProblemError
+from evenbreak.web.api.problem import Lost, ProblemError, face_of
 from evenbreak.web.api.resource import EVENT, Call, Resource
 from evenbreak.web.api.seen import match_of, night_asked, seen_of
 from evenbreak.web.api.tokens import check_still, token_of
@@ -37,7 +37,7 @@ from evenbreak.web.forms import LONGEST
 from evenbreak.web.guard import MovedOnError
 from evenbreak.web.night import Night
 from evenbreak.web.pages.moves import OF_COMMANDS
-from evenbreak.words import Parameter, joined, say
+from evenbreak.words import Face, Parameter, capital_in_face, joined, say
 
 _SURE = Declared(
     "sure",
@@ -109,7 +109,7 @@ async def _entered(name: str, call: Call) -> Written:
     then, now = len(done.before.log), len(done.after.log)
     return Written(
         night.event,
-        done.said(),
+        [_in_full(one, face_of(request)) for one in done.said()],
         list(range(then + 1, now + 1)),
         await _matches(call, night, done),
         False,
@@ -196,9 +196,14 @@ def _sure(would: Entered) -> ProblemError:
         )
         for one in losses(state, would.after)
     ]
-    words = would.lost or would.said()
     more = {"how": '"sure": true', "lost": lost}
-    return ProblemError(joined(words, " "), status=409, more=more)
+    return ProblemError(joined(would.would, " "), status=409, more=more)
+
+
+def _in_full(text: str, face: Face) -> str:
+    """Return what is said with its capital and its full stop."""
+    said = capital_in_face(text, face)
+    return said if said.endswith((".", "!", "?")) else f"{said}."
 
 
 async def _matches(call: Call, night: Night, done: Entered) -> list[shapes.Match]:

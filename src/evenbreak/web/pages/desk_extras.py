@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import urllib.parse
+from collections.abc import Iterator
 from dataclasses import replace
 from datetime import datetime
 
@@ -18,6 +19,7 @@ from evenbreak.answers.tournament.under_way import time_under_way
 from evenbreak.files.store.desk import ENTERED, back_up, phone_entries
 from evenbreak.tournaments.evening.edition import tables_text
 from evenbreak.tournaments.evening.events import Plan, Scored
+from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.format import names_text
 from evenbreak.tournaments.evening.later_draws import can_draw
 from evenbreak.tournaments.evening.outlook import Outlook
@@ -38,6 +40,7 @@ RACES = {
     "final_race": say("Race in the final"),
 }
 """The races that can be changed."""
+_MOST_SCORES = 30
 
 
 async def more(request: Request) -> Response:
@@ -149,7 +152,7 @@ def _entries(night: Night) -> tuple[list[tuple[int, str, str, str, str]], set[in
     """Return the entries, the last first, and which can be done again.
 
     Each is its number (0: of a phone), when, what, by whom, and 'free' if it can be taken back,
-    'gone' if it has been. Taps of the score are not among them.
+    'gone' if it has been. Scores of a match that one author entered one after another are one row.
     """
     state = night.state()
     found = state.log
@@ -166,6 +169,10 @@ def _entries(night: Night) -> tuple[list[tuple[int, str, str, str, str]], set[in
         if not isinstance(one.what, Scored)
     ]
     rows += [
+        (found[k - 1].at, k, what, author_words(found[k - 1].by), how)
+        for k, what, how in _scores(state)
+    ]
+    rows += [
         (one.at, 0, phone_words(one, state), phone_label(one), "")
         for one in phone_entries(night.path)
         if one.kind != ENTERED  # it is among the events
@@ -178,6 +185,31 @@ def _entries(night: Night) -> tuple[list[tuple[int, str, str, str, str]], set[in
         for at, number, what, by, how in rows[::-1]
     ]
     return shown, set() if redo is None else {redo}
+
+
+def _scores(state: Evening) -> Iterator[tuple[int, str, str]]:
+    """Yield the scores of a match that one author entered one after another, as one row.
+
+    Each is the number of the last, what, and 'gone' if they have been undone.
+    """
+    open_rows: dict[str, tuple[tuple[str, bool], list[int]]] = {}
+    rows = []
+    for k, one in enumerate(state.log, 1):
+        if isinstance(one.what, Scored):
+            whose = one.by, k in state.undone
+            if whose != open_rows.get(one.what.match, ("", []))[0]:
+                open_rows[one.what.match] = whose, []
+                rows.append(open_rows[one.what.match])
+            open_rows[one.what.match][1].append(k)
+        elif match := getattr(one.what, "match", ""):
+            open_rows.pop(match, None)
+    for (_, undone), entries in rows:
+        whats = [what for k in entries if isinstance(what := state.log[k - 1].what, Scored)]
+        scores = ["{}-{}".format(*what.score) for what in whats]
+        told = scores if len(scores) <= _MOST_SCORES else ["…", *scores[-_MOST_SCORES:]]
+        match = state.match_words(whats[0].match) if state.drawn else whats[0].match
+        words = say("score {scores} in {match}", scores=", ".join(told), match=match)
+        yield entries[-1], words, "gone" if undone else ""
 
 
 ROUTES = [

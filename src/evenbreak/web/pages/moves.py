@@ -180,7 +180,7 @@ def _ask(request: Request, form: Form, would: Entered) -> Response:
     drops = would.move is MOVES["drop"]
     others = other_events(would.before, would.asked[0].player) if drops else []
     only = event_name(would.before) if others else ""
-    lines = [in_words(request, one) for one in (*would.lost, *would.said())]
+    lines = [in_words(request, one) for one in would.would]
     fields, back = _asked_about(form, would), _back(request, form)
     lost = would.lost
     return page(request, "sure.html", fields=fields, lines=lines, lost=lost, back=back, only=only)
