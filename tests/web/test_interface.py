@@ -72,7 +72,7 @@ def test_nothing_new_is_not_sent_again(begun: Browser) -> None:
     [
         ("GET", "/api/v1/tonigt", 404, None, "no such"),
         ("GET", "/api/v2/tonight", 404, None, "no such"),
-        ("POST", "/api/v1/tonight", 405, None, "can't do that"),
+        ("POST", "/api/v1/tonight", 405, None, "POST can't be used"),
         ("GET", "/api/v1/tonight?evnt=2", 400, "evnt", "known here: event"),
         ("GET", "/api/v1/tonight?event=0", 400, "event", "from 1 to 99"),
         ("GET", "/api/v1/tonight?event=1&event=2", 400, "event", "2 times"),

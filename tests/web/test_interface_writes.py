@@ -93,7 +93,7 @@ def test_a_program_takes_back_the_entry_that_it_names_alone(night: Night) -> Non
     for move in ("undo", "redo"):
         got = night.enters(move, "desk")
         assert (got.status, got.json["parameter"]) == (400, "entry")
-    for wrong, why in ((3, "Match 1 has been played"), (99, "There is no entry 99")):
+    for wrong, why in ((3, "Match 1 has been played"), (99, "There is no entry 99.")):
         refused = night.enters("undo", "desk", entry=wrong)
         assert (refused.status, refused.json["detail"][: len(why)]) == (400, why)
     assert night.count == count
@@ -132,7 +132,7 @@ def test_what_would_be_lost_is_asked_about_first(night: Night) -> None:
     assert got.json["lost"] == [
         {"match": "1", "players": ["Ann", "Hal"], "table": None, "score": [2, 1], "result": False}
     ]
-    assert ("2-1" in got.json["detail"], got.json["how"]) == (True, '"sure": true')
+    assert ("2-1" in got.json["detail"], got.json["how"]) == (True, {"sure": True})
     assert night.count == count
     sure = night.enters("drop", "desk", player="Ann", sure=True, _idempotency_key="1")
     assert sure.status == 200
@@ -172,6 +172,7 @@ def test_a_score_that_has_moved_on_is_not_written_over(night: Night) -> None:
     for move, score in (("score", [1, 1]), ("result", [3, 0])):
         got = night.enters(move, match="1", score=score, seen=[0, 0], _accept_language="de")
         assert (got.status, "1-0" in got.json["detail"]) == (409, True)
+        assert (got.json["parameter"], got.json["score"]) == ("seen", [1, 0])
     assert night.enters("result", match="1", score="3:0", seen=[1, 0]).status == 200
 
 
@@ -248,3 +249,44 @@ def test_a_request_that_comes_in_several_times_at_once_is_entered_once(night: Ni
     got = night.room.loop.run_until_complete(together())
     assert sorted(one.json["taken_before"] for one in got) == [False, *[True] * 4]
     assert night.count == count + 1
+
+
+def test_refusals_name_addresses_people_and_what_a_token_is_for(night: Night) -> None:
+    program = Browser(night.room, address="10.0.0.9")
+    told = {
+        ("score", "board", '{"match": "1", "score": [3, 0]}'): (
+            400,
+            "to enter it: POST /api/v1/tonight/result.",
+        ),
+        ("score", "board", '{"match": "1", "score": [2, 9]}'): (400, "can't be the final score"),
+        ("drop", "desk", '{"player": "Ha"}'): (400, "if you mean Hal, write that."),
+        ("drop", "board", '{"player": "Hal"}'): (
+            403,
+            "good for: scores, results and calls. This needs one for: everything a director can do",
+        ),
+        ("score", "tv", '{"match": "1", "score": [1, 0]}'): (
+            403,
+            "Match 1 is not on the table of this program's token (only table 2).",
+        ),
+    }
+    for (move, who, body), (status, words) in told.items():
+        got = night.enters(move, who, **json.loads(body))
+        assert (got.status, words in got.json["detail"]) == (status, True), got.json
+    wrong = program.tells("DELETE", "/api/v1/tonight/score", {})
+    assert (wrong.status, wrong.json["detail"].split()[0]) == (405, "DELETE")
+    missing = program.tells("POST", "/api/v1/tonight/nothing", {})
+    assert (missing.status, missing.json["detail"]) == (404, "There is no such address.")
+
+
+def test_results_that_would_be_lost_have_their_scores(night: Night) -> None:
+    for match in ("1", "2"):
+        night.enters("result", match=match, score=[3, 1])
+    (follows,) = [
+        name
+        for name in night.room.site.night.state().standing.to_play
+        if name.startswith(("W2", "L"))
+    ][:1]
+    night.enters("result", "desk", match=follows, score=[3, 2])
+    lost = night.enters("correct", "desk", match="1", score=[1, 3]).json.get("lost", [])
+    lost += night.enters("correct", "desk", match="2", score=[1, 3]).json.get("lost", [])
+    assert any((one["result"], one["score"]) == (True, [3, 2]) for one in lost)

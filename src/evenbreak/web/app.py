@@ -14,6 +14,7 @@ import logging
 import time
 from collections import OrderedDict
 from collections.abc import Mapping, Sequence
+from http import HTTPStatus
 from typing import Any, NamedTuple, TypeAlias
 
 from starlette.applications import Starlette
@@ -172,6 +173,15 @@ async def _wrong(request: Request, error: Exception) -> Response:
 async def _http(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)  # noqa: S101
     words = _HTTP.get(error.status_code, say("You can't do that here."))
+    if is_asked(request) and error.status_code == HTTPStatus.NOT_FOUND:
+        words = say("There is no such address.")
+    elif is_asked(request) and error.status_code == HTTPStatus.METHOD_NOT_ALLOWED:
+        allowed = (error.headers or {}).get("Allow", "")
+        words = say(
+            "{method} can't be used at this address; {allowed} can.",
+            method=request.method,
+            allowed=allowed,
+        )
     return _shown(request, RefusalError(words), error.status_code, error.headers)
 
 

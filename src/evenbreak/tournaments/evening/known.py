@@ -104,9 +104,14 @@ def check_entrant(state: Evening, entrant: Entrant, besides: str = "") -> None:
 
 def entered(state: Evening, name: str) -> str:
     """Return a name that is given in full: somebody else's that begins like it never counts."""
-    if name not in state.entrants:
-        raise InputError("{player!r} is not in this tournament", player=name)
-    return name
+    if name in state.entrants:
+        return name
+    full = known_player(state, name)
+    if full.casefold() != " ".join(name.split()).casefold():
+        raise InputError(
+            "{player!r} is not a full name; if you mean {full}, write that", player=name, full=full
+        )
+    return full
 
 
 def games_in(

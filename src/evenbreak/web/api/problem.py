@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from http import HTTPStatus
 from typing import Annotated, Any
@@ -14,6 +14,7 @@ from starlette.responses import Response
 
 from evenbreak.errors import EvenbreakError
 from evenbreak.files.catalogues import language_of
+from evenbreak.questions.moves import COMMANDS
 from evenbreak.web.guard import ROOT, RefusalError
 from evenbreak.web.page import page_face, without_folder
 from evenbreak.words import Face, Sentence, capital_in_face, in_face
@@ -26,7 +27,9 @@ class Lost:
     match: Annotated[str, Meta(description="By its number.")]
     players: tuple[str, str]
     table: Annotated[str | None, Meta(description="The table that it would leave.")]
-    score: Annotated[tuple[int, int] | None, Meta(description="Its score so far.")]
+    score: Annotated[
+        tuple[int, int] | None, Meta(description="Its score so far, or that of its result.")
+    ]
     result: Annotated[bool, Meta(description="Whether it has a result, which would not count.")]
 
 
@@ -38,7 +41,12 @@ class Problem:
     status: Annotated[int, Meta(description="The status of HTTP.", ge=400, le=599)]
     detail: Annotated[str, Meta(description="What is wrong and how to correct it.")]
     parameter: Annotated[str, Meta(description="The parameter that is wrong, if it is one.")] = ""
-    how: Annotated[str, Meta(description="What to send to have it done all the same.")] = ""
+    how: Annotated[
+        dict[str, Any], Meta(description="What to send besides, to have it done all the same.")
+    ] = field(default_factory=dict)
+    score: Annotated[
+        tuple[int, int] | None, Meta(description="The score that there is, if it is not `seen`.")
+    ] = None
     lost: Annotated[
         list[Lost], Meta(description="What would be lost, where it is not sure that it is meant.")
     ] = field(default_factory=list)
@@ -93,7 +101,7 @@ def problem(
     found = {
         "title": HTTPStatus(status).phrase,
         "status": status,
-        "detail": without_folder(request, capital_in_face(text, face)),
+        "detail": without_folder(request, in_full(text, face)),
     }
     if isinstance(why, ProblemError):
         found |= {"parameter": why.parameter} if why.parameter else {}
@@ -104,10 +112,25 @@ def problem(
 
 
 def face_of(request: Request) -> Face:
-    """Return how a reader's program is told sentences: parameters by their own names."""
-    return replace(
-        page_face(language_of(request.headers.get("accept-language", ""))), parameter=str
-    )
+    """Return how programs are told sentences: with parameters, and addresses for commands."""
+    plain = page_face(language_of(request.headers.get("accept-language", "")))
+
+    def command(name: str, words: Sequence[str]) -> str:
+        move = name.removeprefix("tournament ")
+        return f"POST {ROOT}/v1/tonight/{move}" if move in COMMANDS else plain.command(name, words)
+
+    return replace(plain, parameter=str, command=command)
+
+
+def in_full(text: str, face: Face) -> str:
+    """Return what is said, with its capital and its full stop.
+
+    >>> from evenbreak.words import PYTHON, say
+    >>> in_full(say("there is no entry {entry}", entry=9), PYTHON)
+    'There is no entry 9.'
+    """
+    said = capital_in_face(text, face)
+    return said if said.endswith((".", "!", "?")) else f"{said}."
 
 
 def encoded(value: Any, face: Face) -> bytes:

@@ -11,7 +11,15 @@ import asyncio
 
 from starlette.requests import Request
 
-from evenbreak.files.store.tokens import Token, kept_tokens, token_in
+from evenbreak.answers.tournament.programs import scope_words, scopes
+from evenbreak.files.store.tokens import (
+    DIRECTOR,
+    MOVES_OF_SCORES,
+    SCORES,
+    Token,
+    kept_tokens,
+    token_in,
+)
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.known import known_match
 from evenbreak.web.api.problem import ProblemError
@@ -22,6 +30,7 @@ from evenbreak.words import say
 _LONGEST = 200
 _NONE = say("This needs a token. The director draws it under More, Programs.")
 _GONE = say("This token is unknown here, or it has been taken back.")
+_NOT_FOR_THIS = {"www-authenticate": 'Bearer realm="evenbreak", error="insufficient_scope"'}
 _MINUTE = {"retry-after": "60"}
 
 
@@ -37,7 +46,15 @@ async def check_token(request: Request, move: str) -> None:
         site.wrong_tokens.count(address)
         raise _unknown(_GONE, "invalid_token")
     if not held.allows(move):
-        raise _not_for_this()
+        needed = SCORES if move in MOVES_OF_SCORES else DIRECTOR
+        plan = (await asyncio.to_thread(site.night.state)).plan if site.night.exists else None
+        raise ProblemError(
+            "This program's token is good for: {scope}. This needs one for: {needed}.",
+            scope=scope_words(held, plan) if plan else held.scope,
+            needed=scopes(plan)[needed] if plan else needed,
+            status=403,
+            headers=_NOT_FOR_THIS,
+        )
     if site.entries.full(held.name):
         raise ProblemError("Too many entries. Wait a minute.", status=429, headers=_MINUTE)
     site.entries.count(held.name)
@@ -56,7 +73,13 @@ def check_still(request: Request, state: Evening, match: str | None) -> None:
     if held.table and state.drawn:
         on = state.on_tables.get(known_match(state, match or ""))
         if on is None or on.call.table != held.table:
-            raise _not_for_this()
+            raise ProblemError(
+                "{match} is not on the table of this program's token ({scope}).",
+                match=state.match_words(known_match(state, match or "")),
+                scope=scope_words(held, state.plan),
+                status=403,
+                headers=_NOT_FOR_THIS,
+            )
 
 
 def token_of(request: Request) -> Token:
@@ -75,8 +98,3 @@ def _sent(request: Request) -> str:
 def _unknown(words: str, error: str = "") -> ProblemError:
     how = f'Bearer realm="evenbreak", error="{error}"' if error else 'Bearer realm="evenbreak"'
     return ProblemError(words, status=401, headers={"www-authenticate": how})
-
-
-def _not_for_this() -> ProblemError:
-    how = {"www-authenticate": 'Bearer realm="evenbreak", error="insufficient_scope"'}
-    return ProblemError("This program's token is not for that.", status=403, headers=how)

@@ -28,16 +28,15 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.known import known_match
 from evenbreak.tournaments.evening.undoing import losses
 from evenbreak.web.api import shapes
-from evenbreak.web.api.problem import Lost, ProblemError, face_of
+from evenbreak.web.api.problem import Lost, ProblemError, face_of, in_full
 from evenbreak.web.api.resource import EVENT, Call, Resource
 from evenbreak.web.api.seen import match_of, night_asked, seen_of
 from evenbreak.web.api.tokens import check_still, token_of
 from evenbreak.web.entering import Entered, SureError, enter
 from evenbreak.web.forms import LONGEST
-from evenbreak.web.guard import MovedOnError
 from evenbreak.web.night import Night
 from evenbreak.web.pages.moves import OF_COMMANDS
-from evenbreak.words import Face, Parameter, capital_in_face, joined, say
+from evenbreak.words import Parameter, joined, say
 
 _SURE = Declared(
     "sure",
@@ -109,7 +108,7 @@ async def _entered(name: str, call: Call) -> Written:
     then, now = len(done.before.log), len(done.after.log)
     return Written(
         night.event,
-        [_in_full(one, face_of(request)) for one in done.said()],
+        [in_full(one, face_of(request)) for one in done.said()],
         list(range(then + 1, now + 1)),
         await _matches(call, night, done),
         False,
@@ -175,9 +174,11 @@ def _check_seen(state: Evening, match: str | None, seen: tuple[int, int]) -> Non
     live = state.live.get(name)
     now = live.what.score if live else (0, 0)
     if name in state.standing.to_play and now != seen:
-        raise MovedOnError(
-            "The score of {match} is {score} now. Check it, then tap again if a game is missing.",
+        raise ProblemError(
+            "The score of {match} is {score} now.",
             status=409,
+            parameter="seen",
+            more={"score": now},
             match=state.match_words(name),
             score="{}-{}".format(*now),
         )
@@ -191,19 +192,13 @@ def _sure(would: Entered) -> ProblemError:
             str(state.number_of(one.match) or one.match),
             one.players,
             None if one.table is None else state.plan.table_name(one.table),
-            one.score,
+            one.score if one.result is None or one.result.forfeit else one.result.score,
             one.result is not None,
         )
         for one in losses(state, would.after)
     ]
-    more = {"how": '"sure": true', "lost": lost}
+    more = {"how": {"sure": True}, "lost": lost}
     return ProblemError(joined(would.would, " "), status=409, more=more)
-
-
-def _in_full(text: str, face: Face) -> str:
-    """Return what is said with its capital and its full stop."""
-    said = capital_in_face(text, face)
-    return said if said.endswith((".", "!", "?")) else f"{said}."
 
 
 async def _matches(call: Call, night: Night, done: Entered) -> list[shapes.Match]:
