@@ -12,6 +12,7 @@ from datetime import datetime, timedelta
 import numpy as np
 
 from evenbreak.answers.kit.scales import far_doubts
+from evenbreak.answers.tournament.leaving import would_words
 from evenbreak.answers.tournament.moves import (
     called_words,
     draw_words,
@@ -24,7 +25,6 @@ from evenbreak.answers.tournament.moves import (
     settled_words,
     tie_words,
     undone_words,
-    would_words,
 )
 from evenbreak.answers.tournament.night import next_calls
 from evenbreak.answers.tournament.tournament import races_words

@@ -289,24 +289,6 @@ def _place(state: Evening, match: str, player: str) -> Place | None:
     return played.winner_place if won else played.loser_place
 
 
-def would_words(before: Evening, after: Evening) -> list[Sentence]:
-    """Return in words who would go home, and which matches would be forfeited."""
-    gone = set(after.dropped) - set(before.dropped) or set(before.entrants) - set(after.entrants)
-    said = [say("{player} would withdraw.", player=name) for name in sorted(gone)]
-    if after.drawn and after.plan.form != "chips":
-        said += [
-            say(
-                "{loser} would forfeit to {winner} in {match}.",
-                loser=result.loser,
-                winner=result.winner,
-                match=after.match_words(name),
-            )
-            for name, result in after.counted.items()
-            if name not in before.counted and result.forfeit
-        ]
-    return said
-
-
 def forfeited(before: Evening, after: Evening) -> list[Sentence]:
     """Return in words what follows from a player going home."""
     gone = set(after.dropped) - set(before.dropped) or set(before.entrants) - set(after.entrants)
