@@ -144,6 +144,12 @@ def test_the_description_keeps_to_openapi() -> None:
             for example in says.get("examples", ()):
                 Draft202012Validator(says).validate(example)
     assert {one.split("/")[-1] for one in refs(told)} <= {*told["components"]["schemas"]}
+    for path, methods in told["paths"].items():  # each parameter says what it is
+        for one in methods.values():
+            body = one.get("requestBody", {"content": {"application/json": {"schema": {}}}})
+            fields = body["content"]["application/json"]["schema"].get("properties", {})
+            says = {**fields, **{named["name"]: named for named in one.get("parameters", ())}}
+            assert [(path, name) for name, field in says.items() if not field["description"]] == []
     operations = [one for methods in told["paths"].values() for one in methods.values()]
     ids = [one["operationId"] for one in operations]
     assert len({*ids}) == len(ids)

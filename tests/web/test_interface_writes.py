@@ -195,6 +195,15 @@ def test_an_event_is_named_in_one_way_for_reads_and_writes(night: Night) -> None
     assert not night.room.site.night.state().on_tables
 
 
+def test_what_people_call_by_a_number_may_be_one(night: Night) -> None:
+    assert night.enters("call", match=1, table=2).status == 200
+    assert night.enters("score", match=1, score=[1, 0]).json["matches"][0]["number"] == "1"
+    changed = night.enters("change", "desk", tables=3, reserved=3).json["said"]
+    assert "3" in changed[0]
+    got = night.enters("late", "desk", player="Zoe", rating="600")
+    assert got.json["detail"] == "'rating': \"600\" is text; leave out the quotes"
+
+
 def test_a_token_of_a_table_is_for_the_match_on_it(night: Night) -> None:
     scored = {"match": "1", "score": [1, 0]}
     assert night.enters("score", "tv", **scored).status == 403

@@ -22,13 +22,15 @@ from evenbreak.ratings.scale import SCALES
 _MOST = 1_000_000
 _CHART = File("NAME_OR_FILE", chart_names)
 _AVERAGE = Field(
-    Number(-1e6, 1e6, " is not a rating; give a team's average, such as 447"), argument=True
+    Number(-1e6, 1e6, " is not a rating; give a team's average, such as 447"),
+    "A team's average rating.",
+    argument=True,
 )
 _POINTS = Number(0.0, 1e6, "; give 0 or more points", metavar="POINTS")
 _BESIDE = Field(_CHART, "A chart to compare with.", many=True)
 _MEETINGS = Field(Whole(1, 1000), "How many pairs of players meet in a round.", metavar="K")
 
-Chart: TypeAlias = Annotated[str, Field(_CHART, argument=True)]
+Chart: TypeAlias = Annotated[str, Field(_CHART, "The chart.", argument=True)]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -110,7 +110,7 @@ class ChipAudit(ChipField):
   evenbreak chips audit hoboken
   evenbreak chips audit pharaohs --entrants entrants.csv --tables 6
 """
-    chart: Annotated[str, Field(CHIPS, argument=True)]
+    chart: Annotated[str, Field(CHIPS, "The chart.", argument=True)]
     entrants: Annotated[
         str | None,
         Field(

@@ -40,7 +40,12 @@ class Players(Question):
 
     ratings: Annotated[
         tuple[str, ...],
-        Field(Named(str, "[A B]", offers="players", number=True), argument=True, many=True),
+        Field(
+            Named(str, "[A B]", offers="players", number=True),
+            "The ratings of A and B.",
+            argument=True,
+            many=True,
+        ),
     ] = ()
     from_file: Annotated[
         str | None,
@@ -400,7 +405,14 @@ class Compare(Players):
   evenbreak compare --p1 0.6 --p2 0.55 --breaks winner 9:7 "9:7 alternate breaks"
 """
     formats: Annotated[
-        tuple[str, ...], Field(Text(), metavar="FORMAT...", argument=True, many=True)
+        tuple[str, ...],
+        Field(
+            Text(),
+            "Formats, such as 9:7 or 3:1 of 3:3.",
+            metavar="FORMAT...",
+            argument=True,
+            many=True,
+        ),
     ] = ()
     hold: Annotated[
         str | None,

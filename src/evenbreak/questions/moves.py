@@ -48,12 +48,27 @@ Winner: TypeAlias = Annotated[
 Games: TypeAlias = Annotated[
     int | None, Field(Whole(0, LONGEST_RACE - 1), "The games of the loser, with {winner}.")
 ]
-Match: TypeAlias = Annotated[str, Field(Text("MATCH"), argument=True)]
-Player: TypeAlias = Annotated[str, Field(PLAYER, argument=True)]
-NewName: TypeAlias = Annotated[str, Field(Text("NAME"), argument=True)]
+Match: TypeAlias = Annotated[
+    str,
+    Field(
+        Named(metavar="MATCH", number=True),
+        "The match, by its number, such as 12; in a chip tournament the table's number.",
+        argument=True,
+    ),
+]
+Player: TypeAlias = Annotated[
+    str,
+    Field(PLAYER, "A player of the tournament; the beginning of a name will do.", argument=True),
+]
+NewName: TypeAlias = Annotated[str, Field(Text("NAME"), "The player's whole name.", argument=True)]
 YES = Choice({"yes": True, "no": False})
 Result: TypeAlias = Annotated[
-    tuple[int, int] | str, Field(_ScoreOrName(score_or_name, "SCORE"), argument=True)
+    tuple[int, int] | str,
+    Field(
+        _ScoreOrName(score_or_name, "SCORE"),
+        "The games of each player, the first one's first; in a chip tournament the winner's name.",
+        argument=True,
+    ),
 ]
 Rating: TypeAlias = Annotated[
     float | None,
@@ -105,7 +120,12 @@ class Call(TimedUnderWay):
 
     match: Annotated[Match | None, Says(metavar="[MATCH]")] = None
     table: Annotated[
-        str | None, Field(Text("TABLE"), "The table, by its name or number.", usual="a free one")
+        str | None,
+        Field(
+            Named(metavar="TABLE", number=True),
+            "The table, by its name or number.",
+            usual="a free one",
+        ),
     ] = None
 
     def check(self) -> None:
@@ -171,7 +191,10 @@ class EnterScore(TimedUnderWay):
     """
 
     match: Match
-    score: Annotated[tuple[int, int], Field(SCORE, metavar="SCORE", argument=True)]
+    score: Annotated[
+        tuple[int, int],
+        Field(SCORE, "The games of each player so far.", metavar="SCORE", argument=True),
+    ]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -235,11 +258,13 @@ class Change(Entry):
     date: Annotated[str | None, Field(Text("DATE"), "Its date.")] = None
     reserved: Annotated[
         tuple[str, ...] | None,
-        Field(Named(names_in, "TABLE,..."), "Tables assigned only by name, or none."),
+        Field(Named(names_in, "TABLE,...", number=True), "Tables assigned only by name, or none."),
     ] = None
     streamed: Annotated[
         tuple[str, ...] | None,
-        Field(Named(names_in, "TABLE,..."), "Tables that are shown on a stream, or none."),
+        Field(
+            Named(names_in, "TABLE,...", number=True), "Tables that are shown on a stream, or none."
+        ),
     ] = None
     slower: Annotated[
         float | None,

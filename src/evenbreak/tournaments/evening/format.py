@@ -108,7 +108,7 @@ def house_tables(text: str) -> HouseTables:
 NamedTables: TypeAlias = Annotated[
     HouseTables,
     Field(
-        Named(house_tables, "T|NAME,..."),
+        Named(house_tables, "T|NAME,...", number=True),
         "How many tables there are, or what they are called, such as 4, or 5-8,TV.",
         label=say("Tables, how many or by name"),
     ),
