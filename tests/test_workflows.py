@@ -1,7 +1,11 @@
 """What is claimed of platforms and versions is what the workflow tries."""
 
+import ast
 import re
 import tomllib
+from typing import Any
+
+import pytest
 
 from places import ROOT
 
@@ -47,3 +51,25 @@ def test_nothing_is_published_whose_tests_fail() -> None:
 def test_only_what_publishes_may_ask_for_an_identity() -> None:
     texts = {path.name: path.read_text(encoding="utf-8") for path in FOLDER.glob("*.yml")}
     assert [name for name, text in texts.items() if "id-token:" in text] == ["publish.yml"]
+
+
+def test_what_publishes_is_one_version_of_each_action_and_never_a_branch() -> None:
+    for path in FOLDER.glob("*.yml"):
+        text = path.read_text(encoding="utf-8")
+        for action, version in re.findall(r"uses: (\S+)@(\S+)", text):
+            own = action.startswith("actions/")  # GitHub's, like the machine that runs them
+            assert re.fullmatch(r"v\d+" if own else r"[0-9a-f]{40}", version), (path.name, action)
+
+
+@pytest.mark.parametrize(
+    ("version", "numbers"),
+    [("0.2.0", (0, 2, 0, 0)), ("1.0rc1", (1, 0, 0, 0)), ("1.0.0.dev3+local.7", (1, 0, 0, 0)),
+     ("2", (2, 0, 0, 0)), ("1.2.3.4.5", (1, 2, 3, 4))],
+)  # fmt: skip
+def test_the_bundle_takes_every_version(version: str, numbers: tuple[int, ...]) -> None:
+    """The file of the bundle runs in PyInstaller alone; of it, what reads the version."""
+    tree = ast.parse((ROOT / "packaging" / "evenbreak.spec").read_text(encoding="utf-8"))
+    (read,) = (one for one in tree.body if getattr(one, "name", "") == "numbers_of")
+    there: dict[str, Any] = {"re": re}
+    exec(compile(ast.Module([read], []), "spec", "exec"), there)  # noqa: S102 - our own file
+    assert there["numbers_of"](version) == numbers

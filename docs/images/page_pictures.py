@@ -39,6 +39,8 @@ CHROMIUM = os.environ.get("EVENBREAK_CHROMIUM") or shutil.which("chromium")
 PHONE = {"width": 390, "height": 844}
 WALL = {"width": 1280, "height": 720}
 BIG_WALL = {"width": 1920, "height": 1080}
+ROOM = "http://192.168.1.20:8000"
+"""Where phones find the page, as the wall shows it: nothing while they are not let in."""
 COLOURS = 128
 BOTH = """<!doctype html>
 <style>
@@ -79,6 +81,13 @@ def served(path: Path, clock: Clock) -> Iterator[Site]:
     thread.join(10)
 
 
+def tab(browser: Any, site: Site, size: dict[str, int]) -> Any:
+    """Return a page of a phone or of the wall, as a browser of its own shows it."""
+    scale = 2 if size is PHONE else 1
+    shown = {"viewport": size, "device_scale_factor": scale}
+    return browser.new_context(base_url=site.address, **shown).new_page()
+
+
 def shot(page: Any, *, first: str = "", last: str = "") -> bytes:
     """Return a picture of the page, from the top or an element `first` to the end of `last`.
 
@@ -106,12 +115,12 @@ def kept(picture: bytes, file: Path) -> None:
     small.save(file, optimize=True)
 
 
-def settled(page: Any, site: Site, path: str) -> None:
+def settled(page: Any, path: str) -> None:
     """Open a page once the odds are those of the last entry; *Tonight* is marked until then."""
     for _ in range(600):
-        page.goto(f"{site.address}/", wait_until="domcontentloaded")
+        page.goto("/", wait_until="domcontentloaded")
         if not page.locator("[data-older]").count():
-            page.goto(f"{site.address}{path}", wait_until="domcontentloaded")
+            page.goto(path, wait_until="domcontentloaded")
             return
         time.sleep(0.1)
     raise RuntimeError(f"{path}: the odds do not come")
@@ -138,17 +147,17 @@ def tap_result(page: Any, within: str, match: int, winner: int, games: int) -> A
     return form.locator(f".after{winner} .pad button[value='{games}']")
 
 
-def call_all(page: Any, site: Site) -> None:
+def call_all(page: Any) -> None:
     """Call every match that has a table."""
-    settled(page, site, "/desk")
+    settled(page, "/desk")
     while (call := page.get_by_role("button", name=re.compile("^Call( |$)"))).count():
         press(page, call.first)
-        settled(page, site, "/desk")
+        settled(page, "/desk")
 
 
-def begun(desk: Any, site: Site, clock: Clock, folder: Path) -> None:
+def begun(desk: Any, clock: Clock, folder: Path) -> None:
     """Paste the list, tick off who is here and draw."""
-    desk.goto(f"{site.address}/new")
+    desk.goto("/new")
     rows = [line.split(",")[:2] for line in ENTRANTS.read_text("utf-8").splitlines()[1:]]
     lines = [f"{k}. {name} {rating}" for k, (name, rating) in enumerate(rows[:PLAYERS], 1)]
     for name, value in (("name", "Saturday 9-Ball"), ("race", "5"), ("tables", "2")):
@@ -170,53 +179,54 @@ def begun(desk: Any, site: Site, clock: Clock, folder: Path) -> None:
 
 def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
     """Go through the evening of the tutorial, and keep its pictures in a folder."""
-    desk = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
-    desk.goto(f"{site.address}/pin")
+    desk = tab(browser, site, PHONE)
+    desk.goto("/pin")
     desk.get_by_label("PIN").fill(site.pin)
     press(desk, desk.get_by_role("button", name="Go"))
-    begun(desk, site, clock, folder)
-    settled(desk, site, "/desk")
+    begun(desk, clock, folder)
+    settled(desk, "/desk")
     kept(shot(desk, first="h1", last=".desk-grid"), folder / "call.png")
 
     clock.at = "19:05"
-    call_all(desk, site)
+    call_all(desk)
     clock.at = "19:40"
     enter = tap_result(desk, ".desk-grid", 1, 0, 4)
     kept(shot(desk, first="section.table", last="section.table"), folder / "result.png")
     press(desk, enter)
-    settled(desk, site, "/desk")
+    settled(desk, "/desk")
     kept(shot(desk, first=".entered", last=".entered"), folder / "said.png")
-    call_all(desk, site)
-    guest = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
-    settled(guest, site, "/")
+    call_all(desk)
+    guest = tab(browser, site, PHONE)
+    settled(guest, "/")
     kept(shot(guest, first="h1", last="main"), folder / "tonight.png")
 
-    player = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
-    player.goto(f"{site.address}/c/{site.player_code('Tomasz Wierzba')}")
+    player = tab(browser, site, PHONE)
+    player.goto(f"/c/{site.player_code('Tomasz Wierzba')}")
     tap(player, "I'm coming")
     for name in ("Tomasz Wierzba", "Tomasz Wierzba", "Priya Vandermeer"):
         tap(player, f"Game for {name}")
     kept(shot(player, first=".mine-top", last="main .odds"), folder / "match.png")
 
     clock.at = "20:15"
-    desk.goto(f"{site.address}/desk")
+    desk.goto("/desk")
     press(desk, tap_result(desk, ".desk-grid", 2, 0, 2))
-    call_all(desk, site)
+    call_all(desk)
     clock.at = "20:35"
-    desk.goto(f"{site.address}/desk?match=4#sheet")
+    desk.goto("/desk?match=4#sheet")
     desk.get_by_text("Type the score").click()
     typed = desk.locator(".sheet form.typed:visible")
     for name, games in (("a", "3"), ("b", "0")):
         typed.locator(f"[name={name}]").fill(games)
     press(desk, typed.get_by_role("button", name="Still playing"))
     clock.at = "20:40"
-    desk.goto(f"{site.address}/bracket?match=1#sheet")
+    desk.goto("/bracket?match=1#sheet")
     press(desk, tap_result(desk, ".sheet", 1, 1, 4))
     kept(shot(desk, first="h1", last="main form"), folder / "correct.png")
     press(desk, desk.locator(".bottom button:visible").first)
 
-    wall = browser.new_context(viewport=WALL).new_page()
-    settled(wall, site, "/screen?only=tables")
+    wall = tab(browser, site, WALL)
+    site.found_at(ROOM)
+    settled(wall, "/screen?only=tables")
     kept(shot(wall), folder / "screen.png")
 
 
@@ -225,11 +235,12 @@ def front_page(browser: Any, path: Path, clock: Clock, file: Path) -> None:
     clock.at = "18:00"
     state = write_demo_evening(path, datetime.fromisoformat(clock()))
     with served(path, clock) as site:
-        wall = browser.new_context(viewport=BIG_WALL).new_page()
-        settled(wall, site, "/screen?only=tables")
-        phone = browser.new_context(viewport=PHONE, device_scale_factor=2).new_page()
+        wall = tab(browser, site, BIG_WALL)
+        phone = tab(browser, site, PHONE)
+        site.found_at(ROOM)
+        settled(wall, "/screen?only=tables")
         first = min(state.on_tables, key=lambda match: state.on_tables[match].call.table)
-        phone.goto(f"{site.address}/c/{site.player_code(state.pair(first)[0])}")
+        phone.goto(f"/c/{site.player_code(state.pair(first)[0])}")
         pictures = (shot(wall), shot(phone, first=".mine-top", last="main .odds"))
     both = browser.new_page()
     both.set_content(BOTH.format(*(base64.b64encode(one).decode() for one in pictures)))

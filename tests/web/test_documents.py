@@ -11,7 +11,10 @@ import pytest
 from click.testing import CliRunner, Result
 
 from evenbreak.cli.program import program
-from evenbreak.files.store.tournament import add_events, new_tournament
+from evenbreak.files.store.team_night import add_team_events
+from evenbreak.files.store.tournament import add_events, begin_beside, new_tournament
+from evenbreak.teams.evening.events import Begun, NightPlan, PutUp, TeamSheet
+from evenbreak.teams.evening.events import Result as Ended
 from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.moves import result
 from evenbreak.web import documents
@@ -22,20 +25,27 @@ from web.asked import Browser, Room
 
 AT = "2026-11-27T19:30:00"
 TODAY = date(2026, 11, 28)
+BOTH = ("Ann", "Bo")
+PLAN = Plan("single", 5, scale="fargo", tables=1)
+PAIR = Opened(PLAN, tuple(Entrant(n, 500.0) for n in BOTH))
 
 
 def night(path: Path, *, over: bool) -> None:
     """Write a tournament of one match, which is over or still to be played."""
     path.parent.mkdir(exist_ok=True)
-    both = ("Ann", "Bo")
-    what = [
-        Opened(Plan("single", 5, scale="fargo", tables=1), tuple(Entrant(n, 500.0) for n in both)),
-        Drawn(both, (0, 1)),
-    ]
-    state = new_tournament(path, [Event(AT, one) for one in what])
+    state = new_tournament(path, [Event(AT, one) for one in (PAIR, Drawn(BOTH, (0, 1)))])
     if over:
         (match,) = state.standing.to_play
         add_events(path, lambda now: [Event(AT, result(now, match, (5, 3)))])
+
+
+def team_night(path: Path, *, over: bool) -> None:
+    """Write a team night of one set, which is over or still to be played."""
+    path.parent.mkdir(exist_ok=True)
+    us, them = (TeamSheet(n, (n[0],), (600.0,), (0.0,), (6.0,)) for n in ("Racks", "Cues"))
+    happened = [Begun(NightPlan((us, them), 1, race=5)), PutUp(0, 1, ("R",)), PutUp(1, 1, ("C",))]
+    for what in [*happened, *([Ended(1, (5, 3))] if over else [])]:
+        add_team_events(path, lambda *_, what=what: [what], at=AT, by="")
 
 
 @pytest.fixture
@@ -59,7 +69,13 @@ def click(**ports: str) -> Result:
 
 def files(folder: Path, **nights: str) -> None:
     for day, how in nights.items():
-        night(folder / f"2026-11-{day[1:]}.db", over=how == "over")
+        path = folder / f"2026-11-{day[1:]}.db"
+        if how.startswith("teams"):
+            team_night(path, over=how == "teams over")
+        else:
+            night(path, over=how != "goes on")
+        if how == "second goes on":
+            begin_beside(path, lambda _: [Event(AT, PAIR)])
 
 
 @pytest.mark.parametrize(
@@ -70,6 +86,9 @@ def files(folder: Path, **nights: str) -> None:
         ({"d27": "goes on"}, "27"),  # past midnight, or the second day of two
         ({"d27": "goes on", "d28": "over"}, "28"),
         ({"d26": "goes on", "d27": "over"}, "28"),
+        ({"d27": "second goes on"}, "27"),
+        ({"d27": "teams go on"}, "27"),
+        ({"d27": "teams over"}, "28"),
         ({"d24": "goes on"}, "28"),  # left lying
         ({"d29": "goes on"}, "28"),
     ],

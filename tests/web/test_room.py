@@ -1,5 +1,6 @@
 """A page for this computer only, until the director lets the phones of the room in."""
 
+import asyncio
 import http.client
 import socket
 import time
@@ -7,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from threading import Thread
+from typing import Any
 from unittest.mock import patch
 
 import pytest
@@ -54,7 +56,10 @@ def test_phones_are_let_in_and_shut_out_while_the_page_runs(tmp_path: Path) -> N
         assert stream.recv(99)
         site.address = home  # where this computer's own browser stays
         guest = Phone(site, director=True, address="127.0.0.78")
-        assert guest.send("/desk/phones").status == 409  # it would shut itself out
+        refused = guest.send("/desk/phones")
+        assert refused.status == 409  # it would shut itself out
+        assert home in refused.words
+        assert home in guest.open("/desk/phones").words
         assert "Only this computer" in director.send("/desk/phones").words
         assert site.address == home
         with suppress(ConnectionError):
@@ -86,6 +91,22 @@ def test_why_phones_cannot_be_let_in_is_said(tmp_path: Path) -> None:
         assert "already in use" in director.send("/desk/phones", open="yes").words
         with patch.object(room, "addresses", return_value=[]):
             assert "in no network" in director.send("/desk/phones", open="yes").words
+
+
+@pytest.mark.usefixtures("at_room")
+def test_two_who_let_phones_in_at_once_both_do(tmp_path: Path) -> None:
+    async def both() -> list[str]:
+        server: Any = server_of(Site(tmp_path / "t.db"), port=free_port())
+        server.servers = []
+        let: room.Room = server.config.app.state.site.room
+        await asyncio.gather(let.open(), let.open(), let.close(), let.open())
+        places = let.places
+        assert len(server.servers) == 1
+        await let.close()
+        return places
+
+    (place,) = asyncio.run(both())
+    assert ROOM in place
 
 
 @contextmanager

@@ -1,6 +1,7 @@
 """The wall in turn, and the page for everyone, of one and the same night."""
 
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 
@@ -18,6 +19,7 @@ from evenbreak.tournaments.evening.events import (
 from evenbreak.tournaments.evening.fold import evening
 from evenbreak.web.evening_view import EveningView
 from evenbreak.web.night import Known
+from evenbreak.web.site import Site
 from evenbreak.web.wall_view import WallView, just_called, pictures_of, turn_at, wall_view
 from web.phones import Phone, running
 
@@ -82,11 +84,25 @@ def test_each_picture_is_there_without_a_script(tmp_path: Path) -> None:
         before = phone.open("/screen")
         assert "Bo is here" in before.words
         assert 'http-equiv="refresh"' in before.text
-        assert "<svg" in before.text  # the code to scan
+        assert 'class="qr"' not in before.text  # no phone can open the page yet
+        assert "Scan once" not in before.words
+        assert "Let phones in" not in before.words
+        director = Phone(site, director=True)
+        for page in ("/screen", "/desk/check-in"):
+            assert "Let phones in" in director.open(page).words
+        with patch.object(Site, "for_phones", new=True):
+            site.found_at(site.address)
+            assert 'class="qr"' in phone.open("/screen").text  # the code to scan
+            assert "register themselves" in director.open("/desk/check-in").words
         add_events(path, lambda _: [Event(AT, what) for what in (BEGUN[1], *CALLS, SCORE)])
-        tables = phone.open("/screen", only="tables").words
+        with patch.object(Site, "for_phones", new=True):
+            tables = phone.open("/screen", only="tables").words
+        site.found_at(site.address)
+        lone = phone.open("/screen", only="tables").words
         assert "Tuesday" in tables
         assert "Scan once" in tables
+        assert "Scan once" not in lone
+        assert "127.0.0.1" not in lone
         assert "Table TV" in tables
         assert "winner of 1" in phone.open("/screen", only="bracket").words
         assert "The story of the night" in phone.open("/screen", only="story").words

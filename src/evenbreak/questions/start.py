@@ -148,8 +148,8 @@ class Serve(Question):
             Named(_host, "NAME[:PORT]"),
             "Where phones find this computer.",
             usual="the address that it has",
-            more="For `--lan` in a container or behind another server, where the address of this "
-            "computer is not the one that phones use. Requests by other names are refused.",
+            more="For `--lan` in a container, where the address that it sees is not the one that "
+            "phones use. Requests by other names are refused.",
         ),
     ] = None
     allow_origin: Annotated[

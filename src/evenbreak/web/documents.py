@@ -18,11 +18,12 @@ import platformdirs
 from evenbreak.errors import DataError
 from evenbreak.files.store.evening_file import holds
 from evenbreak.files.store.formats import TOURNAMENT
-from evenbreak.files.store.tournament import read_tournament
+from evenbreak.files.store.team_night import read_team_events, team_night_of
+from evenbreak.files.store.tournament import night_of, read_night
 from evenbreak.tournaments.evening.later_draws import can_draw
 
 _LONGEST = timedelta(days=3)
-"""How long a tournament may go on."""
+"""How long a tournament or a team night may go on."""
 _DAY = re.compile(r"\d{4}-\d\d-\d\d")
 _FAR = 1 << 20  # a byte beyond the address: on Windows what is locked cannot be read
 _STARTING = 10.0  # seconds in which the other program says where its page is
@@ -36,7 +37,7 @@ def documents() -> Path:
 
 
 def tonights_file(folder: Path, today: date) -> Path:
-    """Return the file of today, or that of the days before whose tournament is not over yet."""
+    """Return the file of today, or that of the days before in which something is not over yet."""
     of_today = folder / f"{today}.db"
     if not of_today.exists():
         earliest = f"{today - _LONGEST}"
@@ -49,9 +50,13 @@ def tonights_file(folder: Path, today: date) -> Path:
 
 def _goes_on(path: Path) -> bool:
     with suppress(DataError):  # it is left for whoever can mend it
-        if holds(path, TOURNAMENT):
-            state = read_tournament(path)
-            return not state.drawn or bool(state.standing.to_play) or can_draw(state)
+        teams = team_night_of(path, read_team_events(path))
+        if teams is not None and not teams.over:
+            return True
+        night = night_of(path, read_night(path)) if holds(path, TOURNAMENT) else {}
+        return any(
+            not state.drawn or state.standing.to_play or can_draw(state) for state in night.values()
+        )
     return False
 
 

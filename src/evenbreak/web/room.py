@@ -56,6 +56,12 @@ class Room:
         self.port, self.server, self.name = port, server, name
         self.open_at: dict[str, asyncio.Server] = {}
         self._added: set[str] = set()
+        self._turn = asyncio.Lock()
+
+    @property
+    def here(self) -> str:
+        """Where this computer's own browser finds the page."""
+        return f"http://127.0.0.1:{self.port}"
 
     @property
     def places(self) -> list[str]:
@@ -70,7 +76,16 @@ class Room:
         RefusalError
             if this computer is in no network, or another program has the port there.
         """
-        self.close()  # the network may be another one by now
+        async with self._turn:
+            self._close()  # the network may be another one by now
+            await self._open()
+
+    async def close(self) -> None:
+        """Let nobody in but this computer."""
+        async with self._turn:
+            self._close()
+
+    async def _open(self) -> None:
         there = await asyncio.to_thread(addresses)
         if not there:
             raise RefusalError("This computer is in no network. Join the room's Wi-Fi first.")
@@ -88,14 +103,13 @@ class Room:
         self.asked_as |= self._added
         self.found_at(self.places[0])
 
-    def close(self) -> None:
-        """Let nobody in but this computer."""
+    def _close(self) -> None:
         for address, server in self.open_at.items():
             self.server.leave(address, server)
         self.open_at = {}
         self.asked_as -= self._added
         self._added = set()
-        self.found_at(f"http://127.0.0.1:{self.port}")
+        self.found_at(self.here)
 
 
 def places_of(there: Collection[str], port: int, name: str) -> list[str]:

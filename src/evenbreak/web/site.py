@@ -141,6 +141,11 @@ class Site:
         self._rendered = [(what, {}), *self._rendered[:_MOST_KINDS]]
         return self._rendered[0][1]
 
+    @property
+    def for_phones(self) -> bool:
+        """Whether phones can open the page at its address."""
+        return not self.address.startswith("http://127.0.0.1:")
+
     def found_at(self, address: str) -> None:
         """Take note of where phones find the page from now on."""
         self.address = address

@@ -21,7 +21,8 @@ async def phones(request: Request) -> Response:
     check_director(request)
     room = site_of(request).room
     places = [(one, code(one)) for one in room.places] if room else []
-    return page(request, "phones.html", places=places, here_now=is_here(request))
+    here = room.here if room else site_of(request).address
+    return page(request, "phones.html", places=places, here_now=is_here(request), own=here)
 
 
 async def let(request: Request) -> Response:
@@ -29,11 +30,15 @@ async def let(request: Request) -> Response:
     form = await directors_form(request)
     room = site_of(request).room
     if room is None or not is_here(request):
-        raise RefusalError("Do that on the computer that runs this page.", status=409)
+        raise RefusalError(
+            "Do that on the computer that runs this page, at {here}.",
+            status=409,
+            here=room.here if room else site_of(request).address,
+        )
     if form.text("open"):
         await room.open()
         return done(request, _PHONES, say("Phones can open the page now."))
-    room.close()
+    await room.close()
     return done(request, _PHONES, say("Only this computer can open the page now."))
 
 

@@ -31,6 +31,7 @@ from evenbreak.tournaments.evening.story import Story
 from evenbreak.web.night import Night, mark_of
 from evenbreak.web.page import language, page, page_face, site_of
 from evenbreak.web.pages.team import seen_values
+from evenbreak.web.site import Site
 from evenbreak.web.wall_view import (
     WallView,
     just_called,
@@ -52,8 +53,7 @@ async def screen(request: Request) -> Response:
     if not site.night.exists:
         teams = await site.teams.now()
         if teams is None:
-            scan = code(site.address)
-            return page(request, "screen.html", live=True, picture="", wall=None, code=scan)
+            return page(request, "screen.html", live=True, picture="", wall=None, code=_code(site))
         shown = await seen_values(request, teams, EVERYBODY)
         clock = site.clock()[11:16]
         return page(request, "team_screen.html", live=True, clock=clock, **shown)
@@ -80,7 +80,7 @@ def _picture(
     request: Request, view: WallView, picture: str, story: Story | None, turn: int
 ) -> dict[str, Any]:
     site, face = site_of(request), page_face(language(request))
-    values: dict[str, Any] = {"picture": picture, "wall": view, "code": code(site.address)}
+    values: dict[str, Any] = {"picture": picture, "wall": view, "code": _code(site)}
     values |= {"drawn": "", "remarks": [], "since": "", "until": view.clock}
     if picture == "bracket":
         panels = view.panels
@@ -144,6 +144,11 @@ async def view_for(request: Request, night: Night, now: str) -> tuple[WallView, 
         kept = views[id(night)] = key, known, await asyncio.to_thread(work)
     found: tuple[WallView, Evening] = kept[2]
     return found
+
+
+def _code(site: Site) -> Markup:
+    """Return the QR code of the page; nothing while no phone can open it."""
+    return code(site.address) if site.for_phones else Markup()
 
 
 @cache
