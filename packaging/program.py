@@ -7,6 +7,8 @@ alone, as when one is dropped on it, the page of that.
 import multiprocessing
 import os
 import sys
+from contextlib import suppress
+from pathlib import Path
 
 AS_READER = "--read-workbook"  # `evenbreak.files.tables.workbook.AS_READER`
 
@@ -25,7 +27,9 @@ def run() -> None:
         del sys.argv[1]
         workbook.main()
         return
-    clicked = not words or (len(words) == 1 and words[0].endswith(".db"))
+    # What is dropped is a file by its whole path; `serve` says if it is none of an evening.
+    dropped = len(words) == 1 and Path(words[0]).is_absolute() and Path(words[0]).exists()
+    clicked = not words or dropped or (len(words) == 1 and words[0].lower().endswith(".db"))
     if clicked:
         sys.argv[1:] = ["serve", *words, "--open"]
     from evenbreak.cli import main
@@ -34,7 +38,8 @@ def run() -> None:
         main()
     except SystemExit as end:
         if clicked and end.code not in (0, None, 130) and sys.stdin and sys.stdin.isatty():
-            input("Press Enter to close this window. ")  # it would close before it is read
+            with suppress(EOFError):  # of a terminal without a keyboard
+                input("Press Enter to close this window. ")  # it would close before it is read
         raise
 
 

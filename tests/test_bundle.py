@@ -3,7 +3,7 @@
 import os
 import runpy
 import sys
-from io import BytesIO
+from io import BytesIO, StringIO
 from pathlib import Path
 from unittest.mock import patch
 
@@ -22,6 +22,7 @@ PROGRAM = ROOT / "packaging" / "program.py"
     [
         ([], ["serve", "--open"]),  # a double click
         (["2026-11-28.db"], ["serve", "2026-11-28.db", "--open"]),  # a file dropped on it
+        ([__file__], ["serve", __file__, "--open"]),  # another one, which is refused there
         (["odds", "612", "521"], ["odds", "612", "521"]),
         (["serve", "tonight.db"], ["serve", "tonight.db"]),
         (["--help"], ["--help"]),
@@ -38,6 +39,19 @@ def test_a_double_click_opens_the_page_and_words_are_commands(
     assert sys.argv[1:] == run
     assert os.environ["LD_LIBRARY_PATH"] == "of the system"  # for the browser and other programs
     assert "LD_LIBRARY_PATH_ORIG" not in os.environ
+
+
+@pytest.mark.parametrize("typed", ["", "\n"])
+def test_an_error_of_a_double_click_waits_for_enter_if_there_is_a_keyboard(
+    typed: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    terminal = StringIO(typed)
+    monkeypatch.setattr(terminal, "isatty", lambda: True)
+    monkeypatch.setattr(sys, "argv", ["evenbreak"])
+    monkeypatch.setattr(sys, "stdin", terminal)
+    with patch("evenbreak.cli.main", side_effect=SystemExit(2)), pytest.raises(SystemExit):
+        runpy.run_path(str(PROGRAM))["run"]()
+    assert "Press Enter" in capsys.readouterr().out
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell script stands for the program")

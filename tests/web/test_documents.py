@@ -3,7 +3,7 @@
 import subprocess
 import sys
 from contextlib import closing
-from datetime import date
+from datetime import date, datetime
 from pathlib import Path
 from unittest.mock import patch
 
@@ -11,6 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from evenbreak.cli.program import program
+from evenbreak.files.store.desk import back_up
 from evenbreak.files.store.team_night import add_team_events
 from evenbreak.files.store.tournament import add_events, begin_beside, new_tournament
 from evenbreak.teams.evening.events import Begun, NightPlan, PutUp, TeamSheet
@@ -58,13 +59,14 @@ def clicked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return shown
 
 
-def click(**ports: str) -> Result:
+def click(*words: str, **ports: str) -> Result:
     """Start the program as a double click does, up to where it would wait for requests."""
     with (
         patch("uvicorn.Server.run"),
+        patch("evenbreak.web.command.addresses", return_value=["127.0.0.77"]),
         patch("evenbreak.web.command._taken", lambda _, port: ports.get(f"p{port}", "")),
     ):
-        return CliRunner().invoke(program, ["serve", "--open"])
+        return CliRunner().invoke(program, ["serve", *words, "--open"])
 
 
 def files(folder: Path, **nights: str) -> None:
@@ -120,23 +122,24 @@ def test_a_second_start_opens_the_first(clicked: list[str], tmp_path: Path) -> N
     hold = (
         "import sys; from pathlib import Path; from evenbreak.web.documents import Alone\n"
         "with Alone(Path(sys.argv[1])) as alone:\n"
-        "    alone.keep('http://127.0.0.1:8123'); print('ready', flush=True); sys.stdin.read()"
+        "    alone.keep('http://127.0.0.1:8123', Path('saturday.db'))\n"
+        "    print('ready', flush=True); sys.stdin.read()"
     )
     words = [sys.executable, "-c", hold, str(tmp_path / "cache" / "page")]
     with subprocess.Popen(words, stdin=-1, stdout=-1, text=True) as first:
         assert first.stdout
         assert first.stdout.readline() == "ready\n"
         shown = click()
-        assert "open already: http://127.0.0.1:8123" in shown.output
+        assert "saturday.db is open already: http://127.0.0.1:8123" in shown.output
         assert clicked == ["http://127.0.0.1:8123"]
         first.kill()  # however it ends, its turn ends too
-    assert "Tonight is kept in" in click().output
+    assert "The night is kept in" in click().output
 
 
 def test_without_a_folder_for_it_nobody_is_kept_out(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with Alone(tmp_path / "file" / "page") as alone:
-        alone.keep("http://127.0.0.1:8000")
+        alone.keep("http://127.0.0.1:8000", tmp_path)
         assert not alone.running
 
 
@@ -171,3 +174,63 @@ def test_the_browser_is_opened_with_a_ticket(clicked: list[str]) -> None:
     site = server.call_args.args[0]
     assert address.startswith("http://127.0.0.1:9000/pin?ticket=")
     assert site.ticket.is_good(address.partition("=")[2])
+
+
+@pytest.mark.parametrize("over", [False, True])
+def test_phones_that_were_in_are_let_in_again_until_they_are_shut_out(
+    clicked: list[str], tmp_path: Path, over: bool
+) -> None:
+    path = tmp_path / "saturday.db"
+    night(path, over=over)
+    assert "127.0.0.77" not in click(str(path)).output  # never let in
+    Site(path).let_phones(True)  # what comes after ends without a word, as by kill -9
+    for _ in range(2):
+        shown = click(str(path)).output
+        assert ("let in again" in shown) == ("http://127.0.0.77:8000" in shown) == (not over)
+    Site(path).let_phones(False)
+    assert "127.0.0.77" not in click(str(path)).output
+    assert not clicked
+
+
+def test_the_desk_says_what_the_start_changed_until_it_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "saturday.db"
+    night(path, over=False)
+    site = Site(path, hosts=frozenset({"localhost"}))
+    site.since_start.append("Phones are let in again.")
+    with closing(Room(site)) as room:
+        own = Browser(room, address="127.0.0.1", director=True)
+        assert "Phones are let in again." in own.open("/desk").words
+        assert own.send("/desk/phones", read="yes").to.endswith("/desk")
+        assert "Phones are let in again." not in own.open("/desk").words
+
+
+@pytest.mark.usefixtures("clicked")
+def test_a_night_stays_at_its_port_or_says_loudly_that_it_moved(tmp_path: Path) -> None:
+    path = str(tmp_path / "saturday.db")
+    night(Path(path), over=False)
+    taken = "address already in use"
+    assert "127.0.0.1:8001" in click(path, p8000=taken).output
+    assert path in (tmp_path / "cache" / "page").read_text()  # a second start finds it
+    again = click(path).output
+    assert "127.0.0.1:8001" in again
+    assert "moved" not in again
+    moved = click(path, p8001=taken).output
+    assert "moved from port 8001 to port 8000" in moved
+    assert "moved from port 8000 to port 9000" in click(path, "--port", "9000").output
+
+
+@pytest.mark.usefixtures("clicked")
+@pytest.mark.parametrize("copies", [0, 1])
+def test_what_to_open_instead_of_a_damaged_file_is_said(tmp_path: Path, copies: int) -> None:
+    path = tmp_path / "evenbreak" / f"{date.today()}.db"
+    night(path, over=False)
+    if copies:
+        copy = back_up(path, datetime(2026, 11, 28, 20, 0))
+        copy.with_name(copy.name.replace("-200000", "-210000")).write_bytes(b"damaged" * 99)
+    path.write_bytes(b"no database" * 99)
+    shown = click()
+    assert shown.exit_code == 1
+    assert f"rename {path.name}" in shown.output
+    assert ("20261128-200000.backup.db" in shown.output) == bool(copies)
+    (tmp_path / "notes.txt").write_text("Ann plays Bo")
+    assert "notes.txt is not the file of a tournament" in click(str(tmp_path / "notes.txt")).output

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import gc
+import glob
 import socket
 import sys
 from contextlib import suppress
@@ -14,7 +15,7 @@ from tempfile import mkdtemp
 import click
 import segno
 
-from evenbreak.errors import EvenbreakError
+from evenbreak.errors import DataError, EvenbreakError
 from evenbreak.files.demo import write_demo_evening
 from evenbreak.files.league import find_league
 from evenbreak.files.league.league_file import LeagueFile, read_league
@@ -24,10 +25,11 @@ from evenbreak.files.store.formats import TOURNAMENT
 from evenbreak.files.store.team_night import read_team_events
 from evenbreak.files.store.tournament import read_tournament, renew_views
 from evenbreak.questions.start import Serve
-from evenbreak.web.documents import Alone, documents, show, tonights_file
+from evenbreak.web.documents import Alone, documents, goes_on, show, tonights_file
 from evenbreak.web.room import addresses, places_of
 from evenbreak.web.server import server_of
 from evenbreak.web.site import Site
+from evenbreak.words import say
 
 _TURN = 0.0005  # seconds
 _PORTS = 50
@@ -36,25 +38,32 @@ _ARENAS, _TRIM, _APART = -8, -1, -3  # of malloc.h: M_ARENA_MAX, M_TRIM_THRESHOL
 
 def serve(asked: Serve, league: LeagueFile | None) -> None:
     """Serve the page until Ctrl+C; its forms begin with the rules of a league."""
-    if not (asked.open and asked.file is None and not asked.demo):
+    if not asked.open or asked.demo:
         _serve(asked, _demo() if asked.demo else Path(asked.file or "tonight.db"), league)
         return
     with Alone() as alone:
-        if alone.running:
-            click.echo(f"The page is open already: {alone.running}", err=True)
+        if alone.running and (asked.file is None or Path(asked.file).resolve() == Path(alone.of)):
+            click.echo(f"{alone.of} is open already: {alone.running}", err=True)
+            click.echo("To open another night, end that program first.", err=True)
             show(alone.running)
             return
-        path = tonights_file(documents(), date.today())
-        click.echo(f"Tonight is kept in {path}", err=True)
-        if league is None and (there := find_league(path.parent)) is not None:
+        path = Path(asked.file) if asked.file else tonights_file(documents(), date.today())
+        if (
+            asked.file is None
+            and league is None
+            and (there := find_league(path.parent)) is not None
+        ):
             league = read_league(there, quickly=True)
         _serve(asked, path, league, alone)
 
 
 def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | None = None) -> None:
+    click.echo(f"The night is kept in {path.resolve()}", err=True)
     if path.exists():
-        if holds(path, TOURNAMENT) or not read_team_events(path):
-            read_tournament(path)
+        try:
+            _read(path)
+        except DataError as error:
+            raise click.ClickException(f"{error}\n{_instead(path)}") from error
         try:
             back_up(path, datetime.now())
         except (EvenbreakError, OSError) as error:  # it can be shown all the same
@@ -66,12 +75,21 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
             path=path,
             folder=path.parent,
         )
-    port = _port(asked)
+    site = Site(path, rules=league, color=asked.color, origins=frozenset(asked.allow_origin))
+    last = site.last_port
+    port = _port(asked, last)
     here = f"http://127.0.0.1:{port}"
-    site = Site(
-        path, address=here, rules=league, color=asked.color, origins=frozenset(asked.allow_origin)
-    )
-    places = places_of(_room(asked, port), port, asked.host or "")
+    site.found_at_port(port)
+    if last not in (0, port):
+        moved = say(
+            "The page has moved from port {last} to port {port}: phones, QR codes and overlays "
+            "that know the old one don't find it. Let everyone scan the code again.",
+            last=last,
+            port=port,
+        )
+        _say(site, moved)
+    there = _room(asked, port) or _room_again(site, port)
+    places = places_of(there, port, asked.host or "")
     for place in places or [here]:
         click.echo(f"The page: {place}", err=True)
     click.echo(f"The director's PIN: {site.pin}", err=True)
@@ -79,7 +97,7 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
         segno.make(places[0], error="l").terminal(sys.stderr, compact=True)
     click.echo("Ctrl+C ends it; nothing is lost.", err=True)
     if alone is not None:
-        alone.keep(here)
+        alone.keep(here, path)
     # A page does not wait until the odds, worked out beside it, have had their usual 5 ms.
     sys.setswitchinterval(_TURN)
     _give_memory_back()
@@ -89,11 +107,56 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
         show(f"{here}/pin?ticket={site.ticket.draw()}")
 
     shown = then if asked.open else None
-    server_of(site, port=port, lan=asked.lan, name=asked.host or "", then=shown).run()
+    server_of(site, port=port, lan=bool(there), name=asked.host or "", then=shown).run()
 
 
-def _port(asked: Serve) -> int:
-    """Return the port that is asked for; for a browser that is opened on it, the next free one."""
+def _read(path: Path) -> None:
+    """Read the night of a file; refuse one that is damaged, or none of a night."""
+    if holds(path, TOURNAMENT) or not read_team_events(path):
+        read_tournament(path)
+
+
+def _instead(path: Path) -> str:
+    """Return what to open instead of a file that cannot be read."""
+    for copy in sorted(path.parent.glob(f"{glob.escape(path.stem)}-*.backup.db"), reverse=True):
+        with suppress(EvenbreakError, OSError):
+            _read(copy)
+            return (
+                f"The newest copy that can be read is {copy.name}, beside it: "
+                f"drop that on the program, or start evenbreak serve {copy}\n"
+                f"To start afresh, rename {path.name}."
+            )
+    return (
+        f"There is no copy of it. To start afresh, rename {path.name}."
+        if path.suffix == ".db"
+        else "Files of a tournament end in .db."
+    )
+
+
+def _say(site: Site, line: str) -> None:
+    """Say something of this start in the window and on the desk."""
+    click.echo(line, err=True)
+    site.since_start.append(line)
+
+
+def _room_again(site: Site, port: int) -> list[str]:
+    """Return the addresses at which phones are let in again, as before this start."""
+    if not site.phones_in or not goes_on(site.path):
+        return []
+    there = [one for one in addresses() if not _taken(one, port)]
+    again = say("Phones are let in again, as before the restart.")
+    cannot = say("Phones were let in before, but can't be now. Join the network, then let them in.")
+    _say(site, again if there else cannot)
+    return there
+
+
+def _port(asked: Serve, last: int) -> int:
+    """Return the port that is asked for; for a browser that is opened on it, the next free one.
+
+    The last one of the night comes first, because phones know it.
+    """
+    if asked.open and last and asked.port == Serve.port and not _taken("127.0.0.1", last):
+        return last
     why = _taken("127.0.0.1", asked.port)
     rest = range(asked.port + 1, asked.port + _PORTS) if asked.open else ()
     if why and (free := next((n for n in rest if not _taken("127.0.0.1", n)), None)):

@@ -44,11 +44,12 @@ def tonights_file(folder: Path, today: date) -> Path:
         found = [one for one in folder.glob("*.db") if _DAY.fullmatch(one.stem)]
         for path in sorted(found, reverse=True):
             if earliest <= path.stem < f"{today}":
-                return path if _goes_on(path) else of_today
+                return path if goes_on(path) else of_today
     return of_today
 
 
-def _goes_on(path: Path) -> bool:
+def goes_on(path: Path) -> bool:
+    """Return whether the night of a file is not over yet; False: it cannot be read."""
     with suppress(DataError):  # it is left for whoever can mend it
         teams = team_night_of(path, read_team_events(path))
         if teams is not None and not teams.over:
@@ -69,11 +70,16 @@ class Alone:
     ----------
     path
         the file that is locked; the user's own unless given.
+
+    Attributes
+    ----------
+    running, of
+        the address of the other program's page, and the file of its night; '' if there is none.
     """
 
     def __init__(self, path: Path | None = None) -> None:
         self.path = path or platformdirs.user_cache_path("evenbreak", False) / "page"
-        self.running = ""
+        self.running, self.of = "", ""
         self.file: IO[str] | None = None
 
     def __enter__(self) -> Alone:
@@ -84,7 +90,7 @@ class Alone:
             if _lock(self.file):
                 self.file.truncate(0)
             else:
-                self.running = self._address()
+                self.running, _, self.of = self._kept().partition("\n")
         return self
 
     def __exit__(
@@ -97,13 +103,13 @@ class Alone:
         if self.file is not None:
             self.file.close()
 
-    def keep(self, address: str) -> None:
-        """Keep where the page is, for a second start."""
-        if self.file is not None:
-            self.file.write(address)
+    def keep(self, address: str, path: Path) -> None:
+        """Keep where the page of which file is, for a second start."""
+        if self.file is not None and not self.running:
+            self.file.write(f"{address}\n{path.resolve()}")
             self.file.flush()
 
-    def _address(self) -> str:
+    def _kept(self) -> str:
         until = time.monotonic() + _STARTING
         while not (found := self.path.read_text("utf-8")) and time.monotonic() < until:
             time.sleep(0.2)

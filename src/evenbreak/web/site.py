@@ -34,6 +34,7 @@ from evenbreak.web.sessions import Ticket, Tries
 from evenbreak.web.team_night import TeamNights
 
 _ENDED, _CALLS, _BY_HAND = "ended", "calls", "by hand"
+_PHONES, _PORT = "phones", "port"
 _MOST_KINDS = 8  # kinds of pages and answers besides, each for whoever reads it
 
 
@@ -98,8 +99,9 @@ class Site:
         self._first = {
             "pin": new_pin(),
             **{name: _mark() for name in ("cookie", "director", "match")},
-            _CALLS: "",
+            **dict.fromkeys((_CALLS, _PHONES, _PORT), ""),
         }
+        self.since_start: list[str] = []  # what the director has to know of it
         self._secrets = dict(self._first)
         self._read_at: tuple[int, int, int] | None = None
         self._tokens: tuple[tuple[int, int, int], dict[str, Token]] = (0, 0, 0), {}
@@ -191,11 +193,36 @@ class Site:
 
     def change_pin(self) -> None:
         """Draw another PIN of the director; whoever entered the earlier one is none any more."""
-        found = {"pin": new_pin(), "director": _mark()}
+        self._keep({"pin": new_pin(), "director": _mark()})
+
+    def _keep(self, found: Mapping[str, str]) -> None:
+        """Keep something else from now on, in the file as soon as it is there."""
         if is_there(self.path):
             change_secrets(self.path, found)
         self._first |= found
         self._secrets |= found
+
+    @property
+    def phones_in(self) -> bool:
+        """Whether the director has let phones in, and has not shut them out since."""
+        return bool(self._secret(_PHONES))
+
+    def let_phones(self, come_in: bool) -> None:
+        """Keep whether phones are let in, also by the next start."""
+        self._keep({_PHONES: "in" if come_in else ""})
+
+    @property
+    def last_port(self) -> int:
+        """The port at which the night was found last; 0: at none yet."""
+        kept = self._secret(_PORT)
+        return int(kept) if kept.isascii() and kept.isdigit() and len(kept) < 6 else 0
+
+    def found_at_port(self, port: int) -> None:
+        """Keep at which port the night is found, for the next start to take the same."""
+        self.found_at(f"http://127.0.0.1:{port}")
+        if port != self.last_port:
+            with suppress(DataError):  # of a file that can only be read
+                self._keep({_PORT: str(port)})
 
     @property
     def calls_itself(self) -> bool:
@@ -204,11 +231,7 @@ class Site:
 
     def let_call(self, itself: bool) -> None:
         """Keep whether a result calls the next match."""
-        found = {_CALLS: "" if itself else _BY_HAND}
-        self._first |= found
-        self._secrets |= found
-        if is_there(self.path):
-            change_secrets(self.path, found)
+        self._keep({_CALLS: "" if itself else _BY_HAND})
 
     @property
     def queue(self) -> Sequence[tuple[int, str]]:

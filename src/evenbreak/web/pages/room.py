@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
+
 from starlette.requests import Request
-from starlette.responses import Response
+from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
 from evenbreak.web.forms import directors_form
@@ -28,17 +30,23 @@ async def phones(request: Request) -> Response:
 async def let(request: Request) -> Response:
     """Let phones in, or shut them out."""
     form = await directors_form(request)
-    room = site_of(request).room
+    site = site_of(request)
+    site.since_start.clear()
+    if form.text("read"):
+        return RedirectResponse("/desk", status_code=303)
+    room = site.room
     if room is None or not is_here(request):
         raise RefusalError(
             "Do that on the computer that runs this page, at {here}.",
             status=409,
-            here=room.here if room else site_of(request).address,
+            here=room.here if room else site.address,
         )
     if form.text("open"):
         await room.open()
+        await asyncio.to_thread(site.let_phones, True)
         return done(request, _PHONES, say("Phones can open the page now."))
     await room.close()
+    await asyncio.to_thread(site.let_phones, False)
     return done(request, _PHONES, say("Only this computer can open the page now."))
 
 
