@@ -34,6 +34,7 @@ from evenbreak.tournaments.evening.undoing import (
     matches_of,
     own_last,
     redo,
+    redoable,
     undo,
 )
 from tournaments.test_losses import AT, FORMS, PHONE, Night
@@ -234,6 +235,7 @@ def test_two_called_matches_trade_tables_and_back() -> None:
     assert not losses(before, now)
     for what in undo(now):
         night.add(what)
+    assert redoable(night.state) == own_last(now)
     assert facts(night.state) == facts(before)
     for again in redo(night.state):
         night.add(again)
@@ -279,6 +281,7 @@ def test_a_correction_stops_or_keeps_what_is_played_and_comes_back(rounds: int) 
     for what in undo(after):
         night.add(what)
     assert facts(night.state) == facts(before)
+    assert redoable(night.state) == own_last(after)  # the correction, not a call that it needed
     for again in redo(night.state):
         night.add(again)
     assert facts(night.state) == facts(after)

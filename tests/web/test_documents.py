@@ -155,6 +155,9 @@ def test_a_ticket_lets_one_browser_of_this_computer_in_once(tmp_path: Path) -> N
         assert "need no PIN" in own.open("/pin", ticket=ticket).words
         own.open("/pin", ticket=ticket)  # opening it again uses nothing up
         assert own.open("/new").status == 403
+        again = guest.send("/pin", pin=f"{int(site.pin) ^ 1:06d}")
+        assert "Wrong PIN." in again.words
+        assert 'name="pin"' in again.text  # to try another one at once
         assert own.send("/pin", ticket=ticket).status == 303
         assert own.open("/new").status == 200
         other = Browser(room, address="127.0.0.1")

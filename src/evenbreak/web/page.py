@@ -297,12 +297,12 @@ def begun_at(request: Request) -> str:
 
 
 def asked_again(
-    request: Request, template: str, form: Form, why: Exception, **values: Any
+    request: Request, template: str, form: Form, why: Exception, status: int = 400, **values: Any
 ) -> Response:
     """Return a form that was refused as it was filled in, with the reason above it."""
     entered = {name: text for name, text in form.fields.items() if isinstance(text, str)}
     words = reason(request, why)
-    return page(request, template, status=400, entered=entered, why=words, **values)
+    return page(request, template, status=status, entered=entered, why=words, **values)
 
 
 def refused(request: Request, why: Exception, status: int) -> Response:

@@ -192,11 +192,25 @@ def _taken_back(state: Evening, events: Mapping[int, Event], entry: int) -> list
 
 
 def redoable(state: Evening) -> int | None:
-    """Return the entry that was undone last, unless the director has entered something since."""
+    """Return the entry that was undone last, unless the director has entered something since.
+
+    Of an act of several, such as a correction and the call that it needed, it is the one that the
+    act is called by, as when it is undone.
+    """
     if not state.undone:
         return None
     entry, last = list(state.undone.items())[-1]
-    return entry if last.by > (own_last(state) or 1) else None
+    if last.by <= (own_last(state) or 1):
+        return None
+    events = _all_events(state)
+    act = [number for number in _act(events, entry) if number in state.undone]
+    return [n for n in act if events[n].by != BY_ITSELF or n == entry][-1]
+
+
+def _all_events(state: Evening) -> dict[int, Event]:
+    """Return all entries by number, those that were undone too."""
+    events = dict(zip(state.numbers, state.events, strict=True))
+    return events | {number: one.event for number, one in state.undone.items()}
 
 
 def redo(state: Evening, entry: int | None = None) -> list[Redone]:
@@ -204,9 +218,7 @@ def redo(state: Evening, entry: int | None = None) -> list[Redone]:
     last = redoable(state)
     if last is None or entry not in (None, last):
         raise InputError("there is nothing to redo")
-    events = dict(zip(state.numbers, state.events, strict=True))
-    events |= {number: one.event for number, one in state.undone.items()}
-    return [Redone(number) for number in _act(events, last) if number in state.undone]
+    return [Redone(n) for n in _act(_all_events(state), last) if n in state.undone]
 
 
 def _act(events: Mapping[int, Event], number: int) -> list[int]:

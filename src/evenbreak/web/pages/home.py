@@ -13,7 +13,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
 from evenbreak.web.forms import form_of
-from evenbreak.web.page import choose_language, done, page, site_of
+from evenbreak.web.page import asked_again, choose_language, done, page, site_of
 from evenbreak.web.pages.wall import view_for
 from evenbreak.web.sessions import (
     DIRECTOR,
@@ -44,7 +44,8 @@ async def ask_pin(request: Request) -> Response:
     """Ask for the director's PIN; the program's own browser comes with a ticket instead."""
     ticket = request.query_params.get("ticket", "")
     good = is_here(request) and site_of(request).ticket.is_good(ticket)
-    return page(request, "pin.html", ticket=ticket if good else "", late=bool(ticket) and not good)
+    late = bool(ticket) and not good
+    return page(request, "pin.html", ticket=ticket if good else "", late=late, why="")
 
 
 async def enter_pin(request: Request) -> Response:
@@ -56,7 +57,8 @@ async def enter_pin(request: Request) -> Response:
     if not (
         is_here(request) and site.ticket.take(ticket) if ticket else site.is_pin(form.text("pin"))
     ):
-        raise wrong_pin(request)
+        why = wrong_pin(request)
+        return asked_again(request, "pin.html", form, why, why.status, ticket="", late=bool(ticket))
     let_in(request, DIRECTOR, site.director_mark)
     return done(request, "/desk" if site.night.exists else "/")
 
