@@ -153,6 +153,7 @@ def match_rows(state: Evening) -> list[MatchRow]:
     """Return the matches in the order of the bracket, then those on hold.
 
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
+    >>> from evenbreak.tournaments.evening.events import Result
     >>> from evenbreak.tournaments.evening.fold import evening
     >>> begun = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
     >>> happened = begun, Drawn(("Ann", "Bo"), (0, 1)), Result("F", ("Ann", "Bo"), (5, 3), "Ann")
@@ -401,6 +402,7 @@ def decided_places(state: Evening) -> dict[str, Place]:
     """Return the places that are decided, by player; whoever is tied at the end shares places.
 
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
+    >>> from evenbreak.tournaments.evening.events import Result
     >>> from evenbreak.tournaments.evening.fold import evening
     >>> players = tuple(Entrant(name, 80.0) for name in ("Ann", "Bo", "Cy"))
     >>> happened = [Opened(Plan("single", 5), players), Drawn(("Ann", "Bo", "Cy"), (0, None, 1, 2))]
