@@ -32,7 +32,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.parts import Quantities, Table
 from evenbreak.cli.kit.faces import print_answer
 from evenbreak.cli.program import program
-from evenbreak.files.store.tokens import draw_token
+from evenbreak.files.store.tokens import create_token
 from evenbreak.files.store.tournament import new_tournament
 from evenbreak.sheets.html_page import answer_page
 from evenbreak.tournaments.evening import moves
@@ -223,7 +223,7 @@ def tonight() -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "tonight.db"
         new_tournament(str(file), sorted(events, key=lambda event: event.at))
-        draw_token(file, "scoreboard", "table:2", "2025-03-01T18:55:00")
+        create_token(file, "scoreboard", "table:2", "2025-03-01T18:55:00")
         return file.read_bytes()
 
 

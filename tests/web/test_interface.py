@@ -17,7 +17,7 @@ from starlette.responses import Response
 from starlette.routing import request_response
 
 from evenbreak.files.demo import write_demo_evening
-from evenbreak.files.store.tokens import SCORES, draw_token
+from evenbreak.files.store.tokens import SCORES, create_token
 from evenbreak.web.api import description
 from evenbreak.web.night import Night
 from evenbreak.web.site import Site
@@ -213,7 +213,7 @@ def test_the_examples_of_the_page_run(tmp_path: Path) -> None:
     with closing(Room(site)) as room:
         browser = Browser(room)
         known(browser)
-        token = draw_token(site.path, "board", SCORES, now.isoformat())
+        token = create_token(site.path, "board", SCORES, now.isoformat())
         asked = CURL.findall(text)
         for body, address, shown in asked:
             head = {"authorization": f"Bearer {token}"} if body else {}

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from evenbreak.files.store.tokens import MOVES_OF_A_TABLE, draw_token, take_back
+from evenbreak.files.store.tokens import MOVES_OF_A_TABLE, create_token, revoke_token
 from evenbreak.web import guard
 from evenbreak.web.api import description
 from evenbreak.web.api.problem import Problem
@@ -76,18 +76,18 @@ class Attacked:
             assert self.director.send(where, **fields).status == 303
         assert self.director.send("/desk/call", match="W1.1", table=2).status == 303
         self.tokens = {
-            name: draw_token(self.path, name, scope, AT)
+            name: create_token(self.path, name, scope, AT)
             for name, scope in {
                 "scores": "scores", "director": "director", "here": "table:2",
                 "elsewhere": "table:1", "gone": "director",
             }.items()
         }  # fmt: skip
-        take_back(self.path, "gone")
+        revoke_token(self.path, "gone")
         other = folder / "other" / "tonight.db"
         other.parent.mkdir()
         with closing(Room(Site(other, hosts=frozenset({"localhost"})))) as room:
             assert Browser(room, director=True).send("/new", **NEW).status == 303
-        self.tokens["of another night"] = draw_token(other, "x", "director", AT)
+        self.tokens["of another night"] = create_token(other, "x", "director", AT)
         self.secrets = [site.pin, site.cookie_key, site.director_mark, str(folder), *site.tokens]
         self.secrets += self.tokens.values()
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from evenbreak.files.store.tokens import draw_token, take_back
+from evenbreak.files.store.tokens import create_token, revoke_token
 from evenbreak.files.store.tournament import read_events
 from evenbreak.web.site import Site
 from web.asked import Browser, Got, Room
@@ -29,7 +29,7 @@ class Night:
         for where, fields in (("/new", NEW), ("/desk/draw", {})):
             assert self.director.send(where, **fields).status == 303
         self.tokens = {
-            name: draw_token(path, name, scope, AT)
+            name: create_token(path, name, scope, AT)
             for name, scope in {"board": "scores", "desk": "director", "tv": "table:2"}.items()
         }
 
@@ -132,8 +132,10 @@ def test_what_would_be_lost_is_asked_about_first(night: Night) -> None:
     assert got.json["lost"] == [
         {"match": "1", "players": ["Ann", "Hal"], "table": None, "score": [2, 1], "result": False}
     ]
-    assert ("2-1" in got.json["detail"], got.json["how"]) == (True, {"sure": True})
+    assert ("2-1" in got.json["detail"], [*got.json["how"]]) == (True, ["sure"])
     assert night.count == count
+    for other in ("", "true", "0" * 16, False):
+        assert night.enters("drop", "desk", player="Ann", sure=other).status == 409
     sure = night.enters("drop", "desk", player="Ann", sure=True, _idempotency_key="1")
     assert sure.status == 200
     assert sure.json["said"][0] == "Ann has withdrawn."
@@ -165,6 +167,56 @@ def test_what_is_so_already_is_not_entered_again(night: Night) -> None:
         assert (again.status, again.json["entries"], night.count) == (200, [], count), move
         (said,) = again.json["said"]
         assert said[0] == said[0].upper()
+
+
+def test_who_agrees_to_a_loss_agrees_to_no_other(night: Night) -> None:
+    """Between the question and the answer to it, another match began that would be lost."""
+    night.enters("score", match="1", score=[2, 1])
+    asked = night.enters("drop", "desk", player="Ann").json["how"]["sure"]
+    for match in ("1", "2"):
+        assert night.enters("result", match=match, score=[3, 1]).status == 200
+    told = night.director.open("/api/v1/tonight/matches").json["matches"]
+    (following,) = [one["number"] for one in told if one["state"] != "done"
+                    and "Ann" in [player["name"] for player in one["players"]]]  # fmt: skip
+    assert night.enters("score", match=following, score=[1, 0]).status == 200
+    count = night.count
+    moved = night.enters("drop", "desk", player="Ann", sure=asked)
+    assert (moved.status, night.count) == (409, count)
+    assert [one["match"] for one in moved.json["lost"]] == [following]
+    assert night.enters("drop", "desk", player="Ann", sure=moved.json["how"]["sure"]).status == 200
+
+
+def test_a_repeated_request_is_told_all_that_the_first_changed(night: Night) -> None:
+    """Also the calls that came with it, but not what was entered in the same second after it."""
+    night.room.site.clock = lambda: AT
+    night.enters("call", match="1", table="2")
+    moves = [
+        ("score", {"match": "1", "score": [2, 0]}),
+        ("result", {"match": "1", "score": [3, 0]}),
+        ("score", {"match": "3", "score": [1, 0]}),
+        ("drop", {"player": "Bo", "sure": True}),
+    ]
+    first = [night.enters(move, "desk", **asked, _idempotency_key=str(n))
+             for n, (move, asked) in enumerate(moves)]  # fmt: skip
+    assert [one.status for one in first] == [200] * 4
+    assert len(first[1].json["entries"]) > 1
+    with closing(room_on(night.path)) as another:
+        for n, (move, asked) in enumerate(moves):
+            for room in (night.room, another):
+                again = night.enters(move, "desk", room, **asked, _idempotency_key=str(n))
+                assert (again.status, again.json["taken_before"]) == (200, True)
+                assert again.json["entries"] == first[n].json["entries"]
+                told = [[one["number"] for one in got.json["matches"]] for got in (again, first[n])]
+                assert told[0] == told[1]
+
+
+def test_a_text_that_is_too_long_is_named(night: Night) -> None:
+    for move, asked in (
+        ("late", {"player": "x" * 81}),
+        ("forfeit", {"player": "Ann", "match": "x" * 201}),
+    ):
+        got = night.enters(move, "desk", **asked)
+        assert (got.status, got.json["parameter"]) == (400, [*asked][-1])
 
 
 def test_a_score_that_has_moved_on_is_not_written_over(night: Night) -> None:
@@ -201,7 +253,7 @@ def test_what_people_call_by_a_number_may_be_one(night: Night) -> None:
     changed = night.enters("change", "desk", tables=3, reserved=3).json["said"]
     assert "3" in changed[0]
     got = night.enters("late", "desk", player="Zoe", rating="600")
-    assert got.json["detail"] == "'rating': \"600\" is text; leave out the quotes"
+    assert got.json["detail"] == "'rating': \"600\" is text; leave out the quotes."
 
 
 def test_a_token_of_a_table_is_for_the_match_on_it(night: Night) -> None:
@@ -219,12 +271,12 @@ def test_a_token_is_taken_back_at_once_at_every_server(night: Night) -> None:
     with closing(room_on(night.path)) as another:
         for room in (night.room, another):
             assert night.enters("call", room=room, match="1").status == 200
-        taken = night.director.send("/desk/programs/take-back", name="board")
+        taken = night.director.send("/desk/programs/revoke", name="board")
         assert taken.status == 303
         for room in (another, night.room):
             got = night.enters("score", room=room, match="1", score=[1, 0])
             assert (got.status, got.headers["www-authenticate"][:6]) == (401, "Bearer")
-        take_back(night.path, "desk")
+        revoke_token(night.path, "desk")
         assert night.enters("undo", "desk", room=another).status == 401
 
 
@@ -240,7 +292,7 @@ def test_a_token_taken_back_between_two_looks_enters_nothing(
 ) -> None:
     known, count = dict(night.room.site.tokens), night.count
     monkeypatch.setattr(Site, "tokens", known)
-    take_back(night.path, "board")
+    revoke_token(night.path, "board")
     assert night.enters("call", match="1").status == 401
     assert night.count == count
 

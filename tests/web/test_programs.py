@@ -1,4 +1,4 @@
-"""The director draws tokens for programs, and takes them back."""
+"""The director creates tokens for programs, and revokes them."""
 
 import re
 from collections.abc import Iterator
@@ -23,12 +23,12 @@ def director(tmp_path: Path) -> Iterator[Browser]:
         yield found
 
 
-def test_a_token_is_shown_once_and_taken_back(director: Browser) -> None:
+def test_a_token_is_shown_once_and_revoked(director: Browser) -> None:
     path = director.room.site.path
     assert 'href="/desk/programs"' in director.open("/desk/more").text
     forms = [one.action for one in forms_of(director.open("/desk/programs"))]
-    assert [one for one in forms if "programs" in one] == ["/desk/programs/draw"]
-    got = director.told("/desk/programs/draw", name="<b>board", may="table:2")
+    assert [one for one in forms if "programs" in one] == ["/desk/programs/create"]
+    got = director.told("/desk/programs/create", name="<b>board", may="table:2")
     (token,) = set(re.findall(r"evenbreak-[a-z2-7]{32}", got.text))
     held = token_in(kept_tokens(path), token)
     assert held is not None
@@ -38,19 +38,19 @@ def test_a_token_is_shown_once_and_taken_back(director: Browser) -> None:
     assert token not in again.text
     assert "&lt;b&gt;board" in again.text
     assert "only table 2 · no entry yet" in again.words
-    refused = director.send("/desk/programs/draw", name="<B>board", may="director")
-    assert (refused.status, "has a token already" in refused.words) == (400, True)
+    refused = director.send("/desk/programs/create", name="<B>board", may="director")
+    assert (refused.status, "already has a token" in refused.words) == (400, True)
     for may in ("table:3", "table:x", "table:0", "table:", "all", "", "Director"):
-        assert director.send("/desk/programs/draw", name="x", may=may).status == 400, may
-    back = director.told("/desk/programs/take-back", name="<b>board")
+        assert director.send("/desk/programs/create", name="x", may=may).status == 400, may
+    back = director.told("/desk/programs/revoke", name="<b>board")
     assert "<b>board can no longer enter anything" in back.words
     assert not kept_tokens(path)
-    assert director.send("/desk/programs/take-back", name="<b>board").status == 400
+    assert director.send("/desk/programs/revoke", name="<b>board").status == 400
 
 
-def test_a_double_tap_draws_one_token_and_both_answers_show_it(director: Browser) -> None:
+def test_a_double_tap_creates_one_token_and_both_answers_show_it(director: Browser) -> None:
     form = {**director.hidden(), "name": "board", "may": "scores"}
-    first, second = (director.ask("POST", "/desk/programs/draw", form) for _ in range(2))
+    first, second = (director.ask("POST", "/desk/programs/create", form) for _ in range(2))
     assert (first.status, second.status) == (303, 303)
     assert re.search(r"evenbreak-[a-z2-7]{32}", director.open(second.to).text)
     assert len(kept_tokens(director.room.site.path)) == 1

@@ -27,7 +27,7 @@ ANSWERS = (200, 303, 400, 403, 404, 409)
 NOT_HERE = {
     *OF_THE_SESSION,
     *("/team/pin", "/team/leave", "/league", "/league/tonight", "/desk/save", "/desk/calling"),
-    *("/desk/second-chance", "/desk/programs/draw", "/desk/programs/take-back", "/desk/phones"),
+    *("/desk/second-chance", "/desk/programs/create", "/desk/programs/revoke", "/desk/phones"),
 }
 """Routes that add no entry: those of a session, the league's, a copy of the file, a setting, a
 token."""

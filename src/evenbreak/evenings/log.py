@@ -44,7 +44,7 @@ class Event:
 
     @property
     def by_program(self) -> bool:
-        """Whether another program entered it, with a token that the director drew."""
+        """Whether another program entered it, with a token that the director created."""
         return self.by.startswith(PROGRAM)
 
     @property

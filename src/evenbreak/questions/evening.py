@@ -107,16 +107,16 @@ class Show(TimedUnderWay, OnPaper):
 
 @dataclass(frozen=True, kw_only=True)
 class Programs(TimedUnderWay):
-    """Draw a token for another program, such as a scoreboard; without NAME, list who has one.
+    """Create a token for another program, such as a scoreboard; without NAME, list who has one.
 
     The token is shown once. With it, the program enters what happens, at the addresses that
-    evenbreak serve has under /api/v1/tonight; its name stands in the history.
+    evenbreak serve has under /api/v1/tonight; its name is shown in the history.
     """
 
     examples = """\
   evenbreak tournament token scoreboard
   evenbreak tournament token "stream table" --may table:4
-  evenbreak tournament token scoreboard --take-back
+  evenbreak tournament token scoreboard --revoke
 """
     name: Annotated[str | None, Field(Text("NAME"), metavar="[NAME]", argument=True)] = None
     may: Annotated[
@@ -127,13 +127,13 @@ class Programs(TimedUnderWay):
             "that a director can.",
         ),
     ] = "scores"
-    take_back: Annotated[bool, Field(Flag(), "Take the token of NAME back, at once.")] = False
+    revoke: Annotated[bool, Field(Flag(), "Revoke the token of NAME at once.")] = False
 
     def check(self) -> None:
-        """Refuse to take back the token of nobody."""
-        if self.take_back and self.name is None:
+        """Refuse to revoke the token of nobody."""
+        if self.revoke and self.name is None:
             self.refuse(
-                "{take_back} needs the name of a program, as evenbreak tournament token lists it"
+                "{revoke} needs the name of a program, as evenbreak tournament token lists it"
             )
 
 

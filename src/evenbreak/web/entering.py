@@ -7,20 +7,60 @@ from __future__ import annotations
 
 import asyncio
 import hashlib
-from collections.abc import Callable, Sequence
+import secrets
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from evenbreak.answers.tournament.move_table import MOVES
+from evenbreak.answers.tournament.move_table import MOVES, name_in
 from evenbreak.answers.tournament.moves import lost_words
 from evenbreak.evenings.move import AlreadyError, Move
+from evenbreak.fields.kinds import Text
+from evenbreak.fields.question import declared
 from evenbreak.files.store.tournament import Night as Evenings
 from evenbreak.files.store.tournament import add_events
+from evenbreak.questions.moves import PLAYER
 from evenbreak.tournaments.evening.events import Dropped, Event, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.undoing import losses, matches_of
+from evenbreak.web.forms import LONGEST
+from evenbreak.web.guard import RefusalError
 from evenbreak.web.night import Night
 from evenbreak.web.site import Site
+from evenbreak.words import Parameter
+
+_NAMES = (PLAYER, Text("NAME"))
+_LONGEST_NAME = 80
+
+
+def asked_of(question: type, values: Mapping[str, Any]) -> Any:
+    """Return what is asked with these values, its names as they are printed.
+
+    Raises
+    ------
+    RefusalError
+        if a text is too long.
+    InputError
+        if a name cannot be printed, or the question refuses its values.
+    """
+    found = dict(values)
+    for one in declared(question):
+        value = found.get(one.name)
+        is_name = one.kind in _NAMES
+        most = _LONGEST_NAME if is_name else LONGEST
+        for text in value if isinstance(value, tuple) else (value,):
+            if isinstance(text, str) and len(text) > most:
+                raise RefusalError(
+                    "{field} must not be longer than {longest} characters.",
+                    field=Parameter(one.name),
+                    longest=most,
+                )
+        if is_name and value:
+            names = isinstance(value, tuple)
+            found[one.name] = tuple(map(name_in, value)) if names else name_in(value)
+        if one.name == "seed" and value is None:  # so that it draws and says the same
+            found["seed"] = secrets.randbelow(2**32)
+    return question(**found)
 
 
 @dataclass(frozen=True)

@@ -51,7 +51,7 @@ TOURNAMENT = registry(
     number("money", say("money"), 2),
     text("program", say("program")),
     text("may_enter", say("may enter")),
-    text("drawn_at", say("drawn"), name="drawn"),
+    text("created_at", say("created"), name="created"),
     text("last_entry", say("last entry")),
     text("races_text", "races", name="race"),
     text("race_text", "race", name="race"),

@@ -45,21 +45,22 @@ def scope_words(token: Token, plan: Plan) -> Sentence:
     return scopes(plan).get(token.scope, say("only table {table}", **table))
 
 
-def programs_answer(tokens: Collection[Token], plan: Plan, drawn: str = "") -> Answer:
-    """Return the answer: the programs, and the token that was just drawn."""
+def programs_answer(tokens: Collection[Token], plan: Plan, created: str = "") -> Answer:
+    """Return the answer: the programs, and the token that was just created."""
     count = len(tokens)
     said = [say_count("1 program can enter something.", "{n} programs can enter something.", count)]
     if not tokens:
         said = [say("No program can enter anything.")]
-    elif drawn:
-        said = [say("The token, which is not shown again: {token}", token=drawn)]
-    columns = columns_of("program may_enter drawn_at last_entry")
+    elif created:
+        said = [say("The token, which is not shown again: {token}", token=created)]
+    columns = columns_of("program may_enter created_at last_entry")
     rows = [
-        (one.name, scope_words(one, plan), _minute(one.drawn), _minute(one.used)) for one in tokens
+        (one.name, scope_words(one, plan), _minute(one.created), _minute(one.used))
+        for one in tokens
     ]
     table = Table("programs", columns, rows)
     parts: list[Part] = [*said, *([table] if tokens else [])]
-    data = {"token": drawn} if drawn else {}
+    data = {"token": created} if created else {}
     return Answer(say("Programs"), parts, data=data, csv=table)
 
 

@@ -130,18 +130,18 @@ def _story(asked: Export) -> Answer:
 
 @command_of(Programs, "token", always_text=True)
 def token(asked: Programs) -> Answer:
-    """Draw a token, take one back, or list them."""
+    """Create a token, revoke one, or list them."""
     from evenbreak.answers.tournament.programs import programs_answer, scope_in
-    from evenbreak.files.store.tokens import draw_token, kept_tokens, take_back
+    from evenbreak.files.store.tokens import create_token, kept_tokens, revoke_token
     from evenbreak.files.store.tournament import read_tournament
 
-    plan, drawn = read_tournament(asked.path, asked.event).plan, ""
-    if asked.name is not None and asked.take_back:
-        take_back(asked.path, asked.name)
+    plan, created = read_tournament(asked.path, asked.event).plan, ""
+    if asked.name is not None and asked.revoke:
+        revoke_token(asked.path, asked.name)
     elif asked.name is not None:
         at = moment(asked.at, asked.path)
-        drawn = draw_token(asked.path, asked.name, scope_in(asked.may, plan), at)
-    return programs_answer([*kept_tokens(asked.path).values()], plan, drawn)
+        created = create_token(asked.path, asked.name, scope_in(asked.may, plan), at)
+    return programs_answer([*kept_tokens(asked.path, used=True).values()], plan, created)
 
 
 @command_of(Print, "print", always_text=True)

@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from functools import lru_cache
+from itertools import takewhile
 from pathlib import Path
 from typing import Any, Generic, TypeAlias, TypeVar
 
@@ -18,6 +19,7 @@ from evenbreak.errors import InputError
 from evenbreak.evenings.log import Event, Kinds
 from evenbreak.files.store.evening_file import FAULTS, named, opened
 from evenbreak.files.store.formats import ENTRIES, bring_up_to_date, source
+from evenbreak.tournaments.evening.events import BY_ITSELF
 from evenbreak.words import say
 
 Entered = TypeVar("Entered", bound=Event)
@@ -142,14 +144,27 @@ def was_taken(base: sqlite3.Connection, strand: str, form: str | None) -> bool:
     return found is not None and found.fetchone() is not None
 
 
-def forms_with(path: str | Path, beginning: str) -> dict[str, list[int]]:
-    """Return the forms that begin so, in all strands, with the numbers of the entries they made."""
-    found: dict[str, list[int]] = {}
+def forms_with(path: str | Path, beginning: str) -> set[str]:
+    """Return the forms that begin so, in all strands."""
     with opened(path) as base:
-        asked = f"SELECT form, strand, number FROM {source(base)} WHERE substr(form, 1, ?) = ?"  # noqa: S608
-        for form, strand, number in base.execute(asked, (len(beginning), beginning)):
-            found.setdefault(form, []).extend([number] if strand.isdigit() else [])
-    return found
+        asked = f"SELECT form FROM {source(base)} WHERE substr(form, 1, ?) = ?"  # noqa: S608
+        return {form for (form,) in base.execute(asked, (len(beginning), beginning))}
+
+
+def entries_of(path: str | Path, form: str) -> list[int]:
+    """Return the numbers of the entries that a form made, with what came with them by itself."""
+    with opened(path) as base:
+        rows = f"SELECT strand, number, at, author, form FROM {source(base)}"  # noqa: S608
+        first = base.execute(f"{rows} WHERE form = ?", (form,)).fetchone()
+        if first is None or not first[0].isdigit():
+            return []
+        strand, number, at, author, _ = first
+        later = base.execute(
+            f"{rows} WHERE strand = ? AND number > ? ORDER BY number", (strand, number)
+        )
+        came = takewhile(lambda row: row[2] == at and row[3] in (author, BY_ITSELF)
+                         and row[4] is None, later)  # fmt: skip
+        return [number, *(row[1] for row in came)]
 
 
 def _taken(strand: str) -> str:

@@ -1,8 +1,8 @@
 """Tokens of other programs in the file of an evening: what each may enter, and its hash alone.
 
-A token is 160 random bits. It is shown once, when it is drawn; the file has its SHA-256, so that
+A token is 160 random bits. It is shown once, when it is created; the file has its SHA-256, so that
 nobody can use what they read there. Every server on the file looks each time whether it is there
-still. It is no entry of the log: an undo neither takes it back nor brings it again.
+still. It is no entry of the log: an undo neither revokes it nor brings it back.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import hmac
 import re
 import secrets
 import sqlite3
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from evenbreak.errors import InputError
@@ -33,7 +33,7 @@ _BYTES = 20
 _MOST, _LONGEST = 50, 40
 _TABLE = """
 CREATE TABLE IF NOT EXISTS token (
-    name TEXT PRIMARY KEY, scope TEXT NOT NULL, hash TEXT NOT NULL, drawn TEXT NOT NULL
+    name TEXT PRIMARY KEY, scope TEXT NOT NULL, hash TEXT NOT NULL, created TEXT NOT NULL
 )
 """
 
@@ -48,8 +48,9 @@ class Token:
         of the program that has it.
     scope
         what it may enter: scores, director, or table:4 for the match on the fourth table.
-    drawn, used
-        when it was drawn, and the time of the last entry made with it; '' if there is none.
+    created, used
+        when it was created, and the time of the last entry made with it; '' if there is none or
+        nobody has looked.
 
     >>> Token("TV", "table:4").allows("result"), Token("TV", "table:4").allows("call")
     (True, False)
@@ -57,7 +58,7 @@ class Token:
 
     name: str
     scope: str
-    drawn: str = ""
+    created: str = ""
     used: str = ""
 
     @property
@@ -81,8 +82,8 @@ def at_table(number: int) -> str:
     return f"{_AT_TABLE}{number}"
 
 
-def draw_token(path: str | Path, name: str, scope: str, at: str) -> str:
-    """Draw a token and return it: nobody can learn it later.
+def create_token(path: str | Path, name: str, scope: str, at: str) -> str:
+    """Create a token and return it: nobody can learn it later.
 
     Parameters
     ----------
@@ -104,24 +105,24 @@ def draw_token(path: str | Path, name: str, scope: str, at: str) -> str:
     if not is_name(called) or len(called) > _LONGEST:
         what = say("a name of up to {most} letters that can be printed", most=_LONGEST)
         raise InputError("{name!r} is not {what}", name=name[:_LONGEST], what=what)
-    drawn = base64.b32encode(secrets.token_bytes(_BYTES)).decode().lower()
+    token = _BEGINS + base64.b32encode(secrets.token_bytes(_BYTES)).decode().lower()
     with changing(path) as base:
         base.execute(_TABLE)
         there = _tokens(base, path)
         if any(one.name.casefold() == called.casefold() for one in there.values()):
             raise InputError(
-                "{name} has a token already; take it back first, or choose another name",
+                "{name} already has a token; revoke it first, or choose another name",
                 name=called,
             )
         if len(there) >= _MOST:
-            raise InputError("there are {n} tokens already; take some back first", n=_MOST)
-        row = called, scope, _hash(_BEGINS + drawn), at
+            raise InputError("there are already {n} tokens; revoke some first", n=_MOST)
+        row = called, scope, _hash(token), at
         base.execute("INSERT INTO token VALUES (?, ?, ?, ?)", row)
-    return _BEGINS + drawn
+    return token
 
 
-def take_back(path: str | Path, name: str) -> None:
-    """Take a token back: from now on, no server on the file takes it.
+def revoke_token(path: str | Path, name: str) -> None:
+    """Revoke a token: from now on, no server on the file takes it.
 
     Raises
     ------
@@ -134,10 +135,26 @@ def take_back(path: str | Path, name: str) -> None:
             raise InputError("no program called {name} has a token", name=name)
 
 
-def kept_tokens(path: str | Path) -> dict[str, Token]:
-    """Return the tokens of a file by their hashes, in the order in which they were drawn."""
+def kept_tokens(path: str | Path, *, used: bool = False) -> dict[str, Token]:
+    """Return the tokens of a file by their hashes, the oldest first.
+
+    Parameters
+    ----------
+    path
+        the file.
+    used
+        whether the last entry of each is looked for as well.
+    """
     with opened(path) as base:
-        return _tokens(base, path) if has_table(base, "token") else {}
+        found = _tokens(base, path) if has_table(base, "token") else {}
+        if not used:
+            return found
+        asked = f"SELECT MAX(at) FROM {source(base)} WHERE author = ? AND at >= ?"  # noqa: S608
+        last = {
+            kept: base.execute(asked, (one.author, one.created)).fetchone()[0]
+            for kept, one in found.items()
+        }
+    return {kept: replace(one, used=last[kept] or "") for kept, one in found.items()}
 
 
 def token_in(tokens: dict[str, Token], text: str) -> Token | None:
@@ -151,13 +168,13 @@ def token_in(tokens: dict[str, Token], text: str) -> Token | None:
 
 def _tokens(base: sqlite3.Connection, path: str | Path) -> dict[str, Token]:
     found: dict[str, Token] = {}
-    entered = f"SELECT MAX(at) FROM {source(base)} WHERE author = ? AND at >= ?"  # noqa: S608
-    for row in base.execute("SELECT name, scope, hash, drawn FROM token ORDER BY rowid").fetchall():
-        name, scope, hashed, drawn = row
+    for row in base.execute(
+        "SELECT name, scope, hash, created FROM token ORDER BY rowid"
+    ).fetchall():
+        name, scope, hashed, created = row
         if not all(isinstance(one, str) for one in row) or not _SCOPE.fullmatch(scope):
             raise damaged(path, say("its tokens cannot be read"))
-        ((used,),) = base.execute(entered, (PROGRAM + name, drawn)).fetchall()
-        found[hashed] = Token(name, scope, drawn, str(used or ""))
+        found[hashed] = Token(name, scope, created)
     return found
 
 

@@ -17,14 +17,14 @@ _TEMPLATE = "#/components/schemas/{name}"
 _BEARER = "token"
 _TAGS = {
     "tonight": "The tournament of tonight, as everybody in the room sees it.",
-    "enter": "What a program enters, with a token that the director has drawn.",
+    "enter": "What a program enters, with a token that the director created.",
     "questions": "What the commands answer, such as `evenbreak odds`.",
     "interface": "The interface itself.",
 }
 _REFUSALS = {
     400: "A parameter is wrong, missing or unknown.",
-    401: "The token is missing, or it has been taken back.",
-    403: "The token is not for this.",
+    401: "The token is missing, or it has been revoked.",
+    403: "The token doesn't allow this.",
     404: "There is no such thing, or not yet.",
     409: "Something else would be lost by it, or has come in between.",
     413: "More was sent than is allowed.",

@@ -17,7 +17,7 @@ from evenbreak.files.catalogues import language_of
 from evenbreak.questions.moves import COMMANDS
 from evenbreak.web.guard import ROOT, RefusalError
 from evenbreak.web.page import page_face, without_folder
-from evenbreak.words import Face, Sentence, capital_in_face, in_face
+from evenbreak.words import Face, Parameter, Sentence, capital_in_face, in_face
 
 
 @dataclass(frozen=True)
@@ -42,13 +42,13 @@ class Problem:
     detail: Annotated[str, Meta(description="What is wrong and how to correct it.")]
     parameter: Annotated[str, Meta(description="The parameter that is wrong, if it is one.")] = ""
     how: Annotated[
-        dict[str, Any], Meta(description="What to send besides, to have it done all the same.")
+        dict[str, Any], Meta(description="What to send besides, to have it entered anyway.")
     ] = field(default_factory=dict)
     score: Annotated[
         tuple[int, int] | None, Meta(description="The score that there is, if it is not `seen`.")
     ] = None
     lost: Annotated[
-        list[Lost], Meta(description="What would be lost, where it is not sure that it is meant.")
+        list[Lost], Meta(description="What would be lost, if you have to confirm it first.")
     ] = field(default_factory=list)
     schema: Annotated[
         dict[str, Any], Meta(description="The JSON schema of the value that was wanted.")
@@ -103,8 +103,10 @@ def problem(
         "status": status,
         "detail": without_folder(request, in_full(text, face)),
     }
+    field = why.sentence.values.get("field") if isinstance(why, EvenbreakError) else None
+    wrong = getattr(why, "parameter", "") or (str(field) if isinstance(field, Parameter) else "")
+    found |= {"parameter": wrong} if wrong else {}
     if isinstance(why, ProblemError):
-        found |= {"parameter": why.parameter} if why.parameter else {}
         found |= why.more
         headers = {**(headers or {}), **why.headers}
     head = {"content-language": face.language, **(headers or {})}

@@ -28,8 +28,8 @@ from evenbreak.web.sessions import address_of
 from evenbreak.words import say
 
 _LONGEST = 200
-_NONE = say("This needs a token. The director draws it under More, Programs.")
-_GONE = say("This token is unknown here, or it has been taken back.")
+_NONE = say("This needs a token. The director creates it under More, Programs.")
+_GONE = say("This token is unknown here, or it has been revoked.")
 _NOT_FOR_THIS = {"www-authenticate": 'Bearer realm="evenbreak", error="insufficient_scope"'}
 _MINUTE = {"retry-after": "60"}
 
@@ -62,9 +62,9 @@ async def check_token(request: Request, move: str) -> None:
 
 
 def check_still(request: Request, state: Evening, match: str | None) -> None:
-    """Refuse a token that was taken back meanwhile, or that is for another table than a match's.
+    """Refuse a token that was revoked meanwhile, or that is for another table than a match's.
 
-    It is asked while nobody else can enter anything, nor take a token back.
+    It is asked while nobody else can enter anything, nor revoke a token.
     """
     held, text = request.state.token
     still = token_in(kept_tokens(site_of(request).path), text)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-import secrets
 from collections.abc import Iterator, Sequence
 from dataclasses import MISSING, dataclass
 from functools import partial
@@ -17,14 +16,15 @@ from typing import Annotated, Any
 
 from msgspec import Meta
 
-from evenbreak.answers.tournament.move_table import MOVES, name_in
-from evenbreak.fields.kinds import Flag, Text
+from evenbreak.answers.tournament.move_table import MOVES
+from evenbreak.fields.kinds import Flag, Kind
 from evenbreak.fields.question import Declared, Field, declared
-from evenbreak.files.store.log import TakenBeforeError, forms_with
+from evenbreak.files.store.log import TakenBeforeError, entries_of, forms_with
 from evenbreak.files.store.tokens import DIRECTOR, MOVES_OF_SCORES, SCORES
+from evenbreak.files.store.tournament import read_events
 from evenbreak.questions.common import SCORE
-from evenbreak.questions.moves import COMMANDS, PLAYER
-from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.questions.moves import COMMANDS
+from evenbreak.tournaments.evening.fold import Evening, evening
 from evenbreak.tournaments.evening.known import known_match
 from evenbreak.tournaments.evening.undoing import losses
 from evenbreak.web.api import shapes
@@ -32,17 +32,32 @@ from evenbreak.web.api.problem import Lost, ProblemError, face_of, in_full
 from evenbreak.web.api.resource import EVENT, Call, Resource
 from evenbreak.web.api.seen import match_of, night_asked, seen_of
 from evenbreak.web.api.tokens import check_still, token_of
-from evenbreak.web.entering import Entered, SureError, enter
-from evenbreak.web.forms import LONGEST
+from evenbreak.web.entering import Entered, SureError, asked_of, enter
 from evenbreak.web.night import Night
 from evenbreak.web.pages.moves import OF_COMMANDS
-from evenbreak.words import Parameter, joined, say
+from evenbreak.words import joined, say
+
+
+class _Agreed(Kind):
+    """Yes, or the name of the question that it answers with yes."""
+
+    metavar = ""
+
+    def load(self, value: Any) -> bool | str:
+        """Return what JSON has for it."""
+        return value if isinstance(value, str) else Flag().load(value)
+
+    def schema(self) -> dict[str, Any]:
+        """Return what a JSON schema says of such a value."""
+        return {"type": ["boolean", "string"]}
+
 
 _SURE = Declared(
     "sure",
     Field(
-        Flag(),
-        "Enter it even if a match in play leaves its table, or a result no longer counts.",
+        _Agreed(),
+        "Enter it even if a match in play leaves its table, or a result no longer counts: the "
+        "'sure' of the refusal agrees to what it named, and true to whatever it takes.",
     ),
     False,
 )
@@ -54,8 +69,6 @@ _SEEN = Declared(
 _OWN = ("sure", "seen")
 _ENTRY = "The entry, by its number: of `entries` in an answer, of the stream, or of the history."
 _TAPS = ("score", "result")
-_NAMES = (PLAYER, Text("NAME"))
-_LONGEST_NAME = 80
 _KEY = re.compile(r"[!-~]{1,200}")
 
 
@@ -78,8 +91,9 @@ async def _entered(name: str, call: Call) -> Written:
     if not night.exists:
         raise ProblemError("No tournament is running yet.", status=404)
     values = {key: value for key, value in call.values.items() if key not in (*_OWN, "event")}
-    asked = move.question(**_named(move.question, values))
+    asked = asked_of(move.question, values)
     key, whole = _key(name, call)
+    sure = call.values["sure"]
 
     def check(state: Evening) -> None:
         match = getattr(asked, "match", None)
@@ -97,46 +111,23 @@ async def _entered(name: str, call: Call) -> Written:
             [asked],
             by=token_of(request).author,
             key=whole,
-            sure=call.values["sure"],
+            sure=bool(sure),
+            named=sure if isinstance(sure, str) else "",
             check=check,
         )
     except SureError as error:
         raise _sure(error.would) from None
     except TakenBeforeError:
         said = say("You entered that before. Nothing was entered twice.")
-        return Written(night.event, [said], forms_with(night.path, key)[whole or ""], [], True)
-    then, now = len(done.before.log), len(done.after.log)
-    return Written(
-        night.event,
-        [in_full(one, face_of(request)) for one in done.said()],
-        list(range(then + 1, now + 1)),
-        await _matches(call, night, done),
-        False,
-    )
-
-
-def _named(question: type, values: dict[str, Any]) -> dict[str, Any]:
-    """Return what is asked with its names as they are printed; refuse texts that are too long."""
-    found = dict(values)
-    for one in declared(question):
-        value = found.get(one.name)
-        is_name = one.kind in _NAMES
-        most = _LONGEST_NAME if is_name else LONGEST
-        for text in value if isinstance(value, tuple) else (value,):
-            if isinstance(text, str) and len(text) > most:
-                raise ProblemError(
-                    "{field} must not be longer than {longest} characters.",
-                    parameter=one.name,
-                    field=Parameter(one.name),
-                    longest=most,
-                )
-        if is_name and value:
-            found[one.name] = (
-                name_in(value) if isinstance(value, str) else tuple(map(name_in, value))
-            )
-        if one.name == "seed" and value is None:  # so that it draws and says the same
-            found["seed"] = secrets.randbelow(2**32)
-    return found
+        numbers = entries_of(night.path, whole or "")
+        events = read_events(night.path, night.event)[: numbers[-1]] if numbers else []
+        then = evening(events[: numbers[0] - 1]) if numbers else None
+        matches = await _matches(call, night, then, evening(events)) if then else []
+        return Written(night.event, [said], numbers, matches, True)
+    numbers = list(range(len(done.before.log) + 1, len(done.after.log) + 1))
+    matches = await _matches(call, night, done.before, done.after)
+    words = [in_full(one, face_of(request)) for one in done.said()]
+    return Written(night.event, words, numbers, matches, False)
 
 
 def _key(name: str, call: Call) -> tuple[str, str | None]:
@@ -159,7 +150,7 @@ def _hashed(*texts: str) -> str:
     return hashlib.sha256("\0".join(texts).encode()).hexdigest()[:32]
 
 
-def _refuse_other(earlier: dict[str, list[int]], whole: str | None) -> None:
+def _refuse_other(earlier: set[str], whole: str | None) -> None:
     if whole not in earlier:
         raise ProblemError(
             "This Idempotency-Key came with another request before. Use a new one for each.",
@@ -197,14 +188,13 @@ def _sure(would: Entered) -> ProblemError:
         )
         for one in losses(state, would.after)
     ]
-    more = {"how": {"sure": True}, "lost": lost}
+    more = {"how": {"sure": would.name}, "lost": lost}
     return ProblemError(joined(would.would, " "), status=409, more=more)
 
 
-async def _matches(call: Call, night: Night, done: Entered) -> list[shapes.Match]:
-    """Return the matches that stand otherwise than before, as everybody sees them."""
-    before, after = done.before, done.after
-    if not after.drawn or not done.after.log[len(before.log) :]:
+async def _matches(call: Call, night: Night, before: Evening, after: Evening) -> list[shapes.Match]:
+    """Return the matches that changed, as everyone sees them."""
+    if not after.drawn or not after.log[len(before.log) :]:
         return []
     then = before if before.drawn else None
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import secrets
 from collections.abc import Sequence
 from dataclasses import replace
 from http import HTTPStatus
@@ -17,22 +16,20 @@ from evenbreak.answers.tournament.corrections import correction_choices
 from evenbreak.answers.tournament.move_table import MOVES
 from evenbreak.answers.tournament.moves import event_name
 from evenbreak.evenings.move import Move
-from evenbreak.fields.kinds import Text
 from evenbreak.fields.question import AskedError, Declared, declared
 from evenbreak.files.store.tournament import begin_beside
-from evenbreak.questions.moves import PLAYER, Correct
+from evenbreak.questions.moves import Correct
 from evenbreak.tournaments.evening import beside
 from evenbreak.tournaments.evening.events import Event, What
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.format import LONGEST_RACE
 from evenbreak.tournaments.evening.moves import known_match
 from evenbreak.web.desk_view import corrected
-from evenbreak.web.entering import Entered, SureError, enter, other_events
+from evenbreak.web.entering import Entered, SureError, asked_of, enter, other_events
 from evenbreak.web.forms import (
     Fields,
     Form,
     directors_form,
-    entered_name,
     entered_rating,
     form_of,
     name_of,
@@ -47,7 +44,6 @@ from evenbreak.words import Parameter
 
 OF_COMMANDS = ("file", "at", "yes", "seed")
 """The fields of a question that no form has."""
-_NAMES = (PLAYER, Text("NAME"))
 _DESK = "/desk"
 
 
@@ -76,13 +72,11 @@ def _asked(question: type, fields: Sequence[Declared], form: Form) -> Any:
     values = {one.name: _value(one, form) for one in fields if form.text(name_of(one))}
     if form.text("a") or form.text("b"):
         values["score"] = form.whole("a", 0, 999), form.whole("b", 0, 999)
-    if any(one.name == "seed" for one in declared(question)):
-        values["seed"] = secrets.randbelow(2**32)  # so that it draws and says the same
     missing = [one.name for one in fields if one.required and one.name not in values]
     if missing:
         raise RefusalError("{field} is blank.", field=Parameter(missing[0]))
     try:
-        return question(**values)
+        return asked_of(question, values)
     except AskedError as error:
         raise RefusalError(error.sentence) from None
 
@@ -93,7 +87,7 @@ def _value(one: Declared, form: Form) -> Any:
         return tuple(one.kind.read(text) for text in form.texts(name))
     if one.name == "rating":
         return entered_rating(form)
-    return entered_name(form, name) if one.kind in _NAMES else value_of(one, form)
+    return value_of(one, form)
 
 
 def _route(name: str, move: Move[Evening, What]) -> Route:
