@@ -376,7 +376,7 @@ def test_somebody_who_goes_home_is_asked_for_twice(hall: Hall) -> None:
     hall.director.send("/desk/call", match="W1.1", table=1)
     shown = hall.director.send("/desk/drop", player="Player 1")
     assert "Please confirm" in shown.words
-    assert "Player 1 forfeited to Player 16 in match 1" in shown.words
+    assert "Player 1 would forfeit to Player 16 in match 1." in shown.words
     assert not hall.state.dropped
     shown = hall.director.send("/desk/drop", player="Player 1", sure="yes")
     assert "Player 1 has withdrawn." in shown.words
