@@ -94,7 +94,7 @@ def player() -> str:
             _box(x, 110 - height, 18, max(1.0, height), colour),
             _text(x + 9, 126, str(one["level"]), end="middle", strong=one["level"] == best),
         ]
-    return _picture(f"Practise level {best}", parts)
+    return _picture(f"Practice level {best}", parts)
 
 
 DOORS = {one.__name__: one for one in (director, operator, captain, player)}

@@ -5,11 +5,11 @@ import click
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 CHART = {
-    "list": Entry("", "List the charts that there are."),
-    "show": Entry("", "Show a chart: who needs how many games."),
-    "audit": Entry("", "Check how fair a chart is, and which ratings it fits."),
-    "design": Entry("", "Design the fairest chart for given ratings."),
-    "team": Entry("", "Find the points that the weaker of two teams gets."),
+    "list": Entry("List the charts."),
+    "show": Entry("Show a chart: who needs how many games."),
+    "audit": Entry("Check how fair a chart is, and which ratings it fits."),
+    "design": Entry("Design the fairest chart for given ratings."),
+    "team": Entry("Find the points that the weaker of two teams gets."),
 }
 
 
@@ -23,9 +23,9 @@ def chart() -> None:
 
 
 CHIPS = {
-    "odds": Entry("", "Find each player's odds in a chip tournament."),
-    "audit": Entry("", "Check whom a chip chart favours."),
-    "design": Entry("", "Design a fairer chip chart."),
+    "odds": Entry("Find each player's odds in a chip tournament."),
+    "audit": Entry("Check who a chip chart favors."),
+    "design": Entry("Design a fairer chip chart."),
 }
 
 
@@ -40,13 +40,13 @@ def chips() -> None:
 
 
 PHYSICS = {
-    "speed": Entry("", "Find how fast a table is, from the time of a lag."),
-    "throw": Entry("", "Find how far friction throws the object ball off its line."),
-    "aim": Entry("", "Find where to aim to allow for throw."),
-    "deflect": Entry("", "Find where the cue ball goes after the hit."),
-    "strike": Entry("", "Find the spin and speed that a hit off centre gives."),
-    "breakcue": Entry("", "Find the weight of the cue that breaks best."),
-    "shot": Entry("", "Trace a whole shot, and draw it."),
+    "speed": Entry("Find how fast a table is, from the time of a lag."),
+    "throw": Entry("Find how far friction throws the object ball off its line."),
+    "aim": Entry("Find where to aim to allow for throw."),
+    "deflect": Entry("Find where the cue ball goes after the hit."),
+    "strike": Entry("Find the spin and speed that a hit off centre gives."),
+    "breakcue": Entry("Find the weight of the cue that breaks best."),
+    "shot": Entry("Trace a whole shot, and draw it."),
 }
 
 
@@ -61,8 +61,8 @@ def physics() -> None:
 
 
 SANDBAG = {
-    "pay": Entry("", "Show what it pays to lose matches on purpose."),
-    "watch": Entry("sandbag:watch", "Check the results of a league for sandbagging."),
+    "pay": Entry("Show what it pays to lose matches on purpose."),
+    "watch": Entry("Check the results of a league for sandbagging.", "sandbag:watch"),
 }
 
 
@@ -76,10 +76,10 @@ def sandbag() -> None:
 
 
 LEAGUE = {
-    "init": Entry("league.init", "Write league.toml from what is in a league's folder."),
-    "tidy": Entry("league.tidy:tidy", "One clean list of matches out of all files of results."),
-    "table": Entry("league.tables:table", "The table: who is ahead of whom, and why."),
-    "fixtures": Entry("league.tables:fixtures", "Who plays whom, when and where; what is left."),
+    "init": Entry("Write league.toml from what is in a league's folder.", "league.init"),
+    "tidy": Entry("One clean list of matches out of all files of results.", "league.tidy:tidy"),
+    "table": Entry("The table: who is ahead of whom, and why.", "league.tables:table"),
+    "fixtures": Entry("Who plays whom, when and where; what is left.", "league.tables:fixtures"),
 }
 
 

@@ -12,60 +12,60 @@ from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 SECTIONS = {
     "Start here": {
-        "demo": Entry("start:demo", "Made-up files, and three commands to try on them.")
+        "demo": Entry("Made-up files, and three commands to try on them.", "start:demo")
     },
     "Run a match": {
-        "odds": Entry("", "The odds and the length of one match."),
-        "live": Entry("", "The odds of a match under way, game by game."),
-        "fair": Entry("", "The fairest race for two players."),
-        "compare": Entry("", "Match formats side by side: which is better for whom."),
-        "breaks": Entry("", "What each break format is worth, and fair stakes."),
-        "straight": Entry("", "Straight pool: who wins, and which spot is fair."),
+        "odds": Entry("The odds and the length of one match."),
+        "live": Entry("The odds of a match under way, game by game."),
+        "fair": Entry("The fairest race for two players."),
+        "compare": Entry("Match formats side by side: which is better for whom."),
+        "breaks": Entry("What each break format is worth, and fair stakes."),
+        "straight": Entry("Straight pool: who wins, and which spot is fair."),
     },
     "Run a tournament": {
-        "tournament": Entry("tournament", "Tonight's tournament: title odds, and when it ends."),
-        "chips": Entry("groups:chips", "Chip tournaments: their odds, and fair chip charts."),
-        "serve": Entry("start:serve", "Tonight's tournament as a page: phones, screen, director."),
+        "tournament": Entry("Tonight's tournament: title odds, and when it ends.", "tournament"),
+        "chips": Entry("Chip tournaments: their odds, and fair chip charts.", "groups:chips"),
+        "serve": Entry("Tonight's tournament as a page: phones, screen, director.", "start:serve"),
     },
     "Run teams": {
-        "lineup": Entry("team.lineup", "Who to put up now, and what each choice is worth."),
+        "lineup": Entry("Who to put up now, and what each choice is worth.", "team.lineup"),
         "round": Entry(
-            "team.league:round_", "A round of two teams: who wins, and the fair head start."
+            "A round of two teams: who wins, and the fair head start.", "team.league:round_"
         ),
-        "caps": Entry("team.league:caps", "What a cap and the order of nomination do to a league."),
-        "season": Entry("team.league:season", "A team season: title, promotion, relegation."),
+        "caps": Entry("What a cap and the order of nomination do to a league.", "team.league:caps"),
+        "season": Entry("A team season: title, promotion, relegation.", "team.league:season"),
     },
     "Run a league": {
-        "report": Entry("league.report", "The fair-race sheet of a league, from its results."),
-        "publish": Entry("league.publish", "The league as a website: a folder of plain files."),
-        "rate": Entry("league.ratings:rate", "Ratings from results, and how certain each one is."),
-        "why": Entry("league.ratings:why", "Why two players have their ratings and their race."),
-        "matchups": Entry("league.matchups", "Tonight's races for a list of rated players."),
+        "report": Entry("The fair-race sheet of a league, from its results.", "league.report"),
+        "publish": Entry("The league as a website: a folder of plain files.", "league.publish"),
+        "rate": Entry("Ratings from results, and how certain each one is.", "league.ratings:rate"),
+        "why": Entry("Why two players have their ratings and their race.", "league.ratings:why"),
+        "matchups": Entry("Tonight's races for a list of rated players.", "league.matchups"),
         "validate": Entry(
-            "league.ratings:validate", "How well the ratings predict your own results."
+            "How well the ratings predict your own results.", "league.ratings:validate"
         ),
-        "simulate": Entry("league.simulate", "A season played out many times: who benefits?"),
-        "league": Entry("groups:league", "A league's office: its table and its fixtures."),
+        "simulate": Entry("A season played out many times: who benefits?", "league.simulate"),
+        "league": Entry("A league's office: its table and its fixtures.", "groups:league"),
     },
     "Handicap systems": {
-        "systems": Entry("", "The handicap systems there are, and their rules."),
-        "chart": Entry("groups:chart", "Handicap charts: list, show, audit or design one."),
-        "ladder": Entry("", "How far off ratings get under a handicap system."),
-        "sandbag": Entry("groups:sandbag", "What losing on purpose gains, and how to spot it."),
+        "systems": Entry("The handicap systems, and the chart of each."),
+        "chart": Entry("Handicap charts: list, show, audit or design one.", "groups:chart"),
+        "ladder": Entry("How far off ratings get under a handicap system."),
+        "sandbag": Entry("What losing on purpose gains, and how to spot it.", "groups:sandbag"),
     },
-    "Practise": {
-        "practice": Entry("", "Practice scores: are you getting better?"),
-        "drill": Entry("", "A progressive drill: your level, and what to work on."),
-        "runs": Entry("", "How long runs get, and the score of several innings."),
-        "oneball": Entry("", "The one-ball game: who wins, and which shot to play."),
+    "Practice": {
+        "practice": Entry("Practice scores: are you getting better?"),
+        "drill": Entry("A progressive drill: your level, and what to work on."),
+        "runs": Entry("How long runs get, and the score of several innings."),
+        "oneball": Entry("The one-ball game: who wins, and which shot to play."),
     },
     "The physics of the table": {
-        "physics": Entry("groups:physics", "Ball, cloth and cue: throw, aim, spin, speed.")
+        "physics": Entry("Ball, cloth and cue: throw, aim, spin, speed.", "groups:physics")
     },
     "The engine": {
-        "graph": Entry("match.graph", "A game as graph, matrix, eigenvalues and limit, in files."),
-        "chain": Entry("match.graph:chain", "Any Markov chain: where it ends, from a file."),
-        "reproduce": Entry("start:reproduce", "Every table, figure and number of the source text."),
+        "graph": Entry("A game as graph, matrix, eigenvalues and limit, in files.", "match.graph"),
+        "chain": Entry("Any Markov chain: where it ends, from a file.", "match.graph:chain"),
+        "reproduce": Entry("Every table, figure and number of the source text.", "start:reproduce"),
     },
 }
 """The commands by who needs them, each with its module and its line of help."""

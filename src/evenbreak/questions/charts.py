@@ -35,7 +35,7 @@ Chart: TypeAlias = Annotated[str, Field(_CHART, "The chart.", argument=True)]
 
 @dataclass(frozen=True, kw_only=True)
 class ChartList(Question):
-    """List the charts that there are, ours and those of installed packages.
+    """List the charts, ours and those of installed packages.
 
     Each is shown with its number of different races and the length of its longest match.
     """
@@ -43,7 +43,7 @@ class ChartList(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class Systems(Question):
-    """List the handicap systems that there are, ours and those of installed packages.
+    """List the handicap systems, ours and those of installed packages.
 
     Each is shown with the chart that sets its races and the package that it is from; in files, with
     its rule too.

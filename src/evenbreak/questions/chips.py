@@ -100,7 +100,7 @@ class ChipOdds(ChipField):
 
 @dataclass(frozen=True, kw_only=True)
 class ChipAudit(ChipField):
-    """Check whom a chip chart favours: hoboken, pharaohs, or one in a file.
+    """Check who a chip chart favors: hoboken, pharaohs, or one in a file.
 
     Over a whole tournament, and between the last two players if both have all their chips. The
     ratings are taken as right.

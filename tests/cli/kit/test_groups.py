@@ -9,9 +9,9 @@ from click.testing import CliRunner
 from evenbreak.cli.kit.groups import Entry, LazyGroup
 
 TABLE = {
-    "first": Entry("start:reproduce", "Does one thing.", "Early"),
-    "second": Entry("no.such.module", "Does another.", "Late"),
-    "third": Entry("neither.is.this", "Does a third.", "Late"),
+    "first": Entry("Does one thing.", "start:reproduce", "Early"),
+    "second": Entry("Does another.", "no.such.module", "Late"),
+    "third": Entry("Does a third.", "neither.is.this", "Late"),
 }
 
 

@@ -22,7 +22,7 @@ from evenbreak.ratings.scale import Scale
 
 
 def chart_list_answer(_: object = None) -> Answer:
-    """Return the charts that there are, ours and those of installed packages, with their races.
+    """Return the charts, ours and those of installed packages, with their races.
 
     >>> [row["chart"] for row in chart_list_answer().to_dict()["charts"]][-1]
     'apa_9ball'
@@ -58,7 +58,7 @@ def chart_list_answer(_: object = None) -> Answer:
 
 
 def system_list_answer(_: object = None) -> Answer:
-    """Return the handicap systems that there are, ours and those of installed packages.
+    """Return the handicap systems, ours and those of installed packages.
 
     >>> system_list_answer().to_dict()["systems"][0]["name"]
     'npl'

@@ -37,7 +37,7 @@ def drill_answer(
     >>> from evenbreak.practice import drill_statistics
     >>> drill = drill_statistics(Drill.progressive(0.8))
     >>> print(drill_answer(drill, "80% of shots").sentences[0])
-    Practise level 4: five more successes in 100 there raise your average level by 0.11, more than
+    Practice level 4: five more successes in 100 there raise your average level by 0.11, more than
     at any other level. For now you settle at an average level of 4.35.
     """
     law = statistics.distribution
@@ -71,7 +71,7 @@ def _advice(statistics: DrillStatistics) -> str:
         return "More success at any level would not raise your average level."
     lift = statistics.lift[level - 1]
     return (
-        f"Practise level {level}: {better(statistics.drill.success[level - 1])} there raise your "
+        f"Practice level {level}: {better(statistics.drill.success[level - 1])} there raise your "
         f"average level by {lift:.2f}, more than at any other level."
     )
 
@@ -202,7 +202,7 @@ def _practise(analysis: LogAnalysis) -> str:
     if best is None:
         return _nothing_to_practise(levels=len(analysis.levels), missed=bool(missed))
     text = (
-        f"Practise level {best.level} next: {better(best.p or 0.0)} there raise your average level "
+        f"Practice level {best.level} next: {better(best.p or 0.0)} there raise your average level "
         f"by {best.lift:.2f} (between {best.lift_low:.2f} and {best.lift_high:.2f}). "
     )
     others = [report for report in missed if report is not best]

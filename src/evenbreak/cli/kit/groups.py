@@ -18,18 +18,18 @@ class Entry(NamedTuple):
 
     Parameters
     ----------
+    help
+        the line: what the command gives its user.
     module
         the module of `evenbreak.cli` whose `command` it is; a colon separates the name of the
         command where it is another (`start:demo`); '' where the answer to its question is all
         there is to it (`evenbreak.answers.asked`).
-    help
-        the line: what the command gives its user.
     section
         the heading under which it is listed.
     """
 
-    module: str
     help: str
+    module: str = ""
     section: str = "Commands"
 
 

@@ -9,25 +9,25 @@ from evenbreak.cli.kit.said import works_on
 from evenbreak.questions.moves import COMMANDS as MOVES
 
 COMMANDS = {
-    "new": Entry("tournament.new", "Begin a tournament that is run here."),
-    "import": Entry("tournament.new:import_", "Go on with a tournament from another program."),
+    "new": Entry("Begin a tournament that is run here.", "tournament.new"),
+    "import": Entry("Go on with a tournament from another program.", "tournament.new:import_"),
     "second-chance": Entry(
-        "tournament.new:second_chance", "Begin another event for those who are out."
+        "Begin another event for those who are out.", "tournament.new:second_chance"
     ),
-    **{name: Entry(f"tournament.moves:{name}", line) for name, (_, line) in MOVES.items()},
-    "show": Entry("tournament.paper:show", "Show the bracket."),
-    "next": Entry("tournament.paper:next_matches", "Show who plays next, and on which table."),
+    **{name: Entry(line, f"tournament.moves:{name}") for name, (_, line) in MOVES.items()},
+    "show": Entry("Show the bracket.", "tournament.paper:show"),
+    "next": Entry("Show who plays next, and on which table.", "tournament.paper:next_matches"),
     "export": Entry(
-        "tournament.paper:export", "List the matches that were played, for the ratings."
+        "List the matches that were played, for the ratings.", "tournament.paper:export"
     ),
-    "print": Entry("tournament.paper:print_paper", "Write score cards or the bracket to print."),
-    "token": Entry("tournament.paper:token", "Let other programs enter scores, or everything."),
+    "print": Entry("Write score cards or the bracket to print.", "tournament.paper:print_paper"),
+    "token": Entry("Let other programs enter scores, or everything.", "tournament.paper:token"),
     "prizes": Entry(
-        "tournament.odds:prizes", "What each place is paid, and what players may expect."
+        "What each place is paid, and what players may expect.", "tournament.odds:prizes"
     ),
-    "odds": Entry("tournament.odds", "Find each player's odds of winning the tournament."),
+    "odds": Entry("Find each player's odds of winning the tournament.", "tournament.odds"),
     "time": Entry(
-        "tournament.odds:time", "Find when the tournament ends, and when each match starts."
+        "Find when the tournament ends, and when each match starts.", "tournament.odds:time"
     ),
 }
 """Each command, in the module of its name, with its line of help."""

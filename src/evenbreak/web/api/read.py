@@ -1,6 +1,6 @@
 """What everybody in the room may read of tonight, for other programs.
 
-It is what the pages show, made of the same views, so that a board on a stream and the wall say the
+It is what the pages show, made of the same views, so that a scoreboard on a stream and the wall say the
 same.
 """
 
@@ -307,12 +307,14 @@ RESOURCES = [
     ),
     Resource(
         "/tonight/odds",
-        "Everybody's chance of each place.",
+        "Each player's chance of finishing in each place.",
         told(_odds),
         shapes.Odds,
         asks=(EVENT,),
     ),
-    Resource("/tonight/finish", "When it ends.", told(_finish), shapes.Finish, asks=(EVENT,)),
+    Resource(
+        "/tonight/finish", "The expected finish time.", told(_finish), shapes.Finish, asks=(EVENT,)
+    ),
     Resource(
         "/tonight/standings",
         "Who has finished where, and how groups stand.",
