@@ -81,8 +81,15 @@ def _matches_are_right(state: Evening, rows: list[dict[str, Any]]) -> None:
         pair = row["player_a"], row["player_b"]
         assert row["match"] == state.number_of(code)
         assert {*pair} - {None} == state.sitting(code)
-        if row["race_a"] is not None:
-            assert (row["race_a"], row["race_b"]) == state.needed(code, pair)
+        known = None not in pair
+        assert (row["race_a"], row["race_b"]) == (
+            state.needed(code, pair) if known else (None, None)
+        )
+        if row["state"] != "forfeit":  # whose player may have gone home
+            assert (row["ended"] is None) == (row["state"] != "over")
+        entered = {event.at for event in state.log}
+        assert {row["called"], row["ended"]} <= {*entered, None}
+        assert (row["called"] is None) <= (row["table_name"] is None)
     over = {code: row for code, row in here.items() if row["state"] in ("over", "forfeit")}
     assert {code: row["winner"] for code, row in over.items()} == state.winners
     for code, row in over.items():
