@@ -1,7 +1,7 @@
 """What everybody in the room may read of tonight, for other programs.
 
-It is what the pages show, made of the same views, so that a scoreboard on a stream and the wall say the
-same.
+It is what the pages show, made of the same views, so that a scoreboard on a stream and the wall
+say the same.
 """
 
 from __future__ import annotations
