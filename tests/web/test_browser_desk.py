@@ -68,7 +68,7 @@ def test_two_taps_enter_a_result_and_its_card_stays(desk: Any, playing: Hall) ->
     loud.click()
     desk.wait_for_selector(".entered")
     said = desk.inner_text(".entered > .what")
-    assert "3-1 in match 1" in said
+    assert "beat Player 16 3-1" in said
     score(playing, "W1.2", (2, 0))
     shows(desk, "W1.2", 2)
     desk.wait_for_timeout(2500)

@@ -318,9 +318,18 @@ class Choice(Kind):
             return next((word for word, meaning in self.of.items() if meaning == value), str(value))
         return str(value)
 
+    def load(self, value: Any) -> Any:
+        """Return the value of what JSON has: true and false too, where yes and no mean these."""
+        return value if isinstance(value, bool) and self._is_yes_or_no else super().load(value)
+
+    @property
+    def _is_yes_or_no(self) -> bool:
+        return isinstance(self.of, Mapping) and {*map(type, self.of.values())} == {bool}
+
     def schema(self) -> dict[str, Any]:
         """Return what a JSON schema says of such a value."""
-        return {"type": "string", "enum": list(self.of)}
+        words = {"type": "string", "enum": list(self.of)}
+        return {"anyOf": [{"type": "boolean"}, words]} if self._is_yes_or_no else words
 
 
 @dataclass(frozen=True)

@@ -66,7 +66,7 @@ class Unbound(FargoLike):
         (ByPlace(), "another order"),
         (AcrossLeagues(), "one league is alone"),
         (Unfair(), "without a lost match"),
-        (Spoiler(), "raised ValueError"),
+        (Spoiler(), "failed with ValueError"),
         (Shapeless(), "initial of the system none returned the shape"),
         (NoGames(), "1 or more"),
         (Unbound(), "returned nan"),
