@@ -45,12 +45,13 @@ def make(one: Shown, place: Path) -> bytes:
     if written.exists():
         return written.read_bytes()
     with contextlib.ExitStack() as watch:
-        seen = [
-            watch.enter_context(
-                mock.patch(f"{module}.{name}", side_effect=getattr(import_module(module), name))
-            )
-            for module, name in drawing_functions(one)
-        ]
+        seen = []
+        for module, name in drawing_functions(one):
+            draw = getattr(import_module(module), name)
+            seen.append(mock.Mock(side_effect=draw))
+            # A module that has imported it calls it by its own name.
+            for holder in [one for one in sys.modules.values() if vars(one).get(name) is draw]:
+                watch.enter_context(mock.patch.object(holder, name, seen[-1]))
         for line in one.first.splitlines():
             run(line)
         if one.python:

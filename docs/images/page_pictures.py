@@ -29,6 +29,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 from evenbreak.files.demo import write_demo_evening
+from evenbreak.tournaments.evening.known import known_match
 from evenbreak.web.server import server_of
 from evenbreak.web.site import Site
 
@@ -140,9 +141,10 @@ def tap(page: Any, name: str) -> None:
     page.wait_for_function("text => document.querySelector('main').innerText != text", arg=before)
 
 
-def tap_result(page: Any, within: str, match: int, winner: int, games: int) -> Any:
+def tap_result(page: Any, site: Site, within: str, match: int, winner: int, games: int) -> Any:
     """Tap a match's winner, and return the button of the loser's games."""
-    form = page.locator(f"{within} form.taps:has(label[for$='{match}-{winner}'])")
+    name = known_match(site.night.state(), str(match), over=True)
+    form = page.locator(f"{within} form.taps:has(label[for$='{name}-{winner}'])")
     form.locator("label.seat").nth(winner).click()
     return form.locator(f".after{winner} .pad button[value='{games}']")
 
@@ -189,8 +191,12 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
 
     clock.at = "19:05"
     call_all(desk)
+    player = tab(browser, site, PHONE)
+    player.goto(f"/c/{site.player_code('Tomasz Wierzba')}")
+    press(player, player.get_by_role("button", name="This is me"))
+    tap(player, "I'm coming")
     clock.at = "19:40"
-    enter = tap_result(desk, ".desk-grid", 1, 0, 4)
+    enter = tap_result(desk, site, ".desk-grid", 1, 0, 4)
     kept(shot(desk, first="section.table", last="section.table"), folder / "result.png")
     press(desk, enter)
     settled(desk, "/desk")
@@ -200,16 +206,13 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
     settled(guest, "/")
     kept(shot(guest, first="h1", last="main"), folder / "tonight.png")
 
-    player = tab(browser, site, PHONE)
-    player.goto(f"/c/{site.player_code('Tomasz Wierzba')}")
-    tap(player, "I'm coming")
     for name in ("Tomasz Wierzba", "Tomasz Wierzba", "Priya Vandermeer"):
         tap(player, f"Game for {name}")
     kept(shot(player, first=".mine-top", last="main .odds"), folder / "match.png")
 
     clock.at = "20:15"
     desk.goto("/desk")
-    press(desk, tap_result(desk, ".desk-grid", 2, 0, 2))
+    press(desk, tap_result(desk, site, ".desk-grid", 2, 0, 2))
     call_all(desk)
     clock.at = "20:35"
     desk.goto("/desk?match=4#sheet")
@@ -220,7 +223,7 @@ def story(browser: Any, site: Site, clock: Clock, folder: Path) -> None:
     press(desk, typed.get_by_role("button", name="Still playing"))
     clock.at = "20:40"
     desk.goto("/bracket?match=1#sheet")
-    press(desk, tap_result(desk, ".sheet", 1, 1, 4))
+    press(desk, tap_result(desk, site, ".sheet", 1, 1, 4))
     kept(shot(desk, first="h1", last="main form"), folder / "correct.png")
     press(desk, desk.locator(".bottom button:visible").first)
 
@@ -241,6 +244,7 @@ def front_page(browser: Any, path: Path, clock: Clock, file: Path) -> None:
         settled(wall, "/screen?only=tables")
         first = min(state.on_tables, key=lambda match: state.on_tables[match].call.table)
         phone.goto(f"/c/{site.player_code(state.pair(first)[0])}")
+        press(phone, phone.get_by_role("button", name="This is me"))
         pictures = (shot(wall), shot(phone, first=".mine-top", last="main .odds"))
     both = browser.new_page()
     both.set_content(BOTH.format(*(base64.b64encode(one).decode() for one in pictures)))

@@ -17,6 +17,11 @@ pytestmark = pytest.mark.thorough
 sys.path.insert(0, str(ROOT / "docs" / "images"))
 
 
+@pytest.fixture(scope="module", autouse=True)
+def few_evenings() -> None:
+    """The pictures are those that the page draws of all evenings."""
+
+
 def test_the_evening_goes_through_and_makes_its_pictures(browser: Any, tmp_path: Path) -> None:
     from page_pictures import Clock, served, story
 
