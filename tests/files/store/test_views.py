@@ -26,6 +26,7 @@ from evenbreak.files.store.tournament import (
     read_tournament,
     renew_views,
 )
+from evenbreak.files.store.views import are_current
 from evenbreak.tournaments import CHIP_CHARTS
 from evenbreak.tournaments.evening import beside, moves, roster, settling, undoing
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
@@ -169,6 +170,16 @@ def test_an_entry_of_an_earlier_version_shows_until_the_next(tmp_path):
     assert "New" in [row["name"] for row in selected(path, "SELECT name FROM players")]
     delete_tournament(path)
     assert selected(path, "SELECT * FROM events") == []
+
+
+def test_a_form_that_adds_nothing_leaves_the_views_up_to_date(tmp_path):
+    path = tmp_path / "tonight.db"
+    begun(path, "single", 4)
+    add_events(path, lambda _: [], form="the same tap again")
+    with closing(sqlite3.connect(path)) as base:
+        taken = base.execute("SELECT strand FROM entry WHERE form NOT NULL").fetchall()
+        assert taken == [("1 taken",)]
+        assert are_current(base)
 
 
 FAILING = {

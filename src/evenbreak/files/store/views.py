@@ -105,7 +105,7 @@ def are_current(base: sqlite3.Connection) -> bool:
     """Return whether the views of a file are those of this version, and know of all its entries."""
     if not _are_there(base):
         return False
-    entered = f"SELECT COUNT(DISTINCT strand) FROM {ENTRIES} WHERE strand GLOB '[0-9]*'"  # noqa: S608
+    entered = f"SELECT COUNT(DISTINCT strand) FROM {ENTRIES} WHERE strand NOT GLOB '*[^0-9]*'"  # noqa: S608
     known = "SELECT SUM(up_to_date) FROM events"
     return bool(base.execute(f"SELECT ({entered}) = COALESCE(({known}), 0)").fetchone()[0])
 

@@ -33,7 +33,7 @@ from evenbreak.web.api.resource import EVENT, Call, Resource
 from evenbreak.web.api.seen import match_of, night_asked, seen_of
 from evenbreak.web.api.tokens import check_still, token_of
 from evenbreak.web.entering import Entered, SureError, asked_of, enter
-from evenbreak.web.night import Night
+from evenbreak.web.night import Night, score_of
 from evenbreak.web.pages.moves import OF_COMMANDS
 from evenbreak.words import joined, say
 
@@ -162,8 +162,7 @@ def _refuse_other(earlier: set[str], whole: str | None) -> None:
 def _check_seen(state: Evening, match: str | None, seen: tuple[int, int]) -> None:
     """Refuse what was meant for an earlier score."""
     name = known_match(state, match or "")
-    live = state.live.get(name)
-    now = live.what.score if live else (0, 0)
+    now = score_of(state, name) or (0, 0)
     if name in state.standing.to_play and now != seen:
         raise ProblemError(
             "The score of {match} is {score} now.",
