@@ -5,9 +5,9 @@ PYTHON ?= .venv-dev/bin/python
 LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.py \
 	tests/files/tables/test_spreadsheet.py tests/web/test_floods.py tests/web/test_refusals.py \
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
-	tests/chains/test_factorisation.py tests/chains/test_spectrum.py tests/ratings/test_fitted.py
+	tests/chains/test_factorization.py tests/chains/test_spectrum.py tests/ratings/test_fitted.py
 
-.PHONY: catalogues column-tables option-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
+.PHONY: catalogs column-tables option-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
 	page-pictures bundle dist clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
@@ -60,7 +60,7 @@ layers:           ## imports in one direction, files and terminal only at the en
 SAID = say refuse worded say_as:1c,2 say_count:1,2 EvenbreakError AlreadyError InputError DataError GameError ChainError AccuracyError \
 	WorkerError RefusalError ProblemError MovedOnError TakenBeforeError add:2 note:2 warning:3 form_warning:3 refusal:2 refused:2
 
-catalogues:       ## collect the sentences that pages show into each language's catalogue
+catalogs:       ## collect the sentences that pages show into each language's catalog
 	$(PYTHON) -m babel.messages.frontend -q extract -F babel.cfg --no-default-keywords $(addprefix -k ,$(SAID)) \
 		--no-location --sort-output --width 100 -o evenbreak.pot .
 	for po in src/evenbreak/words/locale/*/LC_MESSAGES/evenbreak.po; do \

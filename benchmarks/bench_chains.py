@@ -311,7 +311,7 @@ def unloop(arcs: coo_array) -> np.ndarray:
 
 
 def random_chain() -> tuple[Chain, np.ndarray]:
-    """Return 5,000 states with four random neighbours each, and heights down to 2^-30."""
+    """Return 5,000 states with four random neighbors each, and heights down to 2^-30."""
     draw = np.random.default_rng(4)
     one = np.tile(np.arange(5000), 2)
     other = draw.integers(0, 5000, one.size)

@@ -20,7 +20,7 @@ DRAW = np.random.default_rng(1)
 
 
 def batched_solve(tables: np.ndarray) -> np.ndarray:
-    """Return the stationary laws of row-stochastic tables (k, n, n) by LU factorisation."""
+    """Return the stationary laws of row-stochastic tables (k, n, n) by LU factorization."""
     count, n = tables.shape[:2]
     equations = np.swapaxes(tables, 1, 2) - np.eye(n)
     equations[:, -1, :] = 1.0

@@ -15,7 +15,7 @@ from scipy.special import betainc, expit, gammaln, log_expit, logit, logsumexp
 
 from evenbreak.arrays import Bools, Floats
 from evenbreak.files import read_results
-from evenbreak.matches.form import centre_of_form
+from evenbreak.matches.form import center_of_form
 from evenbreak.ratings import Forecasts, Levels, fit, walk_forward
 from evenbreak.ratings.day_form import with_form
 from evenbreak.ratings.validation.within_matches import score_shapes
@@ -55,7 +55,7 @@ def predicted(walk: Forecasts, rows: Bools) -> dict[str, Floats]:
     points, weights = np.polynomial.hermite_e.hermegauss(41)
     weights /= weights.sum()
     sd = walk.sd[rows]
-    x = centre_of_form(walk.difference[rows], sd, walk.form)[:, None]
+    x = center_of_form(walk.difference[rows], sd, walk.form)[:, None]
     x = x + np.hypot(sd, walk.form)[:, None] * points
     a, b = walk.results.score_a[rows, None], walk.results.score_b[rows, None]
     m, n = walk.race_a[rows, None], walk.race_b[rows, None]

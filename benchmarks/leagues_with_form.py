@@ -17,7 +17,7 @@ import numpy as np
 from scipy.special import expit, log_expit, logsumexp
 
 from evenbreak.arrays import Bools, Floats
-from evenbreak.matches.form import centre_of_form, normal_rule
+from evenbreak.matches.form import center_of_form, normal_rule
 from evenbreak.ratings import Ratings, Results, fit
 from evenbreak.ratings.day_form import with_form
 from evenbreak.ratings.validation.within_matches import play_races
@@ -49,8 +49,8 @@ def league(design: Design, rng: np.random.Generator) -> tuple[Results, Floats]:
             for _ in range(design.matches)
         ]
     ).T
-    centre = centre_of_form(skill[a] - skill[b], 0.0, design.form)
-    p = expit(centre + design.form * rng.standard_normal(design.matches))
+    center = center_of_form(skill[a] - skill[b], 0.0, design.form)
+    p = expit(center + design.form * rng.standard_normal(design.matches))
     needs = np.full(design.matches, design.race)
     won, games = play_races(p, needs, needs, rng)
     names = tuple(f"p{k:02d}" for k in range(PLAYERS))

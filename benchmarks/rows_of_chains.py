@@ -137,7 +137,7 @@ def digraph(n: int, goal: Goal | None = None) -> Question:
 
 
 def box(*sides: int) -> tuple[Chain, np.ndarray]:
-    """Return a box of states with arcs both ways between neighbours, and its law."""
+    """Return a box of states with arcs both ways between neighbors, and its law."""
     number = np.arange(np.prod(sides)).reshape(sides)
     axes = range(len(sides))
     one, other = (

@@ -12,7 +12,7 @@ from evenbreak.chains import Chain
 
 
 def storm_model(chain: Chain, labels: dict[str, Any], *, exact: bool = False) -> Any:
-    """Return the chain as a model, its states labelled as given, in decimal fractions if exact."""
+    """Return the chain as a model, its states labeled as given, in decimal fractions if exact."""
     from stormpy import Rational, datastructures, models
 
     value = Rational if exact else float

@@ -163,7 +163,7 @@ def let_phones_in(desk):
     desk.open("/desk/phones")
     desk.send("/desk/phones", open="yes")
     desk.opener.addheaders = [("Accept-Language", "de")]
-    assert "Handys" in desk.open("/desk/phones"), "no catalogue of German"
+    assert "Handys" in desk.open("/desk/phones"), "no catalog of German"
     where = re.findall(r"class=\"to\">([^<]+)</figcaption>", desk.text)
     for one in where:
         Browser(f"http://{one}").open("/me")

@@ -15,7 +15,7 @@ import league_keys
 import option_tables
 import pytest
 
-from catalogued import said_on_pages
+from cataloged import said_on_pages
 from evenbreak.cli.program import COMMANDS, program
 from places import ROOT, SRC
 from terminal import on_a_terminal

@@ -417,7 +417,7 @@ def numbers_of(value):
 
 
 def is_rounded(text, value):
-    """Return whether a number that a person reads is this one, perhaps in per cent or unsigned.
+    """Return whether a number that a person reads is this one, perhaps in percent or unsigned.
 
     >>> is_rounded("65.3%", 0.6527), is_rounded("1.2e-09", 1.234e-9), is_rounded("0.66", 0.6527)
     (True, True, False)

@@ -297,7 +297,7 @@ def modules_loaded_by(statement: str) -> set[str]:
     return set(json.loads(done.stdout))
 
 
-def test_the_terminal_needs_no_catalogue() -> None:
+def test_the_terminal_needs_no_catalog() -> None:
     words = ["evenbreak", "odds", "612", "521", "--scale", "fargo", "--race", "x"]
     ask = f"import contextlib, sys; from evenbreak.cli import main; sys.argv = {words}"
     assert "babel" not in modules_loaded_by(f"{ask}\nwith contextlib.suppress(SystemExit): main()")

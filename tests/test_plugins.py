@@ -201,13 +201,13 @@ def test_names_that_begin_as_ours_or_are_a_word_of_ours_are_reached() -> None:
     assert handicaps.system_of("elo-10").name == "elo 10"
     with pytest.raises(ValueError, match=r"write it as elo \[K\]"):
         handicaps.system_of("elo league")
-    assert games.game_of_catalogue("9-ball")[0] == "9-ball"
-    assert games.game_of_catalogue("drill 9-ball")[0] == "drill, progressive 9-ball"
+    assert games.game_of_catalog("9-ball")[0] == "9-ball"
+    assert games.game_of_catalog("drill 9-ball")[0] == "drill, progressive 9-ball"
 
 
 @pytest.mark.usefixtures("broken")
 def test_chances_for_a_game_that_takes_none_are_refused(tmp_path: Path) -> None:
-    assert games.game_of_catalogue("coin")[1] == games.OneBall(0.4, 0.8)
+    assert games.game_of_catalog("coin")[1] == games.OneBall(0.4, 0.8)
     done = run("graph", "coin", "--p", 0.7, "--out", tmp_path / "drawn")
     assert done.exit_code == 2
     assert "'coin' of package broken-rules 0.1: it is made already and takes no chances" in (
@@ -336,7 +336,7 @@ def test_the_example_of_the_docs_is_installed_and_judged(
 
     assert handicaps.broken_laws(handicaps.system_of("last ten")) == []
     assert handicaps.broken_chart_laws(handicaps.chart_of("fargo house")) == []
-    assert games.broken_laws(games.game_of_catalogue("two in a row", 0.7)[1]) == []
+    assert games.broken_laws(games.game_of_catalog("two in a row", 0.7)[1]) == []
 
     season = ("--weeks", 6, "--replicas", 3, "--seed", 1)
     both = ("--compare", "last-ten", "--compare", "fargo-like", "--json")

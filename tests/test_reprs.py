@@ -10,7 +10,7 @@ import numpy as np
 
 from evenbreak import games
 from evenbreak.chains import chain_of, spectrum, stochastic_limit
-from evenbreak.games import CATALOGUE, Drill, Race, Rack, winner_breaks
+from evenbreak.games import CATALOG, Drill, Race, Rack, winner_breaks
 from evenbreak.matches import final_scores, match_length
 from rows import each_of
 
@@ -69,7 +69,7 @@ def test_reprs_are_short(value: object) -> None:
     assert " at 0x" not in repr(value)
 
 
-@each_of("name", CATALOGUE)
+@each_of("name", CATALOG)
 def test_a_game_is_written_so_that_python_reads_it_back(name: str) -> None:
     named = {public: getattr(games, public) for public in games.__all__}
-    assert eval(repr(CATALOGUE[name]), named) == CATALOGUE[name]  # noqa: S307
+    assert eval(repr(CATALOG[name]), named) == CATALOG[name]  # noqa: S307

@@ -14,7 +14,7 @@ from at_work import run
 from evenbreak.files.demo import write_demo_evening
 
 WIDTH, HEIGHT, LINE = 240, 136, 19
-INK, GREY, BLUE = "#222", "#aaa", "#0072b2"
+INK, GRAY, BLUE = "#222", "#aaa", "#0072b2"
 TEAMS = "lineup data/demo_team.csv data/demo_opponents.csv --race 5 --sets 5 --order ABABA"
 
 
@@ -23,10 +23,8 @@ def _text(x: float, y: float, words: str, *, end: str = "start", strong: bool = 
     return f'<text x="{x:g}" y="{y:g}" text-anchor="{end}"{weight}>{escape(words)}</text>\n'
 
 
-def _box(x: float, y: float, width: float, height: float, colour: str) -> str:
-    return (
-        f'<rect x="{x:g}" y="{y:g}" width="{width:.1f}" height="{height:.1f}" fill="{colour}"/>\n'
-    )
+def _box(x: float, y: float, width: float, height: float, color: str) -> str:
+    return f'<rect x="{x:g}" y="{y:g}" width="{width:.1f}" height="{height:.1f}" fill="{color}"/>\n'
 
 
 def _picture(heading: str, parts: Iterable[str]) -> str:
@@ -45,7 +43,7 @@ def _chances(heading: str, chances: list[tuple[str, float]]) -> str:
         y = 46 + LINE * 1.25 * k
         parts += [
             _text(10, y, name, strong=not k),
-            _box(126, y - 10, max(1.0, 66 * p), 12, GREY if k else BLUE),
+            _box(126, y - 10, max(1.0, 66 * p), 12, GRAY if k else BLUE),
             _text(WIDTH - 8, y, f"{100 * p:.0f}%", end="end", strong=not k),
         ]
     return _picture(heading, parts)
@@ -83,15 +81,15 @@ def operator() -> str:
 
 
 def player() -> str:
-    """Draw how often each level of a drill was made, and the one to practise."""
+    """Draw how often each level of a drill was made, and the one to practice."""
     levels = json.loads(run("drill --log data/drill_log.csv --json"))["drill_levels"]
     best = max(levels, key=lambda one: one["p_best"])["level"]
     parts = []
     for k, one in enumerate(levels):
         height, x = 66 * one["p_success"], 12 + 24.5 * k
-        colour = BLUE if one["level"] == best else GREY
+        color = BLUE if one["level"] == best else GRAY
         parts += [
-            _box(x, 110 - height, 18, max(1.0, height), colour),
+            _box(x, 110 - height, 18, max(1.0, height), color),
             _text(x + 9, 126, str(one["level"]), end="middle", strong=one["level"] == best),
         ]
     return _picture(f"Practice level {best}", parts)

@@ -116,7 +116,7 @@ PAGES = (
         "Chances are between 0 and 1: <code>0.6</code> is 60%.",
         (
             Step("A match, game by game", "live --p 0.6 --race 7:5 --racks abbab", (1, 4)),
-            Step("Which level of a drill to practise", "drill --log data/drill_log.csv", (1, 2)),
+            Step("Which level of a drill to practice", "drill --log data/drill_log.csv", (1, 2)),
             Step("Which shot to take", "oneball --shot 0.4:0.8 --shot 0.3:0.3", (1,)),
             Step("Where to aim", "physics aim --cut 14.5 --distance 36", (1, 2)),
         ),

@@ -42,7 +42,7 @@ WALL = {"width": 1280, "height": 720}
 BIG_WALL = {"width": 1920, "height": 1080}
 ROOM = "http://192.168.1.20:8000"
 """Where phones find the page, as the wall shows it: nothing while they are not let in."""
-COLOURS = 128
+COLORS = 128
 BOTH = """<!doctype html>
 <style>
   body {{ align-items: center; display: flex; gap: 40px; margin: 0; padding: 24px; width: 1712px }}
@@ -112,7 +112,7 @@ def shot(page: Any, *, first: str = "", last: str = "") -> bytes:
 def kept(picture: bytes, file: Path) -> None:
     """Keep a picture with few colors, which makes it small."""
     drawn = Image.open(io.BytesIO(picture))
-    small = drawn.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    small = drawn.convert("RGB").quantize(COLORS, dither=Image.Dither.NONE)
     small.save(file, optimize=True)
 
 

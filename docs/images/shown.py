@@ -72,7 +72,7 @@ sheet = Sheet.of(file, ratings, offered, most_active(ratings, 10), choice)
         Shown(
             "second_chance.svg",
             "What a second chance is worth",
-            "A favourite's title odds in single and in double elimination.",
+            "A favorite's title odds in single and in double elimination.",
             "explanation/exact-brackets.md",
             python="""\
 import numpy as np
@@ -168,7 +168,7 @@ picture.legend(fontsize=9)
         Shown(
             "calibration.svg",
             "Can the ratings be trusted?",
-            "How often favourites won, against the chance that they had been given.",
+            "How often favorites won, against the chance that they had been given.",
             "how-to/can-i-trust-the-ratings.md",
             "validate data/demo_league.csv --prior 30 --plot FILE",
             draws="draw_calibration",

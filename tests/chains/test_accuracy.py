@@ -130,7 +130,7 @@ def ladder(up: list[float], down: list[float]) -> Chain:
 
 
 def law_of_ladder(up: list[float], down: list[float]) -> list[Fraction]:
-    """Return its stationary law: what goes up between two neighbours comes down."""
+    """Return its stationary law: what goes up between two neighbors comes down."""
     ratios = [Fraction(up[i - 1]) / Fraction(down[i]) for i in range(1, len(up))]
     # Integers only, and no division: numerators before a state, denominators after it.
     before = accumulate((x.numerator for x in ratios), mul, initial=1)
@@ -363,11 +363,11 @@ def test_two_peaks_with_a_deep_valley(n: int) -> None:
     assert error_against(in_order(chain, law), chain, n // 2) <= TOLERANCE
 
 
-def metropolis(heights: np.ndarray, neighbours: Iterator[tuple[int, int]]) -> Chain:
+def metropolis(heights: np.ndarray, neighbors: Iterator[tuple[int, int]]) -> Chain:
     """Return a chain whose law is 2^-height: all its arcs are exact powers of two."""
     triples = []
     left = np.ones(len(heights))
-    for i, j in neighbours:
+    for i, j in neighbors:
         for a, b in ((i, j), (j, i)):
             chance = 0.125 * 2.0 ** min(0, int(heights[a] - heights[b]))
             triples.append((a, b, chance))

@@ -8,7 +8,7 @@ from scipy.sparse import csc_array
 from evenbreak.chains import Chain, chain_of, propagate
 from evenbreak.errors import ChainError, InputError
 from evenbreak.game import Game, graph_of
-from evenbreak.games import CATALOGUE, Race, Rack
+from evenbreak.games import CATALOG, Race, Rack
 from rows import each_of
 
 
@@ -108,10 +108,10 @@ def test_a_seed_that_is_none_is_refused_by_its_name():
     assert (chain.simulate(3, 1) == chain.simulate(3, np.random.default_rng(1))).all()
 
 
-# Towards other libraries ---------------------------------------------------------------
+# Toward other libraries ---------------------------------------------------------------
 
 
-@each_of("game", CATALOGUE.values())
+@each_of("game", CATALOG.values())
 def test_the_graph_of_a_chain_is_that_of_its_game_and_reads_back(game: Game):
     chain = chain_of(game)
     graph = chain.to_networkx()

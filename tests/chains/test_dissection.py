@@ -9,7 +9,7 @@ from scipy.sparse.linalg import splu
 
 import oracle
 from evenbreak.chains import dense_elimination, dissection
-from evenbreak.chains.dissection import FrontElimination, bandwidth, dissect, neighbours
+from evenbreak.chains.dissection import FrontElimination, bandwidth, dissect, neighbors
 from evenbreak.chains.elimination import Elimination
 
 
@@ -55,7 +55,7 @@ def fronts_as_matrix(fronts):
 )
 def test_fronts_hold_all_arcs_that_elimination_makes(monkeypatch, T, leaf):
     monkeypatch.setattr(dissection, "_LEAF", leaf)
-    graph = neighbours(T)
+    graph = neighbors(T)
     order, fronts = dissect(graph)
     assert sorted(order.tolist()) == list(range(T.shape[0]))
     assert [front.first for front in fronts] == [0, *(front.last for front in fronts[:-1])]
@@ -69,19 +69,19 @@ def test_fronts_hold_all_arcs_that_elimination_makes(monkeypatch, T, leaf):
 
 def test_a_grid_is_cut_into_few_entries():
     """A band as wide as the side would hold two million; the whole matrix, 26 million."""
-    _, fronts = dissect(neighbours(grid(72)))
+    _, fronts = dissect(neighbors(grid(72)))
     assert sum(front.entries for front in fronts) < 700_000
     assert max(len(front.later) + front.last - front.first for front in fronts) < 200
 
 
 def test_a_dense_graph_is_one_front():
-    order, fronts = dissect(neighbours(csc_array(np.ones((300, 300)))))
+    order, fronts = dissect(neighbors(csc_array(np.ones((300, 300)))))
     assert len(order) == 300
     assert [(first, last, len(later)) for first, last, later in fronts] == [(0, 300, 0)]
 
 
 def test_the_band_of_a_grid_is_about_its_side():
-    assert 20 <= bandwidth(neighbours(grid(20))) < 40
+    assert 20 <= bandwidth(neighbors(grid(20))) < 40
 
 
 # Elimination in fronts at sizes at which fronts, blocks and strips really arise.
@@ -98,7 +98,7 @@ def lattice(side, rng, decades=1.0):
 
 
 def factored(T, leak):
-    return FrontElimination(T, leak, *dissect(neighbours(T)))
+    return FrontElimination(T, leak, *dissect(neighbors(T)))
 
 
 def plain(T, leak, number=float):

@@ -10,7 +10,7 @@ import oracle
 from evenbreak.chains import Chain, chain_from_arrays, chain_of, spectrum, stochastic_limit
 from evenbreak.chains.eigenpairs import UnitPairs, leading_pairs, limit_by, roots_of_one
 from evenbreak.errors import AccuracyError
-from evenbreak.games import BREAK_FORMATS, CATALOGUE, Ahead, Drill, OneBall, Race, Rack
+from evenbreak.games import BREAK_FORMATS, CATALOG, Ahead, Drill, OneBall, Race, Rack
 from rows import each_of
 from tries import tries
 
@@ -220,7 +220,7 @@ SLOW = {
 }
 
 
-@each_of("game", [*CATALOGUE.values(), *SLOW.values()])
+@each_of("game", [*CATALOG.values(), *SLOW.values()])
 def test_every_game_is_answered_within_a_sharp_bound(game) -> None:
     chain = chain_of(game)
     limit, bound = UnitPairs(chain).limit(chain.density())

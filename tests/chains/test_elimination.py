@@ -24,7 +24,7 @@ def test_fractions_stay_exact():
     assert factor.values([1, 1, 1])[0] == sum(x)
 
 
-def test_the_states_of_a_star_are_eliminated_before_its_centre():
+def test_the_states_of_a_star_are_eliminated_before_its_center():
     n = 2_000
     rows = [dict.fromkeys(range(1, n), 0.5 / n), *({0: 0.5} for _ in range(n - 1))]
     factor = Elimination(rows, [0.0] * (n - 1) + [0.5], most=2 * n)

@@ -13,7 +13,7 @@ import pytest
 from evenbreak.chains import chain_of, families, limits_over, stochastic_limit
 from evenbreak.errors import ChainError, EvenbreakError, InputError
 from evenbreak.games import (
-    CATALOGUE,
+    CATALOG,
     Ahead,
     Drill,
     Match,
@@ -31,7 +31,7 @@ SIDE = np.array([0.0, 1e-3, 0.3, 0.5, 0.7, 1 / 3, 0.9, 1.0])
 
 
 def kind(p1: Any, p2: Any, like: Any) -> Any:
-    """Return a catalogued game with other chances."""
+    """Return a cataloged game with other chances."""
     if isinstance(like, OneBall):
         return OneBall(p1, p2)
     if isinstance(like, OneBallLookAhead):
@@ -63,9 +63,9 @@ def compare(game_of: Callable[..., Any], *, within: float = 1e-14, **chances: An
 
 
 @pytest.mark.slow_after(5)
-@pytest.mark.parametrize("name", CATALOGUE)
-def test_every_game_of_the_catalogue_has_its_own_limits_edges_included(name: str) -> None:
-    compare(lambda p1, p2: kind(p1, p2, CATALOGUE[name]), p1=SIDE[:, None], p2=SIDE)
+@pytest.mark.parametrize("name", CATALOG)
+def test_every_game_of_the_catalog_has_its_own_limits_edges_included(name: str) -> None:
+    compare(lambda p1, p2: kind(p1, p2, CATALOG[name]), p1=SIDE[:, None], p2=SIDE)
 
 
 @pytest.fixture
@@ -77,23 +77,23 @@ def short(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.slow_after(3)
 @pytest.mark.usefixtures("short")
-@pytest.mark.parametrize("name", CATALOGUE)
+@pytest.mark.parametrize("name", CATALOG)
 def test_what_is_repeated_is_what_would_have_been_done(name: str) -> None:
     p1, p2 = np.random.default_rng(3).uniform(0.05, 0.95, (2, 80))
     p1[60:66] = [0.0, 1.0, 0.5, 1e-9, 1e-200, 0.25]
     for size in (55, 80):
         compare(
-            lambda p1, p2: kind(p1, p2, CATALOGUE[name]), within=1e-13, p1=p1[:size], p2=p2[:size]
+            lambda p1, p2: kind(p1, p2, CATALOG[name]), within=1e-13, p1=p1[:size], p2=p2[:size]
         )
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
-def test_no_game_of_the_catalogue_is_worked_out_member_by_member(
+@pytest.mark.parametrize("name", CATALOG)
+def test_no_game_of_the_catalog_is_worked_out_member_by_member(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(families, "stochastic_limit", lambda _: pytest.fail("one by one"))
     p1, p2 = np.random.default_rng(4).uniform(0.2, 0.8, (2, 8))
-    limits_over(lambda p1, p2: kind(p1, p2, CATALOGUE[name]), p1=p1, p2=p2)
+    limits_over(lambda p1, p2: kind(p1, p2, CATALOG[name]), p1=p1, p2=p2)
 
 
 @pytest.mark.usefixtures("short")

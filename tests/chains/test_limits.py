@@ -15,7 +15,7 @@ from evenbreak.chains import (
     chain_from_arrays,
     chain_of,
     expected_visits,
-    factorisation,
+    factorization,
     limit_matrix,
     limit_of,
     propagate,
@@ -119,12 +119,12 @@ def test_classes_out_of_reach_are_not_solved(monkeypatch):
     matrix[[0, 70], 77] = 0.5
     chain = Chain(range(78), csc_array(matrix))
 
-    class Fail(factorisation.CertifiedSolve):
+    class Fail(factorization.CertifiedSolve):
         def __init__(self, *_args, **_kinds):
             raise AssertionError("a class out of reach was factored")
 
     monkeypatch.setattr("evenbreak.chains.transient._FEW_ARCS", 0)
-    monkeypatch.setattr(factorisation, "CertifiedSolve", Fail)
+    monkeypatch.setattr(factorization, "CertifiedSolve", Fail)
     assert stochastic_limit(chain, 71).probability[70:77] == pytest.approx(np.full(7, 1 / 7))
     with pytest.raises(AssertionError, match="out of reach"):
         stochastic_limit(chain, 77)
@@ -144,8 +144,8 @@ def test_a_large_class_carries_a_proved_bound(monkeypatch, much):
     chain = torus(16, np.random.default_rng(2))
     exact = stochastic_limit(chain)
     assert exact.bound is None
-    monkeypatch.setattr(factorisation, "_FEW", 0)
-    monkeypatch.setattr(factorisation, "_MUCH_WORK", much)
+    monkeypatch.setattr(factorization, "_FEW", 0)
+    monkeypatch.setattr(factorization, "_MUCH_WORK", much)
     proved = stochastic_limit(Chain(chain.states, chain.matrix, 0))
     assert 0.0 < proved.bound < 5e-16
     assert proved.probability == pytest.approx(exact.probability, rel=2e-14)
@@ -159,7 +159,7 @@ def test_arcs_down_to_the_smallest_floats_are_answered_right_or_refused(monkeypa
     """Where products of arcs underflow, no answer may be wrong without a word."""
     if not plain:
         monkeypatch.setattr("evenbreak.chains.transient._FEW_ARCS", 0)
-        monkeypatch.setattr(factorisation, "SMALL", 1 + seed % 3)
+        monkeypatch.setattr(factorization, "SMALL", 1 + seed % 3)
     draw = random.Random(seed)
     n = draw.randint(3, 10)
     matrix = np.zeros((n, n))

@@ -13,14 +13,14 @@ from evenbreak.chains import (
     TransientPart,
     dense_elimination,
     dissection,
-    factorisation,
+    factorization,
     stochastic_limit,
     transient,
 )
 from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
 from evenbreak.chains.dissection import FrontElimination
 from evenbreak.chains.elimination import DecimalElimination, PlainElimination, decimal_law
-from evenbreak.chains.factorisation import TriangularSolve
+from evenbreak.chains.factorization import TriangularSolve
 from evenbreak.errors import AccuracyError
 
 
@@ -55,7 +55,7 @@ each_method = pytest.mark.usefixtures("method")
 def use(monkeypatch, plain=0, **plan):
     monkeypatch.setattr(transient, "_FEW_ARCS", plain)
     for name, value in plan.items():
-        monkeypatch.setattr(factorisation, name, value)
+        monkeypatch.setattr(factorization, name, value)
     # Fronts and blocks so small that a dozen states fill several.
     monkeypatch.setattr(dissection, "_LEAF", 3)
     monkeypatch.setattr(dense_elimination, "_ONE_BY_ONE", 2)
@@ -228,7 +228,7 @@ def test_twenty_thousand_classes_in_a_row_cost_no_loop_over_classes():
 def test_long_narrow_classes_do_not_add_up_rounding_errors(monkeypatch, narrow):
     """Up by one or two with 0.2, down with 0.2001: equal arcs at each of 3,000 states."""
     if not narrow:
-        monkeypatch.setattr(factorisation, "_NARROW", 0)
+        monkeypatch.setattr(factorization, "_NARROW", 0)
     n = 3_000
     i = np.arange(n)
     rows = np.concatenate([i[s:] for s in (1, 2)] + [i[:-s] for s in (1, 2)])

@@ -27,7 +27,7 @@ def test_a_race_has_too_few_eigenvectors_but_all_of_eigenvalue_1() -> None:
 
 @pytest.mark.parametrize("e", [1e-9, 1e-12, 1e-17])
 def test_eigenvectors_beside_a_close_eigenvalue(e) -> None:
-    """They are right, or refused where a factorisation in floats does not see the difference."""
+    """They are right, or refused where a factorization in floats does not see the difference."""
     arcs = [(b + j, b + i, (1 - e) / 3) for b in (0, 3) for j in range(3) for i in range(3)]
     chain = chain_of(arcs + [(j, (j + 3) % 6, e) for j in range(6)], start=0)
     if e > 1e-16:

@@ -1,4 +1,4 @@
-"""Laws of every game in the catalogue: a new game is tested by being listed there."""
+"""Laws of every game in the catalog: a new game is tested by being listed there."""
 
 import pickle
 from dataclasses import FrozenInstanceError, fields, is_dataclass, replace
@@ -9,9 +9,9 @@ import pytest
 
 from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.game import Game, arcs_of, graph_of
-from evenbreak.games import CATALOGUE
+from evenbreak.games import CATALOG
 
-pytestmark = pytest.mark.parametrize("game", CATALOGUE.values(), ids=CATALOGUE.keys())
+pytestmark = pytest.mark.parametrize("game", CATALOG.values(), ids=CATALOG.keys())
 
 
 class Walked:

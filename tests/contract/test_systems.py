@@ -1,4 +1,4 @@
-"""What every handicap system of the catalogue has to hold to."""
+"""What every handicap system of the catalog has to hold to."""
 
 import pickle
 from fractions import Fraction
@@ -13,7 +13,7 @@ from evenbreak.handicaps.charts.chart import CHARTS
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponents import NATURAL
 from evenbreak.handicaps.systems.by_match import PlayedMatch, StepSystem
-from evenbreak.handicaps.systems.catalogue import FAMILIES, SYSTEMS, system_of
+from evenbreak.handicaps.systems.catalog import FAMILIES, SYSTEMS, system_of
 from evenbreak.handicaps.systems.laws import broken_laws
 from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.handicaps.systems.npl import step_after

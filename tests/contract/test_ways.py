@@ -9,7 +9,7 @@ from evenbreak.chains import limit_of, stochastic_limit
 from evenbreak.chains.explore import chain_of
 from evenbreak.chains.ways import WAYS
 from evenbreak.errors import AccuracyError, ChainError, InputError
-from evenbreak.games import BREAK_FORMATS, CATALOGUE, Ahead, Drill, OneBall, Race, Rack
+from evenbreak.games import BREAK_FORMATS, CATALOG, Ahead, Drill, OneBall, Race, Rack
 from evenbreak.games.match import Match
 from evenbreak.handicaps import EQUAL_SKILL, Ladder, RatingLadder, chart, fair_races
 from evenbreak.matches import game_odds, match_length, match_odds, win_probability
@@ -29,9 +29,9 @@ ROADS = ("elimination", "eigen")
 
 EXACT = 1e-12
 NPL = ("npl_8", "npl_10", "npl_12", "npl_20")
-MATCHES = {name: game for name, game in CATALOGUE.items() if isinstance(game, Match)}
+MATCHES = {name: game for name, game in CATALOG.items() if isinstance(game, Match)}
 LADDERS = {name: Ladder(chart(name)) for name in NPL}
-GAMES = CATALOGUE | LADDERS
+GAMES = CATALOG | LADDERS
 CHANCES = st.floats(0.01, 0.99) | st.sampled_from([0.0, 0.5, 1.0])
 
 
@@ -42,7 +42,7 @@ def has_kernel(game):
 
 @each_of("via", WAYS)
 @each_of("game", GAMES.values())
-def test_a_game_of_the_catalogue_has_one_limit(game, via) -> None:
+def test_a_game_of_the_catalog_has_one_limit(game, via) -> None:
     expected = stochastic_limit(chain_of(game))
     if via == "kernel" and not has_kernel(game):
         with pytest.raises(ChainError, match="use elimination"):
@@ -57,7 +57,7 @@ def test_a_game_of_the_catalogue_has_one_limit(game, via) -> None:
 
 @each_of("via", ROADS)
 @each_of("match", MATCHES.values())
-def test_a_match_of_the_catalogue(match, via) -> None:
+def test_a_match_of_the_catalog(match, via) -> None:
     for player in (1, 2):
         found = win_probability(match, player=player, via=via)
         assert found == pytest.approx(win_probability(match, player=player), rel=0, abs=EXACT)
@@ -179,7 +179,7 @@ def test_eigenvectors_answer_where_eigenvalues_are_next_to_1(slow) -> None:
 
 
 def test_eigenvectors_that_cannot_be_trusted_to_12_digits_name_the_way_that_can() -> None:
-    slow = 1e-17  # a factorisation in floats cannot tell this from 0
+    slow = 1e-17  # a factorization in floats cannot tell this from 0
     assert one_ball_win(slow, slow, via="elimination") == pytest.approx(0.5 / (1 - slow / 2))
     with pytest.raises(AccuracyError, match="use elimination"):
         one_ball_win(slow, slow, via="eigen")

@@ -20,11 +20,11 @@ from evenbreak.files import (
 from evenbreak.files.arcs import ArcsFile
 from evenbreak.files.chain_files import OTHER_FORMS
 from evenbreak.game import Game
-from evenbreak.games import CATALOGUE
+from evenbreak.games import CATALOG
 from evenbreak.handicaps import Ladder, chart
 from tries import tries
 
-GAMES = {**CATALOGUE, "npl_10": Ladder(chart("npl_10")), "npl_20": Ladder(chart("npl_20"))}
+GAMES = {**CATALOG, "npl_10": Ladder(chart("npl_10")), "npl_20": Ladder(chart("npl_20"))}
 
 
 def chain_in(file: ArcsFile, start: str | None) -> Chain:
@@ -92,7 +92,7 @@ BY_ROWS = [[0.75, 0.25], [1.0, 0.0]]
 BOTH = [[0.25, 0.5, 0.25], [0.25, 0.25, 0.5], [0.5, 0.25, 0.25]]
 
 
-def test_a_row_stochastic_matrix_is_recognised(tmp_path) -> None:
+def test_a_row_stochastic_matrix_is_recognized(tmp_path) -> None:
     path = matrix_file(tmp_path, BY_ROWS)
     assert "row-stochastic" in problem(path)
     read = chain_in(read_chain(path, rows="from"), None)
@@ -169,7 +169,7 @@ def mutants(content: bytes, seed: int, count: int) -> Iterator[bytes]:
 
 @pytest.mark.parametrize("form", ["graphml", "json", "mtx"])
 def test_damaged_graphs_and_matrices_are_read_or_refused_on_a_line(tmp_path, form) -> None:
-    road = road_of(CATALOGUE["one-ball"])
+    road = road_of(CATALOG["one-ball"])
     content = {
         "graphml": graphml_bytes(road.graph),
         "json": node_link_bytes(road.graph),

@@ -50,7 +50,7 @@ def test_what_winners_and_losers_move() -> None:
     assert lookup_of(match_table(system_of("step 2 1")), 10).steps == (2, -1)
 
 
-def test_moves_that_depend_on_the_score_are_recognised() -> None:
+def test_moves_that_depend_on_the_score_are_recognized() -> None:
     margin = lookup_of(match_table(system_of("margin")), 10)
     assert margin.steps is None
     assert margin.by_winner is None

@@ -22,7 +22,7 @@ def test_the_error_of_equal_players_is_the_one_of_the_information_in_their_games
     # n games against equals tell log-odds to 2 / sqrt(n), and the prior weighs 4 / ln(2)^2 more.
     found = reestimate(np.zeros(40), HOT, weeks=30, leagues=6, seed=2)
     games = found.row.games * np.arange(1, 31) + 4 / math.log(2) ** 2
-    # Shrinking towards the prior leaves of the error the share that is not the prior's.
+    # Shrinking toward the prior leaves of the error the share that is not the prior's.
     share = 1 - 4 / math.log(2) ** 2 / games
     points = 100 / math.log(2) * np.sqrt(4 / games * share)
     expected = points[15:].mean()
@@ -39,7 +39,7 @@ def test_a_short_memory_makes_ratings_worse():
         for half_life in (None, 4)
     )
     assert short.row.sd > long.row.sd + 4 * math.hypot(long.sd_error, short.sd_error)
-    assert short.row.favourite > long.row.favourite
+    assert short.row.favorite > long.row.favorite
     assert short.row.system == "refit, half-life 4"
 
 

@@ -10,7 +10,7 @@ from scipy.special import expit, logit
 from evenbreak.errors import InputError
 from evenbreak.games import Ahead, Race, Rack, alternate_breaks
 from evenbreak.matches import final_scores, hill_hill_probability, match_length, match_odds
-from evenbreak.matches.form import centre_of_form, on_days
+from evenbreak.matches.form import center_of_form, on_days
 
 
 def expected(value, sd):
@@ -39,12 +39,12 @@ def test_without_form_everything_stays_as_it_is(match):
 @pytest.mark.parametrize(("p", "form"), [(0.6, 0.35), (0.93, 1.2), (0.5, 3.0)])
 def test_scores_are_those_of_the_integral_over_form(p, form):
     race = Race(5, 3, Rack(p))
-    centre = float(centre_of_form(logit(p), 0.0, form))
-    assert expected(lambda e: expit(centre + e), form) == pytest.approx(p, abs=1e-10)
+    center = float(center_of_form(logit(p), 0.0, form))
+    assert expected(lambda e: expit(center + e), form) == pytest.approx(p, abs=1e-10)
     scores = final_scores(race, form=form).probability
     for score in ((5, 0), (5, 2), (1, 3)):
         exact = expected(
-            lambda e: final_scores(Race(5, 3, Rack(float(expit(centre + e))))).probability[score],  # noqa: B023
+            lambda e: final_scores(Race(5, 3, Rack(float(expit(center + e))))).probability[score],  # noqa: B023
             form,
         )
         assert scores[score] == pytest.approx(exact, abs=1e-9)
@@ -98,13 +98,13 @@ def test_arrays_and_sure_games():
     assert length.mean[1] == pytest.approx(match_length(Race(2, 2, Rack(0.6)), form=0.5).mean)
 
 
-def test_the_centre_of_chances_of_all_sizes():
+def test_the_center_of_chances_of_all_sizes():
     mean = np.array([-900.0, -40.0, -3.0, 0.0, 3.0, 40.0])
-    centre = centre_of_form(mean, 0.0, 1.0)
-    assert centre[[0, 3]].tolist() == [-900.0, 0.0]
-    assert centre[1] == pytest.approx(-40.5)  # E exp(e) = exp(1/2)
-    assert centre[2] == -centre[4]
-    assert centre[4] > 3.0
+    center = center_of_form(mean, 0.0, 1.0)
+    assert center[[0, 3]].tolist() == [-900.0, 0.0]
+    assert center[1] == pytest.approx(-40.5)  # E exp(e) = exp(1/2)
+    assert center[2] == -center[4]
+    assert center[4] > 3.0
 
 
 def test_what_is_refused():

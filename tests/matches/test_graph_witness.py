@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from evenbreak.chains import chain_of, limit_matrix, steps_to_absorption, stochastic_limit
-from evenbreak.games import BREAK_FORMATS, CATALOGUE, Ahead, Race, Rack, alternate_breaks
+from evenbreak.games import BREAK_FORMATS, CATALOG, Ahead, Race, Rack, alternate_breaks
 from evenbreak.games.match import Match
 from evenbreak.matches import (
     final_scores,
@@ -157,13 +157,13 @@ def test_ahead_in_a_break_format(breaks: Any) -> None:
 
 MATCHES = {
     name: game
-    for name, game in CATALOGUE.items()
+    for name, game in CATALOG.items()
     if isinstance(game, Match) and isinstance(game.innermost_rack, Rack)
 }
 
 
 @pytest.mark.parametrize("match", MATCHES.values(), ids=list(MATCHES))
-def test_every_catalogued_match(match: Match) -> None:
+def test_every_cataloged_match(match: Match) -> None:
     chain = chain_of(match)
     limit = stochastic_limit(chain).to_dict()
     passage = steps_to_absorption(chain)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from evenbreak.errors import AccuracyError, GameError, InputError
 from evenbreak.games import (
     BREAK_FORMATS,
-    CATALOGUE,
+    CATALOG,
     Ahead,
     Match,
     OneBall,
@@ -264,7 +264,7 @@ def test_a_graph_with_winners_is_a_game():
 
 RACKS = {
     name: game
-    for name, game in CATALOGUE.items()
+    for name, game in CATALOG.items()
     if isinstance(game, Match) and isinstance(game.rack, Rack)
 }
 

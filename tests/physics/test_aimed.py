@@ -40,10 +40,10 @@ def test_the_object_ball_goes_to_its_target(tip, angle, gap, mu):
     found = aimed(tip, angle, gap=gap, mu=mu)
     x, y = found.target - found.shot.object_position
     assert found.shot.object_direction == pytest.approx(math.atan2(y, x), abs=1e-9)
-    # The line of centres points as far beside as the ball is thrown.
+    # The line of centers points as far beside as the ball is thrown.
     sign = math.copysign(1.0, found.shot.cut) * math.copysign(1.0, found.unaided.cut)
     assert found.turn == pytest.approx(sign * found.shot.throw, abs=1e-9)
-    assert found.unaided.line_of_centres == pytest.approx(
+    assert found.unaided.line_of_centers == pytest.approx(
         np.array([x, y]) / found.distance, abs=1e-9
     )
 

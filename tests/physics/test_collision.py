@@ -32,7 +32,7 @@ def before(hit: Collision) -> tuple[Any, Any]:
 
 
 def axes(hit: Collision) -> tuple[Any, Any]:
-    """The line of centres, which leads to the side of the cut, and what is at its left."""
+    """The line of centers, which leads to the side of the cut, and what is at its left."""
     sin, cos = math.sin(hit.cut), math.cos(hit.cut)
     return np.array([cos, -sin, 0.0]), np.array([sin, cos, 0.0])
 
@@ -143,7 +143,7 @@ def test_the_cosine_rule_of_the_departure() -> None:
 
 
 @given(shots)
-def test_throw_is_the_angle_from_the_line_of_centres(hit: Collision) -> None:
+def test_throw_is_the_angle_from_the_line_of_centers(hit: Collision) -> None:
     x, y = axes(hit)
     ahead, aside = float(hit.object_velocity @ x), float(hit.object_velocity @ y)
     if ahead > 1e-6 * hit.speed:

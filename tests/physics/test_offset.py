@@ -53,7 +53,7 @@ def test_spins_are_the_torque_of_the_impulse(y: float, z: float) -> None:
 def test_signs() -> None:
     assert strike_side(-0.3) > 0.0  # a tip to the right: counterclockwise from above
     assert roll_side(-0.3, 1.0) > 0.0
-    assert spin_of_offset(0.2) > 0.0 > spin_of_offset(-0.2)  # above the centre: topspin
+    assert spin_of_offset(0.2) > 0.0 > spin_of_offset(-0.2)  # above the center: topspin
     assert spin_of_offset(NATURAL_ROLL_OFFSET) == 1.0
     assert small_circle_point(1.0).y < 0.0
     assert stun_offset(2.0, 0.1, CLOTH) < 0.0
@@ -116,7 +116,7 @@ def test_backspin_is_gone_where_it_should_be(speed: float, part: float) -> None:
 
 
 @given(across, ratios)
-def test_an_elastic_hit_off_centre_keeps_energy_and_momentum(offset: float, ratio: float) -> None:
+def test_an_elastic_hit_off_center_keeps_energy_and_momentum(offset: float, ratio: float) -> None:
     ball = ball_speed_ratio(offset, ratio)
     stick = 1.0 - ratio * ball
     spinning = 0.4 * (spin_of_offset(offset) * ball) ** 2

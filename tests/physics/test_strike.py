@@ -10,7 +10,7 @@ from evenbreak.errors import InputError
 from evenbreak.physics import (
     best_stick_ratio,
     break_energy_share,
-    centre_hit,
+    center_hit,
     energy_share,
     stroke_energy,
     stroke_speed,
@@ -33,7 +33,7 @@ def test_the_hit_keeps_momentum_and_energy(offsets, speed, ounces):
     after = 0.5 * cue.mass * hit.stick_speed_after**2 + hit.energy.total
     assert after == pytest.approx(0.5 * cue.mass * speed**2)
     # The spin is what the blow b p gives the ball: I omega = b p.
-    blow = hit.off_centre * hit.ball.radius * hit.ball.mass * hit.speed
+    blow = hit.off_center * hit.ball.radius * hit.ball.mass * hit.speed
     assert hit.ball.inertia * np.linalg.norm(hit.spin) == pytest.approx(blow)
 
 
@@ -44,7 +44,7 @@ def test_signs_of_the_spin():
     assert strike(1.0, -0.2, -0.1).spin[1:].tolist() == (-follow_right.spin[1:]).tolist()
 
 
-def test_in_the_centre_it_is_the_centre_hit_of_p3_2():
+def test_in_the_center_it_is_the_center_hit_of_p3_2():
     hit = strike(2.0)
     assert (hit.speed, hit.stick_speed_after) == (pytest.approx(3.0), pytest.approx(1.0))
 
@@ -89,7 +89,7 @@ def test_other_balls_and_cues():
     assert (light.speed, light.stick_speed_after) == (pytest.approx(1.0), pytest.approx(0.0))
 
 
-# A hit in the centre keeps momentum and energy, and the break cue is the best there is.
+# A hit in the center keeps momentum and energy, and the break cue is the best there is.
 
 
 ratios = st.floats(0.01, 100.0)
@@ -97,15 +97,15 @@ ratios = st.floats(0.01, 100.0)
 
 @given(ratios)
 def test_momentum_and_energy_are_kept(ratio: float) -> None:
-    ball, stick = centre_hit(ratio)
+    ball, stick = center_hit(ratio)
     assert ratio * stick + ball == pytest.approx(ratio)
     assert ratio * stick**2 + ball**2 == pytest.approx(ratio)
     assert energy_share(ratio) == pytest.approx(ball**2 / ratio)
 
 
 def test_an_equal_stick_stops() -> None:
-    assert centre_hit(1.0) == (1.0, 0.0)
-    assert centre_hit(0.5).stick < 0.0
+    assert center_hit(1.0) == (1.0, 0.0)
+    assert center_hit(0.5).stick < 0.0
 
 
 @given(ratios, ratios)
@@ -138,9 +138,9 @@ def test_the_work_of_a_stroke(force: float, length: float, mass: float) -> None:
 
 
 def test_arrays_and_refusals() -> None:
-    assert centre_hit(np.ones(3)).ball.shape == energy_share(np.ones(3)).shape == (3,)
+    assert center_hit(np.ones(3)).ball.shape == energy_share(np.ones(3)).shape == (3,)
     assert best_stick_ratio(np.array([6.0, 25.0])).shape == (2,)
-    for refused in (lambda: stroke_speed(1.0, 1.0, 0.0), lambda: centre_hit(-1.0)):
+    for refused in (lambda: stroke_speed(1.0, 1.0, 0.0), lambda: center_hit(-1.0)):
         with pytest.raises(InputError, match=r"is -?[01]"):
             refused()
     assert math.isfinite(break_energy_share(1e-50, 1e50))

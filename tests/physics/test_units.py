@@ -3,7 +3,7 @@ import math
 import pytest
 
 from evenbreak.physics.units import (
-    CENTIMETRE,
+    CENTIMETER,
     DEGREE,
     FOOT,
     GRAM,
@@ -14,7 +14,7 @@ from evenbreak.physics.units import (
 
 
 def test_lengths():
-    assert pytest.approx(2.54) == INCH / CENTIMETRE
+    assert pytest.approx(2.54) == INCH / CENTIMETER
     assert pytest.approx(12.0) == FOOT / INCH
     assert pytest.approx(2.7432) == 9.0 * FOOT
 

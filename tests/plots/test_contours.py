@@ -1,4 +1,4 @@
-"""Contour lines lie where the function has their level, and read without colour."""
+"""Contour lines lie where the function has their level, and read without color."""
 
 from typing import Any
 
@@ -63,7 +63,7 @@ def test_negative_lines_alone_are_dashed() -> None:
     assert {tuple(color) for color in lines.get_edgecolors()} == {(0, 0, 0, 1)}
 
 
-def test_every_line_is_labelled_with_its_level_off_the_edge() -> None:
+def test_every_line_is_labeled_with_its_level_off_the_edge() -> None:
     _, lines = drawn(lambda p1, p2: p1 - p2, levels=[-0.25, 0, 0.25])
     assert [text.get_text() for text in lines.labelTexts] == ["−0.25", "0", "0.25"]
     for text in lines.labelTexts:

@@ -14,7 +14,7 @@ from matplotlib.text import Annotation
 from evenbreak import InputError
 from evenbreak.game import Game, graph_of
 from evenbreak.games import (
-    CATALOGUE,
+    CATALOG,
     Ahead,
     Drill,
     OneBall,
@@ -27,7 +27,7 @@ from evenbreak.games import (
 from evenbreak.plots.diagram import draw
 from evenbreak.plots.picture import image_bytes
 
-READABLE = {name: game for name, game in CATALOGUE.items() if len(graph_of(game)) <= 60}
+READABLE = {name: game for name, game in CATALOG.items() if len(graph_of(game)) <= 60}
 
 
 def texts(axes: Axes) -> list[str]:
@@ -98,11 +98,11 @@ def test_an_arc_bends_around_a_node_in_its_way() -> None:
     assert abs(rads[1]) > 0.2  # the arcs of a come first: a -> b, a -> c
 
 
-def test_ends_differ_without_colour() -> None:
+def test_ends_differ_without_color() -> None:
     fills = [circle.get_facecolor() for circle in circles(draw(OneBall(0.5, 0.5)))]
-    greys = {red for red, green, blue, _ in fills if red == green == blue}
+    grays = {red for red, green, blue, _ in fills if red == green == blue}
     assert len(fills) == 6
-    assert len(greys) == 3
+    assert len(grays) == 3
 
 
 @pytest.mark.slow_after(2)
@@ -208,7 +208,7 @@ def test_a_game_says_how_its_states_are_written() -> None:
     assert set(texts(draw(WithLabels()))) >= {"abc", "ab", "ac", "bc", "a", "b", "c"}
 
 
-def test_every_winner_has_a_colour_and_a_third_one_a_legend() -> None:
+def test_every_winner_has_a_color_and_a_third_one_a_legend() -> None:
     axes = draw(Cutthroat())
     fills = {circle.get_facecolor() for circle in circles(axes)}
     assert len(fills) == 4  # white, and one for each player

@@ -62,7 +62,7 @@ def test_dots_show_who_won_a_rack(odds):
     assert dots["B won the rack"] == [2, 3]
 
 
-def test_the_largest_swing_is_labelled(odds):
+def test_the_largest_swing_is_labeled(odds):
     above, _ = course_figure(odds).axes
     (text,) = above.texts
     greatest = max(odds.swings, key=abs)

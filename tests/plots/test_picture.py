@@ -138,10 +138,10 @@ def test_the_plots_are_found():
     assert isinstance(new_axes("p", "W"), Axes)
 
 
-# Plots look alike, and no line needs colour to be told from the others.
+# Plots look alike, and no line needs color to be told from the others.
 
 
-def test_no_two_lines_share_a_colour_or_a_dash() -> None:
+def test_no_two_lines_share_a_color_or_a_dash() -> None:
     assert len({line.color for line in LINES}) == len(LINES)
     assert len({line.linestyle for line in LINES}) == len(LINES)
 
@@ -150,7 +150,7 @@ def test_there_are_lines_for_the_nine_levels_of_a_drill() -> None:
     assert len(LINES) >= 9
 
 
-def test_no_line_is_too_pale_to_be_read_in_grey() -> None:
+def test_no_line_is_too_pale_to_be_read_in_gray() -> None:
     for line in LINES:
         red, green, blue = (int(line.color[i : i + 2], 16) / 255 for i in (1, 3, 5))
         assert 0.299 * red + 0.587 * green + 0.114 * blue < 0.7, line

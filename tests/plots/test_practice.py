@@ -152,7 +152,7 @@ def test_a_bar_for_each_level():
     assert axes.get_legend().get_texts()[0].get_text() == "mean 4.35"
 
 
-def test_a_pair_of_bars_for_each_level_told_apart_without_colour():
+def test_a_pair_of_bars_for_each_level_told_apart_without_color():
     log = DrillLog([1, 2, 3, 2, 1, 1], [1, 1, 0, 0, 0, 1])
     analysis = analyse_log(log, rng=np.random.default_rng(1), replicas=9)
     axes = draw_log(analysis)

@@ -6,7 +6,7 @@ import pytest
 from matplotlib.patches import Circle, FancyArrowPatch
 
 from evenbreak.game import Game, graph_of
-from evenbreak.games import CATALOGUE, Ahead, Drill, OneBall, Race, Rack
+from evenbreak.games import CATALOG, Ahead, Drill, OneBall, Race, Rack
 from evenbreak.plots.picture import new_axes
 from evenbreak.plots.strokes import Pen, is_terminal, is_words, longest_line, positions_of
 from rows import each_of
@@ -70,7 +70,7 @@ def test_a_label_moves_away_from_what_it_would_cover():
 # Every node has a place of its own, and the three arrangements are chosen as documented.
 
 
-READABLE = {name: game for name, game in CATALOGUE.items() if len(graph_of(game)) <= 150}
+READABLE = {name: game for name, game in CATALOG.items() if len(graph_of(game)) <= 150}
 
 
 @each_of("game", READABLE.values())

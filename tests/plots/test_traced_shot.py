@@ -40,10 +40,10 @@ def test_balls_and_table_are_to_scale():
         assert axes.get_aspect() == 1.0
     balls = [one for one in near.patches if getattr(one, "radius", None) is not None]
     assert {round(ball.radius, 9) for ball in balls} == {1.125}
-    centres = [ball.center for ball in balls]
+    centers = [ball.center for ball in balls]
     ghost, standing = FOUND.ghost_position / INCH, FOUND.object_position / INCH
     for wanted in (ghost, standing):
-        assert min(math.dist(wanted, centre) for centre in centres) < 1e-9
+        assert min(math.dist(wanted, center) for center in centers) < 1e-9
     assert math.dist(ghost, standing) == pytest.approx(2.25)
     assert whole.get_xlim()[1] - whole.get_xlim()[0] > 100.0
 
@@ -104,7 +104,7 @@ def test_the_key_has_only_what_is_drawn_ghost_balls_as_they_are_drawn():
         *("cue ball, slides", "cue ball, rolls", "object ball, slides", "object ball, rolls")
     ]
     soft = shot(strike_for_speed(0.1, 0.4), 0.3, 0.5)  # rolls from the tip on, and stops
-    assert key_of(soft) == ["cue ball, rolls", "line of centres", "tangent line", "ghost ball"]
+    assert key_of(soft) == ["cue ball, rolls", "line of centers", "tangent line", "ghost ball"]
     figure = shot_on_table(AIMED)
     ghosts = [one for one in figure.axes[-1].get_legend().legend_handles if hasattr(one, "radius")]
     # Black and green circles; the standing balls are filled.

@@ -131,14 +131,14 @@ def test_a_level_that_always_succeeds_lifts_nothing() -> None:
     assert statistics.lift[1] == pytest.approx(8 / 3 - statistics.distribution.mean)
 
 
-def test_practise_next_is_the_level_that_lifts_most() -> None:
+def test_practice_next_is_the_level_that_lifts_most() -> None:
     chances = [0.9, 0.8, 0.4, 0.1]
     means = [
         mean_level([p + 0.05 * (i == j) for j, p in enumerate(chances)])
         for i in range(len(chances))
     ]
-    assert drill_statistics(Drill(chances)).practise_next == np.argmax(means) + 1
-    assert drill_statistics(Drill([1.0, 1.0])).practise_next is None
+    assert drill_statistics(Drill(chances)).practice_next == np.argmax(means) + 1
+    assert drill_statistics(Drill([1.0, 1.0])).practice_next is None
 
 
 inner_drills = st.lists(st.floats(0.01, 0.99), min_size=1, max_size=9)

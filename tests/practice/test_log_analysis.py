@@ -36,13 +36,13 @@ def played(
     return DrillLog(level, won, session)
 
 
-def analysed(log: DrillLog, *, seed: int = 1, replicas: int = 499) -> LogAnalysis:
+def analyzed(log: DrillLog, *, seed: int = 1, replicas: int = 499) -> LogAnalysis:
     return analyse_log(log, rng=np.random.default_rng(seed), replicas=replicas)
 
 
 @pytest.fixture(scope="module")
 def plain() -> LogAnalysis:
-    return analysed(played(MODEL, 8, 60, seed=2))
+    return analyzed(played(MODEL, 8, 60, seed=2))
 
 
 def test_each_level_has_its_fraction_and_interval(plain: LogAnalysis) -> None:
@@ -80,29 +80,29 @@ def test_the_lift_is_near_that_of_the_chances_seen(plain: LogAnalysis) -> None:
 def test_where_practice_helps_most() -> None:
     """With many attempts at hand the level of the greatest lift is found for sure."""
     success = np.array([0.95, 0.9, 0.3, 0.05])
-    analysis = analysed(played(success, 20, 200, seed=3))
+    analysis = analyzed(played(success, 20, 200, seed=3))
     lifts = np.array(drill_statistics(Drill(success)).lift)
-    assert analysis.practise_next is not None
-    assert analysis.practise_next.level == lifts.argmax() + 1
-    assert analysis.practise_next.p_best > 0.99
+    assert analysis.practice_next is not None
+    assert analysis.practice_next.level == lifts.argmax() + 1
+    assert analysis.practice_next.p_best > 0.99
 
 
 def test_few_attempts_leave_it_open() -> None:
-    best = analysed(played(MODEL, 2, 12, seed=4)).practise_next
+    best = analyzed(played(MODEL, 2, 12, seed=4)).practice_next
     assert best is not None
     assert best.p_best < 0.9
 
 
-def test_nobody_is_sent_to_practise_a_level_without_room() -> None:
-    analysis = analysed(DrillLog([1, 2] * 500 + [1], [1, 0] * 500 + [1]))
+def test_nobody_is_sent_to_practice_a_level_without_room() -> None:
+    analysis = analyzed(DrillLog([1, 2] * 500 + [1], [1, 0] * 500 + [1]))
     assert analysis.levels[0].lift < 0.01
-    assert analysis.practise_next is not None
-    assert analysis.practise_next.level == 2
+    assert analysis.practice_next is not None
+    assert analysis.practice_next.level == 2
 
 
 def test_sessions_that_begin_low_make_a_difference_but_no_surprise() -> None:
     log = played(np.full(9, 0.75), 60, 6, seed=5)
-    analysis = analysed(log)
+    analysis = analyzed(log)
     assert analysis.difference.seen > 0.3
     assert analysis.difference.p_value > 0.05
     for report in analysis.levels:
@@ -121,7 +121,7 @@ def test_stopping_when_it_goes_well_is_found() -> None:
             won.append(outcome)
             session.append(number)
             at = min(at + 1, 9) if outcome else max(at - 1, 1)
-    assert analysed(DrillLog(level, won, session)).difference.p_value < 0.05
+    assert analyzed(DrillLog(level, won, session)).difference.p_value < 0.05
 
 
 def test_tests_let_an_honest_log_pass() -> None:
@@ -130,7 +130,7 @@ def test_tests_let_an_honest_log_pass() -> None:
         [
             [test.p_value for test in (analysis.difference, analysis.memory, analysis.model_test)]
             for seed in range(40)
-            if (analysis := analysed(played(MODEL, 5, 40, seed=seed), replicas=99))
+            if (analysis := analyzed(played(MODEL, 5, 40, seed=seed), replicas=99))
         ]
     )
     assert ((p_values < 0.1).sum(0) < 12).all()
@@ -139,7 +139,7 @@ def test_tests_let_an_honest_log_pass() -> None:
 
 @pytest.mark.parametrize("memory", [0.15, -0.15])
 def test_a_memory_is_found(memory: float) -> None:
-    analysis = analysed(played(MODEL, 8, 60, seed=6, memory=memory))
+    analysis = analyzed(played(MODEL, 8, 60, seed=6, memory=memory))
     assert analysis.memory is not None
     assert analysis.memory.p_value < 0.02
     assert np.sign(analysis.memory.seen) == np.sign(memory)
@@ -151,7 +151,7 @@ def test_good_days_and_bad_ones_are_no_memory() -> None:
     rng = np.random.default_rng(15)
     days = [played(rng.uniform(0.7, 0.95) ** np.arange(9), 1, 40, seed=k) for k in range(12)]
     level, success = (np.concatenate([getattr(day, name) for day in days]) for name in _COLUMNS)
-    analysis = analysed(DrillLog(level, success, np.repeat(range(12), 40)))
+    analysis = analyzed(DrillLog(level, success, np.repeat(range(12), 40)))
     assert analysis.memory is not None
     assert analysis.memory.p_value > 0.05 or analysis.memory.seen < analysis.memory.by_chance
 
@@ -161,14 +161,14 @@ def test_a_wrong_model_is_found_and_a_right_one_kept(plain: LogAnalysis) -> None
     assert plain.model_test is not None
     assert plain.model_test.p_value > 0.05
     afraid = MODEL * np.where(np.arange(9) == 4, 0.4, 1)
-    test = analysed(played(afraid, 8, 60, seed=7)).model_test
+    test = analyzed(played(afraid, 8, 60, seed=7)).model_test
     assert test is not None
     assert test.p_value < 0.02
 
 
 def test_the_level_that_is_out_of_line() -> None:
     afraid = MODEL * np.where(np.arange(9) == 4, 0.4, 1)
-    analysis = analysed(played(afraid, 8, 60, seed=7), replicas=9)
+    analysis = analyzed(played(afraid, 8, 60, seed=7), replicas=9)
     assert analysis.model is not None
     for report in analysis.levels:
         assert report.p_model == pytest.approx(analysis.model.p ** (report.level - 1))
@@ -179,9 +179,9 @@ def test_the_level_that_is_out_of_line() -> None:
 
 
 def test_level_1_alone() -> None:
-    analysis = analysed(DrillLog([1, 1, 1], [0, 0, 0]))
+    analysis = analyzed(DrillLog([1, 1, 1], [0, 0, 0]))
     assert (analysis.model, analysis.model_test, analysis.memory) == (None, None, None)
-    assert analysis.practise_next is None
+    assert analysis.practice_next is None
     assert analysis.levels[0].p_best == 0.0
     assert (analysis.furthest_off_model, analysis.levels[0].p_model) == (None, None)
     assert analysis.implied.probability == (1.0,)
@@ -189,25 +189,25 @@ def test_level_1_alone() -> None:
 
 
 def test_levels_nobody_tried() -> None:
-    analysis = analysed(DrillLog([1, 2, 1, 2, 1], [1, 0, 1, 0, 1], levels=4))
+    analysis = analyzed(DrillLog([1, 2, 1, 2, 1], [1, 0, 1, 0, 1], levels=4))
     untried = analysis.levels[2:]
     assert [report.p for report in untried] == [None, None]
     assert [(report.p_low, report.p_high) for report in untried] == [(0.0, 1.0)] * 2
     assert [report.p_best for report in untried] == [0.0, 0.0]
 
 
-def test_nobody_is_sent_to_practise_a_level_never_missed() -> None:
-    faultless = analysed(DrillLog([1, 2, 2, 2], [1, 1, 1, 1]))
+def test_nobody_is_sent_to_practice_a_level_never_missed() -> None:
+    faultless = analyzed(DrillLog([1, 2, 2, 2], [1, 1, 1, 1]))
     assert faultless.levels[1].lift_high > 0.0
     assert [report.p_best for report in faultless.levels] == [0.0, 0.0]
-    assert faultless.practise_next is None
-    best = analysed(DrillLog([2, 1, 2, 3, 3], [0, 1, 1, 1, 1])).practise_next
+    assert faultless.practice_next is None
+    best = analyzed(DrillLog([2, 1, 2, 3, 3], [0, 1, 1, 1, 1])).practice_next
     assert best is not None
     assert (best.level, best.p_best) == (2, 1.0)
 
 
 def test_one_attempt() -> None:
-    analysis = analysed(DrillLog([4], [1]))
+    analysis = analyzed(DrillLog([4], [1]))
     assert analysis.visited.probability == (1,)
     assert [report.attempts for report in analysis.levels] == [0, 0, 0, 1]
     assert analysis.implied.probability == (0, 0, 0, 1)
@@ -217,8 +217,8 @@ def test_one_attempt() -> None:
 def test_who_begins_high_and_never_falls_low_is_not_held_up_at_level_1() -> None:
     """Three easier levels that nobody needed change nothing of what is said."""
     log = played(np.array([1.0, 0.8, 0.6, 0.4]), 10, 30, seed=13)
-    low = analysed(log)
-    high = analysed(DrillLog(log.level + 3, log.success, log.session))
+    low = analyzed(log)
+    high = analyzed(DrillLog(log.level + 3, log.success, log.session))
     assert log.successes[0] == log.attempts[0]
     assert [report.attempts for report in high.levels[:3]] == [0, 0, 0]
     assert [report.lift for report in high.levels[:3]] == [0.0, 0.0, 0.0]
@@ -230,7 +230,7 @@ def test_who_begins_high_and_never_falls_low_is_not_held_up_at_level_1() -> None
 
 def test_levels_above_all_tried_count_as_out_of_reach() -> None:
     log = DrillLog([1, 2, 3, 2] * 20, [1, 1, 0, 0] * 20, np.repeat(range(20), 4), levels=9)
-    analysis = analysed(log)
+    analysis = analyzed(log)
     assert [report.implied for report in analysis.levels[3:]] == [0.0] * 6
     # Of level 3 none of 20 succeeded, so level 4 may be reached now and then, but is not passed.
     assert analysis.implied.mean < analysis.mean_high < 3
@@ -238,24 +238,24 @@ def test_levels_above_all_tried_count_as_out_of_reach() -> None:
 
 def test_the_interval_of_the_mean_is_that_of_jeffreys() -> None:
     """Level 1 is never missed and level 2 missed thrice: the mean is 1 + 1/(2 - p)."""
-    analysis = analysed(DrillLog([2, 2, 2], [0, 0, 0], session=range(3)), replicas=20_000)
+    analysis = analyzed(DrillLog([2, 2, 2], [0, 0, 0], session=range(3)), replicas=20_000)
     low, high = beta.ppf([0.025, 0.975], 0.5, 3.5)
     assert analysis.mean_low == pytest.approx(1 + 1 / (2 - low), abs=1e-3)
     assert analysis.mean_high == pytest.approx(1 + 1 / (2 - high), abs=1e-2)
 
 
 def test_no_advice_rests_on_a_level_nobody_tried() -> None:
-    analysis = analysed(DrillLog([1, 2], [1, 1], levels=3))
+    analysis = analyzed(DrillLog([1, 2], [1, 1], levels=3))
     assert analysis.levels[2].lift > 0
     assert analysis.levels[2].p_best == 0.0
 
 
 def test_the_same_seed_gives_the_same_answer() -> None:
     log = played(MODEL, 3, 30, seed=8)
-    assert analysed(log, seed=9, replicas=50) == analysed(log, seed=9, replicas=50)
-    assert analysed(log, seed=9, replicas=50) != analysed(log, seed=10, replicas=50)
+    assert analyzed(log, seed=9, replicas=50) == analyzed(log, seed=9, replicas=50)
+    assert analyzed(log, seed=9, replicas=50) != analyzed(log, seed=10, replicas=50)
 
 
 def test_replicas_are_one_or_more() -> None:
     with pytest.raises(InputError, match="replicas is 0"):
-        analysed(DrillLog([1], [1]), replicas=0)
+        analyzed(DrillLog([1], [1]), replicas=0)

@@ -126,7 +126,7 @@ def test_at_the_critical_p2_the_game_is_even(p1, look_ahead):
 
 
 @given(st.floats(0.5, 1.0, exclude_min=True), CHANCES, BOTH)
-def test_above_one_half_player_1_is_the_favourite_whatever_he_leaves(p1, p2, look_ahead):
+def test_above_one_half_player_1_is_the_favorite_whatever_he_leaves(p1, p2, look_ahead):
     assert critical_p2(p1) > 1.0
     assert one_ball_win(p1, p2, look_ahead=look_ahead) > 0.5
 

@@ -20,7 +20,7 @@ def whole(curvature):
     return matrix
 
 
-@pytest.fixture(params=["factorised", "iterated"])
+@pytest.fixture(params=["factorized", "iterated"])
 def bordered(request, monkeypatch):
     if request.param == "iterated":
         monkeypatch.setattr(covariance, "_DENSE_UP_TO", 0)
@@ -49,7 +49,7 @@ def test_without_an_advantage_there_is_no_variance_of_it():
     assert Curvature(4, LOW, HIGH, WEIGHT, 0.7).border_variance is None
 
 
-@pytest.mark.parametrize("route", ["factorised", "iterated"])
+@pytest.mark.parametrize("route", ["factorized", "iterated"])
 def test_what_levels_add_to_the_covariance(monkeypatch, route):
     if route == "iterated":
         monkeypatch.setattr(covariance, "_DENSE_UP_TO", 0)

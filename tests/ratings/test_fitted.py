@@ -178,7 +178,7 @@ def test_several_named_players_have_their_ratings_on_average():
     np.testing.assert_allclose(whole[at].sum(axis=0), 0, atol=1e-8)
 
 
-def test_a_component_without_a_named_player_stays_at_the_centre():
+def test_a_component_without_a_named_player_stays_at_the_center():
     results = Results.from_names(["A", "C"], ["B", "D"], [7, 7], [2, 3])
     plain, named = fit(results), fit(results, anchor={"A": 200})
     assert named.rating[0] == pytest.approx(200)

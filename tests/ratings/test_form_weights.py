@@ -9,7 +9,7 @@ from scipy.special import expit, log_expit, logit
 from scipy.stats import binom
 
 from evenbreak.matches import race_win_probability
-from evenbreak.matches.form import centre_of_form, normal_rule
+from evenbreak.matches.form import center_of_form, normal_rule
 from evenbreak.ratings import Beginning, Levels, Results, fit, walk_forward
 from evenbreak.ratings.form_weights import form_weights, games_weight
 from ratings.validation.test_within_matches import league
@@ -18,7 +18,7 @@ NODES, WEIGHTS = normal_rule(1.0, 20, 60)
 
 
 def on_days(difference, form):
-    return expit(centre_of_form(difference, 0.0, form) + form * NODES)
+    return expit(center_of_form(difference, 0.0, form) + form * NODES)
 
 
 def law_of_games(difference, games, form):

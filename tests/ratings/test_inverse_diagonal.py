@@ -124,17 +124,17 @@ def test_a_matrix_that_is_not_definite_is_refused(size):
 # In which blocks a matrix is eliminated.
 
 
-def league(players, neighbours):
-    """Return the matrix of players who meet so many neighbours on a line."""
-    bands = [-np.ones(players - k) for k in range(1, neighbours + 1)]
-    upper = sparse.diags_array(bands, offsets=list(range(1, neighbours + 1)), shape=(players,) * 2)
+def league(players, neighbors):
+    """Return the matrix of players who meet so many neighbors on a line."""
+    bands = [-np.ones(players - k) for k in range(1, neighbors + 1)]
+    upper = sparse.diags_array(bands, offsets=list(range(1, neighbors + 1)), shape=(players,) * 2)
     whole = upper + upper.T
     return sparse.csc_array(whole + sparse.diags_array(1.0 - whole.sum(axis=0)))
 
 
-@pytest.mark.parametrize("neighbours", [1, 3])
-def test_fronts_eliminate_every_player_once_children_first(neighbours):
-    fronts = fronts_of(league(800, neighbours))
+@pytest.mark.parametrize("neighbors", [1, 3])
+def test_fronts_eliminate_every_player_once_children_first(neighbors):
+    fronts = fronts_of(league(800, neighbors))
     assert len(fronts) > 1
     assert sorted(np.concatenate([front.pivots for front in fronts])) == list(range(800))
     for number, front in enumerate(fronts):

@@ -38,7 +38,7 @@ def test_the_width_is_near_the_one_that_skills_were_drawn_with(spread):
     choice = best_prior(season(spread, np.random.default_rng(1)))
     assert spread / 2 < choice.prior_sd < spread * 2
     assert choice.log_loss[choice.tried.index(choice.prior_sd)] == min(choice.log_loss)
-    assert choice.learnt
+    assert choice.learned
     assert choice.low <= choice.prior_sd <= choice.high < 4 * choice.low
 
 
@@ -46,7 +46,7 @@ def test_the_width_is_near_the_one_that_skills_were_drawn_with(spread):
 def test_a_few_matches_do_not_choose_a_prior(matches):
     results = season(0.2, np.random.default_rng(5), players=4, days=matches, a_day=1)
     choice = best_prior(results)
-    assert not choice.learnt
+    assert not choice.learned
     assert choice.prior_sd == PRIOR_SD
 
 
@@ -84,7 +84,7 @@ def test_who_wins_races_is_predicted_too():
     assert choice.predicted == 5
     # Who always wins is best rated far ahead, but five matches are no reason to.
     assert choice.tried[int(np.argmin(choice.log_loss))] > PRIOR_SD
-    assert (choice.prior_sd, choice.learnt) == (PRIOR_SD, False)
+    assert (choice.prior_sd, choice.learned) == (PRIOR_SD, False)
     assert list(choice.tried) == sorted(WIDTHS)
 
 

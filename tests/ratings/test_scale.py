@@ -114,8 +114,8 @@ def test_a_scale_needs_points(points):
         Scale("test", points)
 
 
-def test_a_scale_needs_a_finite_centre():
-    with pytest.raises(InputError, match="centre"):
+def test_a_scale_needs_a_finite_center():
+    with pytest.raises(InputError, match="center"):
         Scale("test", 30.0, math.inf)
 
 

@@ -46,8 +46,8 @@ def test_what_a_template_shows_must_be_given_and_is_escaped():
 def test_a_screen_in_the_dark_has_dark_paper_and_print_has_none():
     style = html_page(**NOTHING).decode()
     assert "@media screen and (prefers-color-scheme: dark)" in style
-    colours = re.findall(r"#[0-9a-f]{3,6}\b", style.partition("* {")[2].partition("</style>")[0])
-    assert not colours, "a colour that does not change in the dark"
+    colors = re.findall(r"#[0-9a-f]{3,6}\b", style.partition("* {")[2].partition("</style>")[0])
+    assert not colors, "a color that does not change in the dark"
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,7 @@ def page_with(text):
     page = Paper()
     page.text(1.0, 1.0, text, size=12)
     page.line([1.0, 2.0], [1.0, 1.0])
-    page.band(1.0, 1.0, 1.0, 1.0, grey="0.9")
+    page.band(1.0, 1.0, 1.0, 1.0, gray="0.9")
     return page.figure
 
 

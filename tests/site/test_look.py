@@ -62,7 +62,7 @@ def test_the_page_about_the_look_says_the_contrasts_that_are_measured() -> None:
         assert [f"{one:.1f}" for one in worst] == [light, dark], name
 
 
-# Viénot, Brettel & Mollon (1999), "Digital video colourmaps for checking the legibility of
+# Viénot, Brettel & Mollon (1999), "Digital video colormaps for checking the legibility of
 # displays by dichromats", Color Res. Appl. 24: linear RGB as protanopes and deuteranopes see it.
 BLIND = {
     "protanopia": [[0.1124, 0.8876, 0.0], [0.1124, 0.8876, 0.0], [0.0040, -0.0040, 1.0]],

@@ -24,7 +24,7 @@ def by_fargo(ratings) -> np.ndarray:
     return scale_of("fargo").win_probability(rated[:, None] - rated)
 
 
-def one_favourite(count: int, p: float, at: int = 0) -> np.ndarray:
+def one_favorite(count: int, p: float, at: int = 0) -> np.ndarray:
     """Return a field of equals but for one who beats each of them with chance p."""
     win = np.full((count, count), 0.5)
     win[at, :], win[:, at] = p, 1.0 - p

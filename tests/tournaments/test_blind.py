@@ -14,7 +14,7 @@ from evenbreak.tournaments import (
     single_elimination,
     title_odds,
 )
-from tournaments.fields import by_seed, by_strength, one_favourite
+from tournaments.fields import by_seed, by_strength, one_favorite
 
 
 def mean_of_draws(bracket, win) -> np.ndarray:
@@ -47,14 +47,14 @@ def test_all_draws(bracket) -> None:
 
 def test_sixteen_players() -> None:
     bracket = single_elimination(16)
-    odds = blind_draw_odds(bracket, one_favourite(16, 2 / 3))
+    odds = blind_draw_odds(bracket, one_favorite(16, 2 / 3))
     assert odds.title[0] == pytest.approx(16 / 81, rel=1e-12)
     assert (np.abs(odds.title[1:] - 13 / 243) < 5 * odds.error[1:, 0]).all()
     assert odds.p_place.sum(axis=0) == pytest.approx([1, 1, 2, 4, 8])
 
 
 def test_a_double_elimination() -> None:
-    odds = blind_draw_odds(double_elimination(8), one_favourite(8, 2 / 3, 3))
+    odds = blind_draw_odds(double_elimination(8), one_favorite(8, 2 / 3, 3))
     assert odds.title[3] == pytest.approx(800 / 2187, rel=1e-12)
     assert odds.error[:, 0].max() < 0.01
 

@@ -121,10 +121,10 @@ def test_the_posterior_is_that_of_a_grid() -> None:
     p = np.asarray(FARGO.win_probability(skill - 500.0))
     density = np.exp(-0.5 * ((skill - 500.0) / 60.0) ** 2) * p**7 * (1.0 - p) ** 4
     density /= density.sum()
-    centre = float(density @ skill)
-    assert mean[0] == pytest.approx(centre, abs=1.0)
+    center = float(density @ skill)
+    assert mean[0] == pytest.approx(center, abs=1.0)
     assert spread[0, 0] ** 0.5 == pytest.approx(
-        float(density @ (skill - centre) ** 2) ** 0.5, rel=0.02
+        float(density @ (skill - center) ** 2) ** 0.5, rel=0.02
     )
 
 

@@ -16,7 +16,7 @@ from evenbreak.tournaments import (
 from evenbreak.tournaments.odds.cut import cut_before
 from evenbreak.tournaments.odds.planning import elimination_order, exact_plan, plan_of
 from evenbreak.tournaments.odds.sampled import slope_of
-from tournaments.fields import by_seed, one_favourite
+from tournaments.fields import by_seed, one_favorite
 
 
 @pytest.mark.slow_after(2)
@@ -78,8 +78,8 @@ def test_standard_errors_are_honest() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("drops", ["fewest rematches", "usual"])
-def test_a_favourite_in_a_drawn_bracket(drops) -> None:
-    odds = title_odds(double_elimination(32, drops=drops), one_favourite(32, 2 / 3), samples=2000)
+def test_a_favorite_in_a_drawn_bracket(drops) -> None:
+    odds = title_odds(double_elimination(32, drops=drops), one_favorite(32, 2 / 3), samples=2000)
     assert not odds.exact
     assert odds.title[0] == pytest.approx(30080 / 177147, abs=5 * odds.error[0, 0] + 1e-15)
     assert odds.error[0, 0] < 0.002

@@ -21,8 +21,8 @@ def test_newcomers_from_the_field_lie_where_they_are_thought_to():
     rng, off = np.random.default_rng(3), []
     for _ in range(1500):
         spread = 100.0 * np.sqrt(4.0 / rng.chisquare(4))
-        centre = rng.normal(500.0, spread / np.sqrt(2.0))
-        true = rng.normal(centre, spread, 9)
+        center = rng.normal(500.0, spread / np.sqrt(2.0))
+        true = rng.normal(center, spread, 9)
         unrated = np.arange(9) == 4
         mean, covariance = skills_before(
             np.where(unrated, 500.0, true), np.where(unrated, 100.0, 0.0), unrated

@@ -26,7 +26,7 @@ from evenbreak.tournaments import (
 from rows import each_of
 from tiers import examples
 from tournaments import enumerated
-from tournaments.fields import by_fargo, by_seed, by_strength, one_favourite
+from tournaments.fields import by_fargo, by_seed, by_strength, one_favorite
 
 
 def place(odds, first: int) -> np.ndarray:
@@ -111,7 +111,7 @@ def test_better_player_wins_two_in_three() -> None:
     assert np.mean(ladder) == pytest.approx(23 / 54, rel=1e-14)
 
 
-# A favourite among equals, whatever the draw and the drops.
+# A favorite among equals, whatever the draw and the drops.
 
 
 def closed_form(k: int, p: Fr, *, true_final: bool) -> Fr:
@@ -141,21 +141,21 @@ def test_the_closed_form_gives_the_table() -> None:
 @each_of("n", [2, 4, 8, 16])
 @each_of("drops", ["fewest rematches", "usual", "straight"])
 @each_of("final", ["true", "single"])
-def test_a_favourite_among_equals(n: int, drops, final) -> None:
+def test_a_favorite_among_equals(n: int, drops, final) -> None:
     k = n.bit_length() - 1
     bracket = double_elimination(n, drops=drops, final=final)
     for p in (Fr(2, 3), Fr(1, 2)):
         want = float(closed_form(k, p, true_final=final == "true"))
         for at in (0, n // 2, n - 1):
-            odds = title_odds(bracket, one_favourite(n, float(p), at))
+            odds = title_odds(bracket, one_favorite(n, float(p), at))
             assert odds.title[at] == pytest.approx(want, rel=1e-12)
-    single = title_odds(single_elimination(n), one_favourite(n, 2 / 3)).title[0]
+    single = title_odds(single_elimination(n), one_favorite(n, 2 / 3)).title[0]
     assert single == pytest.approx((2 / 3) ** k, rel=1e-13)
 
 
 @pytest.mark.parametrize("n", [32, 64])
-def test_a_favourite_in_large_brackets(n: int) -> None:
-    odds = title_odds(double_elimination(n, drops="straight"), one_favourite(n, 2 / 3))
+def test_a_favorite_in_large_brackets(n: int) -> None:
+    odds = title_odds(double_elimination(n, drops="straight"), one_favorite(n, 2 / 3))
     want = closed_form(n.bit_length() - 1, Fr(2, 3), true_final=True)
     assert odds.exact
     assert odds.title[0] == pytest.approx(float(want), rel=1e-11)
@@ -172,7 +172,7 @@ def test_a_favourite_in_large_brackets(n: int) -> None:
     ],
 )
 def test_second_final(n: int, p: float, want: Fr) -> None:
-    odds = title_odds(double_elimination(n), one_favourite(n, p))
+    odds = title_odds(double_elimination(n), one_favorite(n, p))
     assert odds.p_second_final == pytest.approx(float(want), rel=1e-12)
 
 

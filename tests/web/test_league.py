@@ -160,7 +160,7 @@ def test_the_leagues_ratings_serve_tonight(tmp_path: Path) -> None:
         found = read_tournament(site.path)
         assert found.scale.text == "fargo"
         assert found.entrants[one].rating == site.league.known(one)[1]
-        assert found.entrants["New Ned"].rating == SCALES["fargo"].centre
+        assert found.entrants["New Ned"].rating == SCALES["fargo"].center
 
 
 def test_a_match_known_by_its_winner_and_a_handicapped_one_are_shown_as_they_ended(

@@ -11,13 +11,13 @@ HEAD = 'msgid ""\nmsgstr ""\n"Content-Type: text/plain; charset=utf-8\\n"\n'
 
 @pytest.fixture
 def locale(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a folder of one's own for catalogues, which the page reads."""
+    """Return a folder of one's own for catalogs, which the page reads."""
     folder = tmp_path / "locale"
     monkeypatch.setenv("EVENBREAK_LOCALE", str(folder))
     return folder
 
 
-def catalogue(folder: Path, language: str, sentences: dict[str, str]) -> None:
+def catalog(folder: Path, language: str, sentences: dict[str, str]) -> None:
     place = folder / language / "LC_MESSAGES" / "evenbreak.po"
     place.parent.mkdir(parents=True)
     entries = (f'msgid "{english}"\nmsgstr "{said}"\n' for english, said in sentences.items())
@@ -40,7 +40,7 @@ def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: 
         "Fair race": "Match équitable",
     }
     won = {"{winner} beat {loser} {won}-{lost}": "{winner} bat {loser} {won}-{lost}"}
-    catalogue(locale, "fr", said | won)
+    catalog(locale, "fr", said | won)
     with running(tmp_path / "tonight.db") as site:
         begin(site)
         director = Phone(site, director=True, language="fr")
@@ -55,7 +55,7 @@ def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: 
 
 
 def test_english_can_be_said_in_other_words(tmp_path: Path, locale: Path) -> None:
-    catalogue(locale, "en", {"{winner} beat {loser} {won}-{lost}": "{loser} lost to {winner}"})
+    catalog(locale, "en", {"{winner} beat {loser} {won}-{lost}": "{loser} lost to {winner}"})
     with running(tmp_path / "tonight.db") as site:
         director = begin(site)
         words = director.send("/desk/result", match="F", a=3, b=1).words

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 import pytest
 from babel.messages.catalog import Message
 
-from catalogued import collected
-from evenbreak.files.catalogues import FILE, OWN, face_in, languages, problems_of, read_catalogue
+from cataloged import collected
+from evenbreak.files.catalogs import FILE, OWN, face_in, languages, problems_of, read_catalog
 from places import SRC, trees_of
 
 CODES = [code for code in languages() if (OWN / code / FILE).is_file()]
@@ -18,28 +18,28 @@ def texts(message: Message) -> Iterator[str]:
 
 
 @pytest.mark.parametrize("code", CODES)
-def test_every_sentence_is_in_the_catalogue(code: str) -> None:
-    catalogue = read_catalogue(OWN / code / FILE)
+def test_every_sentence_is_in_the_catalog(code: str) -> None:
+    catalog = read_catalog(OWN / code / FILE)
     missing = [
         message.id
         for message in collected()
         if message.id
         and not (
-            (there := catalogue.get(message.id, message.context))
+            (there := catalog.get(message.id, message.context))
             and there.id == message.id
             and all(texts(there))
             and not there.fuzzy
         )
     ]
-    assert missing == [], "run `make catalogues` and translate these"
+    assert missing == [], "run `make catalogs` and translate these"
 
 
 @pytest.mark.parametrize("code", CODES)
-def test_every_sentence_of_the_catalogue_is_used(code: str) -> None:
+def test_every_sentence_of_the_catalog_is_used(code: str) -> None:
     used = collected()
     assert [
         message.id
-        for message in read_catalogue(OWN / code / FILE)
+        for message in read_catalog(OWN / code / FILE)
         if message.id and not used.get(message.id, message.context)
     ] == []
 
@@ -47,7 +47,7 @@ def test_every_sentence_of_the_catalogue_is_used(code: str) -> None:
 @pytest.mark.parametrize("code", CODES)
 def test_translations_have_the_values_of_the_english(code: str) -> None:
     assert face_in(code).language == code
-    for message in read_catalogue(OWN / code / FILE):
+    for message in read_catalog(OWN / code / FILE):
         assert list(problems_of(message)) == []
 
 
@@ -58,7 +58,7 @@ ROOMS = ("answers", "tournaments", "teams", "files", "web", "questions")
 
 @pytest.mark.parametrize("room", ROOMS)
 def test_templates_are_literals_that_can_be_collected(room: str) -> None:
-    """A template that is a variable or an f-string would never reach a catalogue."""
+    """A template that is a variable or an f-string would never reach a catalog."""
     paths = sorted((SRC / room).rglob("*.py"))
     wrong = [
         f"{path.relative_to(SRC)}:{node.lineno}"

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import DataError, InputError
 from evenbreak.fields.question import AskedError, Question
-from evenbreak.files.catalogues import face_in
+from evenbreak.files.catalogs import face_in
 from evenbreak.files.tables.problems import Problems, of_list, refusal, warning
 from evenbreak.words import PYTHON, Command, FilePath, Sentence, joined, listed, say, say_count
 

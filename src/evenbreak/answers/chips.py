@@ -75,7 +75,7 @@ def spread_field(scale: Scale, tables: int) -> ChipField:
     array([700., 300.])
     """
     reach = 2.0 * scale.points_per_doubling
-    ratings = np.linspace(scale.centre + reach, scale.centre - reach, _FIELD).round()
+    ratings = np.linspace(scale.center + reach, scale.center - reach, _FIELD).round()
     names = [f"{points:g}" for points in ratings.tolist()]
     source = f"rated from {ratings[-1]:g} to {ratings[0]:g}"
     return ChipField(names, ratings, scale, tables, source)
@@ -109,7 +109,7 @@ def chip_odds_answer(
     >>> ratings = np.array([650.0, 350.0])
     >>> field = ChipField(["Ann", "Bo"], ratings, SCALES["fargo"], 1, "in club.csv")
     >>> print(chip_odds_answer(field, left={"Ann": 4, "Bo": 8}).sentences[0])
-    Ann is the favourite and wins 97% of the time.
+    Ann is the favorite and wins 97% of the time.
     """
     rng = np.random.default_rng(seed)
     if left is None:
@@ -146,7 +146,7 @@ def chip_odds_answer(
     if error is not None:
         values |= place_errors(places, error[:, : len(places)])
     best = order[0]
-    words = f"{names[best]} is the favourite and wins {percent(p_place[best, 0])} of the time."
+    words = f"{names[best]} is the favorite and wins {percent(p_place[best, 0])} of the time."
     if left is None:
         words += f" An equal share would be {percent(1.0 / len(names))}."
     table = table_by_column("players", values, order=order)
@@ -206,10 +206,10 @@ def _bands(field: ChipField) -> list[float]:
     """Return the multiples of half a doubling, seen from the middle, among the ratings."""
     step = field.scale.points_per_doubling / 2.0
     low, high = (
-        int(np.floor((end - field.scale.centre) / step) + 1)
+        int(np.floor((end - field.scale.center) / step) + 1)
         for end in (field.ratings.min(), field.ratings.max())
     )
-    return [field.scale.centre + k * step for k in range(low, high)]
+    return [field.scale.center + k * step for k in range(low, high)]
 
 
 def _chart_of(ratings: Floats, found: ChipFairness, starts: Sequence[float]) -> ChipChart:
@@ -259,7 +259,7 @@ def _row_table(chart: ChipChart, found: ChipFairness) -> Table:
 
 def _heads_up_table(chart: ChipChart, scale: Scale) -> Table:
     steps = (1.5, 0.5, -0.5, -1.5)
-    ratings = [scale.centre + step * scale.points_per_doubling for step in steps]
+    ratings = [scale.center + step * scale.points_per_doubling for step in steps]
     rows = []
     for stronger, weaker in combinations(ratings, 2):
         a, b = chart.chips([stronger, weaker]).tolist()

@@ -10,12 +10,12 @@ nothing is subtracted. The graph gives the order, and the kernel suits the numbe
 | a few arcs, in any numbers | `elimination` | floats, decimals, fractions, formulas, scores |
 | what remains dense in fractions | `exact`, modulo a prime | `limits`, `lumping` |
 | one dense array | `dense_elimination` | `stationary`, and fronts |
-| a stack of small graphs | `factorisation` | small classes, and families of games (`families`) |
+| a stack of small graphs | `factorization` | small classes, and families of games (`families`) |
 | a class, in fronts | `dissection` | some hundreds of states |
 | a line | `birth_death` | closed forms and solves in linear time |
 | a class too large for that | `certified` | any approximation, proved afterwards |
 
-`factorisation` chooses for each class and `transient` watches for underflow. On their two solves,
+`factorization` chooses for each class and `transient` watches for underflow. On their two solves,
 visits and values, stand `limits`, `absorption`, `passage_times`, `rewards` and `sensitivity`. The
 other road, by eigenvectors (`eigenpairs`, `spectrum`), comes to the same limits and checks them.
 """

@@ -21,7 +21,7 @@ from evenbreak.chains.arcs import reachable, sums
 from evenbreak.chains.chain import Chain, check_chain, labels
 from evenbreak.chains.elimination import decimal_masses
 from evenbreak.chains.exact import exact_absorption
-from evenbreak.chains.factorisation import Factorisation
+from evenbreak.chains.factorization import Factorization
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -126,7 +126,7 @@ def ends_of(chain: Chain, v: Floats) -> Floats:
     """Return the probability of each end of a chain without cycles, by one substitution."""
     end = chain.structure.recurrent
     outflow = np.where(end, 1.0, chain.arcs.outflow)
-    flow = Factorisation(chain.arcs, end.astype(float), outflow, chain.structure)
+    flow = Factorization(chain.arcs, end.astype(float), outflow, chain.structure)
     # Visits to other states may overflow or underflow; the flow into the ends does not.
     with np.errstate(all="ignore"):
         return np.where(end, flow.visits(v[:, None])[:, 0], 0.0)

@@ -1,4 +1,4 @@
-"""Chains whose states stand in a line: each moves to its neighbours only (birth and death).
+"""Chains whose states stand in a line: each moves to its neighbors only (birth and death).
 
 A closed stretch of the line has the stationary law
 
@@ -20,14 +20,14 @@ repeat the rounding error of one quotient n times if all are equal; a running pr
 given numbers rounds differently at each step, so its error grows like the square root of n.
 
 `LineElimination` solves for such a class by eliminating every second state. No two states at odd
-places are neighbours, so all of them are eliminated at once, in one vector operation: with d[i]
+places are neighbors, so all of them are eliminated at once, in one vector operation: with d[i]
 the sum of the arcs out of state i and its leak, the arc from i - 1 to i + 1 becomes up[i - 1]
 up[i] / d[i], and likewise down the line. Half the states are left, again in a line; after log2(n)
 rounds one is: the elimination of Grassmann, Taksar and Heyman (1985) in the order of cyclic
 reduction (Hockney 1965). It works in the platform's extended precision. Where all arcs are equal,
 each round repeats the rounding errors of the round before, which in doubles would show at n =
 10,000; and arcs between states far apart are smaller than any double. Where a long double is no
-wider than a double (Windows, some ARM), lines are solved in another way (see `factorisation`).
+wider than a double (Windows, some ARM), lines are solved in another way (see `factorization`).
 
 References: Feller, An Introduction to Probability Theory I, chapter XIV; Karlin and McGregor 1957.
 """

@@ -5,7 +5,7 @@ entry. Hence, if some w >= 0 has A w >= 1, every x is within
 
     |x - A^-1 b| <= w max |b - A x|,
 
-entry by entry. So it does not matter how x was found: here by a sparse LU factorisation or, where
+entry by entry. So it does not matter how x was found: here by a sparse LU factorization or, where
 no few states cut the class in two and the factors would not fit, by Krylov iterations, on the
 aggregates of `aggregation` where plain ones are slow. Either is repeated on what is still missed.
 The residual is calculated in twice the precision of doubles, its own rounding errors are bounded,
@@ -78,7 +78,7 @@ class CertifiedSolve:
     leak
         shape (m,): the chance to leave the class, given the state; not all zero.
     factored
-        whether a sparse factorisation fits.
+        whether a sparse factorization fits.
 
     Attributes
     ----------

@@ -173,7 +173,7 @@ class Chain:
 
     @cached_property
     def birth_death(self) -> BirthDeath | None:
-        """The chain as a line of states, if each moves to its neighbours in the matrix only."""
+        """The chain as a line of states, if each moves to its neighbors in the matrix only."""
         return birth_death_of(self.matrix)
 
     @cached_property

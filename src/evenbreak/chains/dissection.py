@@ -5,7 +5,7 @@ and each side is cut again in the same way until it is small. States that are el
 make a front; eliminating them changes only arcs among themselves and a few later states.
 
 The cuts follow a breadth-first order of the states. If the states before place c form one
-side, then those from c on that have a neighbour before c separate it from the others; among the
+side, then those from c on that have a neighbor before c separate it from the others; among the
 places near the middle the one with the fewest such states is taken. On a square grid of n states
 the factors then have O(n log n) entries and take O(n^1.5) operations.
 
@@ -63,7 +63,7 @@ class Front(NamedTuple):
         return float(size * (size + len(self.later)) ** 2)
 
 
-def neighbours(T: csc_array) -> csc_array:
+def neighbors(T: csc_array) -> csc_array:
     """Return which states are joined by an arc either way, each with itself; entries are 1."""
     graph = csc_array(T + T.T + eye_array(T.shape[0], format="csc"))
     graph.data = np.ones(graph.nnz, dtype=np.int8)
@@ -71,9 +71,9 @@ def neighbours(T: csc_array) -> csc_array:
 
 
 def bandwidth(graph: csc_array) -> int:
-    """Return the largest distance between `neighbours` when the states are put in a good order.
+    """Return the largest distance between `neighbors` when the states are put in a good order.
 
-    >>> bandwidth(neighbours(csc_array([[0.0, 0.5, 0.5], [0.5, 0.0, 0.0], [0.5, 0.0, 0.0]])))
+    >>> bandwidth(neighbors(csc_array([[0.0, 0.5, 0.5], [0.5, 0.0, 0.0], [0.5, 0.0, 0.0]])))
     1
     """
     order = csgraph.reverse_cuthill_mckee(graph, symmetric_mode=True)
@@ -89,10 +89,10 @@ def dissect(graph: csc_array) -> tuple[Places, list[Front]]:
     Parameters
     ----------
     graph
-        the `neighbours` among the states.
+        the `neighbors` among the states.
 
     >>> path = csc_array([[0.0, 0.5, 0.0], [1.0, 0.0, 1.0], [0.0, 0.5, 0.0]])
-    >>> dissect(neighbours(path))[1]
+    >>> dissect(neighbors(path))[1]
     [Front(first=0, last=3, later=array([], dtype=int32))]
     """
     groups = [*_groups(graph)][::-1]
@@ -157,12 +157,12 @@ def _groups(graph: csc_array) -> Iterator[Places]:
 
 
 def _crossing(earliest: Places) -> Places:
-    """Return how many states from each place on have a neighbour before it.
+    """Return how many states from each place on have a neighbor before it.
 
     Parameters
     ----------
     earliest
-        the place of the first neighbour of the state in each place, or that of the state itself.
+        the place of the first neighbor of the state in each place, or that of the state itself.
     """
     size = len(earliest)
     return np.cumsum(np.bincount(earliest + 1, minlength=size + 1)[:size]) - np.arange(size)

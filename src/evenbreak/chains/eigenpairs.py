@@ -42,7 +42,7 @@ from scipy.sparse import csc_array, diags_array
 from evenbreak.arrays import Bools, Floats
 from evenbreak.chains.arcs import Places, reachable, sums
 from evenbreak.chains.certified import CertifiedSolve, spread
-from evenbreak.chains.dissection import dissect, neighbours
+from evenbreak.chains.dissection import dissect, neighbors
 from evenbreak.chains.powers import evened
 from evenbreak.errors import AccuracyError
 
@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 DENSE = 1000
 """Up to this many states LAPACK finds all eigenvalues at once."""
 SHIFT = 1.0 + 1e-10
-"""As close to eigenvalue 1 as a factorisation can be made."""
+"""As close to eigenvalue 1 as a factorization can be made."""
 TOLERANCE = 1e-8
 """Residuals and error estimates above this are refused."""
 
@@ -421,7 +421,7 @@ class UnitPairs:
         """
         arcs, leak = self._chain.arcs.among(states)
         T, m = arcs.matrix(), len(states)
-        work = sum(front.work for front in dissect(neighbours(T))[1]) if m > _FEW else 0.0
+        work = sum(front.work for front in dissect(neighbors(T))[1]) if m > _FEW else 0.0
         if work > _MUCH_WORK:
             raise AccuracyError(
                 f"{m:,} states that nothing cuts in two take some {work:.0e} multiplications to "

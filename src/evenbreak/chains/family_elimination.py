@@ -1,7 +1,7 @@
 """The limits of many chains with one graph: elimination of states over arrays of chances.
 
 The order of elimination depends on the graph alone. Each step is done for all chains at once,
-and free of subtraction, as for one chain (see `elimination` and `factorisation`).
+and free of subtraction, as for one chain (see `elimination` and `factorization`).
 
 References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993.
 """
@@ -16,7 +16,7 @@ import numpy as np
 from evenbreak.arrays import Bools
 from evenbreak.chains.dense_elimination import is_dense
 from evenbreak.chains.elimination import Rows, eliminated, limit_in
-from evenbreak.chains.factorisation import eliminate_together
+from evenbreak.chains.factorization import eliminate_together
 from evenbreak.chains.family_numbers import Disagreement, Numbers
 
 if TYPE_CHECKING:

@@ -201,7 +201,7 @@ def stochastic_limit(
     is a few times 1e-16. Where it would be above 1e-14, states are eliminated instead.
 
     Time and memory are about linear in the number of arcs, whatever the graph, except where a large
-    class is left so rarely that nothing can be proved; see `factorisation`. Reference: O'Cinneide
+    class is left so rarely that nothing can be proved; see `factorization`. Reference: O'Cinneide
     1993.
 
     >>> from evenbreak.chains import chain_of

@@ -63,7 +63,7 @@ def lumped(chain: Chain, by: Labels) -> Chain:
     0     0.0  0.5  1.0
     """
     check_chain(chain)
-    names, block = _labelled(chain, by)
+    names, block = _labeled(chain, by)
     into, count = chain.arcs.matrix().tocsr(), len(names)
     leaving = _leaving(block, np.bincount(block).tolist(), into, np.arange(len(chain)))
     if leaving:
@@ -107,7 +107,7 @@ def coarsest_lumping(chain: Chain, by: Labels) -> dict[Hashable, Hashable]:
     (8, 6)
     """
     check_chain(chain)
-    block = _labelled(chain, by)[1]
+    block = _labeled(chain, by)[1]
     into = chain.arcs.matrix().tocsr()
     sizes, changed = np.bincount(block).tolist(), np.arange(len(chain))
     while True:
@@ -126,7 +126,7 @@ def coarsest_lumping(chain: Chain, by: Labels) -> dict[Hashable, Hashable]:
     }
 
 
-def _labelled(chain: Chain, by: Any) -> tuple[list[Hashable], Places]:
+def _labeled(chain: Chain, by: Any) -> tuple[list[Hashable], Places]:
     """Return the labels, in the order of their first states, and the number of each state's."""
     by = by_label(by, "by")
     if isinstance(by, Mapping):

@@ -50,7 +50,7 @@ def read_matrix(source: Any, rows: Rows | None) -> tuple[list[Hashable], csc_arr
     """
     if rows is not None:
         one_of(rows, "rows", ("from", "to"))
-    states, matrix = _labelled(source) if _is_frame(source) else (None, csc_of(source))
+    states, matrix = _labeled(source) if _is_frame(source) else (None, csc_of(source))
     n, columns = matrix.shape
     if n != columns:
         raise ChainError(
@@ -101,7 +101,7 @@ def _is_frame(source: object) -> bool:
     return all(hasattr(source, name) for name in ("index", "columns", "to_numpy"))
 
 
-def _labelled(frame: Any) -> tuple[list[Hashable], csc_array]:
+def _labeled(frame: Any) -> tuple[list[Hashable], csc_array]:
     """Return the row labels of a frame, and its numbers with the columns in their order."""
     states, columns = list(frame.index), list(frame.columns)
     for labels in (states, columns):

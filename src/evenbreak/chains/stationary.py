@@ -59,7 +59,7 @@ from evenbreak.chains.certified import spread
 from evenbreak.chains.chain import Chain, check_chain, labels
 from evenbreak.chains.dense_elimination import MOST_ENTRIES, factored, is_dense, less, solved
 from evenbreak.chains.elimination import decimal_law
-from evenbreak.chains.factorisation import SMALL
+from evenbreak.chains.factorization import SMALL
 from evenbreak.chains.transient import TransientPart
 from evenbreak.errors import ChainError
 

@@ -7,7 +7,7 @@ With T the arcs among the transient states (T[i, j] = P(j -> i)):
 
 Both are free of subtraction for nonnegative b and r; callers split a right-hand side of
 both signs into its positive and its negative part. The states are taken class by class,
-upstream first, and each class by the method that suits it (see `factorisation`). An answer
+upstream first, and each class by the method that suits it (see `factorization`). An answer
 that overflow or underflow may have touched is computed again in decimal numbers.
 
 References: Kemeny and Snell 1960, Finite Markov Chains, chapter III, for the fundamental
@@ -23,7 +23,7 @@ import numpy as np
 from evenbreak.arrays import Bools, Floats
 from evenbreak.chains.arcs import Arcs, Places, reachable
 from evenbreak.chains.elimination import MOST_ARCS, DecimalElimination, PlainElimination
-from evenbreak.chains.factorisation import Factorisation
+from evenbreak.chains.factorization import Factorization
 from evenbreak.errors import AccuracyError
 
 _FEW_STATES, _FEW_ARCS = 100, 300
@@ -55,10 +55,10 @@ class TransientPart:
         return f"<TransientPart of {len(self.states)} states, {len(self._arcs.chances)} arcs>"
 
     @cached_property
-    def _factor(self) -> PlainElimination | Factorisation:
+    def _factor(self) -> PlainElimination | Factorization:
         if len(self.states) <= _FEW_STATES and len(self._arcs.chances) <= _FEW_ARCS:
             return PlainElimination(self._arcs, self._leak)
-        return Factorisation(self._arcs, self._leak, self._outflow)
+        return Factorization(self._arcs, self._leak, self._outflow)
 
     @cached_property
     def _steps(self) -> Floats:

@@ -4,7 +4,7 @@ Python raises KeyboardInterrupt wherever the program is. Some places swallow it,
 imports, where modules written in C forget the errors of what they try; the program would go on.
 So an interrupt waits while a module is imported, and whatever has swallowed one, the program ends
 before it prints or writes anything. And Python raises nothing before a call into C returns, such
-as the factorisation of a large matrix; there a thread that waits for interrupts ends the program.
+as the factorization of a large matrix; there a thread that waits for interrupts ends the program.
 
 This module is imported at the start of every run, so it imports next to nothing.
 """

@@ -18,7 +18,7 @@ from evenbreak.files.tables.table import TextTable
 from evenbreak.handicaps.charts.chart import Chart, ChartDraft, ChartRow, row_faults
 from evenbreak.handicaps.charts.chart_of import (
     EVERY_CHART,
-    catalogue_name,
+    catalog_name,
     chart_names,
     named_chart,
 )
@@ -302,7 +302,7 @@ def find_chart(name_or_path: str | Path) -> Chart | LevelChart | PointsChart:
 def find_chart_file(name_or_path: str | Path) -> ChartFile:
     """Return a chart of this name, ours or an installed package's, or the content of a file."""
     name = str(name_or_path)
-    if name == "-" or (catalogue_name(name) not in EVERY_CHART and _exists(name)):
+    if name == "-" or (catalog_name(name) not in EVERY_CHART and _exists(name)):
         return read_chart_file(name_or_path)
     if (found := named_chart(name)) is None:
         raise refusal(

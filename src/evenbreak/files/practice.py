@@ -20,7 +20,7 @@ from evenbreak.ratings.results_frame import letters
 from evenbreak.stats.confidence import LARGEST
 from evenbreak.words import Parameter, joined, say, say_count
 
-_DAY = "day, practised on, played on"
+_DAY = "day, practiced on, played on"
 _DRILL = Text("exercise, drill name", "the drill; if there are several, `--drill` names one")
 
 WORDS = {

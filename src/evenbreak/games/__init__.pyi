@@ -6,8 +6,8 @@ from .breaks import loser_breaks as loser_breaks
 from .breaks import player_1_breaks as player_1_breaks
 from .breaks import player_2_breaks as player_2_breaks
 from .breaks import winner_breaks as winner_breaks
-from .catalogue import CATALOGUE as CATALOGUE
-from .catalogue import game_of_catalogue as game_of_catalogue
+from .catalog import CATALOG as CATALOG
+from .catalog import game_of_catalog as game_of_catalog
 from .drill import Drill as Drill
 from .laws import broken_laws as broken_laws
 from .match import Match as Match

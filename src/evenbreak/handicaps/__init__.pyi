@@ -78,9 +78,9 @@ from .systems.averages import WinPercent as WinPercent
 from .systems.averages import pasco_race as pasco_race
 from .systems.by_match import PlayedMatch as PlayedMatch
 from .systems.by_match import StepSystem as StepSystem
-from .systems.catalogue import SYSTEMS as SYSTEMS
-from .systems.catalogue import steps_of as steps_of
-from .systems.catalogue import system_of as system_of
+from .systems.catalog import SYSTEMS as SYSTEMS
+from .systems.catalog import steps_of as steps_of
+from .systems.catalog import system_of as system_of
 from .systems.elo import elo_system as elo_system
 from .systems.fargo_like import FargoLike as FargoLike
 from .systems.laws import broken_laws as broken_laws

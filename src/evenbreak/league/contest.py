@@ -72,7 +72,7 @@ class Doublings:
             self.levels, self.points = np.asarray(chart.levels, dtype=float), points - points.mean()
         scale = system.scale or world.scale
         same = scale.same_points(world.scale) or scale.name not in SCALES
-        self.zero = world.origin if same else float(scale.centre)
+        self.zero = world.origin if same else float(scale.center)
         self.doubling = scale.points_per_doubling
 
     @property

@@ -21,7 +21,7 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.ladders.comparison import SystemRow, near
-from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE
+from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVORITE
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
@@ -42,7 +42,7 @@ class Reestimated:
     Parameters
     ----------
     row
-        the row that `compare_systems` would have for it. The error, the favourite's chance and
+        the row that `compare_systems` would have for it. The error, the favorite's chance and
         the length of a match are from the second half of the weeks before newcomers come;
         settling is the newcomers'. The sum of all ratings is fixed, so there is no inflation.
     sd_error
@@ -176,8 +176,8 @@ def _summed_up(plan: _Plan, courses: list[_Course]) -> Reestimated:
         sd_doublings=float(sds.mean()) / plan.scale.points_per_doubling,
         settling_mean=float(means.mean()),
         settling_p90=int(Distribution.of(matches.tolist()).quantile(0.9)),
-        favourite=float(favoured.mean()),
-        clear_favourite=float((favoured >= CLEAR_FAVOURITE).mean()),
+        favorite=float(favoured.mean()),
+        clear_favorite=float((favoured >= CLEAR_FAVORITE).mean()),
         games=float(np.concatenate([course.games for course in courses]).mean()),
         inflation=0.0,
     )
@@ -194,8 +194,8 @@ def _summed_up(plan: _Plan, courses: list[_Course]) -> Reestimated:
 def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
     """Play one league: first weeks with the given players, then weeks with newcomers too."""
     skill, (first, later) = plan.skill, plan.weeks
-    centre = float(skill.mean())
-    rating = np.full(len(skill), centre)
+    center = float(skill.mean())
+    rating = np.full(len(skill), center)
     names = tuple(map(str, range(len(skill))))
     nights: list[Ints] = []
     dates: list[NDArray[np.datetime64]] = []
@@ -211,7 +211,7 @@ def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
         rating[:there] = fit(
             Results(names[:there], *columns, date=np.concatenate(dates)),
             scale=plan.scale,
-            anchor=centre,
+            anchor=center,
             half_life=plan.half_life,
             as_of=_FIRST_NIGHT + np.timedelta64(7 * week, "D"),
         ).rating

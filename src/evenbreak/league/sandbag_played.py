@@ -119,9 +119,9 @@ def _entries(system: System, replicas: int) -> Entries:
     """Return players who are all alike: of the middle level, or as the system takes newcomers."""
     shape = PLAYERS, replicas
     levels = system.chart.levels if isinstance(system.chart, LevelChart) else (4,)
-    centre = np.nan if system.scale is None else system.scale.centre
+    center = np.nan if system.scale is None else system.scale.center
     rating = system.initial(
-        Entries.of(np.full(shape, centre), np.full(shape, float(levels[len(levels) // 2])))
+        Entries.of(np.full(shape, center), np.full(shape, float(levels[len(levels) // 2])))
     )
     ratings = rating if system.publishes == "ratings" else np.full(shape, np.nan)
     return Entries.of(

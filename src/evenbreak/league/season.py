@@ -14,7 +14,7 @@ from evenbreak.checks import one_of, whole
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart_of import chart_of
 from evenbreak.handicaps.systems.by_match import StepSystem
-from evenbreak.handicaps.systems.catalogue import steps_of
+from evenbreak.handicaps.systems.catalog import steps_of
 from evenbreak.handicaps.systems.match_table import MatchTable, match_table
 from evenbreak.league.lookup import Lookup, lookup_of
 from evenbreak.league.players import LeaguePlayers

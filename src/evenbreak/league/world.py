@@ -170,7 +170,7 @@ class World:
     def origin(self) -> float:
         """The rating of skill 0: the middle of the scale, or of the league if that has none."""
         if self.scale.name in SCALES:
-            return float(self.scale.centre)
+            return float(self.scale.center)
         return float(np.mean(self.players.rating))
 
     @cached_property

@@ -9,7 +9,7 @@ is such that the chance of a single game is what it is without form,
 since it is games that ratings are fitted to. Given e the games are independent, so the law of a
 score is that of the match without form, averaged over e by Gauss-Hermite quadrature. Games already
 played show what form the players are in: at the score i:j, e has the density
-p(e)^i (1 - p(e))^j φ(e / f), normalised.
+p(e)^i (1 - p(e))^j φ(e / f), normalized.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def _hermite(number: int) -> tuple[Floats, Floats]:
     return nodes[kept], weights[kept]
 
 
-def centre_of_form(mean: ArrayLike, sd: ArrayLike, form: float) -> Floats:
+def center_of_form(mean: ArrayLike, sd: ArrayLike, form: float) -> Floats:
     """Return the c for which a game is won as often with form as without.
 
     That is, E expit(N(c, sd² + form²)) = E expit(N(mean, sd²)), to rounding.
@@ -89,7 +89,7 @@ def centre_of_form(mean: ArrayLike, sd: ArrayLike, form: float) -> Floats:
     form
         the standard deviation of form.
 
-    >>> centre_of_form([0.0, 1.0], 0.0, 0.5).round(4)
+    >>> center_of_form([0.0, 1.0], 0.0, 0.5).round(4)
     array([0.    , 1.0552])
     """
     mean, sd = np.broadcast_arrays(np.asarray(mean, dtype=float), np.asarray(sd, dtype=float))
@@ -99,16 +99,16 @@ def centre_of_form(mean: ArrayLike, sd: ArrayLike, form: float) -> Floats:
     around = np.hypot(sd, form)
     wanted, _ = _game(low, sd)
     possible = wanted > np.finfo(float).tiny
-    centre = low * np.sqrt((1.0 + 0.35 * around**2) / (1.0 + 0.35 * sd**2))
+    center = low * np.sqrt((1.0 + 0.35 * around**2) / (1.0 + 0.35 * sd**2))
     for _ in range(50):
-        chance, slope = _game(centre, around)
+        chance, slope = _game(center, around)
         # Newton's method for the logarithm of the chance, which is concave in c.
         away = np.log(np.where(possible, chance / np.where(possible, wanted, 1.0), 1.0))
         step = np.where(possible, away * chance / np.where(possible, slope, 1.0), 0.0)
-        centre = centre - step
+        center = center - step
         if np.abs(step).max(initial=0.0) < _CLOSE:
             break
-    return np.where(possible, -np.sign(mean) * centre, mean)
+    return np.where(possible, -np.sign(mean) * center, mean)
 
 
 def _game(mean: Floats, sd: Floats) -> tuple[Floats, Floats]:
@@ -147,7 +147,7 @@ def chance_in_form(
     """
     at = np.linspace(-_FARTHEST, _FARTHEST, _GRID)
     nodes, weights = normal_rule(form, sum(needs), MOST_NODES)
-    days = centre_of_form(at, 0.0, form)[:, None] + form * nodes
+    days = center_of_form(at, 0.0, form)[:, None] + form * nodes
     won, lost = score
     log = np.log(weights) + won * log_expit(days) + lost * log_expit(-days)
     likely = np.exp(log - logsumexp(log, axis=1, keepdims=True))
@@ -197,8 +197,8 @@ def _on_days(p: Any, form: float, nodes: Floats) -> Floats:
     """Return the chance on each day; one of 0 or 1 is the same on all days."""
     log_odds = np.asarray(logit(p))
     sure = np.isinf(log_odds)
-    centre = centre_of_form(np.where(sure, 0.0, log_odds), 0.0, form)
-    days = expit(centre[..., None] + form * nodes)
+    center = center_of_form(np.where(sure, 0.0, log_odds), 0.0, form)
+    days = expit(center[..., None] + form * nodes)
     return np.where(sure[..., None], np.asarray(p)[..., None], days)
 
 

@@ -10,7 +10,7 @@ and the ratios r_j of each to the one before obey, from r_0 = N alpha (1 - p) + 
 
     (j + 1) r_j = (a + b) j + N alpha (1 - p) + a - a b j / r_(j - 1).
 
-They decrease towards b. What is subtracted is at most a j, and the sum is larger by b j and
+They decrease toward b. What is subtracted is at most a j, and the sum is larger by b j and
 more, so every chance keeps nearly all its digits, without safety play (a = 0) and with it.
 """
 

@@ -86,11 +86,11 @@ from .slide import roll_speed as roll_speed
 from .slide import roll_velocity as roll_velocity
 from .slide import sliding_ball_speed as sliding_ball_speed
 from .slide import stun_distance as stun_distance
-from .strike import CentreHit as CentreHit
+from .strike import CenterHit as CenterHit
 from .strike import Strike as Strike
 from .strike import best_stick_ratio as best_stick_ratio
 from .strike import break_energy_share as break_energy_share
-from .strike import centre_hit as centre_hit
+from .strike import center_hit as center_hit
 from .strike import energy_share as energy_share
 from .strike import strike as strike
 from .strike import strike_for_speed as strike_for_speed

@@ -42,9 +42,9 @@ class AimedShot:
     shot
         the shot that allows for throw.
     unaided
-        the same strike aimed with the line of centres through the target; throw makes it miss.
+        the same strike aimed with the line of centers through the target; throw makes it miss.
     target
-        in metres; shape (2,).
+        in meters; shape (2,).
     """
 
     shot: Shot
@@ -53,26 +53,26 @@ class AimedShot:
 
     @property
     def distance(self) -> float:
-        """The distance from the object ball to the target, in metres."""
+        """The distance from the object ball to the target, in meters."""
         return float(np.linalg.norm(self.target - self.shot.object_position))
 
     @property
     def turn(self) -> float:
-        """The angle by which the line of centres points beside the target, in radians.
+        """The angle by which the line of centers points beside the target, in radians.
 
-        Above 0 towards the thinner cut.
+        Above 0 toward the thinner cut.
         """
         thinner = math.copysign(1.0, self.unaided.cut)
-        return thinner * _between(self.shot.line_of_centres, self.unaided.line_of_centres)
+        return thinner * _between(self.shot.line_of_centers, self.unaided.line_of_centers)
 
     @property
     def offset(self) -> float:
-        """How far beside the target the line of centres points, in metres; signed as `turn`."""
+        """How far beside the target the line of centers points, in meters; signed as `turn`."""
         return self.distance * math.tan(self.turn)
 
     @property
     def miss(self) -> float:
-        """How far the unaided shot would miss the target, in metres.
+        """How far the unaided shot would miss the target, in meters.
 
         Above 0 on the thick side, where throw usually takes it; 0 without a hit.
         """
@@ -97,7 +97,7 @@ def aimed_shot(
     strike, cloth, table, mu, friction
         as for `shot`.
     cue_ball, object_ball, target
-        where they are on the table: x and y in metres.
+        where they are on the table: x and y in meters.
 
     Raises
     ------
@@ -163,7 +163,7 @@ def aimed_shot(
 
 
 def _state_after(strike: Strike, cloth: Cloth, travel: float) -> State | None:
-    """Return the cue ball after it has travelled this far; None if it stops before."""
+    """Return the cue ball after it has traveled this far; None if it stops before."""
     slide = Slide(strike.ball, cloth, np.zeros(2), strike.velocity, strike.spin)
     time = time_to(slide, np.array([1.0, 0.0]), travel)
     if time >= (1.0 - 1e-9) * float(slide.stop_time):

@@ -1,7 +1,7 @@
 """The hit of a cue ball on a ball at rest (section 4, P4.1 to P4.12).
 
-The balls are equal, the hit is elastic along the line of centres, and friction acts across it as
-described in `throw`. With x along the line of centres, y to its left, and the cue ball moving at
+The balls are equal, the hit is elastic along the line of centers, and friction acts across it as
+described in `throw`. With x along the line of centers, y to its left, and the cue ball moving at
 the cut angle to the left of x before the hit:
 
     V_b = (V_0 cos(cut), V_by, V_bz)
@@ -28,14 +28,14 @@ from evenbreak.physics.units import GRAVITY, numbers, positive
 
 
 class Jump(NamedTuple):
-    """A ball's short flight: its time in seconds, its height and distance in metres.
+    """A ball's short flight: its time in seconds, its height and distance in meters.
 
     Parameters
     ----------
     time
         seconds in the air.
     height, distance
-        metres: how high and how far.
+        meters: how high and how far.
     """
 
     time: Any
@@ -59,7 +59,7 @@ class Collision:
     mu
         the coefficient of friction between the balls in this hit.
     ahead, sideways, upward
-        the velocity that the object ball gets, in m/s: V_bx along the line of centres, V_by to
+        the velocity that the object ball gets, in m/s: V_bx along the line of centers, V_by to
         its left, and V_bz, which is below 0 if the table takes it up.
     """
 
@@ -75,9 +75,9 @@ class Collision:
 
     @property
     def throw(self) -> Any:
-        """The angle from the line of centres to the object ball's path, in radians (P4.2).
+        """The angle from the line of centers to the object ball's path, in radians (P4.2).
 
-        Above 0 if the ball is thrown forward, towards the direction of the shot.
+        Above 0 if the ball is thrown forward, toward the direction of the shot.
         """
         forward = hand_of(np.asarray(self.cut)) * self.sideways
         return plain(np.arctan2(forward, np.maximum(self.ahead, 1e-300)))
@@ -87,7 +87,7 @@ class Collision:
         """The angle between the two paths just after the hit, in radians.
 
         A right angle minus the throw (P4.11), or plus the throw if friction turns the cue ball
-        back across the line of centres. Exercise 4.1 measures it in stun caroms.
+        back across the line of centers. Exercise 4.1 measures it in stun caroms.
         """
         on = hand_of(np.asarray(self.cut)) * self._cue_across >= 0.0
         return plain(np.where(on, 0.5 * np.pi - self.throw, 0.5 * np.pi + self.throw))
@@ -161,7 +161,7 @@ class Collision:
 
         Notes
         -----
-        Source: P4.12, 2 I omega_by about the centre of the cue ball, for topspin, where the
+        Source: P4.12, 2 I omega_by about the center of the cue ball, for topspin, where the
         table holds the object ball up. For draw the flight of the object ball carries just as
         much, and the table adds nothing.
         """
@@ -184,7 +184,7 @@ class Collision:
 
     @property
     def _cue_across(self) -> Any:
-        """The cue ball's speed to the left of the line of centres, in m/s."""
+        """The cue ball's speed to the left of the line of centers, in m/s."""
         return self.speed * np.sin(self.cut) - self.sideways
 
     @property
@@ -194,7 +194,7 @@ class Collision:
         return np.stack(parts, axis=-1)
 
     def _turned(self, x: Any, y: Any, z: Any) -> Floats:
-        """Return a vector, given in the frame of the line of centres, in that of the shot."""
+        """Return a vector, given in the frame of the line of centers, in that of the shot."""
         sin, cos = np.sin(self.cut), np.cos(self.cut)
         parts = np.broadcast_arrays(x * cos + y * sin, y * cos - x * sin, z)
         return np.stack(parts, axis=-1)

@@ -65,9 +65,9 @@ def friction_of_speeds(first: Any, second: Any, distance: Any, *, gravity: float
     first, second
         its speeds at the two points, in m/s; it cannot be faster at the second.
     distance
-        between the points, in metres.
+        between the points, in meters.
     gravity
-        metres per second squared.
+        meters per second squared.
 
     Raises
     ------
@@ -114,11 +114,11 @@ def friction_of_stop(distance: Any, time: Any, *, gravity: float = GRAVITY) -> A
     Parameters
     ----------
     distance
-        metres.
+        meters.
     time
         seconds.
     gravity
-        metres per second squared.
+        meters per second squared.
 
     Notes
     -----
@@ -146,7 +146,7 @@ def sliding_speed(speed: Any, friction: Any, time: Any, *, gravity: float = GRAV
     time
         seconds since the start.
     gravity
-        metres per second squared.
+        meters per second squared.
 
     >>> round(sliding_speed(50.0, 0.2, 0.5, gravity=386.0), 9)
     11.4
@@ -156,7 +156,7 @@ def sliding_speed(speed: Any, friction: Any, time: Any, *, gravity: float = GRAV
 
 
 def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = GRAVITY) -> Any:
-    """Return how far a block has slid after a time, in metres; it stays where it stops.
+    """Return how far a block has slid after a time, in meters; it stays where it stops.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ def sliding_distance(speed: Any, friction: Any, time: Any, *, gravity: float = G
     time
         seconds since the start.
     gravity
-        metres per second squared.
+        meters per second squared.
 
     >>> round(sliding_distance(50.0, 0.2, 0.5, gravity=386.0), 9)
     15.35
@@ -189,7 +189,7 @@ def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAV
     mass
         of the block, in kilograms.
     gravity
-        metres per second squared.
+        meters per second squared.
 
     >>> round(sliding_power(2.0, 0.1, 1.0, gravity=10.0), 9)
     -2.0
@@ -199,7 +199,7 @@ def sliding_power(speed: Any, friction: Any, mass: Any, *, gravity: float = GRAV
 
 
 def miscue_offset(friction: FloatOrArray) -> FloatOrArray:
-    """Return the largest offset b/R from the centre without a miscue (P1.7).
+    """Return the largest offset b/R from the center without a miscue (P1.7).
 
     Parameters
     ----------
@@ -221,7 +221,7 @@ def tip_friction_of(offset: FloatOrArray) -> FloatOrArray:
     Parameters
     ----------
     offset
-        b/R, 0 to 1: from the centre, over the radius of the ball.
+        b/R, 0 to 1: from the center, over the radius of the ball.
 
     >>> round(tip_friction_of(0.5), 3)
     0.577
@@ -259,7 +259,7 @@ class SlipFriction:
     more
         b, by how much it is higher at a very slow slip.
     decay
-        c, how quickly it falls, in seconds per metre.
+        c, how quickly it falls, in seconds per meter.
 
     Raises
     ------

@@ -26,21 +26,21 @@ from evenbreak.physics.slide import Slide
 from evenbreak.physics.units import INCH, numbers
 
 _SLACK = 1e-9
-"""A nanometre: how far rounding may push a ball into a cushion along which it rolls."""
+"""A nanometer: how far rounding may push a ball into a cushion along which it rolls."""
 
 _INSTANT = 1e-12
 """Shorter slides, in seconds, are rounding errors: the ball is in natural roll from the start."""
 
 
 class State(NamedTuple):
-    """A ball at a time in seconds: position in metres, velocity in m/s, spin in rad/s.
+    """A ball at a time in seconds: position in meters, velocity in m/s, spin in rad/s.
 
     Parameters
     ----------
     time
         seconds on the clock of the shot.
     position
-        in metres; shape (2,).
+        in meters; shape (2,).
     velocity
         in m/s; shape (2,).
     spin
@@ -70,7 +70,7 @@ class Phase(NamedTuple):
     begin, end
         the states at its two ends.
     length
-        of that part of the path, in metres.
+        of that part of the path, in meters.
     """
 
     ball: str
@@ -139,11 +139,11 @@ class Leg:
 
     @property
     def length(self) -> float:
-        """The length of the path, in metres."""
+        """The length of the path, in meters."""
         return sum(phase.length for phase in self.phases)
 
     def path(self, points: int = 100, *, motion: str | None = None) -> Floats:
-        """Return the path as rows of x, y (metres) and t (seconds).
+        """Return the path as rows of x, y (meters) and t (seconds).
 
         Parameters
         ----------
@@ -229,7 +229,7 @@ def time_to(slide: Slide, normal: Floats, level: float) -> float:
     slide
         one ball, on the near side of the line.
     normal, level
-        the line: the points whose product with `normal` is `level`, in metres.
+        the line: the points whose product with `normal` is `level`, in meters.
     """
     start, rolls, rests = 0.0, float(slide.slide_time), float(slide.stop_time)
     for begin, end in ((start, rolls), (rolls, rests)):
@@ -290,10 +290,10 @@ def _arc(along: float, beside: float) -> float:
 
 
 CORNER_MOUTH = 4.5 * INCH
-"""Between the noses at a corner, in metres."""
+"""Between the noses at a corner, in meters."""
 
 SIDE_MOUTH = 5.0 * INCH
-"""Between the noses at a side pocket, in metres."""
+"""Between the noses at a side pocket, in meters."""
 
 POCKET_NAMES = ("head-right", "side-right", "foot-right", "foot-left", "side-left", "head-left")
 """The pockets, counterclockwise from the corner (0, 0)."""
@@ -307,11 +307,11 @@ class Pocket(NamedTuple):
     name
         one of `POCKET_NAMES`.
     x, y
-        the middle of the mouth, in metres.
+        the middle of the mouth, in meters.
     into_x, into_y
         the unit vector straight into it.
     mouth
-        its width between the noses of the cushions, in metres.
+        its width between the noses of the cushions, in meters.
     """
 
     name: str
@@ -327,11 +327,11 @@ class Pocket(NamedTuple):
         Parameters
         ----------
         x, y
-            the ball's centre in metres, no farther away than the mouth is wide.
+            the ball's center in meters, no farther away than the mouth is wide.
         along_x, along_y
             its direction, a vector of any length.
         radius
-            of the ball, in metres.
+            of the ball, in meters.
 
         >>> pocket = pockets(PoolTable())[1]
         >>> pocket.takes(pocket.x, 0.03, 0.0, -1.0, 0.0286)
@@ -347,7 +347,7 @@ class Pocket(NamedTuple):
         return beside <= 0.5 * self.width_from(along_x, along_y) - radius + 1e-9
 
     def width_from(self, along_x: float, along_y: float) -> float:
-        """Return how wide the mouth is for a ball coming in this direction, in metres.
+        """Return how wide the mouth is for a ball coming in this direction, in meters.
 
         At an angle it is as narrow as it looks from there; from behind it is below 0.
 
@@ -365,7 +365,7 @@ def pockets(table: PoolTable) -> tuple[Pocket, ...]:
     Parameters
     ----------
     table
-        its length and width in metres.
+        its length and width in meters.
 
     >>> [pocket.name for pocket in pockets(PoolTable())][2]
     'foot-right'

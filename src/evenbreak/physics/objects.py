@@ -21,7 +21,7 @@ class Ball:
     mass
         kilograms; a pool ball weighs 5.5 to 6 ounces.
     radius
-        metres; the diameter of a pool ball is 2.25 inches, to within 0.005.
+        meters; the diameter of a pool ball is 2.25 inches, to within 0.005.
 
     Raises
     ------
@@ -42,26 +42,26 @@ class Ball:
 
     def __post_init__(self) -> None:
         _positive(self, "mass", "kilograms")
-        _positive(self, "radius", "metres")
+        _positive(self, "radius", "meters")
 
     @property
     def diameter(self) -> float:
-        """The diameter in metres."""
+        """The diameter in meters."""
         return 2.0 * self.radius
 
     @property
     def volume(self) -> float:
-        """The volume in cubic metres (P1.1)."""
+        """The volume in cubic meters (P1.1)."""
         return 4.0 / 3.0 * math.pi * self.radius**3
 
     @property
     def density(self) -> float:
-        """The density in kilograms per cubic metre (P1.2)."""
+        """The density in kilograms per cubic meter (P1.2)."""
         return self.mass / self.volume
 
     @property
     def inertia(self) -> float:
-        """The moment of inertia about any axis through the centre, in kg m^2 (P1.3)."""
+        """The moment of inertia about any axis through the center, in kg m^2 (P1.3)."""
         return 0.4 * self.mass * self.radius**2
 
 
@@ -77,7 +77,7 @@ class Cloth:
         effective coefficient of rolling resistance: a rolling ball decelerates at mu_roll
         times gravity.
     gravity
-        metres per second squared.
+        meters per second squared.
 
     Raises
     ------
@@ -99,7 +99,7 @@ class Cloth:
     def __post_init__(self) -> None:
         _positive(self, "mu_slide", "such as 0.2")
         _positive(self, "mu_roll", "such as 0.01")
-        _positive(self, "gravity", "metres per second squared")
+        _positive(self, "gravity", "meters per second squared")
 
     @property
     def slide_deceleration(self) -> float:
@@ -124,7 +124,7 @@ class PoolTable:
     Parameters
     ----------
     length, width
-        metres; 100 by 50 inches on a nine-foot table.
+        meters; 100 by 50 inches on a nine-foot table.
 
     Raises
     ------
@@ -139,8 +139,8 @@ class PoolTable:
     width: float = 50.0 * INCH
 
     def __post_init__(self) -> None:
-        _positive(self, "length", "metres")
-        _positive(self, "width", "metres")
+        _positive(self, "length", "meters")
+        _positive(self, "width", "meters")
 
 
 @dataclass(frozen=True)
@@ -185,11 +185,11 @@ class BallSet(NamedTuple):
     Parameters
     ----------
     diameters
-        the diameters in use, in metres.
+        the diameters in use, in meters.
     masses
         the smallest and the largest mass, in kilograms.
     tolerance
-        the allowed deviation of a diameter, in metres.
+        the allowed deviation of a diameter, in meters.
     """
 
     diameters: tuple[float, ...]
@@ -223,12 +223,12 @@ sugar is too high)."""
 
 
 def volume_range(balls: BallSet) -> tuple[float, float]:
-    """Return the volumes of the smallest and the largest ball of a set, in cubic metres (P1.1).
+    """Return the volumes of the smallest and the largest ball of a set, in cubic meters (P1.1).
 
     Parameters
     ----------
     balls
-        the rules of the set: diameters and tolerance in metres.
+        the rules of the set: diameters and tolerance in meters.
 
     >>> low, high = volume_range(BALL_SETS["pool"])
     >>> round(low / INCH**3, 3), round(high / INCH**3, 3)
@@ -248,7 +248,7 @@ def density_range(balls: BallSet) -> tuple[float, float]:
     Parameters
     ----------
     balls
-        the rules of the set: diameters in metres, masses in kilograms.
+        the rules of the set: diameters in meters, masses in kilograms.
 
     >>> [round(density / 1000.0, 2) for density in density_range(BALL_SETS["pool"])]
     [1.58, 1.75]

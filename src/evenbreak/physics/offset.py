@@ -1,7 +1,7 @@
 """Where the tip meets the ball, and the spin that this gives (section 3, P3.4 to P3.11).
 
 Seen from behind the cue ball, a contact point is (y, z): y to the left and z above the cloth,
-both in units of the ball's radius R, so the centre is (0, 1). An offset from the centre is b / R,
+both in units of the ball's radius R, so the center is (0, 1). An offset from the center is b / R,
 below 0 for draw. Spin is J = R omega / V, with the signs of a right-handed frame: J_y above 0 is
 topspin; J_z above 0, counterclockwise from above, comes from a tip to the right, y below 0.
 """
@@ -21,7 +21,7 @@ from evenbreak.physics.throw import gearing_side
 from evenbreak.physics.units import LEAST, numbers, positive
 
 NATURAL_ROLL_OFFSET = 0.4
-"""The height above the centre, over R, at which a hit gives natural roll at once (P3.5).
+"""The height above the center, over R, at which a hit gives natural roll at once (P3.5).
 
 In exercise 3.1 a stripe struck there, with the cue in its plane, seems to stand still.
 """
@@ -31,7 +31,7 @@ MOST_ENGLISH_OFFSET = 0.5
 """The offset to the side, over R, of 100 % english: beyond it the tip usually slips."""
 
 TIPS_OF_MOST_ENGLISH = 1.4
-"""By how many widths of a tip the cue is then to the side of the ball's centre.
+"""By how many widths of a tip the cue is then to the side of the ball's center.
 
 D. G. Alciatore ("Dr. Dave"), frequently asked questions on english, billiards.colostate.edu. It is
 that of a usual tip; thin or flat tips give less english by the tip.
@@ -52,9 +52,9 @@ class ContactPoint(NamedTuple):
     Parameters
     ----------
     y
-        how far left of the centre, over R.
+        how far left of the center, over R.
     z
-        the height above the cloth, over R: 1 is the centre.
+        the height above the cloth, over R: 1 is the center.
     """
 
     y: Any
@@ -126,7 +126,7 @@ def strike_side(y: FloatOrArray) -> FloatOrArray:
     Parameters
     ----------
     y
-        how far left of the centre the tip hits, over R, -1 to 1.
+        how far left of the center the tip hits, over R, -1 to 1.
 
     >>> strike_side(-0.4)
     1.0
@@ -140,7 +140,7 @@ def roll_side(y: FloatOrArray, z: FloatOrArray) -> FloatOrArray:
     Parameters
     ----------
     y
-        how far left of the centre the tip hits, over R, -1 to 1.
+        how far left of the center the tip hits, over R, -1 to 1.
     z
         the height above the cloth at which it hits, over R, above 0 to 2.
 
@@ -158,9 +158,9 @@ def roll_side(y: FloatOrArray, z: FloatOrArray) -> FloatOrArray:
 
 
 def small_circle_point(side: Any) -> ContactPoint:
-    """Return the contact point nearest to the centre for a sidespin in natural roll (P3.7).
+    """Return the contact point nearest to the center for a sidespin in natural roll (P3.7).
 
-    It lies on the circle of radius R/2 through the centre of the ball and the cloth.
+    It lies on the circle of radius R/2 through the center of the ball and the cloth.
 
     Parameters
     ----------
@@ -176,14 +176,14 @@ def small_circle_point(side: Any) -> ContactPoint:
 
 
 def largest_roll_side(offset: FloatOrArray) -> FloatOrArray:
-    """Return the largest sidespin in natural roll for an offset from the centre (P3.8).
+    """Return the largest sidespin in natural roll for an offset from the center (P3.8).
 
     At the miscue limit of a tip it is 7/2 of the tip's friction.
 
     Parameters
     ----------
     offset
-        b/R, from the centre in any direction, 0 to 1.
+        b/R, from the center in any direction, 0 to 1.
 
     >>> round(largest_roll_side(2.0**-0.5), 9)
     3.5
@@ -272,14 +272,14 @@ def gearing_tip(cut: Any, z: Any = 1.0 + NATURAL_ROLL_OFFSET) -> ContactPoint:
 
 
 def stun_offset(speed: FloatOrArray, distance: FloatOrArray, cloth: Cloth) -> FloatOrArray:
-    """Return how far below the centre to strike so that the backspin is gone after a distance.
+    """Return how far below the center to strike so that the backspin is gone after a distance.
 
     Parameters
     ----------
     speed
         of the ball just after the tip, in m/s.
     distance
-        metres to where the ball should be a stun shot.
+        meters to where the ball should be a stun shot.
     cloth
         on which the ball slides.
 
@@ -315,7 +315,7 @@ def stun_offset(speed: FloatOrArray, distance: FloatOrArray, cloth: Cloth) -> Fl
 
 
 def ball_speed_ratio(offset: FloatOrArray, ball_ratio: FloatOrArray) -> FloatOrArray:
-    """Return the speed of the ball over that of the stick, for a hit off centre (P3.10).
+    """Return the speed of the ball over that of the stick, for a hit off center (P3.10).
 
     Parameters
     ----------
@@ -338,7 +338,7 @@ def roll_speed_ratio(offset: FloatOrArray, ball_ratio: FloatOrArray) -> FloatOrA
     Parameters
     ----------
     offset
-        b/R, -1 to 1: above the centre, or below it if negative.
+        b/R, -1 to 1: above the center, or below it if negative.
     ball_ratio
         mass of the ball over mass of the stick, such as 1/3 for 6 and 18 ounces.
 
@@ -350,7 +350,7 @@ def roll_speed_ratio(offset: FloatOrArray, ball_ratio: FloatOrArray) -> FloatOrA
 
 
 def best_lag_offset(ball_ratio: FloatOrArray) -> FloatOrArray:
-    """Return the offset above the centre, b/R, at which a ball rolls farthest (P3.11).
+    """Return the offset above the center, b/R, at which a ball rolls farthest (P3.11).
 
     There the length of a lag depends least on where the tip meets the ball.
 

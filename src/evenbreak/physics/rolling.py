@@ -107,13 +107,13 @@ def rolling_time(
     Parameters
     ----------
     distance
-        metres.
+        meters.
     friction
         the coefficient of rolling friction, as from `rolling_friction`.
     shape
         the moment of inertia in units of M R^2.
     gravity
-        metres per second squared, such as `MOON_GRAVITY`.
+        meters per second squared, such as `MOON_GRAVITY`.
 
     >>> length = 97.75 * INCH
     >>> round(rolling_time(length, 0.0145, shape=SHAPES["cylinder"], gravity=MOON_GRAVITY), 1)
@@ -133,9 +133,9 @@ class SpinStop(NamedTuple):
     roll_speed
         of natural roll, in m/s.
     slide_time, slide_distance
-        seconds and metres until natural roll begins.
+        seconds and meters until natural roll begins.
     roll_time, roll_distance
-        seconds and metres from then until it stops.
+        seconds and meters from then until it stops.
     """
 
     roll_speed: Any
@@ -146,7 +146,7 @@ class SpinStop(NamedTuple):
 
     @property
     def distance(self) -> Any:
-        """The total distance, in metres."""
+        """The total distance, in meters."""
         return self.slide_distance + self.roll_distance
 
 
@@ -195,12 +195,12 @@ TABLE_SPEEDS: Mapping[str, tuple[float, float]] = MappingProxyType(
 
 
 def lag_distance(table: PoolTable, ball: Ball) -> float:
-    """Return how far a ball's centre travels from end cushion to end cushion, in metres.
+    """Return how far a ball's center travels from end cushion to end cushion, in meters.
 
     Parameters
     ----------
     table, ball
-        the length of the one and the diameter of the other, in metres, count.
+        the length of the one and the diameter of the other, in meters, count.
 
     >>> from evenbreak.physics.units import INCH
     >>> round(lag_distance(PoolTable(), Ball()) / INCH, 9)
@@ -221,9 +221,9 @@ def table_speed(
     lag_time
         seconds from one end cushion until the ball stops just at the other.
     distance
-        metres that its centre travels; by default the length of a nine-foot table.
+        meters that its center travels; by default the length of a nine-foot table.
     gravity
-        metres per second squared.
+        meters per second squared.
 
     Notes
     -----
@@ -232,10 +232,10 @@ def table_speed(
     >>> round(table_speed(7.0), 1)
     96.7
     """
-    metres = positive(_nine_feet() if distance is None else distance, "distance")
+    meters = positive(_nine_feet() if distance is None else distance, "distance")
     time, pull = positive(lag_time, "lag_time"), positive(gravity, "gravity")
-    together(lag_time=time, distance=metres, gravity=pull)
-    return plain(0.5 * pull * time**2 / metres)
+    together(lag_time=time, distance=meters, gravity=pull)
+    return plain(0.5 * pull * time**2 / meters)
 
 
 def lag_speed(lag_time: FloatOrArray, *, distance: FloatOrArray = None) -> FloatOrArray:
@@ -248,16 +248,16 @@ def lag_speed(lag_time: FloatOrArray, *, distance: FloatOrArray = None) -> Float
     lag_time
         seconds from one end cushion until the ball stops just at the other.
     distance
-        metres that its centre travels; by default the length of a nine-foot table.
+        meters that its center travels; by default the length of a nine-foot table.
 
     >>> from evenbreak.physics.units import INCH
     >>> round(lag_speed(7.0) / INCH, 1)
     27.9
     """
-    metres = numbers(_nine_feet() if distance is None else distance, "distance", low=0.0)
+    meters = numbers(_nine_feet() if distance is None else distance, "distance", low=0.0)
     time = positive(lag_time, "lag_time")
-    together(lag_time=time, distance=metres)
-    return plain(2.0 * metres / time)
+    together(lag_time=time, distance=meters)
+    return plain(2.0 * meters / time)
 
 
 def roll_time(speed: FloatOrArray, cloth: Cloth) -> FloatOrArray:
@@ -278,7 +278,7 @@ def roll_time(speed: FloatOrArray, cloth: Cloth) -> FloatOrArray:
 
 
 def roll_distance(speed: FloatOrArray, cloth: Cloth) -> FloatOrArray:
-    """Return how far a ball rolls until it stops, in metres, from its speed in m/s.
+    """Return how far a ball rolls until it stops, in meters, from its speed in m/s.
 
     Parameters
     ----------

@@ -49,7 +49,7 @@ class Shot:
     cut
         the cut angle in radians, above 0 if the object ball is cut to the right.
     object_position
-        where the object ball is at first, in metres; shape (2,).
+        where the object ball is at first, in meters; shape (2,).
     mu, friction
         the friction between the balls, and its law.
     approach
@@ -85,11 +85,11 @@ class Shot:
 
     @property
     def ghost_position(self) -> Floats:
-        """Where the cue ball's centre is at the hit, or would be, in metres; shape (2,)."""
-        return self.object_position - self.strike.ball.diameter * self.line_of_centres
+        """Where the cue ball's center is at the hit, or would be, in meters; shape (2,)."""
+        return self.object_position - self.strike.ball.diameter * self.line_of_centers
 
     @property
-    def line_of_centres(self) -> Floats:
+    def line_of_centers(self) -> Floats:
         """The unit vector from the cue ball to the object ball at the hit; shape (2,)."""
         return _unit(self.direction - self.cut)
 
@@ -100,9 +100,9 @@ class Shot:
 
     @property
     def throw(self) -> float | None:
-        """The angle between the object ball's path and the line of centres, in radians.
+        """The angle between the object ball's path and the line of centers, in radians.
 
-        Above 0 if the ball is thrown forward, towards the direction of the shot. None without
+        Above 0 if the ball is thrown forward, toward the direction of the shot. None without
         a hit.
         """
         return None if self.collision is None else float(self.collision.throw)
@@ -175,11 +175,11 @@ def shot(
         the cut angle in radians, above 0 to the right and below 0 to the left, less than a
         right angle either way.
     distance
-        between the centres of the two balls at first, in metres.
+        between the centers of the two balls at first, in meters.
     cloth, table
         by default a cloth of speed 100 and a nine-foot table.
     cue_ball
-        where its centre is, in metres; by default on the middle of the head string.
+        where its center is, in meters; by default on the middle of the head string.
     direction
         of the shot, in radians from x, which runs along the table.
     mu, friction
@@ -246,9 +246,9 @@ def sound_strike(strike: Strike) -> None:
         raise InputError("strike is {speed} strikes; give one", speed=np.size(strike.speed))
     if strike.miscue:
         raise InputError(
-            "offset is {off_centre:.4g} of the radius in all, a miscue: this tip slips "
+            "offset is {off_center:.4g} of the radius in all, a miscue: this tip slips "
             "beyond {tip_friction:.4g}; give less, or a tip with more friction",
-            off_centre=strike.off_centre,
+            off_center=strike.off_center,
             tip_friction=miscue_offset(strike.cue.tip_friction),
         )
 
@@ -261,14 +261,14 @@ def travel_for(cut: float, distance: float, diameter: float) -> float:
     cut
         cut angle in radians.
     distance, diameter
-        between the centres, and of the balls, in any unit of length.
+        between the centers, and of the balls, in any unit of length.
 
     >>> travel_for(0.0, 10.0, 2.0)
     8.0
     """
     if distance < diameter * (1.0 - _ROUNDING):
         raise InputError(
-            "distance is {distance:.4g} m between the centres; give {diameter:.4g} m (where "
+            "distance is {distance:.4g} m between the centers; give {diameter:.4g} m (where "
             "the balls touch) or more",
             distance=distance,
             diameter=diameter,

@@ -84,12 +84,12 @@ def roll_velocity(velocity: Any, rim_velocity: Any) -> Floats:
 
 
 def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
-    """Return where a sliding ball is on its parabola, in metres along the force (P2.3).
+    """Return where a sliding ball is on its parabola, in meters along the force (P2.3).
 
     Parameters
     ----------
     ahead
-        x: metres across the force of the cloth.
+        x: meters across the force of the cloth.
     velocity
         (V_0x, V_0y) in m/s: across the force, not 0, and along it.
     cloth
@@ -111,7 +111,7 @@ def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
 
 
 def stun_distance(speed: FloatOrArray, spin: FloatOrArray, cloth: Cloth) -> FloatOrArray:
-    """Return how far a ball slides until its backspin is gone, in metres: a stun shot from there.
+    """Return how far a ball slides until its backspin is gone, in meters: a stun shot from there.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def stun_distance(speed: FloatOrArray, spin: FloatOrArray, cloth: Cloth) -> Floa
 
 
 def drag_distance(speed: FloatOrArray, spin: FloatOrArray, cloth: Cloth) -> FloatOrArray:
-    """Return how far a ball slides until natural roll begins, in metres.
+    """Return how far a ball slides until natural roll begins, in meters.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ class Slide:
     ball, cloth
         the ball, and what it slides on.
     position, velocity
-        at time 0, in metres and m/s; shape (..., 2).
+        at time 0, in meters and m/s; shape (..., 2).
     spin
         angular velocity at time 0, in rad/s; shape (..., 3).
 
@@ -232,11 +232,11 @@ class Slide:
 
     @property
     def stop_position(self) -> Floats:
-        """Where the ball stops on an endless table, in metres; shape (..., 2)."""
+        """Where the ball stops on an endless table, in meters; shape (..., 2)."""
         return self.at(self.stop_time)
 
     def at(self, time: Any) -> Floats:
-        """Return where the ball is at a time, in metres; shape (..., 2).
+        """Return where the ball is at a time, in meters; shape (..., 2).
 
         Parameters
         ----------
@@ -300,7 +300,7 @@ def _vectors(value: Any, name: str, size: int) -> Floats:
 
 
 def _forward(spin: Any, name: str = "spin") -> Floats:
-    """Return the velocity of natural roll for a spin, per metre of the radius."""
+    """Return the velocity of natural roll for a spin, per meter of the radius."""
     spin = numbers(spin, name)
     if spin.ndim == 0 or spin.shape[-1] not in (2, 3):
         raise InputError(

@@ -1,7 +1,7 @@
-"""What the tip gives the cue ball, on or off centre (section 3), and the best cue to break with.
+"""What the tip gives the cue ball, on or off center (section 3), and the best cue to break with.
 
 The cue is level and moves freely while the tip touches the ball, and the hit loses no energy.
-With b the distance of the tip from the centre in units of R, the ball gets
+With b the distance of the tip from the center in units of R, the ball gets
 
     V = 2 V_s / (1 + m/M_s + 5/2 b^2),   J_y = 5/2 up,   J_z = 5/2 right
 
@@ -36,7 +36,7 @@ class Strike:
     stick_speed
         of the cue just before the hit, in m/s.
     offset, side_offset
-        of the tip from the ball's centre over R: up and to the right.
+        of the tip from the ball's center over R: up and to the right.
     """
 
     ball: Ball
@@ -46,21 +46,21 @@ class Strike:
     side_offset: Any
 
     @property
-    def off_centre(self) -> Any:
-        """How far from the centre the tip meets the ball, over R."""
+    def off_center(self) -> Any:
+        """How far from the center the tip meets the ball, over R."""
         return plain(np.hypot(self.offset, self.side_offset))
 
     @property
     def miscue(self) -> Any:
         """Whether the tip slips, so that the other results do not apply (P1.7)."""
-        slips = np.asarray(self.off_centre) > miscue_offset(self.cue.tip_friction)
+        slips = np.asarray(self.off_center) > miscue_offset(self.cue.tip_friction)
         return bool(slips) if slips.ndim == 0 else slips
 
     @property
     def speed(self) -> Any:
         """The speed of the ball, in m/s (P3.10)."""
         ratio = self.ball.mass / self.cue.mass
-        return plain(self.stick_speed * ball_speed_ratio(self.off_centre, ratio))
+        return plain(self.stick_speed * ball_speed_ratio(self.off_center, ratio))
 
     @property
     def stick_speed_after(self) -> Any:
@@ -92,7 +92,7 @@ class Strike:
     @property
     def energy(self) -> Energy:
         """The ball's kinetic energy, in joules."""
-        return kinetic_energy(self.ball, self.speed, 2.5 * self.off_centre * self.speed)
+        return kinetic_energy(self.ball, self.speed, 2.5 * self.off_center * self.speed)
 
 
 def strike(
@@ -110,7 +110,7 @@ def strike(
     stick_speed
         of the cue just before the hit, in m/s.
     offset, side_offset
-        of the tip from the ball's centre over R: above 0 up and to the right. Their squares
+        of the tip from the ball's center over R: above 0 up and to the right. Their squares
         sum to 1 at most.
     ball, cue
         by default a pool ball of 6 ounces and a cue of 18 ounces.
@@ -180,8 +180,8 @@ def _on_the_ball(offset: Any, side_offset: Any, **speed: Floats) -> tuple[Floats
     return up, right
 
 
-class CentreHit(NamedTuple):
-    """The speeds after a hit in the centre, over the speed of the stick before it.
+class CenterHit(NamedTuple):
+    """The speeds after a hit in the center, over the speed of the stick before it.
 
     Parameters
     ----------
@@ -199,7 +199,7 @@ def stroke_speed(force: Any, length: Any, mass: Any) -> Any:
     Parameters
     ----------
     force, length, mass
-        newtons, metres and kilograms, or any consistent units.
+        newtons, meters and kilograms, or any consistent units.
 
     >>> round(stroke_speed(10.0, 12.0, 18.0), 4)
     3.6515
@@ -210,23 +210,23 @@ def stroke_speed(force: Any, length: Any, mass: Any) -> Any:
     return plain(np.sqrt(2.0 * force * length / mass))
 
 
-def centre_hit(stick_ratio: Any) -> CentreHit:
-    """Return the speeds after a hit in the centre (P3.2).
+def center_hit(stick_ratio: Any) -> CenterHit:
+    """Return the speeds after a hit in the center (P3.2).
 
     Parameters
     ----------
     stick_ratio
         mass of the stick over mass of the ball, such as 3 for 18 and 6 ounces.
 
-    >>> centre_hit(3.0)
-    CentreHit(ball=1.5, stick=0.5)
+    >>> center_hit(3.0)
+    CenterHit(ball=1.5, stick=0.5)
     """
     ratio = numbers(stick_ratio, "stick_ratio", low=0.0)
-    return CentreHit(plain(2.0 * ratio / (1.0 + ratio)), plain((ratio - 1.0) / (ratio + 1.0)))
+    return CenterHit(plain(2.0 * ratio / (1.0 + ratio)), plain((ratio - 1.0) / (ratio + 1.0)))
 
 
 def energy_share(stick_ratio: FloatOrArray) -> FloatOrArray:
-    """Return the share of the stick's energy that a hit in the centre gives the ball (P3.3).
+    """Return the share of the stick's energy that a hit in the center gives the ball (P3.3).
 
     Parameters
     ----------

@@ -5,7 +5,7 @@ The point of the cue ball that touches the object ball slips across it at
     V_cp = V_0 (sin(cut) + J_z, -J_y cos(cut))
 
 to the left and up. Friction pushes the object ball in that direction, with mu times the impulse
-along the line of centres: tan(throw) = mu cos(gamma), where gamma is the angle of the slip above
+along the line of centers: tan(throw) = mu cos(gamma), where gamma is the angle of the slip above
 the horizontal. That holds only as long as the balls slip. The hit uses up horizontal slip at seven
 times the speed that it gives, and vertical slip at six times, since the table holds one of the
 balls down. So, in size,
@@ -83,7 +83,7 @@ def throw_angle(
     friction: str = "limited",
     speed: Any = None,
 ) -> FloatOrArray:
-    """Return the angle between the object ball's path and the line of centres, in radians (P4.2).
+    """Return the angle between the object ball's path and the line of centers, in radians (P4.2).
 
     Parameters
     ----------
@@ -196,10 +196,10 @@ class Aim(NamedTuple):
     cut
         the cut angle to aim for, in radians, to the left below 0.
     throw
-        the throw at that cut, in radians, above 0 towards a fuller hit; the object ball then
+        the throw at that cut, in radians, above 0 toward a fuller hit; the object ball then
         leaves at the angle wanted.
     offset
-        how far beside the target the line of centres points, towards the thinner cut, in the
+        how far beside the target the line of centers points, toward the thinner cut, in the
         unit of the distance.
     offset_of_text
         the offset by the rule of P4.6, mu D cos(gamma) at the angle wanted.

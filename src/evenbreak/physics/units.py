@@ -1,6 +1,6 @@
 """The units that players use, in SI units, and checks of numbers in them.
 
-Multiply to convert to SI, divide to convert back: `9 * INCH` is in metres, `length / INCH` in
+Multiply to convert to SI, divide to convert back: `9 * INCH` is in meters, `length / INCH` in
 inches.
 """
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:  # it loads numpy
     from evenbreak.arrays import Floats
 
 INCH = 0.0254
-"""Metres in an inch."""
+"""Meters in an inch."""
 
 FOOT = 12.0 * INCH
-"""Metres in a foot."""
+"""Meters in a foot."""
 
-CENTIMETRE = 0.01
-"""Metres in a centimetre."""
+CENTIMETER = 0.01
+"""Meters in a centimeter."""
 
 OUNCE = 0.028349523125
 """Kilograms in an ounce (avoirdupois)."""

@@ -40,7 +40,7 @@ def contour_axes(
     levels: Sequence[float] = TENTHS,
     main: float = 0.5,
 ) -> QuadContourSet:
-    """Draw the contour lines of a function of two probabilities, each labelled with its level.
+    """Draw the contour lines of a function of two probabilities, each labeled with its level.
 
     Negative levels are dashed, the `main` one is thick. All lines are black, so the figure reads
     the same in black and white.
@@ -95,7 +95,7 @@ def contour_axes(
 
 
 def _label_places(lines: QuadContourSet) -> list[tuple[float, float]]:
-    """Return a point on every line: off the edge, clear of other lines, near the centre."""
+    """Return a point on every line: off the edge, clear of other lines, near the center."""
     pieces = [piece for level in lines.allsegs for piece in level if len(piece) > 1]
     places = []
     for here, piece in enumerate(pieces):
@@ -105,9 +105,9 @@ def _label_places(lines: QuadContourSet) -> list[tuple[float, float]]:
         inner = piece[from_edge >= min(_CLEAR, from_edge.max())]
         others = [outline for there, outline in enumerate(pieces) if there != here]
         tightness = -np.minimum(_distance(inner, others), _CLEAR)
-        off_centre = np.hypot(*(inner - 0.5).T)
+        off_center = np.hypot(*(inner - 0.5).T)
         # Rounded, so that of two equally good places the first one is taken.
-        best = np.lexsort((np.round(off_centre, 6), np.round(tightness, 6)))[0]
+        best = np.lexsort((np.round(off_center, 6), np.round(tightness, 6)))[0]
         places.append((float(inner[best, 0]), float(inner[best, 1])))
     return places
 
@@ -233,7 +233,7 @@ def draw_shots(
 ) -> Axes:
     """Draw P(player 1 wins the one-ball game) over (p1, p2), with each shot as a dot.
 
-    Below the thick line player 1, called "you", is the favourite.
+    Below the thick line player 1, called "you", is the favorite.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ def draw(
     """Draw a game's diagram: states as circles, each arc with its probability.
 
     An arrow from outside marks the start. A terminal node is a double circle, light if player 1
-    has won and dark if player 2 has; further players have colours, which a legend names. The
+    has won and dark if player 2 has; further players have colors, which a legend names. The
     text of an arc is its `label` if it has one (`"$p_1$"` is set as mathematics), else its
     `probability` to three significant digits. The text of a state is what the game's method
     `label(state)` returns if it has one, or the `label` of the node, else the state itself. In
@@ -57,7 +57,7 @@ def draw(
         a game, or a directed graph whose arcs have a `probability` or a `label`. A node whose
         only arc leads to itself is drawn as terminal.
     layout
-        a place (x, y) for every state, neighbours about 1 apart; None: find one.
+        a place (x, y) for every state, neighbors about 1 apart; None: find one.
     title
         text above the diagram.
     ax

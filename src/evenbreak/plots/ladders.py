@@ -32,7 +32,7 @@ class SystemPoint(NamedTuple):
     name
         what is written beside it.
     sd
-        standard deviation of the rating error in the long run, in per cent of a doubling, the
+        standard deviation of the rating error in the long run, in percent of a doubling, the
         points that double the odds.
     matches
         the mean number of matches that a rating takes to settle from a doubling too low.
@@ -262,7 +262,7 @@ def _free_offsets(
 
 
 def _overlap(box: _Box, placed: _Box) -> float:
-    """Return the area that two boxes share; a box is its centre, width and height.
+    """Return the area that two boxes share; a box is its center, width and height.
 
     >>> _overlap((0, 0, 4, 2), (3, 1, 4, 2))
     1.0

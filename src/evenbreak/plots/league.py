@@ -300,7 +300,7 @@ def _curve(watched: Watched) -> tuple[range, list[float]]:
 
 @in_our_look
 def draw_calibration(validation: Validation, *, ax: Axes | None = None) -> Axes:
-    """Draw how often favourites won against the chance that they had been given.
+    """Draw how often favorites won against the chance that they had been given.
 
     Points on the diagonal are right; below it the chances were too extreme. The bars are
     95% intervals.
@@ -312,12 +312,12 @@ def draw_calibration(validation: Validation, *, ax: Axes | None = None) -> Axes:
     ...     date=["2024-09-03", "2024-09-10", "2024-09-17"])
     >>> axes = draw_calibration(validate(season, prior_sd=0.5))
     >>> axes.get_xlabel()
-    'chance given to the favourite'
+    'chance given to the favorite'
     """
     axes = new_axes(
-        "chance given to the favourite",
-        "share that the favourite won",
-        title="Chances given, and how often favourites won",
+        "chance given to the favorite",
+        "share that the favorite won",
+        title="Chances given, and how often favorites won",
         size=(6.0, 5.4),
         ax=ax,
     )

@@ -175,7 +175,7 @@ def course_figure(
 
 
 def _clear_of(wins: Sequence[float], x: float) -> tuple[float, Literal["bottom", "top"]]:
-    """Return where a label centred at x is clear of the line, and which end of it that is.
+    """Return where a label centered at x is clear of the line, and which end of it that is.
 
     >>> _clear_of([0.25, 0.25, 0.25], 1.5)
     (0.3, 'bottom')

@@ -1,6 +1,6 @@
 """Figures as pictures: one look, the same bytes for everybody, and what a notebook shows.
 
-The look is readable in black and white and for the colour-blind.
+The look is readable in black and white and for the color-blind.
 """
 
 from __future__ import annotations
@@ -119,7 +119,7 @@ _KINDS: tuple[Literal["png", "svg"], ...] = ("png", "svg")
 
 
 class LineStyle(NamedTuple):
-    """A line that differs from the others in colour and in dashes."""
+    """A line that differs from the others in color and in dashes."""
 
     color: str
     linestyle: str | tuple[int, tuple[float, ...]]
@@ -136,7 +136,7 @@ LINES = (
     LineStyle("#882255", (0, (13, 3))),
     LineStyle("#555555", (0, (1, 3))),
 )
-"""The lines of a plot, in order; the first seven colours are those of Okabe and Ito (2008)."""
+"""The lines of a plot, in order; the first seven colors are those of Okabe and Ito (2008)."""
 
 _LABEL = 10
 """The font size of a curve's name, and of a title of several lines."""
@@ -158,7 +158,7 @@ def new_axes(
     size: tuple[float, float] = (6.0, 4.2),
     ax: Axes | None = None,
 ) -> Axes:
-    """Return labelled axes.
+    """Return labeled axes.
 
     Parameters
     ----------

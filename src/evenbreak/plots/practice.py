@@ -398,7 +398,7 @@ def draw_log(analysis: LogAnalysis, *, ax: Axes | None = None) -> Axes:
 
 
 def _mark_mean(axes: Axes, mean: float, label: str, color: str, *, above: float = 0.06) -> float:
-    """Draw a triangle above the highest bar, in the colour of the bars it belongs to."""
+    """Draw a triangle above the highest bar, in the color of the bars it belongs to."""
     height = (1.0 + above) * max(
         bar.get_height() for bar in axes.patches if isinstance(bar, Rectangle)
     )

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Point: TypeAlias = tuple[float, float]
 
 _RADIUS = 0.27
-"""Of a circle, in units of the distance between neighbours."""
+"""Of a circle, in units of the distance between neighbors."""
 _RING = 0.82
 """The inner circle of a terminal node, as a fraction of the outer one."""
 INCHES = 1.25
@@ -29,9 +29,9 @@ _BENDS = (0.0, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6)
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7)
 """Where along an arc its label may go, best place first."""
 _FILL = {None: ("white", "black"), 1: ("0.85", "black"), 2: ("0.35", "white")}
-"""Fill and text colour of a terminal node by winner; they differ in black and white too."""
+"""Fill and text color of a terminal node by winner; they differ in black and white too."""
 _GOLDEN = 0.381966
-"""Steps of this part of the colour circle never come back to a colour that is taken."""
+"""Steps of this part of the color circle never come back to a color that is taken."""
 
 
 def is_terminal(graph: nx.DiGraph[Any], state: Any) -> bool:
@@ -45,9 +45,9 @@ def is_words(graph: nx.DiGraph[Any], state: Any) -> bool:
 
 
 def fills(graph: nx.DiGraph[Any]) -> dict[Any, tuple[Any, str]]:
-    """Return the fill and text colour of a terminal node for each winner, and for none.
+    """Return the fill and text color of a terminal node for each winner, and for none.
 
-    Greys for players 1 and 2, a colour of its own for every further winner.
+    Grays for players 1 and 2, a color of its own for every further winner.
 
     >>> import networkx as nx
     >>> graph = nx.DiGraph()
@@ -262,20 +262,20 @@ class Pen:
 
     def circle(self, state: Any, label: str) -> None:
         """Draw a state; a terminal one is a double circle, filled by winner."""
-        centre = self.places[state]
+        center = self.places[state]
         fill, ink = "white", "black"
         if is_terminal(self.graph, state):
             fill, ink = self.fills[self.graph.nodes[state].get("winner")]
-            self.axes.add_patch(Circle(centre, _RADIUS, facecolor="white", edgecolor="black"))
+            self.axes.add_patch(Circle(center, _RADIUS, facecolor="white", edgecolor="black"))
             radius = _RING * _RADIUS
         else:
             radius = _RADIUS
         self.axes.add_patch(
-            Circle(centre, radius, facecolor=fill, edgecolor="black", linewidth=1.2, zorder=3)
+            Circle(center, radius, facecolor=fill, edgecolor="black", linewidth=1.2, zorder=3)
         )
         room = 2 * 0.85 * radius * self.points_per_unit
         font = min(self.font, room / (0.6 * longest_line(label)))
-        self.axes.text(*centre, label, fontsize=font, color=ink, ha="center", va="center", zorder=4)
+        self.axes.text(*center, label, fontsize=font, color=ink, ha="center", va="center", zorder=4)
 
     def words(self, state: Any, label: str) -> None:
         """Write a node that is not a state."""
@@ -286,7 +286,7 @@ class Pen:
         self.axes.text(x, y, label, fontsize=font, ha="center", va="center", zorder=4)
 
     def legend(self, width: float) -> None:
-        """Name the colours of the winners below the diagram, which is `width` inches wide."""
+        """Name the colors of the winners below the diagram, which is `width` inches wide."""
         from matplotlib.lines import Line2D
 
         won = {node.get("winner") for node in self.graph.nodes.values()} - {None}
@@ -314,13 +314,13 @@ class Pen:
 
 
 Positions: TypeAlias = Mapping[Any, tuple[float, float]]
-"""The place (x, y) of each state, in units of the distance between neighbours."""
+"""The place (x, y) of each state, in units of the distance between neighbors."""
 
 _SWEEPS = 8
 
 
 def positions_of(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, float]]:
-    """Return a place for every node, in units of the distance between neighbours.
+    """Return a place for every node, in units of the distance between neighbors.
 
     A graph that is a path, ignoring self-loops and directions (one-ball, n-ahead, drills), lies
     on a line, with player 1's wins to the right. A graph whose states are scores (a, b), each of
@@ -343,13 +343,13 @@ def positions_of(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, f
     return _on_a_line(graph, start) or _on_the_lattice(graph) or _in_layers(graph, start)
 
 
-def _neighbours(graph: nx.DiGraph[Any], node: Any) -> list[Any]:
+def _neighbors(graph: nx.DiGraph[Any], node: Any) -> list[Any]:
     around = [*graph.predecessors(node), *graph.successors(node)]
-    return [neighbour for neighbour in dict.fromkeys(around) if neighbour != node]
+    return [neighbor for neighbor in dict.fromkeys(around) if neighbor != node]
 
 
 def _on_a_line(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, float]]:
-    around = {node: _neighbours(graph, node) for node in graph}
+    around = {node: _neighbors(graph, node) for node in graph}
     ends = [node for node in graph if len(around[node]) <= 1]
     if not ends or any(len(others) > 2 for others in around.values()):
         return {}
@@ -412,13 +412,13 @@ def _in_layers(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, flo
 
 
 def _ordered(graph: nx.DiGraph[Any], layers: list[list[Any]]) -> dict[Any, float]:
-    """Return each node's height; sorting layers by the mean of their neighbours untangles arcs."""
+    """Return each node's height; sorting layers by the mean of their neighbors untangles arcs."""
     rows: dict[Any, float] = {}
     for _ in range(_SWEEPS):
         for nodes in layers:
 
             def mean(node: Any) -> float:
-                heights = [rows[near] for near in _neighbours(graph, node) if near in rows]
+                heights = [rows[near] for near in _neighbors(graph, node) if near in rows]
                 return sum(heights) / len(heights) if heights else 0.0
 
             nodes.sort(key=mean, reverse=True)

@@ -20,12 +20,12 @@ _SIZE = (9.0, 8.0)
 _CUE = LINES[1].color
 _OBJECT = LINES[2].color
 _DASHES: dict[str, Any] = {"slides": "-", "rolls": (0, (4, 2))}
-_LINE_OF_CENTRES: dict[str, Any] = {"color": "0.35", "ls": (0, (1, 1.5)), "lw": 1.0}
+_LINE_OF_CENTERS: dict[str, Any] = {"color": "0.35", "ls": (0, (1, 1.5)), "lw": 1.0}
 _TANGENT: dict[str, Any] = {"color": "0.35", "ls": (0, (6, 2, 1, 2)), "lw": 1.0}
 _GHOST: dict[str, Any] = {"fc": "none", "ec": "black", "ls": (0, (3, 2)), "lw": 1.1}
 _UNAIDED: dict[str, Any] = {"fc": "none", "ec": LINES[3].color, "ls": (0, (1, 1)), "lw": 1.5}
 _REACH = 14.0
-"""The length of the line of centres and of the tangent line, in inches."""
+"""The length of the line of centers and of the tangent line, in inches."""
 _ALIGNED: dict[str, dict[int, Any]] = {
     "x": {-1: "right", 0: "center", 1: "left"},
     "y": {-1: "top", 0: "center", 1: "bottom"},
@@ -42,7 +42,7 @@ def shot_on_table(traced: Shot | AimedShot) -> Picture:
     """Draw a shot from above, to scale: where both balls go, and how they meet.
 
     A line is solid where a ball slides and dashed where it rolls. The ghost ball is where the
-    cue ball is at the hit; the line of centres goes on through the object ball, and the tangent
+    cue ball is at the hit; the line of centers goes on through the object ball, and the tangent
     line is at a right angle to it. For an aimed shot a cross marks the target, and a second
     ghost ball shows the aim without allowing for throw.
 
@@ -79,8 +79,8 @@ def _draw_shot(axes: Axes, shot: Shot, aimed: AimedShot | None) -> None:
     """Draw balls, lines and paths."""
     radius = shot.strike.ball.radius / INCH
     ghost, standing = shot.ghost_position / INCH, shot.object_position / INCH
-    line, tangent = shot.line_of_centres, shot.tangent
-    _line(axes, ghost, standing + _REACH * line, **_LINE_OF_CENTRES)
+    line, tangent = shot.line_of_centers, shot.tangent
+    _line(axes, ghost, standing + _REACH * line, **_LINE_OF_CENTERS)
     _line(axes, ghost - 0.3 * _REACH * tangent, ghost + _REACH * tangent, **_TANGENT)
     draw_ball(axes, shot.approach.slide.position / INCH, radius, fc="white", ec="black")
     draw_ball(axes, standing, radius, fc=_OBJECT, ec="black", alpha=0.55)
@@ -134,7 +134,7 @@ def _write_key(axes: Axes, shot: Shot, aimed: AimedShot | None) -> None:
         for motion, dashes in _DASHES.items()
         if (name, motion) in drawn
     }
-    rows["line of centres"] = Line2D([], [], **_LINE_OF_CENTRES)
+    rows["line of centers"] = Line2D([], [], **_LINE_OF_CENTERS)
     rows["tangent line"] = Line2D([], [], **_TANGENT)
     rows["ghost ball"] = Circle((0.0, 0.0), **_GHOST)
     if aimed is not None:

@@ -1,4 +1,4 @@
-"""Progressive drills: where a player settles, and what each level is worth practising.
+"""Progressive drills: where a player settles, and what each level is worth practicing.
 
 The levels of a drill are in a line, so between two levels that communicate as many attempts go
 up as come down, law[i] p[i] = law[i + 1] q[i + 1], and the long-run distribution is a product of
@@ -58,7 +58,7 @@ class DrillStatistics:
     period: int
 
     @property
-    def practise_next(self) -> int | None:
+    def practice_next(self) -> int | None:
         """The level with the greatest lift, the lowest such level; None if all lifts are 0."""
         return int(np.argmax(self.lift)) + 1 if any(self.lift) else None
 
@@ -87,7 +87,7 @@ def drill_statistics(drill: Drill, *, via: Way | None = None) -> DrillStatistics
     >>> nine_ball = drill_statistics(Drill.progressive(0.8))
     >>> round(nine_ball.distribution.mean, 3), nine_ball.distribution.median
     (4.354, 4)
-    >>> nine_ball.practise_next, round(nine_ball.gain[3], 1), round(nine_ball.lift[3], 3)
+    >>> nine_ball.practice_next, round(nine_ball.gain[3], 1), round(nine_ball.lift[3], 3)
     (4, 2.3, 0.114)
     """
     limit = limit_of(drill, via=way_of_limit(via))

@@ -1,4 +1,4 @@
-"""The analysis of a drill log: chances, where they lead, what to practise, what stands out."""
+"""The analysis of a drill log: chances, where they lead, what to practice, what stands out."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ class LogAnalysis:
     replicas: int
 
     @property
-    def practise_next(self) -> LevelReport | None:
+    def practice_next(self) -> LevelReport | None:
         """The level with the greatest `p_best`; None where no level with a miss has a lift."""
         best = max(self.levels, key=lambda report: report.p_best)
         return best if best.p_best else None
@@ -169,7 +169,7 @@ def analyse_log(
     >>> analysis = analyse_log(log, rng=np.random.default_rng(1), replicas=199)
     >>> round(analysis.visited.mean, 3), round(analysis.implied.mean, 3)
     (1.625, 1.75)
-    >>> analysis.practise_next.level, analysis.memory.p_value
+    >>> analysis.practice_next.level, analysis.memory.p_value
     (2, 0.005)
     """
     replicas = whole(replicas, "replicas", at_least=1)

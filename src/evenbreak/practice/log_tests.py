@@ -99,8 +99,8 @@ def _error_about_mean(seen: float, by_chance: Floats) -> float:
     """
     mean, off = float(by_chance.mean()), float(by_chance.std()) / np.sqrt(len(by_chance))
 
-    def as_far(centre: float) -> Bools:
-        return np.asarray(np.abs(by_chance - centre) >= abs(seen - centre))
+    def as_far(center: float) -> Bools:
+        return np.asarray(np.abs(by_chance - center) >= abs(seen - center))
 
     moved = as_far(mean + off).mean() - as_far(mean - off).mean()
     slope = moved / (2.0 * off) if off > 0.0 else 0.0

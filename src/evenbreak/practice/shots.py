@@ -122,10 +122,10 @@ def look_ahead_win(game: OneBallLookAhead, *, via: Way | None = None) -> float:
 
 
 def critical_p2(p1: FloatOrArray) -> FloatOrArray:
-    """Return the p2 above which player 2 is the favourite, p1 / (1 - p1); elementwise.
+    """Return the p2 above which player 2 is the favorite, p1 / (1 - p1); elementwise.
 
     The curve is the same for both look-aheads. For p1 > 1/2 it is above 1 (infinity for
-    p1 = 1): no p2 is high enough, so player 1 is the favourite whatever a miss leaves.
+    p1 = 1): no p2 is high enough, so player 1 is the favorite whatever a miss leaves.
 
     Raises
     ------

@@ -7,7 +7,7 @@ from all shots. Their likelihood is that of beta-binomial counts,
     product over i of B(k_i + m w, n_i - k_i + (1 - m) w) / B(m w, (1 - m) w),
 
 averaged here over a grid with a flat prior for m and the density 1/(1 + w)^2 for w. A shot that was
-tried seldom is drawn towards the mean, one that was tried often hardly.
+tried seldom is drawn toward the mean, one that was tried often hardly.
 
 Whether the player got better is asked of the earlier and the later half of the tries. Given how
 often each shot was made in all, what it was made in the later half is hypergeometric if nothing has
@@ -93,7 +93,7 @@ class ShotReport(NamedTuple):
     low, high
         the exact interval of its chance by these tries alone (Clopper & Pearson 1934).
     chance
-        its chance, drawn towards those of the other shots.
+        its chance, drawn toward those of the other shots.
     p_weakest
         the probability that it is the one that is missed most.
     change

@@ -250,9 +250,9 @@ class Graph(ChainFile):
     """Write a game, or a graph of your own, as graph, matrix, eigenvalues and limit.
 
     GAME is one-ball; series, with winner, loser or alternate breaks; drill 9-ball or drill 8-ball;
-    a match, such as 9:5, "7:7 win by 2", race to 7 or n-ahead 3; another game of the catalogue; or
+    a match, such as 9:5, "7:7 win by 2", race to 7 or n-ahead 3; another game of the catalog; or
     a chart, such as npl_10, for the ladder of rating errors that it makes. Without {p}, or {p1} and
-    {p2}, a game of the catalogue has example chances; any other match needs them. FILE is any chain
+    {p2}, a game of the catalog has example chances; any other match needs them. FILE is any chain
     that evenbreak chain reads: a CSV file of arcs, GraphML (.graphml), node-link JSON (.json) or a
     matrix in Matrix Market form (.mtx). All of these are written, with tables of the rest and a
     picture, and can be read again.

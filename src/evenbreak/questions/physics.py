@@ -76,7 +76,7 @@ class Units(Question):
     """The units of what is typed and of the answer."""
 
     metric: Annotated[
-        bool, Field(Flag(), "Read and print centimetres, grams and metres per second.")
+        bool, Field(Flag(), "Read and print centimeters, grams and meters per second.")
     ] = False
 
 
@@ -194,10 +194,10 @@ class Equipment(Question):
 
 
 SideOffset: TypeAlias = Annotated[
-    float, Field(OFFSET, "How far the tip hits to the right of the centre; below 0 to the left.")
+    float, Field(OFFSET, "How far the tip hits to the right of the center; below 0 to the left.")
 ]
 Offset: TypeAlias = Annotated[
-    float, Field(OFFSET, "How far the tip hits above the centre, in ball radii; below 0 for draw.")
+    float, Field(OFFSET, "How far the tip hits above the center, in ball radii; below 0 for draw.")
 ]
 
 
@@ -232,7 +232,7 @@ class TableSpeed(Units):
 
 @dataclass(frozen=True, kw_only=True)
 class Throw(Hit):
-    """Find how far friction throws the object ball off the line of centres.
+    """Find how far friction throws the object ball off the line of centers.
 
     Throw above 0 is forward: it makes the cut fuller, and the ball misses thick. Hard shots
     are thrown less than soft ones: give {speed} to allow for that. Without it, friction is
@@ -291,9 +291,9 @@ class Deflect(Hit):
 
 @dataclass(frozen=True, kw_only=True)
 class Strike(Units, Equipment):
-    """Find the spin and speed that a hit off centre gives, and whether it is a miscue.
+    """Find the spin and speed that a hit off center gives, and whether it is a miscue.
 
-    Offsets are in ball radii: a hit 0.4 above the centre gives natural roll at once.
+    Offsets are in ball radii: a hit 0.4 above the center gives natural roll at once.
     """
 
     examples = """\
@@ -322,18 +322,18 @@ class Strike(Units, Equipment):
                 "{distance} {far:g} needs the speed of the cue; give {stick_speed}",
                 far=self.distance,
             )
-        if self.off_centre >= 1.0:
+        if self.off_center >= 1.0:
             self.refuse(
                 "{offset} {up:g} with {side_offset} {right:g} misses the ball: {off:.3g} radii "
-                "from the centre; together they must be less than 1",
+                "from the center; together they must be less than 1",
                 up=self.offset,
                 right=self.side_offset,
-                off=self.off_centre,
+                off=self.off_center,
             )
 
     @property
-    def off_centre(self) -> float:
-        """How far from the centre the tip hits, in ball radii."""
+    def off_center(self) -> float:
+        """How far from the center the tip hits, in ball radii."""
         return math.hypot(self.offset, self.side_offset)
 
 
@@ -381,7 +381,7 @@ class Shot(Units, BallFriction, Equipment):
             Number(-89.0, 89.0, example="30", metavar="DEGREES"), "Cut angle, to the left below 0."
         ),
     ] = None
-    distance: Annotated[float | None, Field(LENGTH, "Between the centres of the two balls.")] = None
+    distance: Annotated[float | None, Field(LENGTH, "Between the centers of the two balls.")] = None
     cue_ball: Annotated[
         tuple[float, float] | None,
         Field(

@@ -18,7 +18,7 @@ else:  # systems take a quarter of a second to load, which most questions do wit
 
 
 def _system(text: str) -> System:
-    from evenbreak.handicaps.systems.catalogue import system_of
+    from evenbreak.handicaps.systems.catalog import system_of
     from evenbreak.handicaps.systems.own import own_system
 
     if ":" in text:

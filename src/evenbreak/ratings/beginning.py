@@ -113,12 +113,12 @@ class Beginning:
     ) -> None:
         known = names(players, "players")
         many = len(known)
-        centre = scale_of(scale).centre
+        center = scale_of(scale).center
         for name, given, missing in (
             ("rating", rating, np.nan),
             ("standard_error", standard_error, np.nan),
             ("prior_sd", prior_sd, np.nan),
-            ("prior_mean", prior_mean, centre),
+            ("prior_mean", prior_mean, center),
             ("games", games, 0.0),
         ):
             values = missing if given is None else given
@@ -136,22 +136,22 @@ class Beginning:
         object.__setattr__(self, "scale", scale_of(scale))
         object.__setattr__(self, "as_of", None if as_of is None else day_of(as_of))
 
-    def centre(self, players: Sequence[str]) -> float:
+    def center(self, players: Sequence[str]) -> float:
         """Return the mean of the ratings that some players bring along, in points.
 
-        About it the new ratings are centred; without any such player it is the scale's centre.
+        About it the new ratings are centered; without any such player it is the scale's center.
         """
         here = set(players)
         brought = [r for name, r in zip(self.players, self.rating, strict=True) if name in here]
-        return float(np.mean(brought)) if brought else self.scale.centre
+        return float(np.mean(brought)) if brought else self.scale.center
 
     def anchor(self, players: Sequence[str], scale: Scale, *, brought: bool) -> float | None:
-        """Return the `centre` where the ratings count and are of this scale, else None.
+        """Return the `center` where the ratings count and are of this scale, else None.
 
         `brought` says whether ratings without a standard error count.
         """
         counts = brought or not np.isnan(self.standard_error).all()
-        return self.centre(players) if counts and self.scale.same_points(scale) else None
+        return self.center(players) if counts and self.scale.same_points(scale) else None
 
     @property
     def by_games(self) -> Bools:
@@ -169,7 +169,7 @@ class Beginning:
         Parameters
         ----------
         players
-            the names. Their skills are counted from `centre`.
+            the names. Their skills are counted from `center`.
         brought_sd
             how far off ratings without a standard error are, besides what their games leave open,
             in natural log-odds; 0: they are not used.
@@ -179,7 +179,7 @@ class Beginning:
         array([33.3])
         """
         unit = self.scale.log_odds(1.0)
-        zero = self.centre(players)
+        zero = self.center(players)
         error = np.where(np.isnan(self.standard_error), np.nan, self.standard_error * unit)
         if brought_sd:
             besides = number(brought_sd, "brought_sd")
@@ -267,7 +267,7 @@ class PriorMeans:
         """The prior precision of each level."""
         return np.asarray(self.level_sd**-2.0)
 
-    def centred(self, among: Floats) -> PriorMeans:
+    def centered(self, among: Floats) -> PriorMeans:
         """Return the same prior, shifted so that all means are 0 on average over some players.
 
         Parameters
@@ -276,7 +276,7 @@ class PriorMeans:
             the weight of each player in the average; all 0 leaves the prior as it is.
 
         >>> known = PriorMeans(np.array([0.0, 0.6]), np.array([[1.0], [0.0]]), np.array([0.5]))
-        >>> known.centred(np.ones(2)).mean, known.centred(np.ones(2)).design.ravel()
+        >>> known.centered(np.ones(2)).mean, known.centered(np.ones(2)).design.ravel()
         (array([-0.3,  0.3]), array([ 0.5, -0.5]))
         """
         total = float(among.sum())
@@ -284,7 +284,7 @@ class PriorMeans:
             return self
         share, follow = among / total, self.follow
 
-        def centred(skill: Floats) -> Floats:
+        def centered(skill: Floats) -> Floats:
             above = np.zeros(len(skill)) if follow is None else follow(skill)
             return np.asarray(above - share @ above)
 
@@ -292,7 +292,7 @@ class PriorMeans:
             self,
             mean=self.mean - share @ self.mean,
             design=self.design - share @ self.design,
-            follow=None if follow is None else centred,
+            follow=None if follow is None else centered,
         )
 
     def at(self, skill: Floats) -> PriorMeans:

@@ -35,7 +35,7 @@ from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 from evenbreak.ratings.sampled_diagonal import InverseDiagonal
 
 _DENSE_UP_TO = 2000
-"""Players up to which the Hessian is factorised once; with more, each answer is iterated."""
+"""Players up to which the Hessian is factorized once; with more, each answer is iterated."""
 
 _SOLVED_UP_TO = 100
 """Unknowns up to which a Newton step is solved exactly, which is faster than to iterate."""

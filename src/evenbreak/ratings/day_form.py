@@ -19,7 +19,7 @@ from scipy.optimize import minimize_scalar
 from scipy.special import expit, log_expit, logsumexp
 
 from evenbreak.arrays import Floats
-from evenbreak.matches.form import centre_of_form
+from evenbreak.matches.form import center_of_form
 from evenbreak.ratings.decay import until
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.doubtful_scores import doubtful_scores
@@ -90,7 +90,7 @@ def form_variance(
 
 def log_odds_of(difference: Floats, sd: Floats, v: float) -> Floats:
     """Return the mean log-odds of a game with form, for which its chance stays as it is."""
-    return centre_of_form(difference, sd, math.sqrt(v))
+    return center_of_form(difference, sd, math.sqrt(v))
 
 
 def day_form(results: Results, ratings: Ratings) -> DayForm | None:

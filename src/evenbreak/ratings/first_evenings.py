@@ -4,7 +4,7 @@ Whoever comes to a strong tournament for the first time is likely to be stronger
 to a beginners' evening. An event is what has one event and one division, as far as the file tells
 two or more apart; what names neither is one event a date. Its field are the players who had played
 on an earlier date, on each evening of the event so far; its strength is the mean of their skills,
-drawn towards the others' as far as it is made of few.
+drawn toward the others' as far as it is made of few.
 """
 
 from __future__ import annotations

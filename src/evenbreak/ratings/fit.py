@@ -79,7 +79,7 @@ def fit(
         'npl', 'fargo', 'elo', points that double the odds, or a `Scale`.
     anchor
         the prior mean in points; or the ratings of named players: their component is
-        shifted so that on average they have these ratings. None is the scale's centre,
+        shifted so that on average they have these ratings. None is the scale's center,
         which also holds for components without a named player, or, if players bring ratings
         of this scale along, the mean of those.
     half_life
@@ -143,7 +143,7 @@ def fit(
         )
     if anchor is None and levels and levels.beginning is not None:
         anchor = levels.beginning.anchor(results.players, scale, brought=levels.brought_sd > 0.0)
-    centre, named = _anchors(anchor, scale, results.players)
+    center, named = _anchors(anchor, scale, results.players)
     day = None if as_of is None else day_of(as_of)
     in_time = results if day is None else results.select(until(results, day))
     scored, forfeits, empty = in_time.played()
@@ -187,7 +187,7 @@ def fit(
     skill = mode.point[:players]
     means = None if means is None else means.at(skill)
     component = _components(played.graph, None if means is None else means.information)
-    rating = centre + scale.points_per_log_odds * skill
+    rating = center + scale.points_per_log_odds * skill
     races_won, races_lost = _races(won_only)
     return Ratings(
         players=results.players,
@@ -197,7 +197,7 @@ def fit(
         lost=pairs.lost,
         component=component,
         scale=scale,
-        anchor=centre,
+        anchor=center,
         prior_sd=prior_sd,
         iterations=mode.iterations,
         gradient=mode.gradient,
@@ -244,7 +244,7 @@ def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float
     """Return the mean of the prior in points, and the ratings of named players."""
     if not isinstance(anchor, Mapping):
         if anchor is None:
-            return scale.centre, {}
+            return scale.center, {}
         return number(anchor, "anchor", wanted="a finite number of points"), {}
     rated = {*players}
     for name in anchor:
@@ -252,7 +252,7 @@ def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float
             raise InputError(
                 "anchor {name!r} is not in the results; give a name that is", name=name
             )
-    return scale.centre, {
+    return scale.center, {
         name: number(points, f"anchor of {name!r}", wanted="a finite number of points")
         for name, points in anchor.items()
     }

@@ -346,7 +346,7 @@ class Ratings:
 
         Notes
         -----
-        The variance is (e₁ - e₂)ᵀ H⁻¹ (e₁ - e₂): for up to 2,000 players H is factorised
+        The variance is (e₁ - e₂)ᵀ H⁻¹ (e₁ - e₂): for up to 2,000 players H is factorized
         once; for more, each pair is one linear system, solved by conjugate gradients.
 
         >>> from evenbreak.ratings import Results, fit

@@ -264,7 +264,7 @@ class Knowledge:
             self._known,
             self._follow(),
         )
-        return whole.centred((self._behind > 0).astype(float))
+        return whole.centered((self._behind > 0).astype(float))
 
     def _follow(self) -> Callable[[Floats], Floats] | None:
         size, evenings = self._levels.field, self._evenings
@@ -368,7 +368,7 @@ def means_of(
 
 
 RIDGE = 0.01
-"""A weight, in matches, towards 0: it decides between groups that never met."""
+"""A weight, in matches, toward 0: it decides between groups that never met."""
 
 RECENT = 5.0
 """A race counts half after so many more, on later days, of the player who has had fewer since."""

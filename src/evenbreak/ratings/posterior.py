@@ -179,7 +179,7 @@ def damped(step: Floats, low: Places, high: Places) -> Floats:
 
     Notes
     -----
-    Generalised self-concordance: Bach (2010); Sun & Tran-Dinh (2019), Theorem 2.
+    Generalized self-concordance: Bach (2010); Sun & Tran-Dinh (2019), Theorem 2.
     """
     beta = float(np.abs(step[low] - step[high]).max(initial=0.0))
     return step if beta < 1.7 else step * (math.log1p(beta) / beta)

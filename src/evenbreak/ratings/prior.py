@@ -138,7 +138,7 @@ class PriorChoice(NamedTuple):
     Attributes
     ----------
     prior_sd
-        that width, in natural log-odds; the one nearest to `PRIOR_SD` where `learnt` is false.
+        that width, in natural log-odds; the one nearest to `PRIOR_SD` where `learned` is false.
     tried
         all widths, in rising order.
     log_loss
@@ -149,7 +149,7 @@ class PriorChoice(NamedTuple):
         how many games and such matches were predicted.
     low, high
         the ends of the range of widths that predict as well as the best (95%).
-    learnt
+    learned
         whether that range is narrow enough to choose by, and 100 results were predicted.
     as_it_went
         the log-loss where each stretch has the width that did best before it.
@@ -169,7 +169,7 @@ class PriorChoice(NamedTuple):
     predicted: int
     low: float
     high: float
-    learnt: bool
+    learned: bool
     as_it_went: float
     levels: Levels = Levels()
     half_life: float | None = None
@@ -255,14 +255,14 @@ def best_prior(
     }
     search = _Search(results, 2 * len(more) + 2, progress, share, races)
     choice = search.width(tried, way)
-    if not choice.learnt:
+    if not choice.learned:
         return choice._replace(levels=begun(beginning), part=part)
     evidence: list[Evidence] = []
     chosen_for, left, beside = way, list(more), False
     while left:
         if left[0] == "half_life" and way != chosen_for:
             # Under a prior that is too wide, old games would seem to count too much.
-            choice, chosen_for = search.width(tried, way)._replace(learnt=True), way
+            choice, chosen_for = search.width(tried, way)._replace(learned=True), way
         now = (
             [name for name in left if name in OF_NEWCOMERS] if left[0] in OF_NEWCOMERS else left[:1]
         )
@@ -283,7 +283,7 @@ def best_prior(
         way, choice = _with(way, best.of, best.value), choice._replace(prior_sd=width)
     if any(found.used for found in evidence):
         if way != chosen_for:
-            choice = search.width(tried, way)._replace(learnt=True)
+            choice = search.width(tried, way)._replace(learned=True)
         so_far = {**way, "prior_sd": choice.prior_sd}
         evidence = [search.sharpened(found, so_far) for found in evidence]
         for found in evidence:
@@ -360,8 +360,8 @@ class _Search:
         total = of_width.losses.sum(0)
         good = tried[total <= total.min() + AS_GOOD]
         predicted = int(of_width.predicted.sum())
-        learnt = predicted >= FEWEST and round(float(good[-1] / good[0]), 6) < VAGUE
-        best = total if learnt else _from_default(tried)
+        learned = predicted >= FEWEST and round(float(good[-1] / good[0]), 6) < VAGUE
+        best = total if learned else _from_default(tried)
         return PriorChoice(
             float(tried[best.argmin()]),
             tuple(tried.tolist()),
@@ -369,7 +369,7 @@ class _Search:
             predicted,
             float(good[0]),
             float(good[-1]),
-            learnt,
+            learned,
             _as_it_went(of_width, tried),
             half_life=way["half_life"],
         )
@@ -430,7 +430,7 @@ class _Search:
 
         One step of Newton's method from the best of them; the error is the sandwich's, the larger
         of two: stretches being independent of each other, or matches without a common player. What
-        is expected of newcomers is drawn towards 0 as far as it is not certain, since it is only
+        is expected of newcomers is drawn toward 0 as far as it is not certain, since it is only
         used where it looks large.
         """
         if coarse.of == "race" and coarse.used and self._races is not None:

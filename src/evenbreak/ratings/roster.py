@@ -70,7 +70,7 @@ class Roster:
         players linked by a chain of opponents share a number from 1 up, and only their
         ratings can be compared; 0 where not stated.
     matches
-        the matches that each player has played, by which some systems recognise newcomers;
+        the matches that each player has played, by which some systems recognize newcomers;
         `NOT_STATED` where the list does not say.
     provisional
         whose rating has no place in the list; if None, new players and those whom

@@ -250,10 +250,10 @@ class _Blocks:
             length = size / np.maximum(np.einsum("ij,ij->j", step, image), 1e-300)
             solution += length * step
             residual -= length * image
-            towards = self.precondition(residual)
-            last, size = size, np.einsum("ij,ij->j", residual, towards)
+            toward = self.precondition(residual)
+            last, size = size, np.einsum("ij,ij->j", residual, toward)
             step *= size / np.maximum(last, 1e-300)
-            step += towards
+            step += toward
         raise not_definite()
 
 

@@ -42,7 +42,7 @@ class Scale:
         what the scale is called.
     points_per_doubling
         points, above zero.
-    centre
+    center
         the rating of an average player, in points: the anchor of ratings where the user
         gives none. Differences do not depend on it.
 
@@ -64,7 +64,7 @@ class Scale:
 
     name: str
     points_per_doubling: float
-    centre: float = 0.0
+    center: float = 0.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.points_per_doubling) and self.points_per_doubling > 0):
@@ -72,8 +72,8 @@ class Scale:
                 "{points_per_doubling} is {value!r}; give a number above 0",
                 value=self.points_per_doubling,
             )
-        if not math.isfinite(self.centre):
-            raise InputError("{centre} is {value!r}; give a finite number", value=self.centre)
+        if not math.isfinite(self.center):
+            raise InputError("{center} is {value!r}; give a finite number", value=self.center)
 
     @property
     def text(self) -> str:
@@ -225,7 +225,7 @@ def scale_of(text_or_number: Any) -> Scale:
     >>> scale_of("Fargo").points_per_doubling
     100.0
     >>> scale_of("40")
-    Scale(name='40 points', points_per_doubling=40.0, centre=0.0)
+    Scale(name='40 points', points_per_doubling=40.0, center=0.0)
     """
     if isinstance(text_or_number, Scale):
         return text_or_number

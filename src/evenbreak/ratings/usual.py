@@ -140,4 +140,4 @@ def _choice(
         scale=scale,
         progress=progress,
     )
-    return choice if asked or choice.learnt else None
+    return choice if asked or choice.learned else None

@@ -213,13 +213,13 @@ def _line(page: Paper, line: Line, x: float, y: float, wide: float, high: float)
     if line.score:
         score = "w/o" if line.score == "forfeit" else line.score
         size = min(LARGEST + 0.5, 0.8 * high * POINTS) if score.isdigit() else SMALLEST
-        page.centred(middle, y, score, size=size, bold=line.won)
+        page.centered(middle, y, score, size=size, bold=line.won)
     elif line.needs:
         at = y + 0.5 * high - 0.03
         page.text(x + wide - 0.02, at, f"/{line.needs}", size=SMALLEST, color="0.45", ha="right")
     color = "black" if line.known else "0.35"
     for text, offset, size in written(line, wide - _SCORE - 2 * _EDGE, high):
-        page.centred(x + _EDGE, y + offset, text, size=size, bold=line.won, ha="left", color=color)
+        page.centered(x + _EDGE, y + offset, text, size=size, bold=line.won, ha="left", color=color)
 
 
 def written(line: Line, room: float, high: float) -> list[tuple[str, float, float]]:

@@ -62,14 +62,14 @@ def draw_list_pdf(
         line, size = fitted(about, 10, wide - 2 * MARGIN)
         page.text(MARGIN, MARGIN + 0.45, line, size=size)
         for k, first_match in enumerate(listed[start : start + most]):
-            _row(page, first_match, _TOP + (k + 0.7) * _ROW, wide, grey=k % 2 == 0)
+            _row(page, first_match, _TOP + (k + 0.7) * _ROW, wide, gray=k % 2 == 0)
         pages.append(page.figure)
     return pdf_bytes(pages, f"The draw: {event}")
 
 
-def _row(page: Paper, first_match: FirstMatch, y: float, wide: float, *, grey: bool) -> None:
-    if grey:
-        page.band(MARGIN, y - 0.7 * _ROW, wide - 2 * MARGIN, _ROW, grey="0.93")
+def _row(page: Paper, first_match: FirstMatch, y: float, wide: float, *, gray: bool) -> None:
+    if gray:
+        page.band(MARGIN, y - 0.7 * _ROW, wide - 2 * MARGIN, _ROW, gray="0.93")
     name, size = fitted(first_match.name, _SIZE, 2.6, bold=True)
     page.text(MARGIN + 0.05, y, name, size=size, bold=True)
     page.text(MARGIN + 2.75, y, f"seed {first_match.seed}", size=9, color="0.3")

@@ -90,9 +90,9 @@ class Paper:
             x, y, drawable(text), fontproperties=_font(bold), size=size, **plain, **style
         )
 
-    def centred(self, x: float, y: float, text: str, *, size: float, **style: Any) -> None:
+    def centered(self, x: float, y: float, text: str, *, size: float, **style: Any) -> None:
         """Write text whose digits have their middle at (x, y)."""
-        # Half the height of a digit: matplotlib's own centring moves with the letters.
+        # Half the height of a digit: matplotlib's own centering moves with the letters.
         self.text(x, y + 0.365 * size / POINTS, text, size=size, **{"ha": "center", **style})
 
     def slanted(self, x: float, y: float, text: str, *, size: float, angle: float) -> None:
@@ -103,9 +103,9 @@ class Paper:
         """Draw a line through points; `style` is that of matplotlib's lines."""
         self._axes.plot(x, y, **{"color": "black", "lw": 0.5, **style})
 
-    def band(self, left: float, top: float, width: float, height: float, *, grey: str) -> None:
-        """Fill a rectangle with a grey from 0 (black) to 1 (white)."""
-        self._axes.add_patch(Rectangle((left, top), width, height, fc=grey, lw=0, zorder=0))
+    def band(self, left: float, top: float, width: float, height: float, *, gray: str) -> None:
+        """Fill a rectangle with a gray from 0 (black) to 1 (white)."""
+        self._axes.add_patch(Rectangle((left, top), width, height, fc=gray, lw=0, zorder=0))
 
     def frame(
         self, left: float, top: float, width: float, height: float, *, thick: float = 0.5

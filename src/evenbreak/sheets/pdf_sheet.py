@@ -270,7 +270,7 @@ class _Table:
         sizes, end = self.sizes, self._bars[1]
         for k in range(0, len(self.down), 2):
             top = sizes.top + k * sizes.row
-            self.page.band(MARGIN, top, end + sizes.group - MARGIN, sizes.row, grey="0.945")
+            self.page.band(MARGIN, top, end + sizes.group - MARGIN, sizes.row, gray="0.945")
         self._draw_names()
         self._draw_races()
         self._draw_ratings()
@@ -293,9 +293,9 @@ class _Table:
         look: dict[str, Any] = {"size": sizes.text_size}
         for y, line in self._middles():
             x = MARGIN + sizes.place
-            page.centred(x, y, line.place, ha="right", color="0.35", **look)
+            page.centered(x, y, line.place, ha="right", color="0.35", **look)
             name = shortened(line.name, sizes.text_size, sizes.name)
-            page.centred(x + GAP, y, name, ha="left", **look)
+            page.centered(x + GAP, y, name, ha="left", **look)
         for column, line in enumerate(self.block.across):
             x = sizes.left + (column + 0.5) * sizes.cell + 0.03
             size = sizes.slant_size
@@ -308,9 +308,9 @@ class _Table:
             for column, race in enumerate(races[line]):
                 x = sizes.left + column * sizes.cell
                 if race is None:
-                    page.band(x, y - sizes.row / 2, sizes.cell, sizes.row, grey="0.78")
+                    page.band(x, y - sizes.row / 2, sizes.cell, sizes.row, gray="0.78")
                 else:
-                    page.centred(x + sizes.cell / 2, y, race, size=sizes.race_size)
+                    page.centered(x + sizes.cell / 2, y, race, size=sizes.race_size)
         right = sizes.right(len(self.block.across))
         for k in range(len(self.down) + 1):
             y = sizes.top + k * sizes.row
@@ -328,15 +328,15 @@ class _Table:
 
         for tick in self.ticks:
             page.line([place(tick.at)] * 2, [sizes.top, self._bottom], color="0.75")
-            page.centred(place(tick.at), self._bottom + 0.1, tick.label, size=NOTE)
+            page.centered(place(tick.at), self._bottom + 0.1, tick.label, size=NOTE)
         for y, line in self._middles():
             size = sizes.text_size
             text = shortened(rating_text(line), size, sizes.rating)
-            page.centred(start - GAP, y, text, size=size, ha="right")
+            page.centered(start - GAP, y, text, size=size, ha="right")
             ends = [place(line.low), place(line.high)]
             page.line(ends, [y, y], color="0.45", lw=2.2, solid_capstyle="butt")
             page.line([place(line.middle)], [y], marker="o", ms=4.5)
-            page.centred(end + sizes.group, y, group_text(line), size=size, ha="right")
+            page.centered(end + sizes.group, y, group_text(line), size=size, ha="right")
         if sizes.group:
             page.text(end + sizes.group, sizes.top - 0.06, GROUP, size=NOTE, ha="right")
         for k, text in enumerate(("bar: two of them either way", "rating ± standard error")):

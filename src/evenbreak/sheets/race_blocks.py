@@ -18,7 +18,7 @@ NOT_OVER_THE_EDGE = (4, 96)
 
 
 class PlayerLine(NamedTuple):
-    """A player's rating, and a bar of two standard errors either way, in per cent of the axis.
+    """A player's rating, and a bar of two standard errors either way, in percent of the axis.
 
     The rating has ~ before it if it is provisional, and the place P.
     An error that is not stated is empty; counts are None where they are not stated.
@@ -38,7 +38,7 @@ class PlayerLine(NamedTuple):
 
 
 class Tick(NamedTuple):
-    """A mark on an axis, at per cent of its length."""
+    """A mark on an axis, at percent of its length."""
 
     at: float
     label: str
@@ -66,7 +66,7 @@ class Bars:
         self.low, self.high = low - edge, high + edge
 
     def place(self, rating: float) -> float:
-        """Return where a rating stands, in per cent."""
+        """Return where a rating stands, in percent."""
         return round(100 * (rating - self.low) / (self.high - self.low), 2)
 
     def ticks(self) -> list[Tick]:
@@ -209,7 +209,7 @@ Races = Mapping[tuple[str, str], str]
 """The race of each two players, from the side of the first."""
 
 _ROOM, _FIGURE, _EDGE = 144.0, 1.5, 2.2
-"""Millimetres: for the columns of a printed table, for a figure in it, and around a race."""
+"""Millimeters: for the columns of a printed table, for a figure in it, and around a race."""
 
 
 class Block(NamedTuple):

@@ -247,7 +247,7 @@ class GamesWon(CountLaw):
         return ScoreRange(low, high, float(self.between(low, high)))
 
     def _widening(self) -> Iterator[tuple[int, int, float]]:
-        """Yield ranges that start at the mode and take in the more probable neighbour each time.
+        """Yield ranges that start at the mode and take in the more probable neighbor each time.
 
         The distribution has one peak, so each is the most probable range of its length.
         """

@@ -106,7 +106,7 @@ def _gap(games: Floats, rows: Floats, columns: Floats) -> Floats:
 
 
 def _simplex(games: Floats) -> tuple[Floats, Floats]:
-    """Return both mixtures: maximise sum(y) over A y <= 1, y >= 0, for all games at once."""
+    """Return both mixtures: maximize sum(y) over A y <= 1, y >= 0, for all games at once."""
     count, m, n = games.shape
     table = np.zeros((count, m + 1, n + m + 1))
     table[:, :m, :n] = games

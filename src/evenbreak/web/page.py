@@ -32,7 +32,7 @@ from evenbreak.answers.faces.to_html import to_html
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.wording import share, share_at_a_glance
 from evenbreak.errors import DataError, EvenbreakError
-from evenbreak.files.catalogues import face_in, language_of, languages
+from evenbreak.files.catalogs import face_in, language_of, languages
 from evenbreak.sheets.story_drawing import story_style
 from evenbreak.site.look import accent
 from evenbreak.web.forms import LONGEST, Form

@@ -117,7 +117,7 @@ def plan_of(
             say("both teams list {names}; are they different people?", names=some_of(both))
         )
     for one in lists:
-        filled = one.file.roster.with_starters(scale.centre, scale.points_per_doubling, scale)
+        filled = one.file.roster.with_starters(scale.center, scale.points_per_doubling, scale)
         warnings += filter(None, [starters_words(one.file.roster, filled)])
     rated = np.concatenate([one.file.roster.rating for one in lists])
     doubts = [] if by_level else league_doubts(scale, rated, say("is it the right scale?"))
@@ -199,7 +199,7 @@ def _sheet(name: str, read: TeamList, scale: Scale, asked: Mapping[str, Any]) ->
             "{name} has no skill level, and a cap needs one for every player.",
             name=read.without_weight,
         )
-    roster = read.file.roster.with_starters(scale.centre, scale.points_per_doubling, scale)
+    roster = read.file.roster.with_starters(scale.center, scale.points_per_doubling, scale)
     errors = np.zeros(len(roster)) if asked["sure"] else np.nan_to_num(roster.standard_error)
     weights = np.nan_to_num(read.weights)
     return TeamSheet(

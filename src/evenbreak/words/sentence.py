@@ -21,7 +21,7 @@ class _Values(dict[str, Any]):
 
 
 class _Wording(NamedTuple):
-    """A template as the catalogues know it: what it means, and how it is said of several."""
+    """A template as the catalogs know it: what it means, and how it is said of several."""
 
     template: str
     many: str = ""

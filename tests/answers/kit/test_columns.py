@@ -53,7 +53,7 @@ def test_an_answer_may_show_a_column_in_its_own_way():
 
 def test_a_name_may_hold_what_only_an_answer_knows():
     assert column_of("against", level=5).names == ("against 5",)
-    assert column_of("ball_speed", unit="m_s", units="metres per second").names == (
+    assert column_of("ball_speed", unit="m_s", units="meters per second").names == (
         "ball_speed_m_s",
     )
 

@@ -19,7 +19,7 @@ def test_the_first_sentence_has_the_numbers_of_the_json(npl):
     found = npl.to_dict()
     assert f"within {found['off_by_quantiles']['0.9']} points" in npl.sentences[0]
     assert of_100(found["off_by_more"]["5"]) in npl.sentences[0]
-    assert f"{100 * found['unfairness']['favourite_mean']:.1f}%" in npl.sentences[1]
+    assert f"{100 * found['unfairness']['favorite_mean']:.1f}%" in npl.sentences[1]
     assert f"{found['settling']['mean']:.1f} matches" in npl.sentences[2]
 
 

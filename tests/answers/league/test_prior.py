@@ -88,7 +88,7 @@ def test_teams_that_are_too_many_to_compare_are_said_not_to_be_used(monkeypatch)
     assert list(groups_warnings(file, chosen)) == [
         "The difference between teams was not used: 2 among 4 players are too many to compare."
     ]
-    assert not list(groups_warnings(file, chosen._replace(learnt=False)))
+    assert not list(groups_warnings(file, chosen._replace(learned=False)))
     assert not list(groups_warnings(file, None))
 
 

@@ -122,16 +122,16 @@ def test_what_was_asked_for_is_said():
     assert data["warnings"] == ["season.csv:3: look at this"]
 
 
-LEARNT = (0.4, 0.6, True, 0.61)
-"""The range of a prior, that it was learnt, and the loss as it went."""
+LEARNED = (0.4, 0.6, True, 0.61)
+"""The range of a prior, that it was learned, and the loss as it went."""
 
 
 def test_a_prior_at_the_edge_of_those_tried_is_marked():
     ratings = fit(groups(1), prior_sd=0.5)
     inside = choice_words(
-        ratings, PriorChoice(0.5, (0.3, 0.5, 1.0), (0.7, 0.6, 0.7), 1200, *LEARNT)
+        ratings, PriorChoice(0.5, (0.3, 0.5, 1.0), (0.7, 0.6, 0.7), 1200, *LEARNED)
     )
-    edge = choice_words(ratings, PriorChoice(0.5, (0.2, 0.3, 0.5), (0.8, 0.7, 0.6), 1200, *LEARNT))
+    edge = choice_words(ratings, PriorChoice(0.5, (0.2, 0.3, 0.5), (0.8, 0.7, 0.6), 1200, *LEARNED))
     assert "21.6 points" in inside
     assert "1,200" in inside
     assert edge.startswith(inside)

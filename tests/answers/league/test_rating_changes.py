@@ -7,7 +7,7 @@ from evenbreak.answers.league.rating_changes import rating_changes_answer, ratin
 from evenbreak.files.lists.roster import read_roster
 from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.catalog import system_of
 
 NPL = system_of("npl")
 LAST = "player,rating,games\nBo,80,120\nAnn,92,140\nCy,71,\n=cmd(),60,0\nNew,,0\n"

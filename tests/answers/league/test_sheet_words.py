@@ -82,9 +82,11 @@ def test_how_it_was_rated():
     sheet = sheet_of(season, scale="fargo", prior_sd=0.5)
     assert "500, give or take 72.1." in how_rated(sheet)
     tried = (sheet.ratings.prior_sd, (0.1, 0.5, 0.9), (0.7, 0.6, 0.7), 1234, 0.4, 0.6)
-    learnt, not_learnt = PriorChoice(*tried, True, 0.61), PriorChoice(*tried, False, 0.61)
-    assert "of 3 values tried, this one predicted 1,234" in how_rated(replace(sheet, choice=learnt))
-    assert how_rated(replace(sheet, choice=not_learnt)) == how_rated(sheet)
+    learned, not_learned = PriorChoice(*tried, True, 0.61), PriorChoice(*tried, False, 0.61)
+    assert "of 3 values tried, this one predicted 1,234" in how_rated(
+        replace(sheet, choice=learned)
+    )
+    assert how_rated(replace(sheet, choice=not_learned)) == how_rated(sheet)
     aged = sheet_of(season, half_life=90, as_of="2026-02-01")
     assert "half after 90 days, as of 2026-02-01" in how_rated(aged)
 

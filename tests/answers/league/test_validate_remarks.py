@@ -33,7 +33,7 @@ def winners_first(season):
     )  # fmt: skip
 
 
-def test_a_file_that_lists_winners_first_is_recognised(play_season):
+def test_a_file_that_lists_winners_first_is_recognized(play_season):
     season = play_season(1, matches=300)
     found = validate(winners_first(season), prior_sd=0.5)
     text = said(found, "first column")
@@ -56,7 +56,7 @@ def test_an_advantage_of_the_first_column_may_be_that_of_home(play_season, side,
     [
         ({"dates_won": 12}, "winners first there"),
         ({"varies": 1e-4}, "from date to date"),
-        ({"favoured": 800, "with_favourite": 1200}, "stronger player first"),
+        ({"favoured": 800, "with_favorite": 1200}, "stronger player first"),
     ],
 )
 def test_the_order_of_the_file_is_not_taken_for_an_advantage(sided, changed, word):
@@ -93,7 +93,7 @@ def test_a_real_season_whose_first_column_wins_more():
 
 
 @pytest.mark.parametrize(("share", "word"), [(0.68, "less"), (0.7, None)])
-def test_races_of_a_length_that_favourites_win_less_are_named(sided, share, word):
+def test_races_of_a_length_that_favorites_win_less_are_named(sided, share, word):
     won = round(share * 4000)
     long = RaceLengths(6, 9, 4000, won, share, *wilson(share, 4000), 0.71)
     short = RaceLengths(3, 5, 4000, 2600, 0.65, *wilson(0.65, 4000), 0.65)
@@ -101,6 +101,6 @@ def test_races_of_a_length_that_favourites_win_less_are_named(sided, share, word
     assert (text is not None) == (word is not None)
     if text:
         assert text == (
-            "In the longer races (6 to 9 games), favourites win less often than predicted: 68% of "
+            "In the longer races (6 to 9 games), favorites win less often than predicted: 68% of "
             "4,000 (71% predicted)."
         )

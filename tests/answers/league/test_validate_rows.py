@@ -17,7 +17,7 @@ def test_every_figure_has_its_row(demo):
     assert {row["part"] for row in rows} == {
         *("half_life", "prior_sd", "log_loss", "brier", "slope", "gain", "experience"),
         *("first_column", "first_column_dates", "first_column_varies", "side", "first_break"),
-        *("calibration", "calibration_plug_in", "no_favourite", "dispersion"),
+        *("calibration", "calibration_plug_in", "no_favorite", "dispersion"),
         *("form", "score", "score_with_form", "spot", "start"),
     }
     (row,) = [r for r in rows if (r["part"], r["of"], r["item"]) == ("slope", "game", "integrated")]

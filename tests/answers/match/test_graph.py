@@ -18,7 +18,7 @@ from evenbreak.answers.match.graph import (
     states_table,
 )
 from evenbreak.files.chain_files import matrix_market_bytes
-from evenbreak.games import CATALOGUE, Ahead, Rack
+from evenbreak.games import CATALOG, Ahead, Rack
 from evenbreak.handicaps import CHARTS, Ladder, chart
 from rows import each_of
 
@@ -47,7 +47,7 @@ class Rounded:
         return 1 if state else None
 
 
-WRITTEN = {**CATALOGUE, **{name: Ladder(chart(name)) for name in CHARTS}, "rounded": Rounded()}
+WRITTEN = {**CATALOG, **{name: Ladder(chart(name)) for name in CHARTS}, "rounded": Rounded()}
 
 
 @each_of("name", WRITTEN)

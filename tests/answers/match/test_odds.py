@@ -19,9 +19,9 @@ def test_the_quantities_are_those_of_match_odds():
     assert told["p_hill_hill"] == odds.p_hill_hill
 
 
-@pytest.mark.parametrize(("p", "favourite"), [(0.6, "A"), (0.3, "B")])
-def test_the_favourite_comes_first(p, favourite):
-    assert answer_of(Race(5, 5, Rack(p))).sentences[0].startswith(favourite)
+@pytest.mark.parametrize(("p", "favorite"), [(0.6, "A"), (0.3, "B")])
+def test_the_favorite_comes_first(p, favorite):
+    assert answer_of(Race(5, 5, Rack(p))).sentences[0].startswith(favorite)
 
 
 def test_a_winner_is_certain_only_if_the_other_cannot_win():

@@ -26,12 +26,12 @@ def test_the_other_look_ahead_is_named_where_it_prefers_another_shot():
 @pytest.mark.parametrize(
     ("shot", "words"),
     [
-        ((0.4, 0.8), "would be the favourite if a miss left a chance below 0.6667"),
-        ((0.4, 0.2), "are the favourite as long as a miss leaves a chance below 0.6667"),
-        ((0.6, 1), "are the favourite, whatever"),
+        ((0.4, 0.8), "would be the favorite if a miss left a chance below 0.6667"),
+        ((0.4, 0.2), "are the favorite as long as a miss leaves a chance below 0.6667"),
+        ((0.6, 1), "are the favorite, whatever"),
         ((0.5, 1), "even"),
         ((0, 0), "nobody wins"),
-        ((0, 0.5), "not the favourite"),
+        ((0, 0.5), "not the favorite"),
     ],
 )
 def test_a_shot_alone(shot, words):

@@ -3,12 +3,12 @@ import pytest
 
 from evenbreak.answers.match.chain import road_of
 from evenbreak.errors import GameError
-from evenbreak.games import CATALOGUE
+from evenbreak.games import CATALOG
 from evenbreak.handicaps import CHARTS, Ladder, chart, ladder_gap
 from rows import each_of
 
 
-@each_of("game", CATALOGUE.values())
+@each_of("game", CATALOG.values())
 def test_every_way_that_leads_there_leads_to_the_same_limit(game):
     road = road_of(game)
     assert isinstance(road.graph, nx.DiGraph)

@@ -46,7 +46,7 @@ def test_a_ball_aimed_so_goes_where_it_should(topspin, side):
     )
 
 
-def test_in_centimetres():
+def test_in_centimeters():
     inches, metric = aim(20.0), aim(20.0, units=METRIC)
     assert metric["offset_cm"] == pytest.approx(2.54 * inches["offset_in"])
     assert metric["distance_cm"] == pytest.approx(36 * 2.54)

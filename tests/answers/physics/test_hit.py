@@ -30,8 +30,8 @@ def test_a_cut_to_the_left_is_the_mirror_image_of_one_to_the_right():
     left, right = hit(-20.0, 0.5, 0.3), hit(20.0, 0.5, -0.3)
     assert left.collide().throw == right.collide().throw
     assert left.collide().sideways == -right.collide().sideways
-    assert (left.hand, left.towards, left.away) == (-1.0, "left", "right")
-    assert (right.hand, right.towards, right.away) == (1.0, "right", "left")
+    assert (left.hand, left.toward, left.away) == (-1.0, "left", "right")
+    assert (right.hand, right.toward, right.away) == (1.0, "right", "left")
 
 
 def test_the_english_that_leaves_no_slip_is_exact():

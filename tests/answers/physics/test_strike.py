@@ -35,7 +35,7 @@ def test_struck_into_natural_roll():
     assert found["ball_speed_in_s"] is found["slide_in"] is found["stun_in"] is None
 
 
-def test_a_hit_in_the_centre_at_a_speed():
+def test_a_hit_in_the_center_at_a_speed():
     found = struck(0.0, speed=40)
     assert found["ball_speed_in_s"] == pytest.approx(60.0)
     assert found["stick_speed_after_in_s"] == pytest.approx(20.0)
@@ -45,11 +45,11 @@ def test_a_hit_in_the_centre_at_a_speed():
     assert struck(0.0, speed=1, units=METRIC)["ball_speed_m_s"] == pytest.approx(1.5)
 
 
-def test_right_of_the_centre_is_right_english():
+def test_right_of_the_center_is_right_english():
     found = struck(-0.2, 0.3)
     assert found["side_spin_speed_ratio"] == pytest.approx(0.75)
     assert found["roll_side_spin_speed_ratio"] == pytest.approx(3.5 * 0.3 / 0.8)
-    assert found["off_centre"] == pytest.approx(math.hypot(0.2, 0.3))
+    assert found["off_center"] == pytest.approx(math.hypot(0.2, 0.3))
 
 
 def test_a_miscue_gives_no_spin():

@@ -41,7 +41,7 @@ def test_a_speed_that_hardly_any_table_has_is_doubted(seconds, doubted):
 
 
 @given(st.floats(0.1, 1000), st.floats(0.01, 1e3))
-def test_lags_of_all_kinds_are_answered(seconds, metres):
-    found = table_speed_answer(seconds, metres, METRIC).to_dict()
+def test_lags_of_all_kinds_are_answered(seconds, meters):
+    found = table_speed_answer(seconds, meters, METRIC).to_dict()
     assert found["table_speed"] * found["mu_roll"] == pytest.approx(1.0)
     assert found["cloth"]

@@ -84,7 +84,7 @@ def test_the_friction_that_was_used_is_said():
     assert found["hit_speed_m_s"] == 4.0
     assert math.tan(math.radians(found["throw_deg"])) == pytest.approx(mu)
     assert "0.0222" in answer.heading
-    assert "4 metres per second" in answer.heading
+    assert "4 meters per second" in answer.heading
     slow = throw_answer(Hit(30.0, 0.0, 0.0, SlipFriction(), "limited", 0.5), METRIC).to_dict()
     assert slow["friction_stops"]
 

@@ -13,7 +13,7 @@ def test_a_quantity_is_named_by_its_unit():
 
 def test_a_number_reads_as_it_was_typed():
     assert IMPERIAL.length.typed(24.0 * IMPERIAL.length.size) == "24 inches"
-    assert METRIC.speed.typed(1.5) == "1.5 metres per second"
+    assert METRIC.speed.typed(1.5) == "1.5 meters per second"
 
 
 @pytest.mark.parametrize(
@@ -22,7 +22,7 @@ def test_a_number_reads_as_it_was_typed():
         (METRIC, {"stick": 18.0}, "stick 18 grams", "leave out metric"),
         (IMPERIAL, {"stick": 540.0}, "stick 540 ounces", "for grams add metric"),
         (METRIC, {"forearm": 36.0}, "forearm 36", "for ounces leave out"),
-        (METRIC, {"speed": 60.0}, "60 metres per second", "for inches per second"),
+        (METRIC, {"speed": 60.0}, "60 meters per second", "for inches per second"),
         (IMPERIAL, {"stick_speed": 6e3}, "stick_speed 6000", "add metric"),
     ],
 )

@@ -12,8 +12,8 @@ def answer_of(*success):
 def test_the_advice_comes_first():
     statistics = drill_statistics(Drill.progressive(0.8))
     first = drill_answer(statistics, "a drill").sentences[0]
-    assert f"level {statistics.practise_next}" in first
-    assert f"{statistics.lift[statistics.practise_next - 1]:.2f}" in first
+    assert f"level {statistics.practice_next}" in first
+    assert f"{statistics.lift[statistics.practice_next - 1]:.2f}" in first
     assert f"{statistics.distribution.mean:.2f}" in first
 
 
@@ -24,7 +24,7 @@ def test_a_level_hardly_missed_has_no_room_for_five_more():
 
 def test_where_nothing_lifts_no_level_is_advised():
     answer = answer_of(1.0, 1.0)
-    assert answer.to_dict()["practise_next"] is None
+    assert answer.to_dict()["practice_next"] is None
     assert "level 1" not in answer.sentences[0]
 
 

@@ -11,13 +11,13 @@ LOG = DrillLog([1, 2, 3, 2, 3, 2, 1, 1, 2], [1, 1, 0, 1, 0, 0, 0, 1, 1])
 UNLIKELY, LIKELY = PlayedAgainTest(0.25, 0.05, 0.001), PlayedAgainTest(0.25, 0.2, 0.4)
 
 
-def analysed(log: DrillLog) -> LogAnalysis:
+def analyzed(log: DrillLog) -> LogAnalysis:
     return analyse_log(log, rng=np.random.default_rng(1), replicas=99)
 
 
 @pytest.fixture(scope="module")
 def analysis() -> LogAnalysis:
-    return analysed(LOG)
+    return analyzed(LOG)
 
 
 def answer_of(analysis, log=LOG, **changes):
@@ -100,13 +100,13 @@ def test_an_unsure_advice_names_the_second_level(analysis):
     ids=["level 1 alone", "never missed", "no lift"],
 )
 def test_a_log_that_cannot_advise_says_why(log):
-    answer = answer_of(analysed(log), log)
-    assert answer.to_dict()["practise_next"] is None
+    answer = answer_of(analyzed(log), log)
+    assert answer.to_dict()["practice_next"] is None
     assert "chance" not in answer.sentences[0]
 
 
 def test_the_only_level_missed_needs_no_certainty():
-    answer = answer_of(analysed(DrillLog([2, 3], [1, 0])), DrillLog([2, 3], [1, 0]))
+    answer = answer_of(analyzed(DrillLog([2, 3], [1, 0])), DrillLog([2, 3], [1, 0]))
     assert "level 3" in answer.sentences[0]
     assert "chance" not in answer.sentences[0]
 
@@ -119,7 +119,7 @@ def test_the_only_level_missed_needs_no_certainty():
     ],
 )
 def test_the_first_untried_level_above_a_tried_one_is_named(log, level):
-    assert f"not tried level {level}" in answer_of(analysed(log), log).sentences[0]
+    assert f"not tried level {level}" in answer_of(analyzed(log), log).sentences[0]
 
 
 def test_every_tried_level_needs_no_such_word(analysis):

@@ -5,7 +5,7 @@ import pytest
 from evenbreak.answers.kit.systems import chart_for, on_scale
 from evenbreak.errors import InputError
 from evenbreak.fields.question import AskedError, declaration
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.catalog import system_of
 from evenbreak.questions.systems import BySystem
 from evenbreak.ratings.scale import SCALES, scale_of
 

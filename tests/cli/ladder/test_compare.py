@@ -14,7 +14,7 @@ from places import DATA
 ROSTER = DATA / "demo_roster.csv"
 COMPARE_COLUMNS = (
     *("system", "chart", "sd", "sd_doublings", "settling_mean", "settling_p90"),
-    *("p_favourite_mean", "favourite_over_60", "games_mean", "inflation", "on_front"),
+    *("p_favorite_mean", "favorite_over_60", "games_mean", "inflation", "on_front"),
     *("sd_se", "settling_mean_se"),
 )
 
@@ -46,7 +46,7 @@ def test_a_row_of_the_comparison_says_what_the_ladder_says(ladder, compared):
     alone = ladder("--chart", "npl_10")
     assert row["sd"] == alone["sd"]
     assert row["settling_mean"] == alone["settling"]["mean"]
-    assert row["p_favourite_mean"] == pytest.approx(alone["unfairness"]["favourite_mean"])
+    assert row["p_favorite_mean"] == pytest.approx(alone["unfairness"]["favorite_mean"])
 
 
 def test_no_step_of_the_front_is_beaten(compared):

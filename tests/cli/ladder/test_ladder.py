@@ -12,7 +12,7 @@ from evenbreak.handicaps import chart, system_of
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponents import EQUAL_SKILL
 from evenbreak.handicaps.ladders.settling import settling
-from evenbreak.handicaps.systems.catalogue import FAMILIES
+from evenbreak.handicaps.systems.catalog import FAMILIES
 from evenbreak.ratings.scale import scale_of
 from places import DATA
 from rows import each_of
@@ -51,8 +51,8 @@ def test_all_keys_and_a_law_that_adds_up(ladder):
     assert round(answer["gap"], 4) == 0.0217
     off = sum(p for error, p in law.items() if abs(error) > 5)
     assert answer["off_by_more"]["5"] == pytest.approx(off)
-    favourite = answer["unfairness"]
-    assert favourite["favourite_mean"] == pytest.approx(0.5 + favourite["mean_off_even"])
+    favorite = answer["unfairness"]
+    assert favorite["favorite_mean"] == pytest.approx(0.5 + favorite["mean_off_even"])
 
 
 def test_how_long_a_wrong_rating_takes(ladder):
@@ -67,13 +67,13 @@ def test_how_long_a_wrong_rating_takes(ladder):
 
 
 def test_who_is_favoured_and_by_how_much(ladder):
-    # Opponents are rated rightly: the player's own error says who is the favourite.
+    # Opponents are rated rightly: the player's own error says who is the favorite.
     told = ladder("--chart", "npl_10")["unfairness"]
     built = Ladder("npl", chart("npl_10"))
     law, win = np.array(built.law().probability), np.maximum(built.wins, 1.0 - built.wins)
-    assert told["favourite_mean"] == pytest.approx(float(law @ win))
-    assert told["favourite_over_60"] == pytest.approx(float(law[win >= 0.6].sum()))
-    assert told["favourite_quantiles"]["0.5"] == 0.5
+    assert told["favorite_mean"] == pytest.approx(float(law @ win))
+    assert told["favorite_over_60"] == pytest.approx(float(law[win >= 0.6].sum()))
+    assert told["favorite_quantiles"]["0.5"] == 0.5
 
 
 def test_newcomers_settle_sooner(ladder):

@@ -126,15 +126,15 @@ def test_the_best_prior_is_among_those_tried(told):
     answer = told("--prior", "best", season=(DATA / "demo_league.csv").read_text(encoding="utf-8"))
     best = min(answer["priors_tried"], key=lambda tried: tried["log_loss"])
     assert answer["prior_sd_points"] == pytest.approx(best["prior_sd_points"])
-    assert answer["prior_learnt"] is True
+    assert answer["prior_learned"] is True
     plain = told()
-    assert (plain["priors_tried"], plain["prior_learnt"]) == (None, None)
+    assert (plain["priors_tried"], plain["prior_learned"]) == (None, None)
 
 
 def test_a_few_matches_are_warned_of_and_leave_the_default_prior(rate):
     result = rate("--json", "--prior", "best")
     answer = json.loads(result.stdout)
-    assert answer["prior_learnt"] is False
+    assert answer["prior_learned"] is False
     assert answer["prior_sd_points"] == pytest.approx(30)
     assert "too few" in result.stderr
 

@@ -10,7 +10,7 @@ from scipy.io import mmread
 
 from evenbreak.chains import chain_of, stochastic_limit
 from evenbreak.cli.match.graph import FILES
-from evenbreak.games import CATALOGUE, Ahead, Drill, OneBall, Race, Rack, Series, loser_breaks
+from evenbreak.games import CATALOG, Ahead, Drill, OneBall, Race, Rack, Series, loser_breaks
 from evenbreak.handicaps import Ladder, chart
 
 
@@ -34,7 +34,7 @@ def rows_of(path):
 GAMES = {
     "one-ball --p1 0.3 --p2 0.6": OneBall(0.3, 0.6),
     "series loser breaks --p1 0.9 --p2 0.5": Series(Rack(0.9, 0.5), breaks=loser_breaks),
-    "series, alternate breaks": CATALOGUE["series, alternate breaks"],
+    "series, alternate breaks": CATALOG["series, alternate breaks"],
     "drill 9-ball --p 0.7": Drill.progressive(0.7),
     "drill 8-ball --p 0.7": Drill.eight_ball(0.7),
     "ahead 3:2 --p 0.6": Ahead(3, 2, Rack(0.6)),

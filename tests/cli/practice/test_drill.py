@@ -19,10 +19,10 @@ LOG_COLUMNS = [
     *("level", "attempts", "successes", "p_success", "p_low", "p_high", "p_model", "visited"),
     *("expected", "long_run", "gain", "lift", "lift_low", "lift_high", "p_best"),
 ]
-MODEL_KEYS = {"drill_levels", "mean", "median", "mode", "sd", "practise_next", "period"}
+MODEL_KEYS = {"drill_levels", "mean", "median", "mode", "sd", "practice_next", "period"}
 LOG_KEYS = {
     *("drill_levels", "mean", "median", "mode", "sd", "mean_low", "mean_high", "mean_so_far"),
-    *("practise_next", "difference", "memory", "model_test", "model", "furthest_off_model"),
+    *("practice_next", "difference", "memory", "model_test", "model", "furthest_off_model"),
     *("attempts", "sessions", "against_the_rule", "replicas", "seed"),
 }
 
@@ -43,7 +43,7 @@ def test_the_model_of_table_5_5(drill):
     assert [list(row) for row in answer["drill_levels"]] == [COLUMNS] * 9
     assert round(answer["mean"], 3) == 4.354
     assert (answer["median"], answer["mode"], round(answer["sd"], 3)) == (4, 4, 1.526)
-    assert (answer["practise_next"], answer["period"]) == (4, 1)
+    assert (answer["practice_next"], answer["period"]) == (4, 1)
     statistics = drill_statistics(Drill.progressive(0.8))
     for name, values in (
         ("p_success", statistics.drill.success),
@@ -99,7 +99,7 @@ def test_a_log(drill):
     assert [list(row) for row in answer["drill_levels"]] == [LOG_COLUMNS] * 9
     assert (answer["attempts"], answer["sessions"], answer["against_the_rule"]) == (537, 12, 0)
     assert sum(row["attempts"] for row in answer["drill_levels"]) == 537
-    assert answer["practise_next"] == answer["furthest_off_model"] == 5
+    assert answer["practice_next"] == answer["furthest_off_model"] == 5
     assert answer["model_test"]["p_value"] < 0.01 < 0.05 < answer["memory"]["p_value"]
     assert answer["difference"]["p_value"] > 0.05
     assert answer["model"]["level_1_attempts"] == 14
@@ -140,8 +140,8 @@ def test_levels_nobody_tried_have_no_chance(run, drill):
 def test_level_1_alone_has_neither_model_nor_tests(drill):
     log = "level,success\n1,no\n1,no\n"
     answer = drill("--log", "-", stdin=log)
-    assert [answer[key] for key in ("model", "model_test", "memory", "practise_next")] == [None] * 4
-    assert drill("--log", "-", "--levels", "5", stdin=log)["practise_next"] == 1
+    assert [answer[key] for key in ("model", "model_test", "memory", "practice_next")] == [None] * 4
+    assert drill("--log", "-", "--levels", "5", stdin=log)["practice_next"] == 1
 
 
 def test_a_step_against_the_rule_is_warned_of(run):
@@ -213,7 +213,7 @@ def test_any_log_has_an_answer(run, rows):
     assert result.exit_code == 0
     answer = json.loads(result.stdout)
     sure = sum(row["p_best"] for row in answer["drill_levels"])
-    assert sure == pytest.approx(0 if answer["practise_next"] is None else 1)
+    assert sure == pytest.approx(0 if answer["practice_next"] is None else 1)
 
 
 def test_drill_option_is_for_logs(run):

@@ -234,7 +234,7 @@ def test_a_log_of_shots_says_what_to_practice_and_whether_it_got_better(practice
         told["sentences"]
     )
     jump = told["shots"][0]
-    assert 1 / 8 < jump["chance"] < 0.5  # drawn towards the others
+    assert 1 / 8 < jump["chance"] < 0.5  # drawn toward the others
     assert jump["share_before"] is None
 
 

@@ -7,7 +7,7 @@ from evenbreak.errors import InputError
 from evenbreak.fields.question import AskedError, declaration
 from evenbreak.handicaps import chart
 from evenbreak.handicaps.ladders.ladder import Ladder
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.catalog import system_of
 from evenbreak.questions.ladders import SandbagPay, SandbagWatch
 
 NPL = system_of("npl")

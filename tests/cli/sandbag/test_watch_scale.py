@@ -16,7 +16,7 @@ def honest_league(folder: Path, title: str, scale: str) -> tuple[str, str]:
     """Write results of a dozen players whose ratings are right, and their list."""
     rng, points = np.random.default_rng(5), SCALES[scale]
     steps = np.linspace(-1.6, 1.6, 12) * points.points_per_doubling
-    rating = np.round(points.centre + steps).astype(int)
+    rating = np.round(points.center + steps).astype(int)
     rows = []
     for turn in range(ROUNDS):
         for a in range(12):

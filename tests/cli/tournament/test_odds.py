@@ -45,7 +45,7 @@ def test_places_sum_to_one(odds):
     assert sum(column(answer, "p_title")) == pytest.approx(1.0)
 
 
-def test_the_favourite_comes_first_and_races_matter(odds):
+def test_the_favorite_comes_first_and_races_matter(odds):
     short, long = (odds("--race", race, *FARGO) for race in ("3", "9"))
     assert long["players"][0]["name"] == "Ann"
     assert long["players"][0]["p_title"] > short["players"][0]["p_title"]
@@ -119,7 +119,7 @@ def test_formats_with_a_second_stage(odds, words, matches):
 
 
 def test_before_the_draw(odds):
-    """A favourite meets an average opponent, whoever is drawn to them."""
+    """A favorite meets an average opponent, whoever is drawn to them."""
     level = "player,rating\nAnn,600\n" + "".join(f"P{k},500\n" for k in range(7))
     answer = odds("--race", "1", *FARGO, "--before-draw", entrants=level)
     assert not answer["exact"]

@@ -143,7 +143,7 @@ def test_the_audit_of_a_designed_chart_tells_its_scale_and_tilt(scale, tilt):
     assert fit.tilt == pytest.approx(tilt, abs=0.12)
 
 
-def test_at_tilt_0_the_stronger_is_never_the_underdog_and_at_1_never_the_favourite():
+def test_at_tilt_0_the_stronger_is_never_the_underdog_and_at_1_never_the_favorite():
     scale, points = SCALES["npl"], np.arange(1, 40)
     for tilt, sign in ((0.0, 1.0), (1.0, -1.0)):
         made = design(scale, RaceLimits((5, 9), weaker_least=2), tilt=tilt, up_to=40)

@@ -22,7 +22,7 @@ def exact_win(p, m, n):
     return sum(comb(games, k) * p**k * (1 - p) ** (games - k) for k in range(m, games + 1))
 
 
-def test_a_two_to_one_favourite_to_seven_gives_three_games():
+def test_a_two_to_one_favorite_to_seven_gives_three_games():
     (race,) = fair_races(Rack(2 / 3), race_to=7, top=1)
     assert (race.race_1, race.race_2) == (7, 4)
     assert race.p_win_1 == pytest.approx(float(exact_win(2 / 3, 7, 4)), rel=1e-13)

@@ -52,7 +52,7 @@ def test_the_two_players_share_one_match(difference, error, m, n):
     assert 0.0 <= one <= 1.0 + 1e-12
 
 
-def test_doubt_pulls_an_even_length_race_towards_even():
+def test_doubt_pulls_an_even_length_race_toward_even():
     chances = [Gap(30.0, error).win(7, 7) for error in (0.0, 10.0, 30.0, 60.0)]
     assert chances == sorted(chances, reverse=True)
     assert chances[-1] > 0.5

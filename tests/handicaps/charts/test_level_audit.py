@@ -51,7 +51,7 @@ def test_chances_of_a_cell_from_the_ratings():
         race_win_probability(p, 5, 3).tolist()
     )
     assert cell.unfairness == pytest.approx(abs(cell.p_win_middle - 0.5))
-    # Neighbouring levels meet half-way, so that their nearest players are equal.
+    # Neighboring levels meet half-way, so that their nearest players are equal.
     assert cells(report)[7, 6].p_win_low == pytest.approx(race_win_probability(0.5, 5, 4))
     top = cells(report)[7, 7]
     widest = scale_of("fargo").win_probability(r7 - r6)

@@ -14,7 +14,7 @@ CHANGED = {(5, 3): (6, 4), (6, 3): (7, 4), (7, 2): (8, 2)}
 
 @pytest.mark.parametrize("levels", [True, False], ids=["ratings", "races alone"])
 @pytest.mark.parametrize("name", ["npl_10", "npl_20", "fargo_r6_hot"])
-def test_a_chart_of_the_catalogue_is_recognised(name, levels):
+def test_a_chart_of_the_catalog_is_recognized(name, levels):
     found = played_chart(by_chart(1, name=name, levels=levels, matches=400))
     if name == "fargo_r6_hot" and not levels:
         assert found is None  # ratings 25 points apart play but three of its races
@@ -63,6 +63,6 @@ def test_skill_levels_are_compared_pair_by_pair():
     assert (cell.where, cell.chart, cell.played) == ("level 5 against 3", (4, 2), (5, 2))
 
 
-def test_starts_by_class_are_no_chart_of_the_catalogue():
+def test_starts_by_class_are_no_chart_of_the_catalog():
     assert played_chart(by_class(1, matches=400)) is None
     assert played_chart(by_class(1, matches=400, named=False)) is None

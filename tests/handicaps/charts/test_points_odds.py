@@ -5,7 +5,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import audit_points, loser_share, points_chart, points_odds
-from evenbreak.handicaps.charts.chart import catalogue_rows
+from evenbreak.handicaps.charts.chart import catalog_rows
 
 
 def test_chances_are_those_of_the_audit():
@@ -46,7 +46,7 @@ def test_the_losers_share_is_the_score_sheets(level, points, share):
 
 
 def test_a_loser_gets_eight_at_most_one_point_short():
-    for level, *limits in catalogue_rows("apa_9ball_shares"):
+    for level, *limits in catalog_rows("apa_9ball_shares"):
         needs = points_chart("apa_9ball").race(level, level)[0]
         assert limits == sorted(limits)
         assert limits[-1] == needs - 1

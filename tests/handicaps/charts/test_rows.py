@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps import Chart, ChartRow
-from evenbreak.handicaps.charts.chart import catalogue_rows, row_faults
+from evenbreak.handicaps.charts.chart import catalog_rows, row_faults
 
 
 def test_all_faults_are_told_with_the_place_of_their_row():
@@ -25,9 +25,9 @@ def test_all_faults_are_told_with_the_place_of_their_row():
     ]
 
 
-def test_the_rows_of_the_catalogue_are_whole_numbers_with_open_ends():
-    assert catalogue_rows("npl_8")[-1] == (49, None, 6, 2)
-    assert catalogue_rows("apa_8ball")[0] == (2, 2, 2, 2)
+def test_the_rows_of_the_catalog_are_whole_numbers_with_open_ends():
+    assert catalog_rows("npl_8")[-1] == (49, None, 6, 2)
+    assert catalog_rows("apa_8ball")[0] == (2, 2, 2, 2)
 
 
 ends = st.integers(0, 12)

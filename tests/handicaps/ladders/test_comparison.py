@@ -29,8 +29,8 @@ def test_rows_are_what_each_function_says():
     assert (row.settling_mean, row.settling_p90) == (settled.mean, settled.matches.quantile(0.9))
     assert row.games == mean_games(ladder)
     assert row.inflation == pytest.approx(0.0, abs=1e-12)
-    assert 0.5 < row.favourite < 0.6
-    assert 0.0 < row.clear_favourite < 1.0
+    assert 0.5 < row.favorite < 0.6
+    assert 0.0 < row.clear_favorite < 1.0
 
 
 def test_longer_charts_are_slower_to_play_and_better():

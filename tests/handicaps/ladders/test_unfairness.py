@@ -76,7 +76,7 @@ def test_unfairness_is_the_same_for_both_sides(opponents):
     np.testing.assert_allclose(np.add(law.values, law.values[::-1]), 1.0, atol=1e-9)
 
 
-def test_better_off_is_the_favourite():
+def test_better_off_is_the_favorite():
     law = unfairness(Ladder(TEN, opponents=EQUAL_SKILL))
     favoured = better_off(law)
     away = sum(chance * abs(w - 0.5) for w, chance in items(law))

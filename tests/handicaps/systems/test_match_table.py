@@ -3,7 +3,7 @@ import pytest
 
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart, chart
-from evenbreak.handicaps.systems.catalogue import SYSTEMS, system_of
+from evenbreak.handicaps.systems.catalog import SYSTEMS, system_of
 from evenbreak.handicaps.systems.match_table import match_table
 
 NPL = system_of("npl")

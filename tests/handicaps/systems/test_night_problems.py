@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.catalog import system_of
 from evenbreak.handicaps.systems.rating_changes import chart_of_night, night_problems
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import NOT_STATED, Roster

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.catalog import system_of
 from evenbreak.handicaps.systems.history import Entries
 from evenbreak.handicaps.systems.night_table import SeasonSoFar, listed, night_table
 from evenbreak.ratings.results import Results

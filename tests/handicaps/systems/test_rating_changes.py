@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from evenbreak.errors import InputError
 from evenbreak.files.results.results_file import read_results
 from evenbreak.handicaps.charts.chart import chart
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.catalog import system_of
 from evenbreak.handicaps.systems.rating_changes import apply_results
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import NOT_STATED, Roster

@@ -55,7 +55,7 @@ def test_the_interval_of_a_slope_covers_19_times_in_20():
 @pytest.mark.parametrize(
     ("x", "won"),
     [([0.0, 0.0], [1.0, 0.0]), ([1.0, 2.0], [1.0, 1.0])],
-    ids=["no favourite", "won all"],
+    ids=["no favorite", "won all"],
 )
 def test_where_nothing_determines_a_slope_there_is_none(x, won):
     assert logistic_coefficient(np.array(x), np.array(won), np.ones(2), np.arange(2)) is None
@@ -75,7 +75,7 @@ def test_the_bootstrap_draws_clusters_whole():
     assert half == pytest.approx(1.96 * loss.std() / math.sqrt(40), rel=0.1)
 
 
-def test_bins_hold_the_favourites_whoever_is_called_a():
+def test_bins_hold_the_favorites_whoever_is_called_a():
     p = np.array([0.55, 0.45, 0.5, 0.97, 0.0])
     won = np.array([6.0, 4.0, 9.0, 5.0, 0.0])
     games = np.array([10.0, 10.0, 9.0, 5.0, 3.0])

@@ -65,7 +65,7 @@ def test_three_matches_leave_the_default_prior():
         season(0.6, matches=3), date=np.datetime64("2024-09-03") + np.arange(3)
     )
     found = validate(few)
-    assert (found.prior_sd, found.choice.learnt) == (PRIOR_SD, False)
+    assert (found.prior_sd, found.choice.learned) == (PRIOR_SD, False)
 
 
 def test_a_season_of_the_model_validates(found):
@@ -78,7 +78,7 @@ def test_a_season_of_the_model_validates(found):
     assert found.dispersion.p_value > 0.01
 
 
-def test_bins_hold_every_game_with_a_favourite(found):
+def test_bins_hold_every_game_with_a_favorite(found):
     forecasts = found.forecasts
     assert (
         sum(row.games for row in found.games)
@@ -86,7 +86,7 @@ def test_bins_hold_every_game_with_a_favourite(found):
     )
 
 
-def test_matches_without_a_favourite_are_counted(found):
+def test_matches_without_a_favorite_are_counted(found):
     forecasts = found.forecasts
     even = np.abs(forecasts.p_game - 0.5) <= 1e-9
     assert found.toss_ups["game"] == even.sum() > 0
@@ -181,7 +181,7 @@ def test_even_races_have_no_spot():
     assert handicap_fairness(walk_forward(results)) == []
 
 
-# Favourites in short races and in long ones.
+# Favorites in short races and in long ones.
 
 
 def forecasts(races, *, longer=0):

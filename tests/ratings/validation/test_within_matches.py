@@ -8,7 +8,7 @@ import pytest
 from scipy.special import expit
 
 from evenbreak.matches import race_win_probability
-from evenbreak.matches.form import centre_of_form
+from evenbreak.matches.form import center_of_form
 from evenbreak.ratings import Results, fit, walk_forward
 from evenbreak.ratings.day_form import day_form
 from evenbreak.ratings.validation.within_matches import (
@@ -99,8 +99,8 @@ def league_and_skill(form_sd, seed, players=24, days=40, race=7):
     skill = rng.normal(0.0, 0.5, players)
     order = np.concatenate([rng.permutation(players) for _ in range(days)])
     a, b = order[::2], order[1::2]
-    centre = centre_of_form(skill[a] - skill[b], 0.0, form_sd)
-    p = expit(centre + rng.normal(0.0, form_sd, len(a)))
+    center = center_of_form(skill[a] - skill[b], 0.0, form_sd)
+    p = expit(center + rng.normal(0.0, form_sd, len(a)))
     needs = np.full(len(a), race)
     won, games = play_races(p, needs, needs, rng)
     season = Results(

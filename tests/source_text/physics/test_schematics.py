@@ -32,9 +32,9 @@ def cross(a: Any, b: Any) -> float:
     return float(a[0] * b[1] - a[1] * b[0])
 
 
-def turn(arrow: Any, centre: Any) -> float:
-    """Return above 0 for an arrow counterclockwise about a centre."""
-    return cross(arrow[0] - centre, arrow[1] - centre)
+def turn(arrow: Any, center: Any) -> float:
+    """Return above 0 for an arrow counterclockwise about a center."""
+    return cross(arrow[0] - center, arrow[1] - center)
 
 
 @pytest.mark.slow
@@ -44,9 +44,9 @@ def test_friction_turns_two_balls_the_same_way() -> None:
     assert sum(along) == pytest.approx(np.zeros(2))
     assert sum(normal) == pytest.approx(np.zeros(2))
     touch, turns = np.array([1.0, 0.0]), arrows("figure_1_1", r"$\dot\omega$")
-    for centre, force, arrow in zip(((0, 0), (2, 0)), along, turns, strict=True):
-        assert cross(touch - centre, force) > 0
-        assert turn(arrow, centre) > 0
+    for center, force, arrow in zip(((0, 0), (2, 0)), along, turns, strict=True):
+        assert cross(touch - center, force) > 0
+        assert turn(arrow, center) > 0
 
 
 def test_the_force_of_the_tip_is_taken_apart_at_right_angles() -> None:
@@ -82,7 +82,7 @@ def test_what_friction_gives_the_one_ball_it_takes_from_the_other() -> None:
     assert math.atan2(-line[1], line[0]) == pytest.approx(math.pi / 6)
     assert gained @ left > 0
     (before,) = vectors("figure_4_2", "$V_0$")
-    # Without friction the object ball goes along the line of centres, the cue ball across it.
+    # Without friction the object ball goes along the line of centers, the cue ball across it.
     (object_ball,), (cue_ball,) = (vectors("figure_4_2", f"$V_{ball}$") for ball in "bc")
     assert cross(object_ball - gained, line) == pytest.approx(0)
     assert (cue_ball - lost) @ line == pytest.approx(0)

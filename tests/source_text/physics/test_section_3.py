@@ -12,7 +12,7 @@ def test_section_3_and_nothing_else_is_answered_here():
     assert {problem for problem, _ in ANSWERS} == {f"P3.{n}" for n in range(1, 12)}
 
 
-def test_a_hit_in_the_centre_keeps_momentum_and_energy():
+def test_a_hit_in_the_center_keeps_momentum_and_energy():
     inputs = "M_s=18oz M_b=6oz"
     ball, stick = (compute("P3.2", f"V_{one}/V_0", inputs) for one in "bs")
     assert 3 * stick + ball == pytest.approx(3)

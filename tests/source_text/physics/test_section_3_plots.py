@@ -86,7 +86,7 @@ def test_the_triangle_has_a_right_angle_at_the_nearest_point() -> None:
 # Figs. 3.3 and 3.4
 
 
-def test_a_ball_is_fastest_struck_in_the_centre() -> None:
+def test_a_ball_is_fastest_struck_in_the_center() -> None:
     drawn = curves(figure("figure_3_3").axes[0])
     assert [at(curve, 0.0) for curve in drawn] == pytest.approx([1, 4 / 3, 3 / 2, 8 / 5])
     for curve, m in zip(drawn, RATIOS, strict=True):
@@ -95,7 +95,7 @@ def test_a_ball_is_fastest_struck_in_the_centre() -> None:
         assert (offset[0], offset[-1]) == pytest.approx((-0.7, 0.7))
 
 
-def test_a_lag_is_longest_a_little_above_the_centre() -> None:
+def test_a_lag_is_longest_a_little_above_the_center() -> None:
     axes = figure("figure_3_4").axes[0]
     for curve, m in zip(curves(axes), RATIOS, strict=True):
         offset, speed = curve.T
@@ -110,7 +110,7 @@ def test_a_lag_is_longest_a_little_above_the_centre() -> None:
 
 
 @pytest.mark.parametrize("name", ["figure_3_3", "figure_3_4", "figure_4_4"])
-def test_curves_differ_without_colour(name: str) -> None:
+def test_curves_differ_without_color(name: str) -> None:
     axes = figure(name).axes[0]
     named = [line for line in axes.lines if not line.get_label().startswith("_")]
     assert len({str(line._unscaled_dash_pattern) for line in named}) == len(named) >= 4

@@ -71,7 +71,7 @@ def test_the_inset_enlarges_the_point_where_nothing_slips() -> None:
     assert inset.get_ylim() == pytest.approx((-0.1, 0.1))
 
 
-def test_contours_are_labelled_with_their_sensitivity() -> None:
+def test_contours_are_labeled_with_their_sensitivity() -> None:
     whole, inset = (
         [text.get_text() for text in contours(axes).labelTexts]
         for axes in figure("figure_4_5").axes

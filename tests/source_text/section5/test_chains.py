@@ -121,9 +121,9 @@ def test_polynomials_are_the_formulas_of_the_chain():
         assert sympy.simplify(symbolic_limit(arcs, 0)[m] - formula) == 0
 
 
-def test_the_level_worth_practising_is_that_of_the_largest_gain():
+def test_the_level_worth_practicing_is_that_of_the_largest_gain():
     found = derived(chains, "P5.26")
-    assert found["level most worth practising", "p=0.8"] == 4
+    assert found["level most worth practicing", "p=0.8"] == 4
     gains = [found["gain of the mean level", f"p=0.8 level={level}"] for level in range(1, 10)]
     assert max(gains) == gains[3]
 

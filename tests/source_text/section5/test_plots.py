@@ -46,7 +46,7 @@ def test_races_are_ten_even_and_ten_with_twice_the_games_for_player_1() -> None:
         assert at(even, 0.5) == pytest.approx(0.5, abs=1e-12)
 
 
-def test_the_two_families_of_races_differ_without_colour() -> None:
+def test_the_two_families_of_races_differ_without_color() -> None:
     lines = figure("figure_5_1").axes[0].lines[:20]
     styles = (
         {line.get_linestyle() for line in lines[0::2]},

@@ -93,7 +93,7 @@ def _favoured(report: ChartAudit) -> Iterator[str]:
     else:
         who, often = ("stronger", chances > 0.5) if mean > 0.5 else ("weaker", chances < 0.5)
         so = (
-            f"so the chart favours the {who} player, who is the favourite at {int(often.sum())} of "
+            f"so the chart favours the {who} player, who is the favorite at {int(often.sum())} of "
             f"{chances.size} differences"
         )
     yield (

@@ -13,7 +13,7 @@ from evenbreak.answers.kit.wording import count_of, percent, race, range_words
 from evenbreak.errors import InputError
 from evenbreak.files.charts import chart_table, find_chart_file
 from evenbreak.handicaps.charts.chart import Chart
-from evenbreak.handicaps.charts.chart_of import EVERY_CHART, catalogue_name, named_chart
+from evenbreak.handicaps.charts.chart_of import EVERY_CHART, catalog_name, named_chart
 from evenbreak.handicaps.charts.level_chart import LevelChart, PointsChart
 from evenbreak.handicaps.systems.team_handicap import TeamHandicap, team_handicap
 from evenbreak.plugins import Kind, added
@@ -28,9 +28,7 @@ def chart_list_answer(_: object = None) -> Answer:
     'apa_9ball'
     """
     ours = {name: named_chart(name) for name in EVERY_CHART}
-    theirs, warnings = _added(
-        "chart", named_chart, lambda name: catalogue_name(name) in EVERY_CHART
-    )
+    theirs, warnings = _added("chart", named_chart, lambda name: catalog_name(name) in EVERY_CHART)
     charts = [*ours.values(), *theirs.values()]
     kinds = [sum(isinstance(chart, kind) for chart in charts) for kind in _LOOKED_UP]
     return Answer(
@@ -63,7 +61,7 @@ def system_list_answer(_: object = None) -> Answer:
     >>> system_list_answer().to_dict()["systems"][0]["name"]
     'npl'
     """
-    from evenbreak.handicaps.systems.catalogue import FAMILIES, is_ours, system_of
+    from evenbreak.handicaps.systems.catalog import FAMILIES, is_ours, system_of
 
     ours = [
         (family.grammar, family.make(*family.samples[0]), "evenbreak")

@@ -226,13 +226,13 @@ def league_doubts(
         return []
     doubts = []
     middle = float(np.median(known))  # one slip makes no other scale
-    if scale.centre and abs(middle - scale.centre) > FAR * scale.points_per_doubling:
+    if scale.center and abs(middle - scale.center) > FAR * scale.points_per_doubling:
         doubts.append(
             say(
                 "{scale} ratings average about {usual:g}, but these average about {middle:.0f}; "
                 "{remedy}",
                 scale=NAMES.get(scale.name, scale.name),
-                usual=scale.centre,
+                usual=scale.center,
                 middle=middle,
                 remedy=remedy,
             )
@@ -317,13 +317,13 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
     if not 0 < len(rated) < len(known):
         return []
     least, most, edge = rated.min(), rated.max(), scale.points_per_doubling
-    if least - edge <= scale.centre <= most + edge:
+    if least - edge <= scale.center <= most + edge:
         return []
     return [
         say(
             "new players start at {start:g}, the middle of the {scale} scale, but the other "
             "ratings go from {least:g} to {most:g}; set the rating of a new player with {starter}",
-            start=scale.centre,
+            start=scale.center,
             scale=NAMES.get(scale.name, scale.name),
             least=least,
             most=most,

@@ -226,7 +226,7 @@ def with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float
             spread=spread,
             most=most,
         )
-    return roster.with_starters(scale.centre if starter is None else starter, spread, scale)
+    return roster.with_starters(scale.center if starter is None else starter, spread, scale)
 
 
 def stated_pace(discipline: str | None, minutes_per_game: float | None) -> Pace | str | None:

@@ -16,7 +16,7 @@ def chance(p: float) -> str:
 
 
 def percent(p: float, left: float = 0.0) -> str:
-    """Return a probability in a sentence, in per cent; never 0 or 100 where it is neither.
+    """Return a probability in a sentence, in percent; never 0 or 100 where it is neither.
 
     Beside a chance of 1e-18 for all else, which is `left`, a chance is 1 in every digit, and yet
     not certain.
@@ -40,7 +40,7 @@ def percent(p: float, left: float = 0.0) -> str:
 
 
 def share(p: float) -> str:
-    """Return a probability in a table, in per cent to one decimal.
+    """Return a probability in a table, in percent to one decimal.
 
     >>> share(0.90701), share(0.08), share(3e-5), share(0.9999), share(0.0), share(1.0)
     ('90.7%', '8.0%', '<0.1%', '>99.9%', '0%', '100%')
@@ -53,7 +53,7 @@ def share(p: float) -> str:
 
 
 def share_at_a_glance(p: float) -> str:
-    """Return a probability in per cent where there is little room, with two digits at most.
+    """Return a probability in percent where there is little room, with two digits at most.
 
     >>> share_at_a_glance(0.90701), share_at_a_glance(0.0757), share_at_a_glance(3e-5)
     ('91%', '7.6%', '<0.1%')

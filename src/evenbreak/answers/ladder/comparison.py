@@ -13,7 +13,7 @@ from evenbreak.handicaps.ladders.comparison import NEAR, SystemRow, compare_syst
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponents import Opponents
 from evenbreak.handicaps.ladders.settling import settling
-from evenbreak.handicaps.systems.catalogue import steps_of
+from evenbreak.handicaps.systems.catalog import steps_of
 from evenbreak.league.reestimate import Reestimated, reestimate
 from evenbreak.words import listed
 
@@ -118,9 +118,9 @@ def ladder_comparison_answer(found: LadderComparison, warnings: Sequence[str] = 
 
 _EXPLANATION = (
     "'Error': how far ratings are typically off in the long run (standard deviation), in points "
-    "and in per cent of a doubling, the points that double the odds of winning a game. 'Settles "
+    "and in percent of a doubling, the points that double the odds of winning a game. 'Settles "
     "in': the matches it takes a rating that starts one doubling too low to come within a sixth "
-    "of a doubling, on average and for 9 out of 10 players. 'Favourite': how often the player "
+    "of a doubling, on average and for 9 out of 10 players. 'Favorite': how often the player "
     "favoured by the errors wins, and in how many of 100 matches their chance is 60% or more. "
     "'Games': the average length of a match."
 )
@@ -128,8 +128,8 @@ _EXPLANATION = (
 
 _COLUMNS = [
     *columns_of(
-        "system chart error_points sd_doublings settling_mean settling_p90 p_favourite_mean "
-        "favourite_over_60 match_games inflation on_front"
+        "system chart error_points sd_doublings settling_mean settling_p90 p_favorite_mean "
+        "favorite_over_60 match_games inflation on_front"
     ),
     *in_files(("sd_se", "settling_mean_se")),
 ]

@@ -17,7 +17,7 @@ from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.ladders.comparison import NewcomerInflation, inflation, newcomer_inflation
 from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.settling import Settling, ladder_gap, ladder_mixing, settling
-from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVOURITE, better_off, unfairness
+from evenbreak.handicaps.ladders.unfairness import CLEAR_FAVORITE, better_off, unfairness
 from evenbreak.stats.summary import Distribution
 
 QUANTILES = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
@@ -56,7 +56,7 @@ def ladder_answer(found: LadderFindings, warnings: Sequence[str] = ()) -> Answer
     In the long run, 9 out of 10 ratings are within 7 points of the player's skill; 25% are off by \
 more than 5 points, 1 in 70 by more than 10.
     """
-    said = [_how_far_off(found), _how_unfair(found.favourite), _how_soon(found)]
+    said = [_how_far_off(found), _how_unfair(found.favorite), _how_soon(found)]
     if abs(found.inflation) >= 0.005:
         said.append(_inflation(found.inflation))
     shares = [(f"{100 * share:g}%", found.off.quantile(share)) for share in SHARES]
@@ -130,12 +130,12 @@ def _how_far_off(found: LadderFindings) -> str:
     )
 
 
-def _how_unfair(favourite: Distribution) -> str:
-    often = favourite.at_least(CLEAR_FAVOURITE)
+def _how_unfair(favorite: Distribution) -> str:
+    often = favorite.at_least(CLEAR_FAVORITE)
     return (
-        "These errors create favourites in matches that should be even: the favourite wins "
-        f"{100.0 * favourite.mean:.1f}% of them on average, and {of_100(often)} of the matches "
-        f"have a clear favourite, with a chance of {100 * CLEAR_FAVOURITE:g}% or more."
+        "These errors create favorites in matches that should be even: the favorite wins "
+        f"{100.0 * favorite.mean:.1f}% of them on average, and {of_100(often)} of the matches "
+        f"have a clear favorite, with a chance of {100 * CLEAR_FAVORITE:g}% or more."
     )
 
 
@@ -210,7 +210,7 @@ def _errors(found: LadderFindings) -> Table:
 
 
 def _data(found: LadderFindings) -> dict[str, Any]:
-    ladder, asked, law, favourite = found.ladder, found.question, found.law, found.favourite
+    ladder, asked, law, favorite = found.ladder, found.question, found.law, found.favorite
     return {
         "system": ladder.system.name,
         "scale": ladder.system.scale.name,
@@ -230,10 +230,10 @@ def _data(found: LadderFindings) -> dict[str, Any]:
         },
         "natural_sd": law.sd if found.natural is None else found.natural.sd,
         "unfairness": {
-            "mean_off_even": favourite.mean - 0.5,
-            "favourite_mean": favourite.mean,
-            "favourite_over_60": favourite.at_least(CLEAR_FAVOURITE),
-            "favourite_quantiles": _quantiles(favourite),
+            "mean_off_even": favorite.mean - 0.5,
+            "favorite_mean": favorite.mean,
+            "favorite_over_60": favorite.at_least(CLEAR_FAVORITE),
+            "favorite_quantiles": _quantiles(favorite),
         },
         "inflation": found.inflation,
         "newcomer_leaves": found.newcomer_inflation.left,
@@ -350,8 +350,8 @@ class LadderFindings:
         return Ladder(ladder.system, ladder.chart, widest=ladder.widest).law()
 
     @cached_property
-    def favourite(self) -> Distribution:
-        """The distribution of the favourite's chance to win a match of the player."""
+    def favorite(self) -> Distribution:
+        """The distribution of the favorite's chance to win a match of the player."""
         return better_off(unfairness(self.ladder))
 
     @cached_property

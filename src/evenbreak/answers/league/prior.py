@@ -160,7 +160,7 @@ def _field_words(share: float, error: float | None) -> Sentence:
 def prior_details(ratings: Ratings, choice: PriorChoice | None) -> Iterator[Part]:
     """Yield the prior, how it was chosen, and what everything that was tried gained."""
     yield prior_words(ratings)
-    if choice is None or not choice.learnt:
+    if choice is None or not choice.learned:
         return
     yield choice_words(ratings, choice)
     if choice.evidence:
@@ -265,14 +265,14 @@ def prior_warnings(
     file: ResultsFile, ratings: Ratings, choice: PriorChoice | None
 ) -> Iterator[str]:
     """Yield a warning where the prior was to be chosen by too few results, or without groups."""
-    if choice is not None and not choice.learnt:
+    if choice is not None and not choice.learned:
         yield f"{file.source}: {too_few_for_prior_words(choice, ratings.scale)}"
     yield from groups_warnings(file, choice)
 
 
 def groups_warnings(file: ResultsFile, choice: PriorChoice | None) -> Iterator[Sentence]:
     """Yield a warning where teams, or divisions, are too many to let them count."""
-    if choice is None or not choice.learnt:
+    if choice is None or not choice.learned:
         return
     for kind, many in too_many_groups(file.results).items():
         yield say(

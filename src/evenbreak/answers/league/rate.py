@@ -276,7 +276,7 @@ def _how(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
             {"prior_sd_points": scale.points(width), "log_loss": loss}
             for width, loss in zip(choice.tried, choice.log_loss, strict=True)
         ],
-        "prior_learnt": None if choice is None else choice.learnt,
+        "prior_learned": None if choice is None else choice.learned,
         "group_effects": levels_data(ratings, choice),
         "groups": group_rows(ratings),
         "evidence": evidence_rows(choice),

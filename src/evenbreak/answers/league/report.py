@@ -265,7 +265,7 @@ def how_rated(sheet: Sheet) -> str:
     prior = float(ratings.scale.points(ratings.prior_sd))
     who = "Apart from what is known beforehand, every player" if ratings.levels else "Every player"
     text = f"{who} starts at {round(ratings.anchor, 1):g}, give or take {round(prior, 1):g}"
-    if sheet.choice is not None and sheet.choice.learnt:
+    if sheet.choice is not None and sheet.choice.learned:
         text += (
             f": of {len(sheet.choice.tried)} values tried, this one predicted "
             f"{sheet.choice.predicted:,} later results best"

@@ -259,7 +259,7 @@ def _mean(matches: float) -> str:
 
 
 def _percent(p: float, error: float = math.nan) -> str:
-    """Return a probability in per cent, with its standard error if there is one.
+    """Return a probability in percent, with its standard error if there is one.
 
     >>> _percent(0.5329, 0.00153), _percent(0.0655), _percent(0.5, 0.0)
     ('53.3 ± 0.2%', '6.6%', '50.0%')

@@ -106,11 +106,11 @@ def _dates(found: Validation) -> int:
 
 
 def _games(found: Validation) -> Table:
-    """Return how often favourites won games, beside the chances that they had been given."""
+    """Return how often favorites won games, beside the chances that they had been given."""
     columns = columns_of("predicted games seen_percent range_percent")
     rows = [(row.predicted, row.games, row.seen, (row.low, row.high)) for row in found.games]
     title = (
-        "How often favourites won single games. The ratings are right where the prediction lies in "
+        "How often favorites won single games. The ratings are right where the prediction lies in "
         "the range."
     )
     return Table("", columns, rows, title)
@@ -140,7 +140,7 @@ def _choice(found: Validation) -> dict[str, Any]:
     if choice is None:
         return {"priors": [], **dict.fromkeys(_OF_CHOICE)}
     tried = zip(choice.tried, choice.log_loss, strict=True)
-    figures = choice.learnt, [choice.low, choice.high], choice.as_it_went
+    figures = choice.learned, [choice.low, choice.high], choice.as_it_went
     return {
         "priors": [{"prior_sd": sd, "log_loss": loss} for sd, loss in tried],
         **dict(zip(_OF_CHOICE, figures, strict=True)),
@@ -152,7 +152,7 @@ def _chart(chart: LeagueChart) -> dict[str, Any]:
     return {"chart": chart.nearest, "fair_scale": chart.scale}
 
 
-_OF_CHOICE = ("prior_learnt", "prior_range", "log_loss_as_it_went")
+_OF_CHOICE = ("prior_learned", "prior_range", "log_loss_as_it_went")
 _LEFT_OUT = ("undated", "forfeits", "empty", "unscored")
 _AS_FOUND = (
     *("scored", "usual", "games", "matches", "matches_plug_in", "spots", "gain", "toss_ups"),
@@ -218,16 +218,16 @@ def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
 
 
 def _too_sure(wrong: Mapping[str, int]) -> str:
-    """Return which favourites win too little or too much.
+    """Return which favorites win too little or too much.
 
     >>> _too_sure({"game": -1, "match": -1})
-    'favourites win games and matches less often than predicted'
+    'favorites win games and matches less often than predicted'
     """
     plural = {"game": "games", "match": "matches"}
     if len(set(wrong.values())) == 1:
         often = more_or_less(next(iter(wrong.values())) > 0)
-        return f"favourites win {listed([plural[of] for of in wrong])} {often} often than predicted"
-    return "favourites win " + listed(
+        return f"favorites win {listed([plural[of] for of in wrong])} {often} often than predicted"
+    return "favorites win " + listed(
         [f"{plural[of]} {more_or_less(way > 0)} often than predicted" for of, way in wrong.items()]
     )
 
@@ -243,7 +243,7 @@ def _do_not(found: Validation, wrong: Mapping[str, int], scale: Scale) -> str:
             size=size,
         )
     even = "even with the best prior"
-    if not found.choice.learnt:
+    if not found.choice.learned:
         even = "and there are too few results to choose a better prior"
     text = f"Do not take the chances at face value: {_too_sure(wrong)}, {even}."
     return f"{text} {_NOT_CORRECTED}"
@@ -316,12 +316,12 @@ def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -
 
 
 def _lengths(found: Validation) -> Iterator[str]:
-    """Yield of which races favourites win more or less than predicted."""
+    """Yield of which races favorites win more or less than predicted."""
     for half, of in zip(found.lengths, ("shorter", "longer"), strict=False):
         share = Estimate(half.share, half.low, half.high)
         if way := clearly_off(share, half.predicted, tests=len(found.lengths)):
             yield (
-                f"In the {of} races ({span_of(half)} games), favourites win "
+                f"In the {of} races ({span_of(half)} games), favorites win "
                 f"{more_or_less(way > 0)} often than predicted: {percent(half.share)} of "
                 f"{half.matches:,} ({percent(half.predicted)} predicted)."
             )

@@ -53,7 +53,7 @@ def findings_table(found: Validation, chart: LeagueChart | None = None) -> Table
         ("calibration_plug_in", "match", found.matches_plug_in),
     ):
         rows += [(part, of, f"{b.p_from:.2f}-{b.p_to:.2f}", *b[3:], None) for b in bins]
-    rows += [("no_favourite", of, None, count, *[None] * 5) for of, count in found.toss_ups.items()]
+    rows += [("no_favorite", of, None, count, *[None] * 5) for of, count in found.toss_ups.items()]
     rows += _test_rows(found, counts["game"])
     rows += handicap_rows(found, chart or LeagueChart())
     return Table("findings", in_files(COLUMNS), rows)
@@ -188,7 +188,7 @@ def _prior(found: Validation, scale: Scale) -> str:
     choice = found.choice
     if choice is None:
         return f"The prior was given: {points}."
-    if not choice.learnt:
+    if not choice.learned:
         return f"There are too few results to choose a prior, so the default is used: {points}."
     least = min(choice.log_loss)
     cost = choice.log_loss[choice.tried.index(PRIOR_SD)] - least
@@ -268,10 +268,10 @@ def _by_spot(found: Validation) -> Table:
 
 
 def _by_length(found: Validation) -> Table:
-    """Return how often favourites won even races, by their length."""
+    """Return how often favorites won even races, by their length."""
     columns = columns_of("races_to matches won share_of_matches range expected_share")
     rows = [
         (span_of(row), row.matches, row.won, row.share, (row.low, row.high), row.predicted)
         for row in found.lengths
     ]
-    return Table("", columns, rows, "Even races that the favourite won, by the games needed:")
+    return Table("", columns, rows, "Even races that the favorite won, by the games needed:")

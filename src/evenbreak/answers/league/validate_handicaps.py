@@ -52,7 +52,7 @@ def scored_of(found: Validation, of: Of) -> Scored:
 
 def wrong_chances(scored: tuple[Scored, ...], found: Validation) -> dict[str, int]:
     """Return the predictions whose chances are clearly off: -1 too extreme, 1 too cautious."""
-    # A fair handicap leaves matches without favourites, whatever the ratings say.
+    # A fair handicap leaves matches without favorites, whatever the ratings say.
     judged = ("game", "match") if mostly_even(found.forecasts) else ("game",)
     off = {
         row.of: clearly_off(row.slope, 1.0)
@@ -294,7 +294,7 @@ def _class_worth(starts: Starts, a_class: Estimate, way: int, scale: Scale) -> s
         return text
     needs, gets = next_to.race
     text += (
-        f" The races between neighbouring {many}, most often {race(next_to.race)}, take back "
+        f" The races between neighboring {many}, most often {race(next_to.race)}, take back "
         f"{scale.points(next_to.taken):.0f} points"
     )
     better = even_start(needs, a_class.value)

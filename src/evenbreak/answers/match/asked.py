@@ -295,7 +295,7 @@ def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
     elif file.scale is None:
         refuse_levels(file)
     points = file.scale_by(scale, SAY_WHICH)
-    roster = file.roster.with_starters(points.centre, points.points_per_doubling, points)
+    roster = file.roster.with_starters(points.center, points.points_per_doubling, points)
     places = _places(asked, file)
     for place in places:
         if math.isnan(file.roster.rating[place]):

@@ -170,14 +170,14 @@ def _alone(one: RankedShot, look_ahead: str) -> str:
     critical = _even_at(one.shot, look_ahead)
     if critical is None:
         are = "are" if one.win > 0.5 else "are not"
-        return f"You {are} the favourite, whatever a miss leaves."
+        return f"You {are} the favorite, whatever a miss leaves."
     if critical == 0.0:
-        return "You are not the favourite, whatever a miss leaves."
+        return "You are not the favorite, whatever a miss leaves."
     if abs(critical - one.shot.p2) < SAME:
-        return "The game is even: leave a little less, and you are the favourite."
+        return "The game is even: leave a little less, and you are the favorite."
     if one.shot.p2 < critical:
-        return f"You are the favourite as long as a miss leaves a chance below {chance(critical)}."
-    return f"You would be the favourite if a miss left a chance below {chance(critical)}."
+        return f"You are the favorite as long as a miss leaves a chance below {chance(critical)}."
+    return f"You would be the favorite if a miss left a chance below {chance(critical)}."
 
 
 def straight_answer(match: StraightPool, averages: tuple[float, float] | None = None) -> Answer:

@@ -52,17 +52,17 @@ def speed(asked: questions.TableSpeed) -> Answer:
 
     units = units_of(asked)
     unit, length, diameter = units.length, asked.table_length, asked.ball_diameter
-    metres = physics.PoolTable().length if length is None else length * unit.size
+    meters = physics.PoolTable().length if length is None else length * unit.size
     ball = physics.Ball().diameter if diameter is None else diameter * unit.size
-    if metres <= ball:
+    if meters <= ball:
         asked.refuse(
             "{table_length} {long:g} leaves no room for a ball of {wide:g} {words}; give both in "
             "{words}",
-            long=metres / unit.size,
+            long=meters / unit.size,
             wide=ball / unit.size,
             words=unit.words,
         )
-    return table_speed_answer(asked.lag_time, metres - ball, units)
+    return table_speed_answer(asked.lag_time, meters - ball, units)
 
 
 def throw(asked: questions.Throw) -> Answer:
@@ -100,7 +100,7 @@ def deflect(asked: questions.Deflect) -> Answer:
 
 
 def strike(asked: questions.Strike) -> Answer:
-    """Return the spin and speed of a hit off centre."""
+    """Return the spin and speed of a hit off center."""
     from evenbreak.answers.physics.strike import strike_answer
 
     units, distance, pace = units_of(asked), asked.distance, asked.stick_speed

@@ -79,7 +79,7 @@ class Hit(NamedTuple):
         return collide(angle, topspin, side, speed=speed, mu=self.mu, friction=self.friction)
 
     @property
-    def towards(self) -> str:
+    def toward(self) -> str:
         """The side to which the object ball is cut; a full hit counts as a cut to the right."""
         return "left" if self.cut < 0.0 else "right"
 
@@ -244,7 +244,7 @@ def aim_answer(
     hit
         its cut is the angle at which the object ball has to leave.
     distance
-        from the object ball to the middle of the pocket, in metres.
+        from the object ball to the middle of the pocket, in meters.
     units
         in which the answer is given.
     squirt
@@ -294,7 +294,7 @@ def aim_words(offset: float, cut: float, hit: Hit, length: Unit) -> str:
     Parameters
     ----------
     offset
-        to the right of the middle of the pocket, in metres.
+        to the right of the middle of the pocket, in meters.
     cut
         the cut angle to aim for, below 0 if it is to the side opposite to that of the hit.
     hit, length
@@ -304,7 +304,7 @@ def aim_words(offset: float, cut: float, hit: Hit, length: Unit) -> str:
     if length.is_nothing(offset, 2):
         return f"Aim at the middle of the pocket: throw is less than 0.01 {length.words} there."
     side = "right" if offset > 0.0 else "left"
-    thinness = "a thinner cut" if side == hit.towards else "a fuller cut"
+    thinness = "a thinner cut" if side == hit.toward else "a fuller cut"
     if cut < 0.0:
         thinness = f"a cut to the {hit.away}"
     note = f" ({thinness})" if hit.cut else ""
@@ -349,9 +349,9 @@ def throw_words(throw: float, hit: Hit) -> str:
     """
     amount = degrees(abs(throw))
     if float(amount) == 0.0:
-        return "There is no throw: the object ball leaves along the line of centres."
+        return "There is no throw: the object ball leaves along the line of centers."
     if hit.cut == 0.0:
-        side = hit.away if throw > 0.0 else hit.towards
+        side = hit.away if throw > 0.0 else hit.toward
         return f"The object ball is thrown {amount} degrees to the {side}."
     if throw > 0.0:
         return (
@@ -437,7 +437,7 @@ def _way(
         return f"{stop} dead"
     amount = degrees(abs(angle))
     straight = {"0.00": f"{go} straight on", "180.00": f"{come} straight back"}
-    side = hit.away if angle > 0.0 else hit.towards
+    side = hit.away if angle > 0.0 else hit.toward
     return straight.get(amount, f"{go} {amount} degrees to the {side}")
 
 

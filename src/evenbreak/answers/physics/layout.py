@@ -26,7 +26,7 @@ class Layout:
     table
         the table.
     cut, distance
-        degrees, and between the centres of the balls; or
+        degrees, and between the centers of the balls; or
     object_ball, pocket
         where the object ball is and where it should go.
     cue_ball
@@ -41,17 +41,17 @@ class Layout:
     object_ball: Place | None
     pocket: physics.Pocket | None
 
-    def metres(self, place: Place) -> Place:
-        """Return a place in metres."""
+    def meters(self, place: Place) -> Place:
+        """Return a place in meters."""
         size = self.units.length.size
         return place[0] * size, place[1] * size
 
     @property
     def start(self) -> Place:
-        """Where the cue ball is, in metres."""
+        """Where the cue ball is, in meters."""
         if self.cue_ball is None:
             return 0.25 * self.table.length, 0.5 * self.table.width
-        return self.metres(self.cue_ball)
+        return self.meters(self.cue_ball)
 
 
 def layout_of(asked: Shot, units: Units) -> Layout:
@@ -91,7 +91,7 @@ def traced_shot(
             )
         except InputError:
             _refuse_distance(layout, strike.ball.diameter)
-    standing = layout.metres(layout.object_ball)
+    standing = layout.meters(layout.object_ball)
     if math.dist(standing, (pocket.x, pocket.y)) <= strike.ball.radius:
         refuse(
             "{object_ball} hangs in the {name} pocket, where any hit will do; move it away from "
@@ -121,13 +121,13 @@ def _check_places(layout: Layout, radius: float) -> None:
     for name, place in (("cue_ball", layout.cue_ball), ("object_ball", layout.object_ball)):
         if place is None:
             continue
-        at = layout.metres(place)
+        at = layout.meters(place)
         if not all(
             radius - 1e-9 <= x <= most - radius + 1e-9 for x, most in zip(at, size, strict=True)
         ):
             room = " by ".join(f"{most / unit.size:g}" for most in size)
             refuse(
-                "{ball} {x:g},{y:g} is not on the table, which is {room} {units}; a ball's centre "
+                "{ball} {x:g},{y:g} is not on the table, which is {room} {units}; a ball's center "
                 "is at least {least:.4g} from each cushion",
                 ball=Parameter(name),
                 x=place[0],
@@ -143,7 +143,7 @@ def _refuse_distance(layout: Layout, diameter: float) -> NoReturn:
     unit, distance = layout.units.length, layout.distance or 0.0
     if distance * unit.size < diameter:
         refuse(
-            "{distance} {far:g} is measured between the centres; give {least:.4g} {units}, where "
+            "{distance} {far:g} is measured between the centers; give {least:.4g} {units}, where "
             "the balls touch, or more",
             far=distance,
             least=diameter / unit.size,

@@ -39,8 +39,8 @@ def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = 
     >>> from evenbreak.physics import shot, strike_for_speed
     >>> found = shot(strike_for_speed(1.1), math.radians(30.0), 0.5)
     >>> print(shot_answer(found, METRIC).sentences[0])
-    The object ball stops after 5.15 s, 205.5 centimetres from the head cushion and 11.0 from
-    the right one. The cue ball stops after 4.67 s, 175.4 centimetres from the head cushion and
+    The object ball stops after 5.15 s, 205.5 centimeters from the head cushion and 11.0 from
+    the right one. The cue ball stops after 4.67 s, 175.4 centimeters from the head cushion and
     112.4 from the right one.
     """
     aimed = traced if isinstance(traced, AimedShot) else None
@@ -195,7 +195,7 @@ def shot_heading(found: Shot, units: Units, pocket: Pocket | None) -> str:
     if pocket is None:
         apart = math.dist(found.approach.slide.position, found.object_position)
         cut = cut_words(round(math.degrees(found.cut), 9))  # as it was typed
-        where = f"{cut}; {length.typed(apart)} between the centres"
+        where = f"{cut}; {length.typed(apart)} between the centers"
     else:
         places = (found.approach.slide.position, found.object_position)
         cue, standing = (f"({x / length.size:g}, {y / length.size:g})" for x, y in places)

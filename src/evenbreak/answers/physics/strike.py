@@ -47,7 +47,7 @@ def strike_answer(
     cloth
         that the ball slides on.
     distance
-        metres after which the spin is asked for.
+        meters after which the spin is asked for.
     speed_known
         whether the speed of the cue is known; if not, there are only ratios.
 
@@ -68,7 +68,7 @@ def strike_answer(
     place = {
         "offset": strike.offset,
         "side_offset": strike.side_offset,
-        "off_centre": strike.off_centre,
+        "off_center": strike.off_center,
         "miscue": strike.miscue,
         "miscue_offset": miscue_offset(strike.cue.tip_friction),
     }
@@ -83,7 +83,7 @@ def tip_words(strike: Strike) -> str:
 
     >>> from evenbreak.physics import strike
     >>> tip_words(strike(1.0, -0.3, 0.1)), tip_words(strike(1.0))
-    ('Tip 0.3 radii below and 0.1 radii right of the centre', 'Tip in the centre')
+    ('Tip 0.3 radii below and 0.1 radii right of the center', 'Tip in the center')
     """
     up, right = strike.offset, strike.side_offset
     places = []
@@ -91,20 +91,20 @@ def tip_words(strike: Strike) -> str:
         places.append(f"{abs(up):g} radii {'above' if up > 0.0 else 'below'}")
     if right:
         places.append(f"{abs(right):g} radii {'right' if right > 0.0 else 'left'} of")
-    return f"Tip {' and '.join(places)} the centre" if places else "Tip in the centre"
+    return f"Tip {' and '.join(places)} the center" if places else "Tip in the center"
 
 
 def _miscue_words(strike: Strike) -> str:
-    needed = math.ceil(1000.0 * tip_friction_of(strike.off_centre)) / 1000.0
+    needed = math.ceil(1000.0 * tip_friction_of(strike.off_center)) / 1000.0
     limit = miscue_offset(strike.cue.tip_friction)
     if needed > MOST_TIP_FRICTION:
         return say(
-            "This is a miscue: so far from the centre the tip slips. Hit no farther from it than "
+            "This is a miscue: so far from the center the tip slips. Hit no farther from it than "
             "{limit:.3f} of the radius.",
             limit=limit,
         )
     return say(
-        "This is a miscue: so far from the centre the tip slips. Hit no farther from it than "
+        "This is a miscue: so far from the center the tip slips. Hit no farther from it than "
         "{limit:.3f} of the radius, or use a tip whose friction is {needed:g} or more ({option} "
         "{needed:g}).",
         limit=limit,
@@ -140,7 +140,7 @@ def _found(
     strike: Strike, cloth: Cloth, units: Units, distance: float | None, speed_known: bool
 ) -> list[Quantity]:
     """Return the spins, the speeds and the distances of the ball."""
-    ratio = ball_speed_ratio(strike.off_centre, strike.ball.mass / strike.cue.mass)
+    ratio = ball_speed_ratio(strike.off_center, strike.ball.mass / strike.cue.mass)
     spins = {
         "spin_speed_ratio": strike.topspin,
         "side_spin_speed_ratio": strike.side,
@@ -245,7 +245,7 @@ _LEAST, _MOST = 40.0, 250.0
 
 
 def table_speed_answer(lag_time: float, distance: float, units: Units) -> Answer:
-    """Return the speed of a table, from seconds and the metres that the ball's centre rolls.
+    """Return the speed of a table, from seconds and the meters that the ball's center rolls.
 
     >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> table_speed_answer(7.0, 2.48285, IMPERIAL).sentences

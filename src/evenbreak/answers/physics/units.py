@@ -1,11 +1,11 @@
-"""The units in which lengths, speeds and weights are typed and shown: inches or centimetres."""
+"""The units in which lengths, speeds and weights are typed and shown: inches or centimeters."""
 
 from typing import NamedTuple
 
 from evenbreak.answers.kit.columns import quantity_of
 from evenbreak.answers.kit.parts import Quantity
 from evenbreak.answers.kit.wording import decimals
-from evenbreak.physics.units import CENTIMETRE, GRAM, INCH, OUNCE
+from evenbreak.physics.units import CENTIMETER, GRAM, INCH, OUNCE
 from evenbreak.words import Parameter, say
 
 
@@ -15,7 +15,7 @@ class Unit(NamedTuple):
     Parameters
     ----------
     size
-        one of it in SI units: metres, metres per second or kilograms.
+        one of it in SI units: meters, meters per second or kilograms.
     key
         the ending of the names of quantities in this unit.
     words
@@ -55,7 +55,7 @@ class Unit(NamedTuple):
 
         >>> quantity = METRIC.speed.quantity("ball_speed", 1.5)
         >>> quantity.name, quantity.value, quantity.words
-        ('ball_speed_m_s', 1.5, 'speed of the ball, metres per second')
+        ('ball_speed_m_s', 1.5, 'speed of the ball, meters per second')
         """
         number = None if value is None else float(value) / self.size
         return quantity_of(key, number, unit=self.key, units=self.words)
@@ -75,11 +75,11 @@ IMPERIAL = Units(
 """Inches, inches per second and ounces."""
 
 METRIC = Units(
-    Unit(CENTIMETRE, "cm", "centimetres"),
-    Unit(1.0, "m_s", "metres per second"),
+    Unit(CENTIMETER, "cm", "centimeters"),
+    Unit(1.0, "m_s", "meters per second"),
     Unit(GRAM, "g", "grams"),
 )
-"""Centimetres, metres per second and grams."""
+"""Centimeters, meters per second and grams."""
 
 _TYPICAL = {
     "stick": ((10.0, 30.0), (280.0, 850.0)),

@@ -1,4 +1,4 @@
-"""Where a progressive drill settles, and which level to practise."""
+"""Where a progressive drill settles, and which level to practice."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -22,7 +22,7 @@ from evenbreak.stats.summary import Distribution
 def drill_answer(
     statistics: DrillStatistics, description: str, *, via: Way | None = None
 ) -> Answer:
-    """Return where a drill settles in the long run, and what to practise.
+    """Return where a drill settles in the long run, and what to practice.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def drill_answer(
         description,
         [*parts, Table("drill_levels", columns, list(rows)), *_way(via, statistics)],
         details=[Quantities([*quantities_of({"mean_level": law.mean}), *spread(law)]), GAIN_WORDS],
-        data={"practise_next": statistics.practise_next, "period": statistics.period},
+        data={"practice_next": statistics.practice_next, "period": statistics.period},
     )
 
 
@@ -66,7 +66,7 @@ def _way(via: Way | None, statistics: DrillStatistics) -> list[Part]:
 
 
 def _advice(statistics: DrillStatistics) -> str:
-    level = statistics.practise_next
+    level = statistics.practice_next
     if level is None:
         return "More success at any level would not raise your average level."
     lift = statistics.lift[level - 1]
@@ -118,12 +118,12 @@ def drill_log_answer(
         whether the number of levels was given; otherwise it is the highest one in the log.
     """
     log = file.log
-    best, off = analysis.practise_next, analysis.furthest_off_model
+    best, off = analysis.practice_next, analysis.furthest_off_model
     tests = {name: getattr(analysis, name) for name in ("difference", "memory", "model_test")}
     return Answer(
         _heading(file, levels_given=levels_given),
         [
-            _practise(analysis) + _untried(analysis),
+            _practice(analysis) + _untried(analysis),
             " ".join(_findings(analysis)),
             _table(analysis),
             _averages(analysis),
@@ -138,7 +138,7 @@ def drill_log_answer(
         ],
         warnings=file.warnings,
         data={
-            "practise_next": best and best.level,
+            "practice_next": best and best.level,
             **{name: test and test._asdict() for name, test in tests.items()},
             "model": analysis.model and analysis.model._asdict(),
             "furthest_off_model": off and off.level,
@@ -177,7 +177,7 @@ def _table(analysis: LogAnalysis) -> Table:
         "Your success rate at each level, with its 95% interval; the share of your attempts at "
         "that level, so far and in the long run; its lift: how much five more successes in 100 "
         "there would raise your average level; and how likely it is to be the best level to "
-        "practise:",
+        "practice:",
     )
 
 
@@ -196,11 +196,11 @@ def _averages(analysis: LogAnalysis) -> Quantities:
     )
 
 
-def _practise(analysis: LogAnalysis) -> str:
-    best = analysis.practise_next
+def _practice(analysis: LogAnalysis) -> str:
+    best = analysis.practice_next
     missed = [report for report in analysis.levels if report.attempts > report.successes]
     if best is None:
-        return _nothing_to_practise(levels=len(analysis.levels), missed=bool(missed))
+        return _nothing_to_practice(levels=len(analysis.levels), missed=bool(missed))
     text = (
         f"Practice level {best.level} next: {better(best.p or 0.0)} there raise your average level "
         f"by {best.lift:.2f} (between {best.lift_low:.2f} and {best.lift_high:.2f}). "
@@ -218,14 +218,14 @@ def _practise(analysis: LogAnalysis) -> str:
     )
 
 
-def _nothing_to_practise(*, levels: int, missed: bool) -> str:
+def _nothing_to_practice(*, levels: int, missed: bool) -> str:
     if levels == 1:
         return (
             "With only one level there is nothing to climb; give the number of levels of the drill."
         )
     if not missed:
         return (
-            "You never missed, so the log cannot show what to practise; log more attempts, if "
+            "You never missed, so the log cannot show what to practice; log more attempts, if "
             "possible at higher levels."
         )
     return "No level that you missed would raise your average level."

@@ -68,7 +68,7 @@ def shots_answer(file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.
         [*parts, Quantities(quantities_of(values)), table],
         details=[
             f"'Between' and 'and' are the exact {100 * confidence:g}% interval of a shot by its "
-            "own tries. The chance is drawn towards those of your other shots, the more the fewer "
+            "own tries. The chance is drawn toward those of your other shots, the more the fewer "
             "tries there are; how far is estimated from all of them. 'Weakest' is the probability "
             "that it is the shot you miss most.",
             "Before and since are the earlier and the later half of your tries. The change of all "

@@ -48,7 +48,7 @@ def team_season_answer(
     >>> season = TeamSeason(["Acers", "Bankers", "Caroms"], [[0, 1, 3, 2]], [[0, 2], [1, 2]],
     ...                     [[3, 2], [2, 3]], [[0.5, 0.5], [0.5, 0.5]])
     >>> print(team_season_answer(season_chances(season)).sentences[0])
-    Acers are the favourites and win the title 58% of the time; next are Caroms (33%) and Bankers
+    Acers are the favorites and win the title 58% of the time; next are Caroms (33%) and Bankers
     (8.3%).
     """
     season = found.season
@@ -76,7 +76,7 @@ def _in_words(found: SeasonChances) -> str:
     if title[best] >= 1.0 - 1e-12:
         return f"{teams[best]} have won the title."
     following = [f"{teams[k]} ({percent(title[k])})" for k in others if title[k] > 0.0]
-    text = f"{teams[best]} are the favourites and win the title {percent(title[best])} of the time"
+    text = f"{teams[best]} are the favorites and win the title {percent(title[best])} of the time"
     if following:
         text += f"; next {'are' if len(following) > 1 else 'is'} {listed(following)}"
     return f"{text}."

@@ -80,7 +80,7 @@ def tournament_odds_answer(
     >>> file = RosterFile(club, np.arange(2, 6), "club.csv", (), "")
     >>> asked = double_elimination(club.players), Races(5), SCALES["fargo"], "as listed"
     >>> print(tournament_odds_answer(Tournament(file, club, *asked)).sentences[0])
-    The favourite is Ann, who wins the tournament 72% of the time; next are Bo (22%) and Cy (4.9%).
+    The favorite is Ann, who wins the tournament 72% of the time; next are Bo (22%) and Cy (4.9%).
     An equal share would be 25%. On average 6.4 matches are played, 1.3 of them between players
     who have met before; a second final is needed 41% of the time.
     """
@@ -230,7 +230,7 @@ def place_words(place: Place) -> str:
     return str(place)
 
 
-def favourite_words(odds: PlaceOdds, bands: Bands = NOTHING) -> str:
+def favorite_words(odds: PlaceOdds, bands: Bands = NOTHING) -> str:
     """Return who is likely to win."""
     players, title = odds.bracket.players, odds.title
     alive = [k for k in favorites(odds, bands)[:3] if title[k] > 0.0]
@@ -245,7 +245,7 @@ def favourite_words(odds: PlaceOdds, bands: Bands = NOTHING) -> str:
         if players[k] in bands
     }
     text = (
-        f"The favourite is {players[best]}, who wins the tournament {percent(title[best])} of the "
+        f"The favorite is {players[best]}, who wins the tournament {percent(title[best])} of the "
         "time"
     )
     if others:
@@ -256,7 +256,7 @@ def favourite_words(odds: PlaceOdds, bands: Bands = NOTHING) -> str:
 
 def _in_words(odds: PlaceOdds, bands: Bands) -> str:
     equal = percent(1.0 / len(odds.bracket.players))
-    return f"{favourite_words(odds, bands)}\nAn equal share would be {equal}."
+    return f"{favorite_words(odds, bands)}\nAn equal share would be {equal}."
 
 
 def _matches_words(odds: TitleOdds, rematches: float) -> str:

@@ -14,7 +14,7 @@ from evenbreak.answers.kit.scales import form_used_words
 from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.tournament.chips import chip_time_answer
 from evenbreak.answers.tournament.night import begun_at, heading
-from evenbreak.answers.tournament.odds import bands_words, favourite_words, how_words, odds_table
+from evenbreak.answers.tournament.odds import bands_words, favorite_words, how_words, odds_table
 from evenbreak.answers.tournament.prizes import stakes
 from evenbreak.answers.tournament.time import (
     assumed_words,
@@ -63,7 +63,7 @@ def odds_under_way(
     >>> happened += (Scored("F", ("Ann", "Bo"), (4, 3)),)
     >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
     >>> print(odds_under_way(Outlook(state, "2025-03-01T19:40:00")).sentences[0])
-    The favourite is Ann, who wins the tournament 75% of the time; next is Bo (25%).
+    The favorite is Ann, who wins the tournament 75% of the time; next is Bo (25%).
     """
     state, plug_in = outlook.state, outlook.as_if_sure
     odds = plug_in if sure else outlook.odds
@@ -79,7 +79,7 @@ def odds_under_way(
             ),
             *quantities,
         ]
-    parts: list[Part] = [favourite_words(odds, bands), Quantities(quantities), table]
+    parts: list[Part] = [favorite_words(odds, bands), Quantities(quantities), table]
     if state.standing.to_play:
         if (at_stake := _at_stake(outlook, prizes)).rows:
             parts.append(at_stake)

@@ -55,7 +55,7 @@ def _spelled(name: str) -> str:
 @cache
 def terminal() -> Face:
     """Return how the terminal says what the command that runs answers."""
-    from evenbreak.files.catalogues import face_in
+    from evenbreak.files.catalogs import face_in
 
     return replace(face_in("en"), parameter=_spelled, command=_typed)
 

@@ -247,7 +247,7 @@ def _strengths(
             f"{chart.levels[0]} to {chart.levels[-1]}"
         )
     level = nearest_level(chart, of.rating)
-    points = scale.centre + skills.strength(level) - skills.points.mean()
+    points = scale.center + skills.strength(level) - skills.points.mean()
     # Players of a level are spread at least as evenly as the levels are apart.
     width = skills.spread or step / np.sqrt(12.0)
     players = league.LeaguePlayers.of(

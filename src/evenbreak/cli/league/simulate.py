@@ -125,7 +125,7 @@ def _with_entrants(file: files.SeasonPlayers, path: str, asked: Simulate) -> fil
     return files.league_of_entrants(
         file,
         files.read_entrants(path),
-        starter=scale.centre if scale is not None and scale.name in SCALES else of_league,
+        starter=scale.center if scale is not None and scale.name in SCALES else of_league,
         starter_sd=1.0 if scale is None or file.levels else scale.points_per_doubling,
     )
 

@@ -114,26 +114,26 @@ def _check_size(file: ArcsFile) -> None:
 
 def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
     """Return what a game is called, with its chances, and the game itself."""
-    from evenbreak.games.catalogue import CATALOGUE, game_of_catalogue
+    from evenbreak.games.catalog import CATALOG, game_of_catalog
     from evenbreak.handicaps.charts.chart import CHARTS
-    from evenbreak.handicaps.charts.chart_of import catalogue_name
+    from evenbreak.handicaps.charts.chart_of import catalog_name
 
     found = _format(name)
-    ours = found or name.strip().lower() in CATALOGUE
-    if catalogue_name(name) in CHARTS or Path(name).is_file() or (not ours and _adds_chart(name)):
+    ours = found or name.strip().lower() in CATALOG
+    if catalog_name(name) in CHARTS or Path(name).is_file() or (not ours and _adds_chart(name)):
         if chances:
             refuse("the ladder of a chart has no chances of its own; leave --p, --p1 and --p2 out")
         return _ladder(name)
-    if found and (chances or name not in CATALOGUE):
+    if found and (chances or name not in CATALOG):
         return _match(found, chances)
     try:
-        title, played = game_of_catalogue(name, *chances)
+        title, played = game_of_catalog(name, *chances)
     except InputError as error:
         if meant := _meant(name):
             refuse(f"{name!r} is not a game; did you mean {meant!r}?")
         charts = "" if chances else f"; or a chart: {', '.join(CHARTS)}"
         refuse(f"{error}; or a match, such as 7:5 or race to 7{charts}")
-    shown = chances or (_example_chances(played) if title in CATALOGUE else ())
+    shown = chances or (_example_chances(played) if title in CATALOG else ())
     return f"{title[0].upper()}{title[1:]}{_with(shown)}", played
 
 
@@ -152,13 +152,13 @@ def _meant(name: str) -> str | None:
     """
     from difflib import get_close_matches
 
-    from evenbreak.games.catalogue import CATALOGUE, game_of_catalogue
+    from evenbreak.games.catalog import CATALOG, game_of_catalog
     from evenbreak.handicaps.charts.chart import CHARTS
     from evenbreak.matches.formats import WORDS
 
     if re.fullmatch(r"[1-9]\d*", name):
         return f"race to {name}"
-    words = {*WORDS, *re.findall(r"[a-z]+", " ".join(CATALOGUE))}
+    words = {*WORDS, *re.findall(r"[a-z]+", " ".join(CATALOG))}
     near = re.sub(
         r"[^\W\d_]{3,}",
         lambda word: next(iter(get_close_matches(word[0], words, 1, 0.7)), word[0]),
@@ -168,12 +168,12 @@ def _meant(name: str) -> str | None:
         if _format(near):
             return near
         with suppress(InputError):
-            return game_of_catalogue(near) and near
+            return game_of_catalog(near) and near
     return next(iter(get_close_matches(name.lower(), CHARTS, 1, 0.7)), None)
 
 
 def _example_chances(game: Any) -> tuple[float, ...]:
-    """Return the chances with which the catalogue has a game.
+    """Return the chances with which the catalog has a game.
 
     >>> from evenbreak.games import Race, Rack
     >>> _example_chances(Race(3, 1, Race(3, 3, Rack(0.6))))

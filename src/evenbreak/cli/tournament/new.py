@@ -161,7 +161,7 @@ def import_(asked: Import) -> Answer:
     if asked.ratings is not None:
         file = files.read_entrants(asked.ratings)
         points, warnings = file.scale_by(scale, SAY_WHICH), [*file.warnings]
-        filled = file.roster.with_starters(points.centre, points.points_per_doubling, points)
+        filled = file.roster.with_starters(points.center, points.points_per_doubling, points)
         warnings += filter(None, [games_words(file.roster, filled)])
         rated = np.isfinite(file.roster.rating)
         found = zip(entrants_of(filled), rated, strict=True)
@@ -170,7 +170,7 @@ def import_(asked: Import) -> Answer:
         "imported",
         asked.race or 0,
         scale=points.text,
-        starter=points.centre,
+        starter=points.center,
         starter_error=points.points_per_doubling,
         tables=asked.tables or 0,
         discipline=asked.discipline or "",

@@ -87,7 +87,7 @@ def entered_in(asked: NewTournament | OfEntrants) -> Entered:
         handicapped=asked.race_to is not None,
         chart=races.race if isinstance(races.race, Chart) else None,
         scale=points.text,
-        starter=points.centre if asked.starter is None else asked.starter,
+        starter=points.center if asked.starter is None else asked.starter,
         starter_error=points.points_per_doubling if asked.starter_sd is None else asked.starter_sd,
         chips=None if asked.chips is None else chip_chart_of(asked.chips),
         earlier=earlier,

@@ -28,7 +28,7 @@ SCALE = Named(
 
 
 def _system(text: str) -> System:
-    from evenbreak.handicaps.systems.catalogue import system_of
+    from evenbreak.handicaps.systems.catalog import system_of
 
     system: System = system_of(text)
     return system

@@ -102,7 +102,7 @@ def _who_did_not_play(ratings: Ratings, before: Beginning | None) -> Iterator[tu
     """Yield those who brought a rating along and have no result, on the scale of the ratings."""
     if before is None:
         return
-    centre = before.centre(ratings.players)
+    center = before.center(ratings.players)
     unit = ratings.scale.points(before.scale.log_odds(1.0))
     day = "" if before.as_of is None else str(before.as_of)
     for k, name in enumerate(before.players):
@@ -112,7 +112,7 @@ def _who_did_not_play(ratings: Ratings, before: Beginning | None) -> Iterator[tu
             float(column[k]) * unit for column in (before.standard_error, before.prior_sd)
         )
         rating, mean = (
-            ratings.anchor + unit * (float(column[k]) - centre)
+            ratings.anchor + unit * (float(column[k]) - center)
             for column in (before.rating, before.prior_mean)
         )
         errors = ("", "") if np.isnan(error) else (_rounded(error), _rounded(error))
@@ -178,7 +178,7 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
         np.where(error > 0.0, error, np.nan),
         scale=scale,
         prior_sd=np.where(prior[rated] > 0.0, prior[rated], np.nan),
-        prior_mean=np.where(np.isnan(mean[rated]), scale.centre, mean[rated]),
+        prior_mean=np.where(np.isnan(mean[rated]), scale.center, mean[rated]),
         games=np.maximum(roster.games[rated], 0).astype(float),
         as_of=None if np.isnat(day).all() else str(day[~np.isnat(day)].max()),
     )

@@ -2,7 +2,7 @@
 
 A race m:n is even at one game probability only. If s points double the odds, that is a rating
 difference of s·e points, where e = log2(p / (1 - p)) at W(p; m, n) = 1/2. The cut between two
-neighbouring races of a chart lies between the differences at which they are even: with tilt t
+neighboring races of a chart lies between the differences at which they are even: with tilt t
 at s·((1 - t)·e_k + t·e_(k-1)). So tilt 0 makes each race even at the start of its band, 1/2 in
 the middle (on either side of a cut the races are about equally unfair, to one player and to the
 other), 1 at the end. The cuts are linear in s and s·t, and least squares gives both.

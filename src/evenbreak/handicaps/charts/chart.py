@@ -103,13 +103,13 @@ def row_faults(rows: Sequence[ChartRow]) -> Iterator[tuple[int, str]]:
         )
 
 
-def catalogue_rows(name: str) -> list[tuple[Any, ...]]:
+def catalog_rows(name: str) -> list[tuple[Any, ...]]:
     """Return the rows of a chart that comes with the package; None where a cell is empty.
 
-    >>> catalogue_rows("npl_8")[-1]
+    >>> catalog_rows("npl_8")[-1]
     (49, None, 6, 2)
     """
-    place = files("evenbreak.handicaps.charts").joinpath("catalogue", f"{name}.csv")
+    place = files("evenbreak.handicaps.charts").joinpath("catalog", f"{name}.csv")
     _, *rows = csv.reader(place.read_text("utf-8").splitlines())
     return [tuple(int(cell) if cell else None for cell in row) for row in rows]
 
@@ -269,4 +269,4 @@ def chart(name: str) -> Chart:
 
 @cache
 def _read(name: str) -> Chart:
-    return Chart(name, [ChartRow(*row) for row in catalogue_rows(name)])
+    return Chart(name, [ChartRow(*row) for row in catalog_rows(name)])

@@ -1,4 +1,4 @@
-"""The door for charts: wherever a function takes a chart, a name of the catalogue will do."""
+"""The door for charts: wherever a function takes a chart, a name of the catalog will do."""
 
 from __future__ import annotations
 
@@ -44,17 +44,17 @@ def chart_names() -> list[str]:
     return [*{**EVERY_CHART, **added("chart")}]
 
 
-def catalogue_name(text: str) -> str:
-    """Return what a chart of the catalogue is called, however its name was typed.
+def catalog_name(text: str) -> str:
+    """Return what a chart of the catalog is called, however its name was typed.
 
-    >>> catalogue_name(" NPL-10 "), catalogue_name("APA 8-Ball")
+    >>> catalog_name(" NPL-10 "), catalog_name("APA 8-Ball")
     ('npl_10', 'apa_8ball')
     """
     return re.sub(r"(?<=\d)_ball$", "ball", re.sub(r"[-\s]+", "_", text.strip().lower()))
 
 
 def named_chart(name: str) -> Chart | LevelChart | PointsChart | None:
-    """Return a chart by its name in the catalogue or in an installed package; None: nobody's.
+    """Return a chart by its name in the catalog or in an installed package; None: nobody's.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def named_chart(name: str) -> Chart | LevelChart | PointsChart | None:
     >>> named_chart("APA 9-ball").points[-1], named_chart("nobody's")
     (75, None)
     """
-    key = catalogue_name(name)
+    key = catalog_name(name)
     for kind in _KINDS.values():
         if key in kind.names:
             return cast("Chart | LevelChart | PointsChart", kind.read(key))
@@ -122,7 +122,7 @@ def points_chart_of(chart_or_name: Any) -> PointsChart:
 
 
 class _Kind(NamedTuple):
-    """A kind of chart: in words, the names of its catalogue, and what reads one of them."""
+    """A kind of chart: in words, the names of its catalog, and what reads one of them."""
 
     words: str
     names: Mapping[str, str]

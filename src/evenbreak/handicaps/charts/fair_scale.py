@@ -66,7 +66,7 @@ class LeagueChart(NamedTuple):
     Parameters
     ----------
     nearest
-        the nearest chart of the catalogue; None where none is near.
+        the nearest chart of the catalog; None where none is near.
     scale
         what a rating point is worth; None where ratings are not known.
     """
@@ -93,7 +93,7 @@ def fair_scale(results: Results, played: PlayedChart | None) -> FairScale | None
     Parameters
     ----------
     results
-        with ratings in `level_a` and `level_b`, or with races by a chart of the catalogue.
+        with ratings in `level_a` and `level_b`, or with races by a chart of the catalog.
     played
         what `played_chart` finds in them.
     """

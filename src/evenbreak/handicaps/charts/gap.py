@@ -6,8 +6,8 @@ possible differences δ,
 
     E W = ∫ W(p(d + e z); m, n) φ(z) dz,
 
-by Gauss-Hermite quadrature. That pulls chances towards 1/2: W at the estimate itself, the
-plug-in value, is overconfident in the favourite. Form of the day (`evenbreak.matches.form`) is one
+by Gauss-Hermite quadrature. That pulls chances toward 1/2: W at the estimate itself, the
+plug-in value, is overconfident in the favorite. Form of the day (`evenbreak.matches.form`) is one
 more error, which is drawn anew for each match.
 """
 
@@ -28,7 +28,7 @@ from evenbreak.games.match import Match
 from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.handicaps.charts.fair import Candidate, FairRace, longest_matches, shortest_of_ties
-from evenbreak.matches.form import centre_of_form, form_of, given_score, normal_rule, rule_for
+from evenbreak.matches.form import center_of_form, form_of, given_score, normal_rule, rule_for
 from evenbreak.matches.length import MatchLength, match_length
 from evenbreak.matches.odds import MatchOdds, match_odds, mixed_odds
 from evenbreak.matches.parameters import checked_match, with_rack
@@ -131,8 +131,8 @@ class Gap:
         if self.form == 0.0:
             return self.difference, self.error
         mean, sd = self.scale.log_odds(self.difference), self.scale.log_odds(self.error)
-        centre, around = centre_of_form(mean, sd, self.form), np.hypot(sd, self.form)
-        return np.asarray(self.scale.points(centre)), np.asarray(self.scale.points(around))
+        center, around = center_of_form(mean, sd, self.form), np.hypot(sd, self.form)
+        return np.asarray(self.scale.points(center)), np.asarray(self.scale.points(around))
 
     def _rule(self, longest: int) -> tuple[Floats, Floats]:
         """Return nodes and weights that average W of races of so many games over the errors."""
@@ -161,11 +161,11 @@ class Gap:
         [0.5, 0.6485]
         """
         together(difference=self.difference, m=m, n=n)
-        centre, around, m, n = np.broadcast_arrays(*self.normal, m, n)
+        center, around, m, n = np.broadcast_arrays(*self.normal, m, n)
         nodes, weights = self._rule(int(np.max(m + n, initial=2)))
-        chance = np.zeros(centre.shape)
+        chance = np.zeros(center.shape)
         for node, weight in zip(nodes, weights, strict=True):
-            p = self.scale.win_probability(centre + node * around)
+            p = self.scale.win_probability(center + node * around)
             chance += weight * race_win_probability(p, m, n)
         return plain(chance)
 
@@ -180,17 +180,17 @@ class Gap:
         (array([5.75, 7.25]), array([9, 9]))
         """
         m, n = whole(m, "m", at_least=1), whole(n, "n", at_least=1)
-        centre, around = self.normal
+        center, around = self.normal
         nodes, weights = self._rule(m + n)
         games = np.arange(min(m, n), m + n)
-        total: Floats = np.zeros((*centre.shape, len(games)))
+        total: Floats = np.zeros((*center.shape, len(games)))
         for node, weight in zip(nodes, weights, strict=True):
-            length = match_length(Race(m, n, self.scale.rack(centre + node * around)))
+            length = match_length(Race(m, n, self.scale.rack(center + node * around)))
             # The shortest lengths are missing where their chance is 0.
             total[..., length.games - games[0]] += weight * length.probability
         mean = total @ games
         sd = np.sqrt(((games - mean[..., np.newaxis]) ** 2 * total).sum(axis=-1))
-        never = plain(np.zeros(centre.shape))
+        never = plain(np.zeros(center.shape))
         return MatchLength(games, total, plain(mean), plain(sd), never, never, bounded=True)
 
     def odds(self, match: Match) -> MatchOdds:
@@ -224,9 +224,9 @@ class Gap:
             )
         if not self.error and not self.form:
             return match_odds(with_rack(match, Rack(self.scale.win_probability(difference))))
-        centre, around = self.normal
+        center, around = self.normal
         nodes, weights = rule_for(match, self.scale.log_odds(float(around)))
-        many = with_rack(match, Rack(self.scale.win_probability(centre + nodes * around)))
+        many = with_rack(match, Rack(self.scale.win_probability(center + nodes * around)))
         return mixed_odds(many, given_score(many, weights) if self.form else weights)
 
     def _of_one_pair(self) -> float:
@@ -266,13 +266,13 @@ class Gap:
         low, high = longest_matches(games, race_to)
         if race_to is not None:
             return self._fairest_race_to(low, target)
-        centre, around = (part.reshape(-1) for part in self.normal)
+        center, around = (part.reshape(-1) for part in self.normal)
         nodes, weights = self._rule(high + 1)
-        m, longest = np.empty(centre.size, dtype=np.int64), np.empty(centre.size, dtype=np.int64)
+        m, longest = np.empty(center.size, dtype=np.int64), np.empty(center.size, dtype=np.int64)
         step = max(1, _AT_A_TIME // (len(nodes) * (high + 2)))
-        for first in range(0, centre.size, step):
+        for first in range(0, center.size, step):
             part = slice(first, first + step)
-            p = self.scale.win_probability(centre[part] + nodes[:, np.newaxis] * around[part])
+            p = self.scale.win_probability(center[part] + nodes[:, np.newaxis] * around[part])
             m[part], longest[part] = _nearest(p, weights, low, high, target)
         shape = self.difference.shape
         return m.reshape(shape), (longest + 1 - m).reshape(shape)
@@ -283,15 +283,15 @@ class Gap:
         The stronger player's chance rises with the games that the other needs, so the nearest to
         the target is found by bisection.
         """
-        centre, around = self.normal
-        ahead = centre >= 0.0
+        center, around = self.normal
+        ahead = center >= 0.0
         wanted = np.where(ahead, target, 1.0 - target)
-        stronger = Gap(np.abs(centre), around, self.scale)
+        stronger = Gap(np.abs(center), around, self.scale)
 
         def away(fewer: Ints) -> Floats:
             return np.asarray(stronger.win(needs, fewer) - wanted)
 
-        below, above = np.ones(centre.shape, dtype=np.int64), np.full(centre.shape, needs)
+        below, above = np.ones(center.shape, dtype=np.int64), np.full(center.shape, needs)
         while (above - below > 1).any():
             middle = (below + above) // 2
             enough = away(middle) >= 0.0

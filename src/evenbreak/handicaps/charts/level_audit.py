@@ -96,7 +96,7 @@ class LevelAudit:
 def audit_levels(chart: LevelChart | str, *, scale: Any = DEFAULT_SCALE) -> LevelAudit:
     """Return how fair a chart by skill level is, and the ratings that fit it best.
 
-    Each level is assumed to reach halfway to its neighbours; the lowest and the highest reach
+    Each level is assumed to reach halfway to its neighbors; the lowest and the highest reach
     as far outwards as inwards.
 
     Parameters
@@ -152,7 +152,7 @@ def _cells(chart: LevelChart, even: Floats, strength: Floats, scale: Scale) -> I
             nearest, farthest = (low[i] - high[j] if i > j else 0.0), high[i] - low[j]
             middle = gap if i > j else farthest / 2.0
             p = scale.win_probability(points * np.array([nearest, middle, farthest]))
-            low_end, centre, high_end = race_win_probability(p, own, theirs).tolist()
+            low_end, center, high_end = race_win_probability(p, own, theirs).tolist()
             easier = [even[k] for k in ((i - 1, j), (i, j + 1)) if i > j]
             yield LevelCell(
                 level,
@@ -160,11 +160,11 @@ def _cells(chart: LevelChart, even: Floats, strength: Floats, scale: Scale) -> I
                 own,
                 theirs,
                 p_win_low=low_end,
-                p_win_middle=centre,
+                p_win_middle=center,
                 p_win_high=high_end,
                 even_difference=float(points * even[i, j]),
                 difference=float(points * gap),
-                unfairness=abs(centre - 0.5) if i > j else 0.0,
+                unfairness=abs(center - 0.5) if i > j else 0.0,
                 monotone=all(even[i, j] > gap_before for gap_before in easier),
             )
 

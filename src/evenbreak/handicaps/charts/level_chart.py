@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from evenbreak.arrays import Ints
 from evenbreak.checks import increasing, together, whole, whole_numbers
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.chart import catalogue_rows
+from evenbreak.handicaps.charts.chart import catalog_rows
 
 LEVEL_CHARTS = {"apa_8ball": "APA 8-ball"}
 """The charts by skill level that come with the package: the title of each, by name."""
@@ -184,7 +184,7 @@ def level_chart(name: str) -> LevelChart:
 
 @cache
 def _read(name: str) -> LevelChart:
-    needs = {(own, opponent): games for own, opponent, games, _ in catalogue_rows(name)}
+    needs = {(own, opponent): games for own, opponent, games, _ in catalog_rows(name)}
     levels = sorted({own for own, _ in needs})
     return LevelChart(
         name, levels, [[needs[own, opponent] for opponent in levels] for own in levels]
@@ -289,5 +289,5 @@ def points_chart(name: str) -> PointsChart:
 
 @cache
 def _read_points(name: str) -> PointsChart:
-    levels, points = zip(*catalogue_rows(name), strict=True)
+    levels, points = zip(*catalog_rows(name), strict=True)
     return PointsChart(name, levels, points)

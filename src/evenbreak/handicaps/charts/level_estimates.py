@@ -2,7 +2,7 @@
 
 A player of level L has the strength s_L + u, where u, the player's own distance from the middle of
 the level, is N(0, spread^2); a game has the log-odds of the difference of the two strengths. The
-strengths are estimated together with all u, shrunk towards what is known from elsewhere (standard
+strengths are estimated together with all u, shrunk toward what is known from elsewhere (standard
 deviation `PRIOR_SD`), and the spread by the largest marginal likelihood, in Laplace's approximation
 (Breslow & Clayton 1993).
 """

@@ -55,7 +55,7 @@ def last_difference(chart: Chart | str, scale: Any) -> int:
     """Return the last whole-point difference at which the chart's last race is not too easy.
 
     There the race of the open-ended last row is even; beyond it the stronger player is the
-    favourite at every difference. It marks the range that a chart was made for.
+    favorite at every difference. It marks the range that a chart was made for.
 
     >>> last_difference("npl_8", "npl")
     52

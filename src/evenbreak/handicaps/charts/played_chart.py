@@ -1,4 +1,4 @@
-"""Which chart of the catalogue a league plays by, as far as its results show it.
+"""Which chart of the catalog a league plays by, as far as its results show it.
 
 Where results state a rating or a skill level for each player, the race of every match is compared
 with that of each chart. Where they state races alone, the races that occur are compared with those
@@ -87,7 +87,7 @@ class PlayedChart(NamedTuple):
 
 
 def played_chart(results: Results) -> PlayedChart | None:
-    """Return the chart of the catalogue that is nearest; None where none is near.
+    """Return the chart of the catalog that is nearest; None where none is near.
 
     >>> season = Results.from_names(["Ann"] * 40, ["Bo"] * 40, [5] * 40, [1] * 40,
     ...     race_a=[5] * 40, race_b=[4] * 40, level_a=["90"] * 40, level_b=["80"] * 40)

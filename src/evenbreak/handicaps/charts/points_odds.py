@@ -16,7 +16,7 @@ import numpy as np
 from evenbreak.arrays import Floats, own_arrays
 from evenbreak.checks import number, whole
 from evenbreak.errors import InputError
-from evenbreak.handicaps.charts.chart import catalogue_rows
+from evenbreak.handicaps.charts.chart import catalog_rows
 from evenbreak.handicaps.charts.chart_of import points_chart_of
 from evenbreak.handicaps.charts.level_audit import INNINGS
 from evenbreak.handicaps.charts.level_chart import PointsChart, points_chart
@@ -53,7 +53,7 @@ def loser_share(level: Any, points: Any) -> int:
     made = whole(points, "points", wanted=f"0 to {needs - 1}")
     if made >= needs:
         raise InputError("points is {made}; give 0 to {most}", made=made, most=needs - 1)
-    limits = next(row[1:] for row in catalogue_rows("apa_9ball_shares") if row[0] == level)
+    limits = next(row[1:] for row in catalog_rows("apa_9ball_shares") if row[0] == level)
     return int(np.searchsorted(limits, made))
 
 

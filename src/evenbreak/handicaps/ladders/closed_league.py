@@ -26,7 +26,7 @@ from evenbreak.errors import AccuracyError, InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.ladders.error_chain import error_on
 from evenbreak.handicaps.ladders.error_walk import long_run_law
-from evenbreak.handicaps.systems.catalogue import steps_of
+from evenbreak.handicaps.systems.catalog import steps_of
 from evenbreak.handicaps.systems.match_table import MatchTable, match_table
 from evenbreak.stats.summary import Distribution
 

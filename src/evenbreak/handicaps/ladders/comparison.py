@@ -20,7 +20,7 @@ from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.ladders.opponents import EQUAL_SKILL, Opponents, stretched
 from evenbreak.handicaps.ladders.settling import settling
 from evenbreak.handicaps.ladders.unfairness import (
-    CLEAR_FAVOURITE,
+    CLEAR_FAVORITE,
     better_off,
     opponent_pairs_of,
     unfairness,
@@ -57,10 +57,10 @@ class SystemRow(NamedTuple):
     settling_mean, settling_p90
         matches that a rating takes from one doubling too low to within a sixth of a doubling:
         the mean, and the number that is enough for nine in ten.
-    favourite
+    favorite
         the mean chance to win of the player whom the errors favour; 0.5 is fair.
-    clear_favourite
-        the share of matches in which the favourite has a chance of 60% or more.
+    clear_favorite
+        the share of matches in which the favorite has a chance of 60% or more.
     games
         the mean number of games in a match.
     inflation
@@ -73,8 +73,8 @@ class SystemRow(NamedTuple):
     sd_doublings: float
     settling_mean: float
     settling_p90: int
-    favourite: float
-    clear_favourite: float
+    favorite: float
+    clear_favorite: float
     games: float
     inflation: float
 
@@ -104,8 +104,8 @@ def _row(ladder: Ladder) -> SystemRow:
         sd_doublings=sd / points,
         settling_mean=settled.mean,
         settling_p90=int(settled.matches.quantile(0.9)),
-        favourite=favoured.mean,
-        clear_favourite=favoured.at_least(CLEAR_FAVOURITE),
+        favorite=favoured.mean,
+        clear_favorite=favoured.at_least(CLEAR_FAVORITE),
         games=mean_games(ladder),
         inflation=inflation(ladder),
     )

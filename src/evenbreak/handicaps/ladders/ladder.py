@@ -30,7 +30,7 @@ from evenbreak.handicaps.ladders.form import deviation_grid, deviations, differe
 from evenbreak.handicaps.ladders.opponents import NATURAL, Opponents
 from evenbreak.handicaps.ladders.pairing import pairing_of
 from evenbreak.handicaps.systems.by_match import StepSystem
-from evenbreak.handicaps.systems.catalogue import steps_of
+from evenbreak.handicaps.systems.catalog import steps_of
 from evenbreak.handicaps.systems.match_table import known_table
 from evenbreak.stats.summary import Distribution
 from evenbreak.words import Parameter

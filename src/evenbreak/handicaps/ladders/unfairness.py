@@ -16,8 +16,8 @@ from evenbreak.handicaps.ladders.ladder import Ladder
 from evenbreak.handicaps.systems.match_table import MatchTable, known_table
 from evenbreak.stats.summary import Distribution
 
-CLEAR_FAVOURITE = 0.6
-"""A player with at least this chance to win a match is its clear favourite."""
+CLEAR_FAVORITE = 0.6
+"""A player with at least this chance to win a match is its clear favorite."""
 
 _DIGITS = 12
 
@@ -38,7 +38,7 @@ def unfairness(ladder: Ladder) -> Distribution:
     -----
     A fair match has the chance 1/2; every match would, if ratings were right and the chart had no
     steps. The standard deviation is how far a typical match is from that; `better_off` looks at
-    the favourite of each match. Chances within 1e-12 of each other are put together. With several
+    the favorite of each match. Chances within 1e-12 of each other are put together. With several
     matches a night the night's form is taken to be independent of the error, which is not quite
     true later in the night.
 
@@ -60,10 +60,10 @@ def unfairness(ladder: Ladder) -> Distribution:
 
 
 def better_off(unfair: Distribution) -> Distribution:
-    """Return the distribution of the favourite's chance: the larger of W and 1 - W.
+    """Return the distribution of the favorite's chance: the larger of W and 1 - W.
 
     Its mean less 1/2 is the mean of `|W - 1/2|`; `at_least(0.6)` is the share of matches
-    with a clear favourite.
+    with a clear favorite.
 
     Parameters
     ----------

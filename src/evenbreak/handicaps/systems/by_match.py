@@ -118,8 +118,8 @@ class StepSystem(System):
         return self.usual_chart() if self.charts or self.own_chart is not None else None
 
     def initial(self, entries: Entries) -> Floats:
-        """Return the stated ratings; a player without one starts at the centre of the scale."""
-        return np.where(np.isnan(entries.rating), self.scale.centre, entries.rating)
+        """Return the stated ratings; a player without one starts at the center of the scale."""
+        return np.where(np.isnan(entries.rating), self.scale.center, entries.rating)
 
     def update(self, history: History) -> Floats:
         """Return the ratings after all moves of the last night.

@@ -46,7 +46,7 @@ def entries_for(system: System, rng: np.random.Generator, replicas: int = _REPLI
     """Return a small league's entries as a system reads them, with newcomers among them."""
     shape = _PLAYERS, replicas
     scale = system.scale or SCALES["fargo"]
-    ratings = scale.centre + scale.points_per_doubling * rng.normal(0.0, 0.7, shape)
+    ratings = scale.center + scale.points_per_doubling * rng.normal(0.0, 0.7, shape)
     levels = system.chart.levels if isinstance(system.chart, LevelChart) else (2, 3, 4, 5, 6)
     matches = rng.integers(-1, 25, shape)
     return Entries.of(

@@ -133,8 +133,8 @@ class FirstColumn(NamedTuple):
         decided matches, and those that player a won.
     expected
         the sum of the predicted chances of player a.
-    favoured, with_favourite
-        matches in which player a was the favourite, and those in which one of the two was.
+    favoured, with_favorite
+        matches in which player a was the favorite, and those in which one of the two was.
     dates, dates_won
         dates of three matches or more, and those on which player a won every match.
     dates_expected
@@ -148,7 +148,7 @@ class FirstColumn(NamedTuple):
     won: int
     expected: float
     favoured: int
-    with_favourite: int
+    with_favorite: int
     dates: int
     dates_won: int
     dates_expected: float
@@ -167,8 +167,8 @@ class FirstColumn(NamedTuple):
 
     @property
     def stronger_first(self) -> int:
-        """1 where the favourite is clearly more often in the first column, -1 in the second."""
-        half = self.with_favourite / 2.0
+        """1 where the favorite is clearly more often in the first column, -1 in the second."""
+        half = self.with_favorite / 2.0
         far = ndtri(1.0 - UNLIKELY / 2.0) * math.sqrt(half / 2.0)
         return int(self.favoured - half > far) - int(half - self.favoured > far)
 

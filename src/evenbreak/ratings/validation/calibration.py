@@ -23,23 +23,23 @@ from evenbreak.ratings.form_weights import games_weight
 from evenbreak.ratings.validation.walk_forward import Forecasts
 
 TOSS_UP = 1e-9
-"""A match with a chance this near to 1/2 has no favourite: it may be a rounded 1/2."""
+"""A match with a chance this near to 1/2 has no favorite: it may be a rounded 1/2."""
 
 
 class CalibrationBin(NamedTuple):
-    """Predictions of about the same chance for the favourite, and how often the favourite won.
+    """Predictions of about the same chance for the favorite, and how often the favorite won.
 
     Parameters
     ----------
     p_from, p_to
-        the range of the favourite's chances; the upper end belongs to the last bin only.
+        the range of the favorite's chances; the upper end belongs to the last bin only.
     matches, games
         how many matches, and the games in them (or matches again, where matches are
         predicted).
     predicted
         the mean chance, every game counting alike.
     seen
-        the share of them that the favourite won.
+        the share of them that the favorite won.
     low, high
         its 95% interval (Wilson's, for the number of independent games they are worth).
     """
@@ -81,9 +81,9 @@ def calibration(
     worth: float = 1.0,
     weight: ArrayLike = 1.0,
 ) -> list[CalibrationBin]:
-    """Return how often favourites won, by their predicted chance from 0.5 to 1.
+    """Return how often favorites won, by their predicted chance from 0.5 to 1.
 
-    Matches without a favourite, p = 0.5, are left out.
+    Matches without a favorite, p = 0.5, are left out.
 
     Parameters
     ----------
@@ -123,10 +123,10 @@ def calibration(
     return filled
 
 
-def no_favourites(p: Floats, games: Floats) -> int:
+def no_favorites(p: Floats, games: Floats) -> int:
     """Return how many matches with games `calibration` leaves out because p is 1/2.
 
-    >>> no_favourites(np.array([0.5, 0.7]), np.array([9.0, 9.0]))
+    >>> no_favorites(np.array([0.5, 0.7]), np.array([9.0, 9.0]))
     1
     """
     return int(((np.abs(p - 0.5) <= TOSS_UP) & (games > 0)).sum())
@@ -136,7 +136,7 @@ Of = Literal["game", "match"]
 How = Literal["plug-in", "integrated"]
 
 FEWEST_MATCHES = 30
-"""Matches with a favourite from which a slope is given."""
+"""Matches with a favorite from which a slope is given."""
 
 WIDEST_SLOPE = 4.0
 """A slope with a wider interval says nothing."""
@@ -161,7 +161,7 @@ class Scored(NamedTuple):
         the mean over games (or matches), in nats; a toss-up has ln 2 and 1/4.
     slope
         the calibration slope: 1 is right, below 1 the predictions are too extreme. None
-        with fewer than 30 matches with a favourite, or where its interval is wider than 4.
+        with fewer than 30 matches with a favorite, or where its interval is wider than 4.
     """
 
     of: Of
@@ -220,16 +220,16 @@ class Predictions:
 
     @property
     def toss_ups(self) -> int:
-        """How many matches have no favourite."""
-        return no_favourites(self.p, self.trials)
+        """How many matches have no favorite."""
+        return no_favorites(self.p, self.trials)
 
     def scored(self, cluster: Ints, rng: np.random.Generator) -> Scored:
         """Return how good they were; `rng` resamples matches by their `cluster`."""
         x = np.log(self.p) - np.log1p(-self.p)
         by_weight = self.weight * self.won, self.weight * self.trials
         slope = logistic_coefficient(x, *by_weight, cluster)
-        favourites = int((self.trials > 0).sum()) - self.toss_ups
-        if favourites < FEWEST_MATCHES or (slope and slope.high - slope.low > WIDEST_SLOPE):
+        favorites = int((self.trials > 0).sum()) - self.toss_ups
+        if favorites < FEWEST_MATCHES or (slope and slope.high - slope.low > WIDEST_SLOPE):
             slope = None
         squares = brier(self.p, self.won, self.trials)
         return Scored(

@@ -2,7 +2,7 @@
 
 Little changes from one day to the next, so a few Newton steps from yesterday's mode find today's
 (the model is that of `evenbreak.ratings.posterior`). Newton systems, and the variances of today's
-differences, are solved by conjugate gradients, which here take no longer than a factorisation and
+differences, are solved by conjugate gradients, which here take no longer than a factorization and
 start no threads that wait for each other. Pairs are numbered in the order in which they first
 meet, so those that have met come before all others, and nothing is done for the others.
 """
@@ -90,7 +90,7 @@ class DailyRefit:
             self._graph = self._graph_of(ahead)
 
     def begin_day(self, means: PriorMeans | None = None) -> None:
-        """Refit, with other means of the priors if there are any; this ends what was learnt."""
+        """Refit, with other means of the priors if there are any; this ends what was learned."""
         self._means = self._means if means is None else means.faded(self._kept)
         self._find_mode()
 

@@ -105,18 +105,18 @@ def handicap_fairness(forecasts: Forecasts) -> list[HandicapFairness]:
 
 
 class RaceLengths(NamedTuple):
-    """Even races of similar length: how often the favourite won.
+    """Even races of similar length: how often the favorite won.
 
     Parameters
     ----------
     shortest, longest
         the games needed in the shortest and in the longest of them.
     matches, won
-        races with a favourite, and those that the favourite won.
+        races with a favorite, and those that the favorite won.
     share, low, high
         won / matches with its 95% interval (Wilson's).
     predicted
-        the mean chance of the favourites, the uncertainty of ratings integrated out.
+        the mean chance of the favorites, the uncertainty of ratings integrated out.
     """
 
     shortest: int
@@ -134,14 +134,14 @@ FEW_STARTS = 0.25
 
 
 def mostly_even(forecasts: Forecasts) -> bool:
-    """Return whether few races have a start, so that the others have favourites."""
+    """Return whether few races have a start, so that the others have favorites."""
     raced = forecasts.race_a > 0
     uneven = forecasts.race_a != forecasts.race_b
     return bool(uneven.sum() <= FEW_STARTS * raced.sum())
 
 
 def race_lengths(forecasts: Forecasts) -> list[RaceLengths]:
-    """Return how often favourites won the shorter and the longer half of the even races.
+    """Return how often favorites won the shorter and the longer half of the even races.
 
     The halves are as nearly equal as whole lengths allow. The list is empty where all races
     are equally long, or more than a quarter have a start.
@@ -204,11 +204,11 @@ class Validation:
     skill
         ln 2 less the log-loss a game, integrated: above 0, the ratings beat a coin.
     games, matches
-        calibration of the favourites' chances, integrated, with the prior to use.
+        calibration of the favorites' chances, integrated, with the prior to use.
     matches_plug_in
         the same for matches, by the ratings at face value.
     toss_ups
-        how many matches have no favourite and so are in no bin, by what is predicted.
+        how many matches have no favorite and so are in no bin, by what is predicted.
     form
         how much chances vary from match to match; None with fewer than 100 races.
     dispersion, streaks, breaker, first_breaks
@@ -217,7 +217,7 @@ class Validation:
         how much stronger players in the first column are than their ratings, in log-odds, and
         how many matches they won; None where nobody did, or nothing shows it.
     lengths
-        how often favourites won short races and long ones, where there are both and few starts.
+        how often favorites won short races and long ones, where there are both and few starts.
     spots
         how often the player with the longer race won.
     starts

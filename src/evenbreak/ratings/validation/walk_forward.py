@@ -18,7 +18,7 @@ from scipy.special import expit
 from evenbreak.arrays import Bools, Floats, Ints, own_arrays
 from evenbreak.checks import number
 from evenbreak.errors import InputError
-from evenbreak.matches.form import centre_of_form, form_of
+from evenbreak.matches.form import center_of_form, form_of
 from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.doors import check_results
 from evenbreak.ratings.fit import PRIOR_SD, checked_prior
@@ -357,9 +357,9 @@ def _forecasts(
     needs = np.maximum(race_a, 1), np.maximum(race_b, 1)
     p_match = np.where(raced, race_win_probability(p_game, *needs), np.nan)
     p_game_integrated, p_match_integrated = np.zeros(len(season)), np.zeros(len(season))
-    centre, spread = centre_of_form(difference, sd, form), np.hypot(sd, form)
+    center, spread = center_of_form(difference, sd, form), np.hypot(sd, form)
     for point, weight in zip(*normal_nodes(), strict=True):
-        p = expit(centre + spread * point)
+        p = expit(center + spread * point)
         p_game_integrated += weight * p
         p_match_integrated += weight * race_win_probability(p, *needs)
     known_a, known_b = _known_before(season, date_of)

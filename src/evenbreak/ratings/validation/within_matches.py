@@ -17,7 +17,7 @@ import numpy as np
 from scipy.special import expit
 
 from evenbreak.arrays import Bools, Floats, Ints
-from evenbreak.matches.form import centre_of_form
+from evenbreak.matches.form import center_of_form
 from evenbreak.ratings.day_form import FEWEST, LONGEST, NODES, log_odds_of
 from evenbreak.ratings.doubtful_scores import doubtful_scores
 from evenbreak.ratings.estimates import Estimate, bootstrap_ratio, two_sided
@@ -94,10 +94,10 @@ def dispersion(forecasts: Forecasts, rng: np.random.Generator) -> Dispersion | N
     m, n = forecasts.race_a[rows], forecasts.race_b[rows]
     seen = _spread(forecasts.results.score_a[rows], forecasts.games[rows], p)
     sd, form = forecasts.sd[rows], forecasts.form
-    centre, around = centre_of_form(forecasts.difference[rows], sd, form), np.hypot(sd, form)
+    center, around = center_of_form(forecasts.difference[rows], sd, form), np.hypot(sd, form)
     played = np.empty(min(REPLICAS, MOST_SIMULATED // len(p) + 2))
     for k in range(len(played)):
-        drawn = expit(centre + around * rng.standard_normal(len(p)))
+        drawn = expit(center + around * rng.standard_normal(len(p)))
         won, games = play_races(drawn, m, n, rng)
         played[k] = _spread(won, games, p)
     mean = float(played.mean())

@@ -24,7 +24,7 @@ function win(p, m, n) {
 }
 
 // Form of the day: the log-odds about which a game is won as often as without form.
-function centre(mean, error, around) {
+function center(mean, error, around) {
   if (!data.form) return mean;
   const wanted = average(data.game, (z) => game(mean + error * z));
   let low = -6 * Math.abs(mean) - 1, high = -low;
@@ -48,7 +48,7 @@ function gap(a, b) {
     error = data.rule.errors[i][j];
   }
   const off = error * doubling, around = Math.hypot(off, data.form);
-  return {mean: centre(points * doubling, off, around), around};
+  return {mean: center(points * doubling, off, around), around};
 }
 
 function chance(apart, m, n) {

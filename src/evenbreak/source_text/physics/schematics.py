@@ -40,7 +40,7 @@ def friction_at_hit() -> Axes:
 
 
 def tip_forces() -> Axes:
-    """Fig. 1.2: the force of a tip, taken apart into one to the centre and one of friction."""
+    """Fig. 1.2: the force of a tip, taken apart into one to the center and one of friction."""
     axes = _sheet((-2.3, 1.35), (-1.25, 1.25), (7.0, 4.8))
     _ball(axes, (0.0, 0.0))
     depth = math.sqrt(1.0 - _OFFSET**2)
@@ -168,10 +168,10 @@ def _sheet(x: Pair, y: Pair, size: tuple[float, float]) -> Axes:
     return axes
 
 
-def _ball(axes: Axes, centre: Any) -> None:
+def _ball(axes: Axes, center: Any) -> None:
     from matplotlib.patches import Circle
 
-    axes.add_patch(Circle((centre[0], centre[1]), 1.0, fill=False, lw=1.4))
+    axes.add_patch(Circle((center[0], center[1]), 1.0, fill=False, lw=1.4))
 
 
 def _arrow(
@@ -199,16 +199,16 @@ def _arrow(
     return arrow
 
 
-def _turn(axes: Axes, centre: Pair, name: str, towards: float) -> None:
+def _turn(axes: Axes, center: Pair, name: str, toward: float) -> None:
     """Draw an arrow that turns counterclockwise within a ball, on a side given in degrees."""
     from matplotlib.patches import FancyArrowPatch
 
-    turn = np.radians([towards - 45.0, towards + 45.0])
+    turn = np.radians([toward - 45.0, toward + 45.0])
     (x, x_to), (y, y_to) = 0.6 * np.cos(turn), 0.6 * np.sin(turn)
     axes.add_patch(
         FancyArrowPatch(
-            (centre[0] + x, centre[1] + y),
-            (centre[0] + x_to, centre[1] + y_to),
+            (center[0] + x, center[1] + y),
+            (center[0] + x_to, center[1] + y_to),
             connectionstyle="arc3,rad=0.4",
             arrowstyle="-|>",
             mutation_scale=13,
@@ -216,9 +216,9 @@ def _turn(axes: Axes, centre: Pair, name: str, towards: float) -> None:
             label=name,
         )
     )
-    # Beside its arrow, on the side of the centre.
-    way = math.radians(towards)
-    place = centre[0] + 0.36 * math.cos(way), centre[1] + 0.36 * math.sin(way)
+    # Beside its arrow, on the side of the center.
+    way = math.radians(toward)
+    place = center[0] + 0.36 * math.cos(way), center[1] + 0.36 * math.sin(way)
     axes.text(*place, name, fontsize=11, ha="center", va="center")
 
 

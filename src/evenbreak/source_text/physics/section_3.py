@@ -10,7 +10,7 @@ import numpy as np
 from evenbreak.physics import (
     NATURAL_ROLL_OFFSET,
     Ball,
-    CentreHit,
+    CenterHit,
     Cloth,
     ContactPoint,
     Slide,
@@ -18,7 +18,7 @@ from evenbreak.physics import (
     best_lag_offset,
     best_stick_ratio,
     break_energy_share,
-    centre_hit,
+    center_hit,
     effective_contact,
     energy_share,
     kinetic_energy,
@@ -40,15 +40,15 @@ from evenbreak.source_text.published import Answers, Inputs
 _P1 = ContactPoint(-math.sqrt(0.5), 1.0)
 _P2 = ContactPoint(-0.5, 0.5)
 _POINTS = {"P1": _P1, "P2": _P2}
-"""The contact points of P3.8, to the right of the centre, where y is below 0."""
+"""The contact points of P3.8, to the right of the center, where y is below 0."""
 
 
-def _hit(i: Inputs) -> CentreHit:
-    return centre_hit(i["M_s"] / i["M_b"])
+def _hit(i: Inputs) -> CenterHit:
+    return center_hit(i["M_s"] / i["M_b"])
 
 
 def _least_gain() -> float:
-    hits = centre_hit(np.geomspace(1.0 / 60.0, 100.0, 500))
+    hits = center_hit(np.geomspace(1.0 / 60.0, 100.0, 500))
     return float(np.min(hits.ball - hits.stick))
 
 
@@ -124,12 +124,12 @@ ANSWERS: Answers = {
     ("P3.6", "V_NR"): lambda i: roll_speed(*_spin(i)),
     ("P3.6", "J_z"): lambda i: strike_side(-i["y/R"]),
     ("P3.6", "J_z,NR"): lambda i: roll_side(-i["y/R"], i["z/R"]),
-    ("P3.7", "z_0/R of the point nearest to the centre"): lambda i: _nearest(i).z,
+    ("P3.7", "z_0/R of the point nearest to the center"): lambda i: _nearest(i).z,
     ("P3.7", "(y_0^2 + (z_0 - R/2)^2)/R^2"): lambda i: (
         _nearest(i).y ** 2 + (_nearest(i).z - 0.5) ** 2
     ),
     ("P3.8", "J_z,NR"): lambda i: roll_side(*_POINTS[i["point"]]),
-    ("P3.8", "offset from the centre/R"): lambda i: _distance(_POINTS[i["point"]]),
+    ("P3.8", "offset from the center/R"): lambda i: _distance(_POINTS[i["point"]]),
     ("P3.8", "more spin at P2 than at P1, %"): lambda _: (
         100.0 * (roll_side(*_P2) / roll_side(*_P1) - 1.0)
     ),

@@ -119,12 +119,12 @@ def stick_speeds() -> Axes:
 def lag_speeds() -> Axes:
     """Fig. 3.4: the speed of natural roll, by height of the tip; the best one for a lag."""
     axes = _speeds(
-        "height above the centre $b/R$", "$V_{b,NR} / V_0$ = speed of roll / speed of stick"
+        "height above the center $b/R$", "$V_{b,NR} / V_0$ = speed of roll / speed of stick"
     )
     for height in (0.0, NATURAL_ROLL_OFFSET):
         axes.axvline(height, color="0.6", lw=0.8, zorder=0)
     top: Any = {"xycoords": axes.get_xaxis_transform(), "fontsize": 9, "va": "top"}
-    note(axes, "centre", (0.0, 0.97), (-4, 0), ha="right", **top)
+    note(axes, "center", (0.0, 0.97), (-4, 0), ha="right", **top)
     note(axes, "immediate\nnatural roll", (NATURAL_ROLL_OFFSET, 0.97), (4, 0), ha="left", **top)
     _ratio_curves(axes, roll_speed_ratio)
     for ratio in MASS_RATIOS:
@@ -167,7 +167,7 @@ def ball_view(axes: Axes, title: str) -> None:
     axes.axhline(0.0, color="0.5", lw=1.0, zorder=0)
     ticks = [-1.0, -0.5, 0.0, 0.5, 1.0]
     axes.set(xlim=(1.35, -1.35), ylim=(-0.25, 2.25), aspect="equal", title=title, xticks=ticks)
-    axes.set(xlabel="$y/R$, to the left of the centre", ylabel="$z/R$, above the cloth")
+    axes.set(xlabel="$y/R$, to the left of the center", ylabel="$z/R$, above the cloth")
     axes.tick_params(direction="in", top=True, right=True)
 
 
@@ -179,7 +179,7 @@ def draw_line(axes: Axes, y: Any, z: Any, *, lw: float = 1.0) -> None:
 def roll_chord(point: ContactPoint) -> ContactPoint:
     """Return where the line from (0, 0) through a point of the small circle leaves the ball.
 
-    The line's nearest point to the centre halves the chord.
+    The line's nearest point to the center halves the chord.
 
     >>> roll_chord(ContactPoint(0.5, 0.5))
     ContactPoint(y=1.0, z=1.0)
@@ -196,7 +196,7 @@ def roll_height(axes: Axes) -> None:
 
 
 def draw_small_circle(axes: Axes) -> None:
-    """Draw the circle of the contact points nearest to the centre, for every sidespin."""
+    """Draw the circle of the contact points nearest to the center, for every sidespin."""
     turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 182)[1:-1]
     circle = small_circle_point(3.5 * np.tan(turn))
     y, z = (np.concatenate([[0.0], part, [0.0]]) for part in circle)
@@ -239,7 +239,7 @@ def _line(panel: str, side: float, low: ContactPoint, high: ContactPoint) -> Map
 
 
 def _small_circle() -> Records:
-    """Yield the points of the small circle, and how far they are from the centre of the ball."""
+    """Yield the points of the small circle, and how far they are from the center of the ball."""
     for side in (quarter / 4 for quarter in range(-40, 41)):
         y, z = small_circle_point(side)
         yield record({"sidespin": side}, {"y": y, "z": z, "offset": math.hypot(y, z - 1.0)})

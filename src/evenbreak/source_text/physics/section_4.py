@@ -67,8 +67,8 @@ def _upward_share(hit: Collision) -> float:
     return float(up) / math.hypot(left, up)
 
 
-def _along_centres(hit: Collision, vector: Any) -> Any:
-    """Turn a vector from the frame of the shot to that of the line of centres."""
+def _along_centers(hit: Collision, vector: Any) -> Any:
+    """Turn a vector from the frame of the shot to that of the line of centers."""
     sin, cos = math.sin(hit.cut), math.cos(hit.cut)
     x, y, z = vector
     return np.array([x * cos - y * sin, x * sin + y * cos, z])
@@ -154,13 +154,13 @@ def _momenta(i: Inputs) -> tuple[Any, Any, Any]:
     flight = np.array([0.0, 0.0, max(hit.upward, 0.0)])
     before = np.array([0.0, hit.topspin, hit.side]) * hit.speed
     spin = hit.ball.radius * (hit.object_spin + hit.cue_spin)
-    gained = 0.4 * _along_centres(hit, spin) - 0.4 * _along_centres(hit, before)
+    gained = 0.4 * _along_centers(hit, spin) - 0.4 * _along_centers(hit, before)
     return np.cross(arm, flat), gained, np.cross(arm, flight)
 
 
 def _object_spin(i: Inputs, axis: int) -> float:
     hit = _hit(i)
-    return float(_along_centres(hit, hit.object_spin)[axis])
+    return float(_along_centers(hit, hit.object_spin)[axis])
 
 
 def _gained(i: Inputs, *, jump: bool) -> Any:
@@ -169,7 +169,7 @@ def _gained(i: Inputs, *, jump: bool) -> Any:
 
 
 def _contact(i: Inputs) -> float:
-    """Return y/R of the point of the cue ball that touches: to the right of its centre."""
+    """Return y/R of the point of the cue ball that touches: to the right of its center."""
     return -math.sin(i["alpha"])
 
 

@@ -68,7 +68,7 @@ _NAMES = {0.0: ", stun", 1.0: ", natural roll"}
 _SIDE = r"sidespin $J_{0z}$ = $R\omega_{0z}/V_0$"
 _TOPSPIN = r"topspin $J_{0y}$ = $R\omega_{0y}/V_0$"
 _POINTS = 121
-"""Grid points from the centre of the contour plot to its edge."""
+"""Grid points from the center of the contour plot to its edge."""
 _LARGEST_DRAWN = 8.0
 """Contours above this would crowd the whole plot; the inset shows them."""
 _SMALLEST_ENLARGED = 2.0
@@ -184,7 +184,7 @@ def gearing_tips() -> Axes:
     line = gearing_tip(TIP_LINE_CUT, np.array([1e-9, roll_chord(nearest).z]))
     draw_line(axes, line.y, line.z, lw=1.6)
     name_point(axes, at_once, r"$(-2/5\;y_{cp},\ 7/5\;R)$", (8, 13), "left")
-    name_point(axes, nearest, "nearest to the centre", (-10, 9), "right")
+    name_point(axes, nearest, "nearest to the center", (-10, 9), "right")
     object_ball = ContactPoint(-math.sin(TIP_LINE_CUT), 1.0)
     name_point(
         axes,
@@ -193,7 +193,7 @@ def gearing_tips() -> Axes:
         (0, 20),
         "center",
     )
-    name_point(axes, ContactPoint(0.0, 1.0), "centre", (6, -10), "left")
+    name_point(axes, ContactPoint(0.0, 1.0), "center", (6, -10), "left")
     return axes
 
 
@@ -243,7 +243,7 @@ def _tip_line() -> Records:
     nearest = small_circle_point(gearing_side(TIP_LINE_CUT))
     heights = {
         "on the cloth": 0.0,
-        "nearest to the centre": nearest.z,
+        "nearest to the center": nearest.z,
         "rolls at once": gearing_tip(TIP_LINE_CUT).z,
         "edge of the ball": roll_chord(nearest).z,
     }

@@ -45,7 +45,7 @@ from evenbreak.physics import (
     volume_range,
 )
 from evenbreak.physics.units import (
-    CENTIMETRE,
+    CENTIMETER,
     DEGREE,
     GRAM,
     GRAVITY,
@@ -55,8 +55,8 @@ from evenbreak.physics.units import (
 from evenbreak.source_text.published import Answers, Inputs
 
 _POOL = BALL_SETS["pool"]
-_CUBIC_INCH, _CUBIC_CENTIMETRE = INCH**3, CENTIMETRE**3
-_DENSITY = GRAM / _CUBIC_CENTIMETRE
+_CUBIC_INCH, _CUBIC_CENTIMETER = INCH**3, CENTIMETER**3
+_DENSITY = GRAM / _CUBIC_CENTIMETER
 _ENERGY = OUNCE * INCH**2
 """One oz in^2/s^2 in joules."""
 
@@ -200,9 +200,9 @@ ANSWERS: Answers = {
     ("P1.1", "R_max, in"): lambda _: 0.5 * (_POOL.diameters[0] + _POOL.tolerance) / INCH,
     ("P1.1", "V, in^3"): lambda i: Ball(radius=i["R"]).volume / _CUBIC_INCH,
     ("P1.1", "V_min, in^3"): lambda _: volume_range(_POOL)[0] / _CUBIC_INCH,
-    ("P1.1", "V_min, cm^3"): lambda _: volume_range(_POOL)[0] / _CUBIC_CENTIMETRE,
+    ("P1.1", "V_min, cm^3"): lambda _: volume_range(_POOL)[0] / _CUBIC_CENTIMETER,
     ("P1.1", "V_max, in^3"): lambda _: volume_range(_POOL)[1] / _CUBIC_INCH,
-    ("P1.1", "V_max, cm^3"): lambda _: volume_range(_POOL)[1] / _CUBIC_CENTIMETRE,
+    ("P1.1", "V_max, cm^3"): lambda _: volume_range(_POOL)[1] / _CUBIC_CENTIMETER,
     ("P1.2", "M_min, g"): lambda _: _POOL.masses[0] / GRAM,
     ("P1.2", "M_max, g"): lambda _: _POOL.masses[1] / GRAM,
     ("P1.2", "M_min in the line of rho_min, g"): lambda _: _POOL.masses[0] / GRAM,
@@ -235,7 +235,7 @@ ANSWERS: Answers = {
     ("Section 1", "dV/dt of a rolling ball, in/s^2"): lambda i: (
         -1.0 / roll_time(1.0, Cloth(mu_roll=i["mu_eff"])) / INCH
     ),
-    ("P1.5", "way of the centre between the cushions, in"): lambda _: (
+    ("P1.5", "way of the center between the cushions, in"): lambda _: (
         lag_distance(PoolTable(), Ball()) / INCH
     ),
     ("P1.5", "table speed over t^2, 1/s^2"): lambda _: table_speed(1.0),

@@ -190,7 +190,7 @@ def _odds_of_30() -> float:
 def _p5_26() -> Iterator[Row]:
     for p in DRILL_P:
         statistics = drill(float(p))
-        yield Row("level most worth practising", f"p={p}", statistics.practise_next)
+        yield Row("level most worth practicing", f"p={p}", statistics.practice_next)
         for level, gain in enumerate(statistics.gain, 1):
             yield Row("gain of the mean level", f"p={p} level={level}", gain)
 

@@ -33,7 +33,7 @@ from evenbreak.words import Parameter
 # A player who drops straight down soon meets somebody they have already played. A good order
 # sends each round's losers to another part of the losers' side. All orders here are flips: the
 # loser of match i, counted from 0, drops to match i XOR mask. Mask 0 is straight, 1 swaps
-# neighbours, half the number of matches shifts by half, all ones reverses the round. The
+# neighbors, half the number of matches shifts by half, all ones reverses the round. The
 # measure of an order is the expected number of rematches among equal players
 # (`expected_rematches`).
 

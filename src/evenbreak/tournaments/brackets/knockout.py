@@ -272,7 +272,7 @@ def apart_by_club(players: Sequence[Name], clubs: Sequence[str | None]) -> list[
     """Return the seeds with clubmates kept as far apart as their tiers allow.
 
     Players move only within their tier: seeds 3-4, 5-8, 9-16 and so on; seeds 1 and 2 stay.
-    The search minimises a penalty for each pair of clubmates, four times as high for each
+    The search minimizes a penalty for each pair of clubmates, four times as high for each
     round earlier that they can meet, by the best swap as long as a swap helps.
 
     Parameters

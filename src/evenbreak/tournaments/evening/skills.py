@@ -19,7 +19,7 @@ from evenbreak.ratings.scale import Scale
 
 _STEPS = 50
 _FARTHEST = 2.0  # how many doublings of the odds one step may go
-_CENTRE, _SPREAD = 2.0, 4.0  # as many rated players the starter's place, and its error, weigh
+_CENTER, _SPREAD = 2.0, 4.0  # as many rated players the starter's place, and its error, weigh
 
 
 class Games(NamedTuple):
@@ -37,7 +37,7 @@ def skills_before(ratings: Floats, errors: Floats, unrated: Bools) -> tuple[Floa
     A player without a rating is one more of the field: as good on average as those with one, and as
     far apart as they are. The starter's rating and error weigh as much as a few players of the
     field, so that they decide where few are rated (the normal-inverse-chi-square posterior). Where
-    the centre of the field lies is not known for certain either, and is the same for all without a
+    the center of the field lies is not known for certain either, and is the same for all without a
     rating.
 
     Parameters
@@ -57,13 +57,13 @@ def skills_before(ratings: Floats, errors: Floats, unrated: Bools) -> tuple[Floa
     if not unrated.any() or not field.size:
         return mean, covariance
     starter, error, rated = float(ratings[unrated][0]), float(errors[unrated][0]), field.size
-    centre = (_CENTRE * starter + field.sum()) / (_CENTRE + rated)
+    center = (_CENTER * starter + field.sum()) / (_CENTER + rated)
     apart = float(((field - field.mean()) ** 2).sum() - (errors[~unrated] ** 2).sum())
     squares = _SPREAD * error**2 + max(apart, 0.0)
-    squares += _CENTRE * rated / (_CENTRE + rated) * (float(field.mean()) - starter) ** 2
+    squares += _CENTER * rated / (_CENTER + rated) * (float(field.mean()) - starter) ** 2
     variance = squares / (_SPREAD + rated)
-    mean[unrated] = centre
-    shared = variance / (_CENTRE + rated)
+    mean[unrated] = center
+    shared = variance / (_CENTER + rated)
     covariance[np.ix_(unrated, unrated)] = shared + variance * np.eye(int(unrated.sum()))
     return mean, covariance
 

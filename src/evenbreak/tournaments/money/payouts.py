@@ -179,7 +179,7 @@ class PrizeMoney:
     house
         the part of the pot, from 0 to .99, that the house keeps.
     payout
-        the name of a payout table, or what the places get in per cent, such as 50/30/20; '' for
+        the name of a payout table, or what the places get in percent, such as 50/30/20; '' for
         70/30 if fewer than 8 players enter, else 40/30/20/10.
     unit
         prizes are whole multiples of it, such as 5; 0: exact to the hundredth.

@@ -2,7 +2,7 @@
 
 A chart that is fair match by match need not be fair over a tournament: small edges add up
 from round to round, and long rounds for those on the losers' side weigh on some players
-more than on others. In a tournament without favourites each of n players has 1/n.
+more than on others. In a tournament without favorites each of n players has 1/n.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ from evenbreak.handicaps.charts.race_of_pair import games_needed as games_needed
 from evenbreak.matches.endings import race_endings
 from evenbreak.matches.form import (
     MOST_NODES,
-    centre_of_form,
+    center_of_form,
     chance_in_form,
     form_of,
     normal_rule,
@@ -303,10 +303,10 @@ def _in_form(
     """Return the odds averaged over form of the day, which leaves the chance of a game as it is."""
     if form == 0.0:
         return _ends(points, needs, scale, advantage, breaks)
-    centre = np.asarray(scale.points(centre_of_form(scale.log_odds(points), 0.0, form)))
+    center = np.asarray(scale.points(center_of_form(scale.log_odds(points), 0.0, form)))
     nodes, weights = normal_rule(form, int(np.max(needs[0] + needs[1])), MOST_NODES)
     # Of a pair only the first player's chances are looked at; the other has what is left.
-    days = (centre + scale.points(form * node) for node in nodes)
+    days = (center + scale.points(form * node) for node in nodes)
     parts = (_ends(day, needs, scale, advantage, breaks).ends for day in days)
     return PairOdds(sum(w * part for w, part in zip(weights, parts, strict=True)))
 

@@ -337,10 +337,10 @@ class Controls:
         """Return the mean of the places and its standard error."""
         x, y = (np.stack(part) for part in zip(*self.batches, strict=True))
         if self.expected.size:
-            centred = self.squares - self.samples * np.outer(x.mean(axis=0), x.mean(axis=0))
+            centered = self.squares - self.samples * np.outer(x.mean(axis=0), x.mean(axis=0))
             joint = self.products - self.samples * np.outer(x.mean(axis=0), y.mean(axis=0))
             # x times the slope; the other way around the solver would need a copy of `joint`.
-            weights, rank = slope_of(centred, x.T, self.samples)
+            weights, rank = slope_of(centered, x.T, self.samples)
             y = y - weights.T @ joint
             # Controls explain some of the noise by chance.
             spread = 1.0 / np.sqrt(max(1.0 - rank / self.samples, 0.1))
@@ -351,7 +351,7 @@ class Controls:
         return mean, error
 
 
-def slope_of(centred: Floats, joint: Floats, samples: int) -> tuple[Floats, int]:
+def slope_of(centered: Floats, joint: Floats, samples: int) -> tuple[Floats, int]:
     """Return the regression of Y on the controls X, and how many of these say something new.
 
     Controls that repeat others, or never vary, are no hindrance: the columns are scaled, and
@@ -360,15 +360,15 @@ def slope_of(centred: Floats, joint: Floats, samples: int) -> tuple[Floats, int]
 
     Parameters
     ----------
-    centred, joint
+    centered, joint
         the sums of squares and products of X - mean X with itself, and with Y - mean Y.
     samples
         how many were summed.
     """
-    squares = np.diag(centred)
+    squares = np.diag(centered)
     varies = squares > 1e-12 * samples
     scale = np.sqrt(squares[varies])
-    inner = centred[np.ix_(varies, varies)] / np.outer(scale, scale)
+    inner = centered[np.ix_(varies, varies)] / np.outer(scale, scale)
     values, vectors = np.linalg.eigh(inner)
     kept = values > 1e-9 * values.max(initial=0.0)
     vectors = vectors[:, kept] / scale[:, None]

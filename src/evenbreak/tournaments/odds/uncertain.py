@@ -1,7 +1,7 @@
 """Title odds when the ratings are uncertain: averaged over what the ratings may be.
 
-Odds that take ratings for certain are too sure of themselves: a favourite by a rating of
-few games is a favourite in every match at once. Ratings are drawn from their joint distribution,
+Odds that take ratings for certain are too sure of themselves: a favorite by a rating of
+few games is a favorite in every match at once. Ratings are drawn from their joint distribution,
 each draw is solved, and the odds are averaged.
 """
 

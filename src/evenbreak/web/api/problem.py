@@ -13,7 +13,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from evenbreak.errors import EvenbreakError
-from evenbreak.files.catalogues import language_of
+from evenbreak.files.catalogs import language_of
 from evenbreak.questions.moves import COMMANDS
 from evenbreak.web.guard import ROOT, RefusalError
 from evenbreak.web.page import page_face, without_folder

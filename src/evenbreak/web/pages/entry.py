@@ -321,7 +321,7 @@ def _begun(
         scale = league.sheet.ratings.scale
         refuse_to_read(file, scale, say("the league"), say("put all ratings on one scale"))
     read = file.roster
-    filled = read.with_starters(scale.centre, scale.points_per_doubling, scale)
+    filled = read.with_starters(scale.center, scale.points_per_doubling, scale)
     earlier = earlier_nights([site.path.parent] if form.text("pace") else [])
     plan, rows = _plan(form, scale, earlier), _entrants(filled, league, listed)
     known_form = 0.0 if league is None or league.sheet is None else league.sheet.ratings.match_form
@@ -382,7 +382,7 @@ def _plan(form: Form, scale: Scale, earlier: tuple[EarlierNight, ...]) -> Plan:
         chart=None if asked.chart is None else _chart(asked.chart),
         seeding=asked.seeded,
         scale=scale.text,
-        starter=scale.centre,
+        starter=scale.center,
         starter_error=scale.points_per_doubling,
         name=" ".join(form.text("name", longest=60).split()),
         date=_date(form),

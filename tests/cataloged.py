@@ -1,4 +1,4 @@
-"""The sentences that a page can show, collected from the sources as `make catalogues` does."""
+"""The sentences that a page can show, collected from the sources as `make catalogs` does."""
 
 import re
 from functools import cache
@@ -12,7 +12,7 @@ from places import ROOT
 
 @cache
 def collected() -> Catalog:
-    """Return what `make catalogues` collects."""
+    """Return what `make catalogs` collects."""
     makefile = (ROOT / "Makefile").read_text(encoding="utf-8").replace("\\\n", " ")
     keywords = parse_keywords(re.search(r"^SAID = (.*)$", makefile, re.MULTILINE)[1].split())
     with (ROOT / "babel.cfg").open(encoding="utf-8") as file:

@@ -19,7 +19,7 @@ from evenbreak.games.series import Series
 
 _BREAKING = Rack(0.6, 0.55)
 
-CATALOGUE: dict[str, Game] = {
+CATALOG: dict[str, Game] = {
     "race 9:5": Race(9, 5, Rack(2 / 3)),
     "race 5:4, winner breaks, player 2 first": Race(
         5, 4, _BREAKING, breaks=winner_breaks, first_breaker=2
@@ -48,8 +48,8 @@ CATALOGUE: dict[str, Game] = {
 }
 
 
-def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
-    """Return a game of the catalogue with its full name, perhaps with other chances.
+def game_of_catalog(name: str, *chances: float) -> tuple[str, Game]:
+    """Return a game of the catalog with its full name, perhaps with other chances.
 
     Parameters
     ----------
@@ -57,20 +57,20 @@ def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
         its name, or words of it that no other game has; or that of an installed package's game.
     chances
         p1 and p2 of its racks or shots, or one chance: of its racks, whoever breaks, or of a
-        shot in a drill; of what it says, a package's. None: those of the catalogue.
+        shot in a drill; of what it says, a package's. None: those of the catalog.
 
     Raises
     ------
     InputError
         if no game or several have this name, or the game takes another number of chances.
 
-    >>> game_of_catalogue("One-ball", 0.3, 0.6)
+    >>> game_of_catalog("One-ball", 0.3, 0.6)
     ('one-ball', OneBall(p1=0.3, p2=0.6))
-    >>> game_of_catalogue("drill 9-ball")[0]
+    >>> game_of_catalog("drill 9-ball")[0]
     'drill, progressive 9-ball'
     """
     words = _words(name)
-    joined = {"".join(_words(entry)): entry for entry in CATALOGUE}
+    joined = {"".join(_words(entry)): entry for entry in CATALOG}
     matching = [entry for text, entry in joined.items() if text == "".join(words)]
     if not matching:
         from evenbreak.games.laws import lawful_game
@@ -78,15 +78,15 @@ def game_of_catalogue(name: str, *chances: float) -> tuple[str, Game]:
 
         if (theirs := plugin("game", name, lawful_game, *chances)) is not None:
             return name.strip().lower(), theirs
-        matching = [entry for entry in CATALOGUE if words and set(words) <= set(_words(entry))]
+        matching = [entry for entry in CATALOG if words and set(words) <= set(_words(entry))]
     if len(matching) != 1:
         close = get_close_matches("".join(words), joined, n=3)
-        near = matching or [joined[text] for text in close] or [*CATALOGUE, *added("game")]
-        which = "names several games" if matching else "is not a game of the catalogue"
+        near = matching or [joined[text] for text in close] or [*CATALOG, *added("game")]
+        which = "names several games" if matching else "is not a game of the catalog"
         raise InputError(
             "{name!r} {which}; give one of: {near}", name=name, which=which, near="; ".join(near)
         )
-    game = CATALOGUE[matching[0]]
+    game = CATALOG[matching[0]]
     try:
         return matching[0], _with_chances(game, chances) if chances else game
     except TypeError:

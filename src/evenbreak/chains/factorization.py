@@ -53,16 +53,16 @@ from evenbreak.chains.arcs import Arcs, Places, arcs_of, put_back, sums
 from evenbreak.chains.birth_death import LineElimination, line_order
 from evenbreak.chains.certified import CertifiedSolve, NotCertifiedError
 from evenbreak.chains.dense_elimination import MOST_ENTRIES, is_dense
-from evenbreak.chains.dissection import Front, FrontElimination, bandwidth, dissect, neighbours
+from evenbreak.chains.dissection import Front, FrontElimination, bandwidth, dissect, neighbors
 from evenbreak.chains.elimination import DecimalElimination
 from evenbreak.chains.structure import Structure, structure_of
 from evenbreak.errors import AccuracyError
 
 SMALL = 64
 _FEW, _MUCH_WORK = 500, 1e10
-"""States that are eliminated at once, and multiplications that a factorisation is worth."""
+"""States that are eliminated at once, and multiplications that a factorization is worth."""
 _HUB = 1000
-"""A state that so many arcs lead out of makes ordering take longer than the factorisation."""
+"""A state that so many arcs lead out of makes ordering take longer than the factorization."""
 _WIDE = bool(np.finfo(np.longdouble).eps < np.finfo(np.float64).eps)
 """Whether a long double has more digits than a double, which lines need."""
 _NARROW, _MOST_ARCS = 4, 2e7
@@ -135,11 +135,11 @@ class _Piece:
 
     @cached_property
     def _bandwidth(self) -> int:
-        return bandwidth(neighbours(self._arcs))
+        return bandwidth(neighbors(self._arcs))
 
     @cached_property
     def _fronts(self) -> tuple[Places, list[Front]]:
-        return dissect(neighbours(self._arcs))
+        return dissect(neighbors(self._arcs))
 
     def _eliminated(self, reason: str) -> _Solver:
         """Return the factors without subtraction, which there is a reason for.
@@ -162,7 +162,7 @@ class _Piece:
         return FrontElimination(self._arcs, self._leaks, order, fronts)
 
 
-class Factorisation:
+class Factorization:
     """I - T factored, where T holds the arcs of m states among themselves.
 
     Parameters

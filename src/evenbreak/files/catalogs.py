@@ -1,4 +1,4 @@
-"""The languages that sentences are said in: one gettext catalogue (`.po`) each.
+"""The languages that sentences are said in: one gettext catalog (`.po`) each.
 
 They lie in `evenbreak/words/locale/<language>/LC_MESSAGES/evenbreak.po`. More of them, or other
 words for a language (`en` too), may lie in the folder that `EVENBREAK_LOCALE` names, laid out the
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 OWN = Path(__file__).parent.parent / "words" / "locale"
 ELSEWHERE = "EVENBREAK_LOCALE"
-"""The variable that names a folder with more catalogues."""
+"""The variable that names a folder with more catalogs."""
 
 FILE = Path("LC_MESSAGES", "evenbreak.po")
 
@@ -47,7 +47,7 @@ def face_in(language: str) -> Face:
     Raises
     ------
     DataError
-        if its catalogue cannot be used.
+        if its catalog cannot be used.
 
     >>> face_in("de").number(1234.5, ",.1f")
     '1.234,5'
@@ -123,7 +123,7 @@ def _face(language: str, folders: tuple[Path, ...]) -> Face:
 def _translations(place: Path) -> GNUTranslations:
     from babel.messages.mofile import write_mo
 
-    catalog = read_catalogue(place)
+    catalog = read_catalog(place)
     problems = [
         joined([FilePath(place), problem], ": ")
         for message in catalog
@@ -138,8 +138,8 @@ def _translations(place: Path) -> GNUTranslations:
     return GNUTranslations(compiled)
 
 
-def read_catalogue(place: Path) -> Catalog:
-    """Return a catalogue as it is in its file.
+def read_catalog(place: Path) -> Catalog:
+    """Return a catalog as it is in its file.
 
     Raises
     ------
@@ -153,7 +153,7 @@ def read_catalogue(place: Path) -> Catalog:
             return read_po(file, locale=None, abort_invalid=True)
     except (PoFileError, ValueError) as error:
         raise DataError(
-            [say("{file} is not a gettext catalogue: {error}", file=FilePath(place), error=error)]
+            [say("{file} is not a gettext catalog: {error}", file=FilePath(place), error=error)]
         ) from None
 
 

@@ -1,7 +1,7 @@
 import pytest
 
 from evenbreak.errors import InputError
-from evenbreak.handicaps.systems.catalogue import system_of
+from evenbreak.handicaps.systems.catalog import system_of
 from evenbreak.handicaps.systems.step import step_system
 from rows import each_of
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array
 
-from evenbreak.chains import factorisation
+from evenbreak.chains import factorization
 from evenbreak.chains.arcs import arcs_of
 from evenbreak.chains.certified import CertifiedSolve
-from evenbreak.chains.factorisation import Factorisation, TriangularSolve, eliminate_together
+from evenbreak.chains.factorization import Factorization, TriangularSolve, eliminate_together
 from evenbreak.errors import AccuracyError
 
 
@@ -16,13 +16,13 @@ from evenbreak.errors import AccuracyError
     [(64, [(0, 9)]), (3, [(0, 4), (4, 9)]), (1, [(0, 1), (1, 4), (4, 9)])],
 )
 def test_small_classes_between_large_ones_are_taken_together(monkeypatch, small, spans):
-    monkeypatch.setattr(factorisation, "SMALL", small)
+    monkeypatch.setattr(factorization, "SMALL", small)
     T = np.zeros((9, 9))
     T[1:4, 1:4] = np.roll(np.eye(3), 1, axis=0) * 0.5
     T[4:, 4:] = np.roll(np.eye(5), 1, axis=0) * 0.5
     T[1, 0] = T[4, 3] = 0.25
     leak = 1.0 - T.sum(axis=0)
-    factor = Factorisation(arcs_of(csc_array(T)), leak, np.ones(9))
+    factor = Factorization(arcs_of(csc_array(T)), leak, np.ones(9))
     assert [(piece.first, piece.last) for piece in factor._pieces] == spans
     inverse = np.linalg.inv(np.eye(9) - T)
     b = np.random.default_rng(0).random((9, 2))
@@ -37,18 +37,18 @@ def test_a_line_without_long_doubles_and_a_hub_are_proved(monkeypatch):
     leak = np.zeros(n)
     leak[0] = 0.5
     T[0, 1], T[n - 2, n - 1] = 0.5, 1.0
-    monkeypatch.setattr(factorisation, "_WIDE", False)
-    line = Factorisation(arcs_of(T), leak, np.ones(n))
+    monkeypatch.setattr(factorization, "_WIDE", False)
+    line = Factorization(arcs_of(T), leak, np.ones(n))
     steps = line.values(np.ones((n, 1)))[:, 0]
     assert type(line._pieces[0].solver) is CertifiedSolve
     k = np.arange(1, n + 1)
     assert steps == pytest.approx(k * (2 * n - k), rel=2e-16)
-    monkeypatch.setattr(factorisation, "_HUB", 100)
+    monkeypatch.setattr(factorization, "_HUB", 100)
     star = np.zeros((600, 600))
     star[0, 1:], star[1:, 0] = 1.0, 0.5 / 599
     star[0, 2:4] = 0.75
     star[1, 2] = star[2, 3] = 0.25
-    hub = Factorisation(arcs_of(csc_array(star)), np.eye(600)[0] * 0.5, star.sum(axis=0))
+    hub = Factorization(arcs_of(csc_array(star)), np.eye(600)[0] * 0.5, star.sum(axis=0))
     found = hub.visits(np.eye(600, 1))
     assert hub._pieces[0].solver._factors is None
     assert found[0, 0] == pytest.approx(2.0, rel=1e-15)
@@ -63,9 +63,9 @@ def test_a_refusal_says_why_and_what_it_would_take(monkeypatch, few, reason):
         T[np.arange(600) - 1, np.arange(600)] = T[np.arange(600) - 9, np.arange(600)] = 0.5
         T = np.where(np.abs(np.subtract.outer(np.arange(600), np.arange(600))) % 97 < 9, T, 0.0)
     np.fill_diagonal(T, 0.0)
-    monkeypatch.setattr(factorisation, "MOST_ENTRIES", 1000)
-    monkeypatch.setattr(factorisation, "is_dense", lambda *_: few > 0)
-    factor = Factorisation(arcs_of(csc_array(T)), np.eye(600)[0] * 1e-30, T.sum(axis=0))
+    monkeypatch.setattr(factorization, "MOST_ENTRIES", 1000)
+    monkeypatch.setattr(factorization, "is_dense", lambda *_: few > 0)
+    factor = Factorization(arcs_of(csc_array(T)), np.eye(600)[0] * 1e-30, T.sum(axis=0))
     with pytest.raises(AccuracyError, match=rf"600 states {reason}.* numbers in .* GB"):
         factor.visits(np.eye(600, 1))
 
@@ -102,7 +102,7 @@ def test_single_states_only():
 @pytest.mark.parametrize("most", [1, 8, 10_000])
 def test_classes_of_one_size_are_stacked_in_any_number(monkeypatch, most):
     """Sizes 2, 3, 1, 2, 3, 2, each class with arcs to all later ones."""
-    monkeypatch.setattr(factorisation, "_ENTRIES", most)
+    monkeypatch.setattr(factorization, "_ENTRIES", most)
     offsets = np.cumsum([0, 2, 3, 1, 2, 3, 2])
     n = offsets[-1]
     rng = np.random.default_rng(5)

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.catalogues import face_in, language_of, languages
+from evenbreak.files.catalogs import face_in, language_of, languages
 from evenbreak.words import PYTHON, listed, say, say_count
 
 HEADER = (
@@ -16,15 +16,15 @@ TWO = "nplurals=2; plural=(n > 1);"
 
 @pytest.fixture
 def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """Return what writes a catalogue into a folder of one's own."""
+    """Return what writes a catalog into a folder of one's own."""
     monkeypatch.setenv("EVENBREAK_LOCALE", str(tmp_path))
 
-    def write_catalogue(language: str, *entries: str) -> None:
+    def write_catalog(language: str, *entries: str) -> None:
         place = tmp_path / language / "LC_MESSAGES" / "evenbreak.po"
         place.parent.mkdir(parents=True)
         place.write_text(HEADER.format(TWO) + "\n\n".join(entries), encoding="utf-8")
 
-    return write_catalogue
+    return write_catalog
 
 
 def test_a_third_language_is_a_folder(write) -> None:
@@ -46,7 +46,7 @@ def test_a_third_language_is_a_folder(write) -> None:
     assert french.number(0.5, ".0%") == "50\u00a0%"
 
 
-def test_english_needs_no_catalogue() -> None:
+def test_english_needs_no_catalog() -> None:
     assert face_in("en") is PYTHON
 
 
@@ -68,7 +68,7 @@ def test_a_value_that_english_does_not_have_is_refused(write) -> None:
         face_in("fr")
 
 
-def test_what_is_no_catalogue_is_refused(write) -> None:
-    write("fr", "this is no catalogue")
-    with pytest.raises(DataError, match="is not a gettext catalogue"):
+def test_what_is_no_catalog_is_refused(write) -> None:
+    write("fr", "this is no catalog")
+    with pytest.raises(DataError, match="is not a gettext catalog"):
         face_in("fr")

@@ -4,32 +4,32 @@ from evenbreak import games
 from evenbreak.errors import InputError
 from evenbreak.game import Game
 from evenbreak.games import (
-    CATALOGUE,
+    CATALOG,
     Drill,
     Match,
     OneBall,
     Race,
     Rack,
     Series,
-    game_of_catalogue,
+    game_of_catalog,
     loser_breaks,
 )
 from rows import each_of
 
 
-def test_every_kind_of_game_is_in_the_catalogue():
+def test_every_kind_of_game_is_in_the_catalog():
     public = [getattr(games, name) for name in games.__all__]
     kinds = {one for one in public if isinstance(one, type) and hasattr(one, "moves")}
-    assert {type(game) for game in CATALOGUE.values()} == kinds - {Match}
+    assert {type(game) for game in CATALOG.values()} == kinds - {Match}
 
 
 def test_all_of_them_are_games():
-    assert all(isinstance(game, Game) for game in CATALOGUE.values())
+    assert all(isinstance(game, Game) for game in CATALOG.values())
 
 
-@each_of("name", CATALOGUE)
+@each_of("name", CATALOG)
 def test_each_name_means_its_game(name):
-    assert game_of_catalogue(name.upper()) == (name, CATALOGUE[name])
+    assert game_of_catalog(name.upper()) == (name, CATALOG[name])
 
 
 @pytest.mark.parametrize(
@@ -46,15 +46,15 @@ def test_each_name_means_its_game(name):
     ],
 )
 def test_other_chances(words, chances, game):
-    assert game_of_catalogue(words, *chances)[1] == game
+    assert game_of_catalog(words, *chances)[1] == game
 
 
 def test_a_slip_gets_the_nearest_name():
     with pytest.raises(InputError, match=r"give one of: one-ball$"):
-        game_of_catalogue("onebal")
+        game_of_catalog("onebal")
 
 
 @pytest.mark.parametrize("words", ["", "drill", "winner breaks", "chess"])
 def test_names_of_none_or_of_several_are_refused(words):
     with pytest.raises(InputError, match="give one of"):
-        game_of_catalogue(words)
+        game_of_catalog(words)
