@@ -27,7 +27,7 @@ Not everything is a picture:
 | what | command |
 |---|---|
 | any answer as a web page | `evenbreak odds 612 521 --scale fargo --race 7:7 --html odds.html`, and so with other commands |
-| the sheet for [phones and printers](how-to/share-the-sheet.md) | `evenbreak report data/demo_league.csv --out sheet --page` |
+| the sheet for [phones and printers](how-to/publish-your-league.md) | `evenbreak report data/demo_league.csv --out sheet --page` |
 | the sheet as a workbook | `evenbreak report data/demo_league.csv --out sheet --excel` |
 | the bracket as a page, or on paper | `evenbreak tournament show --out bracket.html`, or `bracket.pdf` |
 | score cards, the bracket, the list of the draw | `evenbreak tournament print cards`, `bracket` or `draw` |

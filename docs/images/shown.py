@@ -73,7 +73,7 @@ sheet = Sheet.of(file, ratings, offered, most_active(ratings, 10), choice)
             "second_chance.svg",
             "What a second chance is worth",
             "A favorite's title odds in single and in double elimination.",
-            "explanation/exact-brackets.md",
+            "explanation/brackets.md",
             python="""\
 import numpy as np
 from evenbreak.plots.picture import LINES, new_axes
@@ -109,7 +109,7 @@ picture.legend(fontsize=9)
             "formats.svg",
             "Match formats side by side",
             "Who gains by which format, and where two are worth the same.",
-            "how-to/compare-formats.md",
+            "how-to/match-formats.md",
             'compare --p 0.6667 9:5 "3:1 of 3:3" "ahead 5:3" --plot FILE',
             draws="draw_formats",
         ),
@@ -117,7 +117,7 @@ picture.legend(fontsize=9)
             "breaks.svg",
             "Break formats",
             "The long-run share of the racks, for any two players.",
-            "how-to/which-break-format.md",
+            "how-to/match-formats.md",
             "breaks --p1 0.9 --p2 0.5 --win 1 --lose 2 --plot FILE",
             draws="breaks_figure",
         ),
@@ -127,7 +127,7 @@ picture.legend(fontsize=9)
             "chart.svg",
             "A chart, audited",
             "The stronger player's chance at each rating difference, beside another chart.",
-            "how-to/audit-a-chart.md",
+            "how-to/a-fair-chart.md",
             "chart audit data/house_chart.csv --scale npl --beside npl_10 --plot FILE",
             draws="draw_chart",
         ),
@@ -224,7 +224,7 @@ picture.legend(fontsize=9)
             "shot.svg",
             "A shot, traced",
             "Where both balls go and stop, and where to aim so that throw does no harm.",
-            "how-to/draw-a-shot.md",
+            "how-to/shots.md",
             "physics shot --cue-ball 30,15 --object-ball 50,15 --pocket foot-right --speed 80 "
             "--offset -0.4 --plot FILE",
             draws="shot_on_table",
@@ -233,7 +233,7 @@ picture.legend(fontsize=9)
             "shots.svg",
             "Which shot to take",
             "Your chance on the last ball, for each shot you could try.",
-            "how-to/which-shot.md",
+            "how-to/shots.md",
             "oneball --shot 0.4:0.8 --shot 0.3:0.3 --shot 0.6:0.9 --plot FILE",
             draws="draw_shots",
         ),
@@ -281,7 +281,7 @@ picture.legend(fontsize=9)
             "runs.svg",
             "How long the runs are",
             "The score of several innings, with a range shaded.",
-            "how-to/runs-and-straight-pool.md",
+            "how-to/did-my-practice-help.md",
             "runs --mean 24 --innings 5 --between 100..150 --plot FILE",
             draws="draw_score",
         ),
@@ -289,7 +289,7 @@ picture.legend(fontsize=9)
             "spot.svg",
             "A spot in straight pool",
             "What each number of points is worth, and which makes the match even.",
-            "how-to/runs-and-straight-pool.md",
+            "how-to/did-my-practice-help.md",
             "straight --averages 24:19 --points 150 --plot FILE",
             draws="draw_spot",
         ),
@@ -299,7 +299,7 @@ picture.legend(fontsize=9)
             "one_ball.svg",
             "One ball left",
             "A game is a directed graph; its arcs carry chances.",
-            "how-to/draw-a-game.md",
+            "how-to/your-own-chain.md",
             python="""\
 from evenbreak.games import OneBall
 from evenbreak.plots import draw
@@ -312,7 +312,7 @@ picture = draw(OneBall(0.4, 0.8))
             "race.svg",
             "A race",
             "Every score, from 0:0 to the end.",
-            "how-to/from-graph-to-limit.md",
+            "how-to/your-own-chain.md",
             python="""\
 from evenbreak.games import Race, Rack
 from evenbreak.plots import draw
@@ -325,7 +325,7 @@ picture = draw(Race(3, 2, Rack(0.6)), title="Race 3:2")
             "ahead.svg",
             "Ahead by some games",
             "A chain with no last game.",
-            "how-to/draw-a-game.md",
+            "how-to/your-own-chain.md",
             python="""\
 from evenbreak.games import Ahead, Rack
 from evenbreak.plots import draw
@@ -339,7 +339,7 @@ picture = draw(Ahead(3, 2, Rack(2 / 3)), title=title)
             "drill.svg",
             "A graph of your own",
             "Any networkx graph, here a drill with symbols for its chances.",
-            "how-to/draw-a-game.md",
+            "how-to/your-own-chain.md",
             python="""\
 import networkx as nx
 from evenbreak.plots import draw

@@ -90,8 +90,8 @@ class BallFriction(Question):
             Named(friction, "MU", number=True),
             "Friction between the two balls: a number for any speed, or by-speed.",
             usual="4/72 = 0.0556",
-            more="[How to measure it](../../how-to/allow-for-throw.md). `by-speed` is [the fit to "
-            "measurements](../../explanation/table-side.md#friction-that-falls-with-speed).",
+            more="[How to measure it](../../how-to/shots.md#allow-for-throw). `by-speed` is [the "
+            "fit to measurements](../../explanation/table-side.md#friction-that-falls-with-speed).",
         ),
     ] = None
     friction: Annotated[
