@@ -7,7 +7,7 @@ LEANING = tests/plots tests/sheets/test_workbook.py tests/sheets/test_pdf_page.p
 	tests/cli/league/test_report.py::test_the_demo_league_gives_its_files_and_a_sheet \
 	tests/chains/test_factorization.py tests/chains/test_spectrum.py tests/ratings/test_fitted.py
 
-.PHONY: catalogs column-tables option-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
+.PHONY: catalogs column-tables check check-rest check-drift lint types test slow thorough doctests lowest layers docs reports drift bench \
 	page-pictures bundle dist clean
 
 check:            ## what CI runs, on the last commit, in new virtual environments
@@ -27,11 +27,6 @@ types:
 
 column-tables:    ## the tables of columns in docs/reference/files.md, from the schemas themselves
 	$(PYTHON) docs/column_tables.py
-
-option-tables:    ## the tables of options in docs/reference, from the questions themselves
-	$(PYTHON) docs/option_tables.py
-	$(PYTHON) docs/league_keys.py
-	$(PYTHON) docs/addresses.py
 
 test:             ## the tests that are not slow
 	$(PYTHON) -m pytest -q -n logical -m "not slow"

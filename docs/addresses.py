@@ -1,18 +1,14 @@
 """The table of addresses in `reference/interface.md`, made from the interface's own list.
 
-`python docs/addresses.py` (`make option-tables`) writes it between its marks.
+The build of the pages puts it where the mark `<!-- addresses -->` stands.
 """
 
 from __future__ import annotations
 
-import re
-from pathlib import Path
-
 from evenbreak.web.api import RESOURCES
 from evenbreak.web.api.resource import V1, Resource
 
-PAGE = Path(__file__).parent / "reference" / "interface.md"
-TABLE = re.compile(r"(<!-- addresses -->\n).*?(<!-- end of addresses -->)", re.DOTALL)
+MARK = "<!-- addresses -->"
 _WHO = {"": "everyone in the room", "scores": "a token", "director": "a director's token"}
 
 
@@ -31,10 +27,6 @@ def _row(one: Resource) -> str:
     return f"| `{one.method} {V1}{one.path}` | {one.does} | {names} | {_WHO[one.scope]} |"
 
 
-def with_table(text: str) -> str:
-    """Return the page with its table as it is now."""
-    return TABLE.sub(lambda mark: mark[1] + table() + mark[2], text)
-
-
-if __name__ == "__main__":
-    PAGE.write_text(with_table(PAGE.read_text("utf-8")), "utf-8")
+def with_tables(text: str) -> str:
+    """Return a page with its table."""
+    return text.replace(MARK, table())

@@ -18,6 +18,9 @@ import evenbreak
 from evenbreak.cli.program import program
 
 sys.path.insert(0, str(Path(__file__).parent))
+import addresses
+import league_keys
+import option_tables
 from narrow_blocks import narrow
 
 project = "evenbreak"
@@ -184,6 +187,13 @@ def write_help(app, docname, source) -> None:  # noqa: ARG001
     source[0] = COMMAND.sub(with_help, source[0])
 
 
+def write_tables(app, docname, source) -> None:  # noqa: ARG001
+    """Write the tables that `--help` and the program's own descriptions hold where a page asks."""
+    if docname.startswith("reference/"):
+        for made in (option_tables, league_keys, addresses):
+            source[0] = made.with_tables(source[0])
+
+
 FIELDS = {"Parameters", "Attributes", "Returns", "Yields", "Raises"}
 
 
@@ -251,6 +261,7 @@ def setup(app) -> None:
     app.connect("source-read", write_rooms)
     app.connect("source-read", write_tree)
     app.connect("source-read", write_help)
+    app.connect("source-read", write_tables)
     app.connect("html-page-context", narrow)
     app.connect("autodoc-process-signature", shorten)
     app.connect("autodoc-process-docstring", prepare, priority=100)

@@ -1,14 +1,13 @@
 """The tables of keys in the reference of league.toml, made from the declaration that reads them.
 
-`python docs/league_keys.py` (`make option-tables`) writes them between their marks:
-`<!-- keys: team -->` and `<!-- end of keys -->`; `<!-- keys: top -->` has those above all tables.
+The build of the pages puts them where a mark stands: `<!-- keys: team -->`; `<!-- keys: top -->`
+has those above all tables.
 """
 
 from __future__ import annotations
 
 import re
 from collections import defaultdict
-from pathlib import Path
 
 from option_tables import commands_asking
 
@@ -18,8 +17,7 @@ from evenbreak.files.league.league_file import SECTIONS, LeagueFile, Source
 from evenbreak.files.league.new_file import EXAMPLES
 from evenbreak.questions.of_league import key_of
 
-PAGE = Path(__file__).parent / "reference" / "league-file.md"
-TABLE = re.compile(r"(<!-- keys: (\w+) -->\n)(?:.*?\n)??(<!-- end of keys -->)", re.DOTALL)
+MARK = re.compile(r"^<!-- keys: (\w+) -->$", re.MULTILINE)
 
 
 def options_of_keys() -> dict[str, list[str]]:
@@ -47,9 +45,5 @@ def table_of(name: str) -> str:
 
 
 def with_tables(text: str) -> str:
-    """Return the page with its tables as they are now."""
-    return TABLE.sub(lambda mark: mark[1] + table_of(mark[2]) + mark[3], text)
-
-
-if __name__ == "__main__":
-    PAGE.write_text(with_tables(PAGE.read_text("utf-8")), "utf-8")
+    """Return a page with its tables."""
+    return MARK.sub(lambda found: table_of(found[1]), text)

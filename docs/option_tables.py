@@ -1,9 +1,9 @@
 """The tables of options in the reference, made from the questions that the commands ask.
 
-`python docs/option_tables.py` (`make option-tables`) writes them between their marks:
-`<!-- options: fair -->` and `<!-- end of options -->`. `<!-- options: NAME, not OTHER -->` has
-those that the other command does not have, `<!-- options: NAME, as OTHER -->` those it has too.
-`<!-- options: GROUP NAME + OTHER + ... -->` has those of several commands of a group.
+The build of the pages puts them where a mark stands: `<!-- options: fair -->`.
+`<!-- options: NAME, not OTHER -->` has those that the other command does not have,
+`<!-- options: NAME, as OTHER -->` those it has too, and
+`<!-- options: GROUP NAME + OTHER + ... -->` those of several commands of a group.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from evenbreak.cli.program import program
 from evenbreak.fields.question import Declared, declared, worded
 
 PAGES = Path(__file__).parent / "reference" / "commands"
-TABLE = re.compile(r"(<!-- options: ([^>]+) -->\n)(?:.*?\n)??(<!-- end of options -->)", re.DOTALL)
+MARK = re.compile(r"^<!-- options: ([^>]+) -->$", re.MULTILINE)
 
 
 def question_of(name: str) -> type:
@@ -95,25 +95,28 @@ def _spell(question: type):
     return lambda name: f"`{spelled(question, name)}`"
 
 
+def commands_of(mark: str) -> list[str]:
+    """Return the commands whose options a mark asks for."""
+    first, *others = re.split(r", (?:as|not) ", mark)[0].split(" + ")
+    group = first.rpartition(" ")[0]
+    return [first, *(f"{group} {name}" for name in others)]
+
+
+def table_at(mark: str) -> str:
+    """Return the table that a mark asks for."""
+    name, *others = commands_of(mark)
+    if others:
+        group = name.rpartition(" ")[0]
+        return joint_table(group, [one.removeprefix(f"{group} ") for one in (name, *others)])
+    question = question_of(name)
+    rows = list(declared(question))
+    which = re.split(r", (as|not) ", mark)[1:]
+    for how, other in zip(which[::2], which[1::2], strict=True):
+        names = {one.name for one in declared(question_of(other))}
+        rows = [one for one in rows if (one.name in names) == (how == "as")]
+    return table_of(question, rows)
+
+
 def with_tables(text: str) -> str:
-    """Return a page with its tables as they are now."""
-
-    def table(mark: re.Match[str]) -> str:
-        if " + " in mark[2]:
-            first, *others = mark[2].split(" + ")
-            group, _, name = first.rpartition(" ")
-            return mark[1] + joint_table(group, [name, *others]) + mark[3]
-        name, *which = re.split(r", (as|not) ", mark[2])
-        question = question_of(name)
-        rows = list(declared(question))
-        for how, other in zip(which[::2], which[1::2], strict=True):
-            names = {one.name for one in declared(question_of(other))}
-            rows = [one for one in rows if (one.name in names) == (how == "as")]
-        return mark[1] + table_of(question, rows) + mark[3]
-
-    return TABLE.sub(table, text)
-
-
-if __name__ == "__main__":
-    for page in sorted(PAGES.glob("*.md")):
-        page.write_text(with_tables(page.read_text("utf-8")), "utf-8")
+    """Return a page with its tables."""
+    return MARK.sub(lambda found: table_at(found[1]), text)

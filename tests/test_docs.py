@@ -8,10 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-import addresses
 import click
 import column_tables
-import league_keys
 import option_tables
 import pytest
 
@@ -238,26 +236,8 @@ def test_every_option_is_described_and_no_other(name: str) -> None:
     common = described(commands_page())
     forms = {"--text", "--csv", "--json", "--html", "--verbose"}
     assert common == {*forms, "--league", "--help-all"}
-    section = page_of_each_command()[name][1]
+    section = option_tables.with_tables(page_of_each_command()[name][1])
     assert options - {"--help"} - common <= described(section) <= options
-
-
-@pytest.mark.parametrize(
-    "page", sorted(option_tables.PAGES.glob("*.md")), ids=lambda page: page.stem
-)
-def test_the_tables_of_options_are_those_of_the_questions(page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    assert option_tables.with_tables(text) == text, "run make option-tables"
-
-
-def test_the_keys_of_a_leagues_file_are_those_of_its_declaration():
-    text = league_keys.PAGE.read_text("utf-8")
-    assert league_keys.with_tables(text) == text, "run make option-tables"
-
-
-def test_the_addresses_of_the_interface_are_all_listed() -> None:
-    text = addresses.PAGE.read_text(encoding="utf-8")
-    assert addresses.with_table(text) == text, "run make option-tables"
 
 
 def test_the_tables_of_columns_are_those_of_the_schemas() -> None:

@@ -1,0 +1,37 @@
+"""Tables that the build of the pages writes into the reference can be made, and lead somewhere."""
+
+import re
+from collections import Counter
+from itertools import product
+from pathlib import Path
+
+import addresses
+import league_keys
+import option_tables
+
+from places import ROOT
+from rows import each_of
+from test_front_door import broken_links
+
+REFERENCE = ROOT / "docs" / "reference"
+COMMANDS = sorted((REFERENCE / "commands").glob("*.md"))
+
+
+@each_of("page", [*COMMANDS, REFERENCE / "league-file.md", REFERENCE / "interface.md"])
+def test_links_in_tables_that_the_build_writes_lead_somewhere(page: Path) -> None:
+    built = text = page.read_text("utf-8")
+    for made in (option_tables, league_keys, addresses):
+        built = made.with_tables(built)
+    assert len(built) > len(text) or "<!--" not in text
+    assert "<!--" not in built
+    assert broken_links(page, built) == []
+
+
+def test_no_option_of_a_command_is_in_two_tables() -> None:
+    tables: Counter[tuple[str, str]] = Counter()
+    for page in COMMANDS:
+        for mark in option_tables.MARK.findall(page.read_text("utf-8")):
+            options = re.findall(r"^\| `(--[a-z0-9-]+)", option_tables.table_at(mark), re.MULTILINE)
+            tables.update(product(option_tables.commands_of(mark), dict.fromkeys(options)))
+    assert len(tables) > 300
+    assert [both for both, count in tables.items() if count > 1] == []
