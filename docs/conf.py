@@ -194,6 +194,14 @@ def write_tables(app, docname, source) -> None:  # noqa: ARG001
             source[0] = made.with_tables(source[0])
 
 
+OUTSIDE = re.compile(r"\[([^]]+)\]\(((?:\.\./)+(?:reports|benchmarks)/[^)#]+\.md)(?:#[^)]*)?\)")
+
+
+def write_outside(app, docname, source) -> None:  # noqa: ARG001
+    """Offer Markdown files of the repository that are no pages here for download."""
+    source[0] = OUTSIDE.sub(r"{download}`\1 <\2>`", source[0])
+
+
 FIELDS = {"Parameters", "Attributes", "Returns", "Yields", "Raises"}
 
 
@@ -263,5 +271,6 @@ def setup(app) -> None:
     app.connect("source-read", write_help)
     app.connect("source-read", write_tables)
     app.connect("html-page-context", narrow)
+    app.connect("source-read", write_outside)
     app.connect("autodoc-process-signature", shorten)
     app.connect("autodoc-process-docstring", prepare, priority=100)
