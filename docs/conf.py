@@ -148,14 +148,40 @@ def write_rooms(app, docname, source) -> None:  # noqa: ARG001
     source[0] = ROOM.sub(lambda found: listed(found[1]), source[0])
 
 
-LISTED = re.compile(r"^- \[[^]]+\]\(([^)#]+)\.md\)", re.MULTILINE)
+UNSEEN = re.compile(r"^(?:[^\n]+\n)*?<!--\n(```\{.*?^```)\n-->$", re.MULTILINE | re.DOTALL)
+LISTED = re.compile(r"^(?:- |\*\*)\[[^]]+\]\(((?!\.\.)[^)#]+)\.md\)", re.MULTILINE)
+NOTEBOOK = """\
+---
+file_format: mystnb
+kernelspec:
+  name: python3
+  display_name: Python 3
+---
+"""
+
+
+def write_unseen(app, docname, source) -> None:  # noqa: ARG001
+    """Take directives out of the comments that hide them on a Git host.
+
+    The lines directly above such a comment stand in for it there, and are left out here.
+    """
+    source[0] = UNSEEN.sub(r"\1", source[0])
 
 
 def write_tree(app, docname, source) -> None:  # noqa: ARG001
-    """Make the list of links in an index, which a Git host shows as well, a table of contents."""
-    if docname.endswith("index") and "{toctree}" not in source[0]:
-        pages = "\n".join(LISTED.findall(source[0]))
+    """Make the links in a list of pages, which a Git host shows as well, a table of contents."""
+    if docname.endswith("index") or docname in {"reference/api", "reference/commands"}:
+        pages = "\n".join(dict.fromkeys(LISTED.findall(source[0])))
         source[0] += f"\n```{{toctree}}\n:hidden:\n\n{pages}\n```\n"
+
+
+def write_cells(app, docname, source) -> None:  # noqa: ARG001
+    """Run the Python of a notebook in cells, and offer it for Jupyter below its title."""
+    folder, _, name = docname.rpartition("/")
+    if folder == "notebooks" and name != "index":
+        title, _, rest = source[0].replace("```python\n", "```{code-cell}\n").partition("\n")
+        offer = f"Download this page as a notebook: {{nb-download}}`{name}.ipynb`."
+        source[0] = f"{NOTEBOOK}\n{title}\n\n{offer}\n{rest}"
 
 
 COMMAND = re.compile(r"^## evenbreak (\w+)\n", re.MULTILINE)
@@ -266,8 +292,8 @@ def setup(app) -> None:
     app.add_html_math_renderer("mathml", (inline_math, None), (displayed_math, None))
     app.connect("builder-inited", write_modules)
     app.connect("doctree-resolved", number_equations)
-    app.connect("source-read", write_rooms)
-    app.connect("source-read", write_tree)
+    for write in (write_unseen, write_rooms, write_tree, write_cells):
+        app.connect("source-read", write)
     app.connect("source-read", write_help)
     app.connect("source-read", write_tables)
     app.connect("html-page-context", narrow)
