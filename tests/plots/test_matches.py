@@ -52,7 +52,7 @@ def test_the_line_is_the_course(odds):
     (line,) = (line for line in above.lines if len(line.get_xdata()) == 6)
     assert list(line.get_ydata()) == [moment.p_win_1 for moment in odds.course]
     assert [bar.get_height() for bar in below.patches] == [m.leverage for m in odds.course[:-1]]
-    assert [label.get_text() for label in below.get_xticklabels()][-1] == "3:2"
+    assert [label.get_text() for label in below.get_xticklabels()][-1] == "3-2"
 
 
 def test_dots_show_who_won_a_rack(odds):
@@ -89,7 +89,7 @@ def test_the_label_is_clear_of_the_line(p, racks):
 def test_sets_and_one_sided_matches():
     _, below = course_figure(live_odds(Race(2, 2, Race(2, 2, Rack(0.6))), [1, 1, 1])).axes
     labels = [label.get_text() for label in below.get_xticklabels()]
-    assert labels == ["0:0\n0:0", "0:0\n1:0", "1:0\n0:0", "1:0\n1:0"]
+    assert labels == ["0-0\n0-0", "0-0\n1-0", "1-0\n0-0", "1-0\n1-0"]
 
 
 def test_long_matches_name_some_scores_only():

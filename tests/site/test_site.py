@@ -146,7 +146,7 @@ def test_the_race_of_a_fixture_is_on_the_page_of_races(league, files) -> None:
     m, n, _ = league.races.by_pair["Ann Lee", "Bo Diaz"]
     page = files["races.html"].decode()
     assert "Races on Sep 23, 2025" in page
-    assert f'<td class="number rating">{m}-{n}</td>' in page
+    assert f'<td class="number rating">{m}:{n}</td>' in page
 
 
 def test_hostile_names_are_text() -> None:

@@ -462,7 +462,7 @@ def test_a_handicapped_race_is_won_by_the_games_that_each_needs() -> None:
     state = evening(events)
     assert state.needed("F", ("Ann", "Bo")) == (7, 4)
     assert moves.result(state, "F", (5, 4)).winner == "Bo"
-    with pytest.raises(InputError, match="7-4"):
+    with pytest.raises(InputError, match="7:4"):
         moves.result(state, "F", (7, 5))
 
 

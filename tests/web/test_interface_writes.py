@@ -223,7 +223,7 @@ def test_a_score_that_has_moved_on_is_not_written_over(night: Night) -> None:
     assert night.enters("score", match="1", score=[1, 0], seen=[0, 0]).status == 200
     for move, score in (("score", [1, 1]), ("result", [3, 0])):
         got = night.enters(move, match="1", score=score, seen=[0, 0], _accept_language="de")
-        assert (got.status, "1-0" in got.json["detail"]) == (409, True)
+        assert (got.status, "1:0" in got.json["detail"]) == (409, True)
         assert (got.json["parameter"], got.json["score"]) == ("seen", [1, 0])
     assert night.enters("result", match="1", score="3:0", seen=[1, 0]).status == 200
 

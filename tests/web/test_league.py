@@ -175,7 +175,7 @@ def test_a_match_known_by_its_winner_and_a_handicapped_one_are_shown_as_they_end
         assert "2026-01-12" in rows[0]
         assert "0:0" not in rows[0]
         assert "won" in rows[0]
-        assert "3:4" in rows[1]
+        assert "3-4" in rows[1]
         assert "won" in rows[1]
 
 

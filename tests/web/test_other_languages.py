@@ -39,7 +39,7 @@ def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: 
         "{a} against {b}": "{a} contre {b}",
         "Fair race": "Match équitable",
     }
-    won = {"{winner} beat {loser} {won}-{lost}": "{winner} bat {loser} {won}-{lost}"}
+    won = {"{winner} beat {loser} {score}": "{winner} bat {loser} {score}"}
     catalog(locale, "fr", said | won)
     with running(tmp_path / "tonight.db") as site:
         begin(site)
@@ -55,7 +55,7 @@ def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: 
 
 
 def test_english_can_be_said_in_other_words(tmp_path: Path, locale: Path) -> None:
-    catalog(locale, "en", {"{winner} beat {loser} {won}-{lost}": "{loser} lost to {winner}"})
+    catalog(locale, "en", {"{winner} beat {loser} {score}": "{loser} lost to {winner}"})
     with running(tmp_path / "tonight.db") as site:
         director = begin(site)
         words = director.send("/desk/result", match="F", a=3, b=1).words

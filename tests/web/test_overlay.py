@@ -62,13 +62,13 @@ def test_the_plate_follows_the_match_on_a_table(night: Night) -> None:
     m, n = state.needed("W1.1", (a, b))
     assert m < n
     night.moves("call", "W1.1", 2)
-    assert f"{a} Called race {m}-{n} {b}" in night.words()
+    assert f"{a} Called race {m}:{n} {b}" in night.words()
     night.moves("score", "W1.1", (2, 1))
-    assert f"{a} 2 Semifinals race {m}-{n} 1 {b}" in night.words()
+    assert f"{a} 2 Semifinals race {m}:{n} 1 {b}" in night.words()
     assert night.words("/overlay/2") == night.words()
     night.moves("score", "W1.1", (m - 1, n - 1))
     hill = night.words()
-    assert f"{a} {m - 1} Hill-hill race {m}-{n} {n - 1} {b}" in hill
+    assert f"{a} {m - 1} Hill-hill race {m}:{n} {n - 1} {b}" in hill
     # The chance of one rack is that of the ratings, whatever has been worked out by now.
     p = round(100.0 / (1.0 + 2.0 ** ((RATINGS[1] - RATINGS[0]) / 100.0)))
     assert abs(int(hill.split()[-2].rstrip("%")) - p) <= 4

@@ -21,6 +21,7 @@ from evenbreak.plots.picture import (
     unit_axis,
     write_title,
 )
+from evenbreak.words import tally
 
 _POINTS = 401
 
@@ -190,4 +191,4 @@ def _clear_of(wins: Sequence[float], x: float) -> tuple[float, Literal["bottom",
 
 
 def _score(scores: tuple[tuple[int, int], ...]) -> str:
-    return "\n".join(f"{a}:{b}" for a, b in scores)
+    return "\n".join(tally(one) for one in scores)

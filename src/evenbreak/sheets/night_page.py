@@ -15,7 +15,7 @@ from evenbreak.sheets.html_page import Section, html_page, own_file, shown_name
 from evenbreak.sheets.story_drawing import story_svg
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.story import Story
-from evenbreak.words import PYTHON, Face, in_face, say
+from evenbreak.words import PYTHON, Face, in_face, say, tally
 
 
 def night_html(
@@ -111,7 +111,7 @@ def _results(state: Evening, said: Callable[[str], str]) -> Markup:
         )
         forfeit, on = (escape(said(one)) for one in (say("forfeit"), say("played on")))
         played_on = f" ({on})" if result.stands else ""
-        score = forfeit if result.forfeit else f"{result.games[winner]}-{result.games[loser]}"
+        score = forfeit if result.forfeit else tally((result.games[winner], result.games[loser]))
         lines.append(
             f'<tr><td class="number">{number}</td><th><bdi>{_text(winner)}</bdi></th>'
             f'<td class="score">{score}</td><td><bdi>{_text(loser)}</bdi>{played_on}</td></tr>'

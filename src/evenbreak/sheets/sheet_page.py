@@ -9,7 +9,6 @@ import numpy as np
 import pandas as pd
 
 from evenbreak.answers.kit.scales import decimals_of
-from evenbreak.answers.kit.wording import race
 from evenbreak.answers.league.matchups import matchups_answer, races_of
 from evenbreak.answers.league.report import NOTHING_LEFT_OUT, how_even, how_to_read, report_answer
 from evenbreak.answers.league.round import Round
@@ -35,7 +34,7 @@ from evenbreak.sheets.race_blocks import (
     race_blocks,
     race_cards,
 )
-from evenbreak.words import Parameter, say
+from evenbreak.words import Parameter, race, say
 
 MOST_LISTED = 500
 """Players in the list of ratings; the CSV files hold all."""

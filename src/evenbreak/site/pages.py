@@ -29,7 +29,7 @@ from evenbreak.site.league import RECENT, PublishedLeague
 from evenbreak.site.look import Accent
 from evenbreak.site.pictures import short_day
 from evenbreak.site.tournaments import Tournament
-from evenbreak.words import ordinal
+from evenbreak.words import ordinal, race
 
 ROOM = "evenbreak.site"
 MOST_BYTES = 60_000
@@ -229,14 +229,14 @@ class _Pages:
         return {"title": title, "rows": rows, "placed": any(row["where"] for row in rows)}
 
     def _to_play(self, one: Fixture) -> dict[str, str]:
-        race = self.league.races.by_pair.get((one.home, one.away))
+        found = self.league.races.by_pair.get((one.home, one.away))
         table = f"table\N{NO-BREAK SPACE}{one.table}" if one.table else ""
         return {
             "where": ", ".join(filter(None, [one.venue, table])),
             "a": one.home,
             "b": one.away,
-            "race": f"{race[0]}-{race[1]}" if race else "",
-            "chance": _percent(race[2]) if race else "",
+            "race": race(found[:2]) if found else "",
+            "chance": _percent(found[2]) if found else "",
         }
 
     def fixture_list(self) -> bytes:
@@ -316,7 +316,7 @@ class _Pages:
         others = dict.fromkeys([*(one.opponent for one in met), *self.league.pages])
         chosen = [one for one in others if one in self.league.pages and (name, one) in races]
         return [
-            (other, f"{m}-{n}", _percent(p))
+            (other, race((m, n)), _percent(p))
             for other in sorted(chosen[:MOST_ROWS], key=str.casefold)
             for m, n, p in [races[name, other]]
         ]
@@ -338,27 +338,28 @@ class _Pages:
             won = f" {game}, and the race {_percent(p)} of the time." if alone else ""
             said = (
                 f"{name} is a skill level {first:g} and {opponent}, the last opponent, a skill "
-                f"level {second:g}. The chart gives {m}-{n}.{won}"
+                f"level {second:g}. The chart gives {race((m, n))}.{won}"
             )
         else:
             apart = abs(first - second)
             points = f"{{:.{league.decimals}f}}".format
             fair = isinstance(league.races.rule, OfferedRaces)
+            played = race((m, n))
             reason = "is the race nearest to even" if fair else "is what the chart gives"
             said = (
                 f"{name} is rated {points(first)} and {opponent}, the last opponent, "
-                f"{points(second)}: {points(apart)} points apart. {game}, and {m}-{n} {reason}: "
+                f"{points(second)}: {points(apart)} points apart. {game}, and {played} {reason}: "
                 f"{name} wins it {_percent(p)} of the time."
             )
         more = [
             f"If {one.winner} wins the next match between the two {one.score}, the race becomes "
-            f"{one.then.race[0]}-{one.then.race[1]}."
+            f"{race(one.then.race)}."
             for one in league.one_more(name, opponent)
             if one.then.race is not None
         ]
         if isinstance(league.races.rule, OfferedRaces) and not more:
             more = ["Whoever wins the next match between the two, the race stays the same."]
-        return f"{m}-{n}", [said, *more]
+        return race((m, n)), [said, *more]
 
     def tournaments(self) -> bytes:
         """Return the list of tournaments."""

@@ -40,7 +40,7 @@ from evenbreak.tournaments.evening.undoing import losses, undoable
 from evenbreak.web.evening_view import progress_of
 from evenbreak.web.night import score_of, win_chance
 from evenbreak.web.sessions import author_words
-from evenbreak.words import Sentence, joined, listed, say
+from evenbreak.words import Sentence, joined, listed, say, tally
 
 
 class Side(NamedTuple):
@@ -368,10 +368,9 @@ def undo_words(state: Evening, event: Event) -> Sentence:
             "b": first_name(what.loser, state.entrants),
         }
         return say(
-            "Undo: {a} {won}-{lost} {b} ({match})",
+            "Undo: {a} {score} {b} ({match})",
             **names,
-            won=won,
-            lost=lost,
+            score=tally((won, lost)),
             match=state.match_words(what.match),
         )
     return say("Undo: {what}", what=event_words(what, state))
@@ -486,12 +485,12 @@ def corrected(before: Evening, after: Evening, match: str) -> Corrected:
     def scored(state: Evening) -> tuple[str, str]:
         result = state.counted[match]
         won, gone = result.games[result.winner], result.games[result.loser]
-        return result.winner, "" if result.forfeit else f"{won}-{gone}"
+        return result.winner, "" if result.forfeit else tally((won, gone))
 
     lost = []
     for one in losses(before, after):
         games = one.result.games if one.result else {}
         score = [games[name] for name in one.players] if games else one.score or (0, 0)
         number, over = before.number_of(one.match), one.result is not None
-        lost.append(Lost(number, one.table, one.players, "{}-{}".format(*score), over))
+        lost.append(Lost(number, one.table, one.players, tally(score), over))
     return Corrected(before.number_of(match), scored(before), scored(after), lost)

@@ -19,7 +19,7 @@ from evenbreak.tournaments.evening.listed import decided_places
 from evenbreak.tournaments.money.payouts import shared_prize
 from evenbreak.web.evening_view import is_hill, provisional_in
 from evenbreak.web.night import Known, score_of, win_chance
-from evenbreak.words import Sentence, say, say_count
+from evenbreak.words import Sentence, say, say_count, tally
 
 _MOST_STEPS = 12
 _TENTH = 1.2816  # standard deviations to the 10th and the 90th of 100
@@ -270,7 +270,7 @@ def way_of(state: Evening, me: str, mine: MyMatch | None) -> list[Step]:
         if me not in result.players:
             continue
         other = next(one for one in result.players if one != me)
-        score: Sentence | str = f"{result.games[me]}-{result.games[other]}"
+        score: Sentence | str = tally((result.games[me], result.games[other]))
         if result.forfeit:
             score = say("forfeit")
         elif needs := state.uneven_race(result):

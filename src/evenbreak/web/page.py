@@ -38,7 +38,17 @@ from evenbreak.site.look import accent
 from evenbreak.web.forms import LONGEST, Form
 from evenbreak.web.sessions import form_token, is_director
 from evenbreak.web.site import Site, event_of, of_event
-from evenbreak.words import Face, Figure, capital_in_face, in_face, say, say_as, say_count
+from evenbreak.words import (
+    Face,
+    Figure,
+    capital_in_face,
+    in_face,
+    race,
+    say,
+    say_as,
+    say_count,
+    tally,
+)
 
 _LANGUAGE = "language"
 _SAID = "said"
@@ -245,6 +255,8 @@ def page(
             say=say,
             say_as=say_as,
             say_count=say_count,
+            tally=tally,
+            race_of=race,
             whole=_whole,
             percent=share_at_a_glance,
             share=share,

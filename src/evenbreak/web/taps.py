@@ -23,7 +23,7 @@ from evenbreak.web.night import Night
 from evenbreak.web.page import site_of
 from evenbreak.web.sessions import address_of, phone_of, phones_of
 from evenbreak.web.site import night_of
-from evenbreak.words import Sentence, say
+from evenbreak.words import Sentence, say, tally
 
 
 @dataclass(frozen=True)
@@ -169,7 +169,7 @@ def _check(now: Evening, tap: Tap) -> None:
     """
     _check_pair(now, tap.match, tap.pair)
     a, b = match_view(now, tap.match).score or (0, 0)
-    there = f"{a}-{b}"
+    there = tally((a, b))
     if tap.seen != f"{a}:{b}":
         raise MovedOnError(
             "The score of {match} is {score} now. Check it, then tap again if a game is missing.",

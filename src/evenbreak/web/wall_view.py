@@ -25,7 +25,7 @@ from evenbreak.web.evening_view import (
     view_of,
 )
 from evenbreak.web.night import Known, match_chances
-from evenbreak.words import Sentence, say
+from evenbreak.words import Sentence, say, tally
 
 _TURN = 15  # seconds that each picture of the wall is shown
 _JUST_CALLED = timedelta(seconds=25)
@@ -150,7 +150,7 @@ class WallView:
             return ""
         last = counted[-1]
         loser = next(name for name in last.players if name != last.winner)
-        score = f"{last.games[last.winner]}-{last.games[loser]}"
+        score = tally((last.games[last.winner], last.games[loser]))
         return say("Final {score} against {player}", score=score, player=loser)
 
     @property

@@ -9,6 +9,7 @@ How to say a sentence:
   `Figure(p, ".1%", sign="<")` is a number that is shown by itself.
 - `say_count("{n} game is left.", "{n} games are left.", n)` where a number decides the wording;
   `say_as("heading", "race")` where one English word has several meanings.
+- `tally((5, 4))` is a score, "5-4"; `race((7, 5))` a race, "7:5".
 - `listed(names)` is "a, b and c"; `joined(sentences, " ")` and `+` put texts one after another.
   `" ".join` and f-strings give plain text, which stays English.
 - `Parameter("win_by")` names a parameter (`--win-by`, or the label of its field), as does a name
@@ -31,9 +32,11 @@ from evenbreak.words.sentence import (
     joined,
     listed,
     ordinal,
+    race,
     say,
     say_as,
     say_count,
+    tally,
 )
 
 __all__ = [
@@ -49,7 +52,9 @@ __all__ = [
     "joined",
     "listed",
     "ordinal",
+    "race",
     "say",
     "say_as",
     "say_count",
+    "tally",
 ]

@@ -348,6 +348,25 @@ def ordinal(n: int) -> Sentence:
     return {1: say("{n}st", n=n), 2: say("{n}nd", n=n), 3: say("{n}rd", n=n)}[n % 10]
 
 
+def tally(games: Iterable[Any]) -> Sentence:
+    """Return a score: how many games each of two has won, as the reader's language writes it.
+
+    >>> tally((5, 4))
+    '5-4'
+    """
+    a, b = games
+    return say_as("score", "{a}-{b}", a=a, b=b)
+
+
+def race(needs: Iterable[Any]) -> str:
+    """Return a race: how many games each of two needs.
+
+    >>> race((7, 5))
+    '7:5'
+    """
+    return "{}:{}".format(*needs)
+
+
 def listed(parts: Sequence[Any], last: str = "and") -> Sentence:
     """Return a list as a sentence has it, with 'and' or 'or' before the last.
 

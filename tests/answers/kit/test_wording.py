@@ -93,4 +93,3 @@ def test_ranges_and_signs():
     assert wording.range_words(3, 3) == "3"
     assert wording.signed(2)(-0.006) == "-0.01"
     assert wording.signed(1)(0.0) == "+0.0"
-    assert wording.race((7, 5)) == "7:5"

@@ -55,11 +55,11 @@ def test_a_match_without_end_has_no_length():
     ("match", "words"),
     [
         (Race(7, 5, RACK), "Race 7:5"),
-        (Race(7, 7, RACK, win_by=2, score=(1, 2)), "Race 7:7, win by 2, score 1:2"),
+        (Race(7, 7, RACK, win_by=2, score=(1, 2)), "Race 7:7, win by 2, score 1-2"),
         (Race(3, 1, Race(3, 3, RACK)), "Race 3:1 in sets of 3:3"),
         (Ahead(5, 3, RACK), "First to lead by 5 (A) or 3 (B)"),
         (Ahead(4, 4, RACK), "First to lead by 4"),
-        (Race(3, 3, RACK, score=(1, 3)), "Race 3:3, score 1:3: B has won"),
+        (Race(3, 3, RACK, score=(1, 3)), "Race 3:3, score 1-3: B has won"),
     ],
 )
 def test_a_match_in_words(match, words):

@@ -10,7 +10,7 @@ from evenbreak import handicaps
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of
 from evenbreak.answers.kit.parts import Table
-from evenbreak.answers.kit.wording import decimals, percent, race, range_words
+from evenbreak.answers.kit.wording import decimals, percent, range_words
 from evenbreak.fields.question import refuse
 from evenbreak.files.charts import find_chart_file
 from evenbreak.handicaps.charts.audit import AuditRow, ChartAudit, ChartFit
@@ -20,7 +20,7 @@ from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.matches.win import race_win_probability
 from evenbreak.questions import charts as questions
 from evenbreak.ratings.scale import NAMES, SCALES, Scale
-from evenbreak.words import listed
+from evenbreak.words import listed, race
 
 SAME_SCALE = 0.05
 """Scales that differ by a smaller share are the same scale to a reader."""

@@ -11,7 +11,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Part, Table
 from evenbreak.answers.kit.systems import chart_by_difference
-from evenbreak.answers.kit.wording import count_of, percent, race, range_words
+from evenbreak.answers.kit.wording import count_of, percent, range_words
 from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.design import races_to_try
@@ -20,7 +20,7 @@ from evenbreak.handicaps.charts.measure import ChartMeasure, last_difference, me
 from evenbreak.handicaps.charts.race_grid import games_quantiles, mean_games_grid, win_grid
 from evenbreak.questions.charts import ChartDesign
 from evenbreak.ratings.scale import Scale
-from evenbreak.words import Parameter, Sentence, say
+from evenbreak.words import Parameter, Sentence, race, say
 
 MOST_LISTED = 10
 """The most ranges with other races that a person is shown for one chart."""

@@ -9,7 +9,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import column_of, columns_of, in_files, quantities_of
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import scale_words
-from evenbreak.answers.kit.wording import count_of, percent, race, range_words
+from evenbreak.answers.kit.wording import count_of, percent, range_words
 from evenbreak.errors import InputError
 from evenbreak.files.charts import chart_table, find_chart_file
 from evenbreak.handicaps.charts.chart import Chart
@@ -19,6 +19,7 @@ from evenbreak.handicaps.systems.team_handicap import TeamHandicap, team_handica
 from evenbreak.plugins import Kind, added
 from evenbreak.questions.charts import ChartShow, ChartTeam
 from evenbreak.ratings.scale import Scale
+from evenbreak.words import race
 
 
 def chart_list_answer(_: object = None) -> Answer:

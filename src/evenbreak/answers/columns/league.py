@@ -2,8 +2,8 @@
 
 from evenbreak.answers.columns import shown
 from evenbreak.answers.columns.shown import detail, number, registry, text
-from evenbreak.answers.kit.wording import chance, games, percent, race, signed, yes_or_no
-from evenbreak.words import say
+from evenbreak.answers.kit.wording import chance, games, percent, signed, yes_or_no
+from evenbreak.words import race, say
 
 LEAGUE = registry(
     text("player", say("player")),

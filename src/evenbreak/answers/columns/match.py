@@ -2,8 +2,8 @@
 
 from evenbreak.answers.columns import shown
 from evenbreak.answers.columns.shown import detail, number, registry, text
-from evenbreak.answers.kit.wording import chance, games, race, signed
-from evenbreak.words import say
+from evenbreak.answers.kit.wording import chance, games, signed
+from evenbreak.words import race, say
 
 MATCH = registry(
     number("p_game_a", "{a} wins a game", chance),

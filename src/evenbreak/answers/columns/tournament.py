@@ -2,8 +2,8 @@
 
 from evenbreak.answers.columns import shown
 from evenbreak.answers.columns.shown import detail, number, registry, text
-from evenbreak.answers.kit.wording import chance, percent, race, share
-from evenbreak.words import say
+from evenbreak.answers.kit.wording import chance, percent, share
+from evenbreak.words import race, say
 
 TOURNAMENT = registry(
     number("seed", "seed"),

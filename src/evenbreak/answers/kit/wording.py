@@ -103,15 +103,6 @@ def yes_or_no(truth: bool) -> str:
     return say("yes") if truth else say("no")
 
 
-def race(needs: tuple[int, int]) -> str:
-    """Return a race.
-
-    >>> race((7, 5))
-    '7:5'
-    """
-    return f"{needs[0]}:{needs[1]}"
-
-
 def range_words(first: int, last: int | None) -> str:
     """Return a range of whole numbers, which may be open-ended.
 

@@ -13,7 +13,7 @@ from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Column, Part, Table
 from evenbreak.answers.kit.remarks import Remark, Remarks, file_name
 from evenbreak.answers.kit.scales import form_used_words, game_chance, scale_words
-from evenbreak.answers.kit.wording import clock, count_of, percent, race
+from evenbreak.answers.kit.wording import clock, count_of, percent
 from evenbreak.answers.league.roster_matchups import FAIR_WITHIN, OfferedRaces, unfair
 from evenbreak.answers.league.round import AT_A_TIME, EveningEnd, Round
 from evenbreak.arrays import Ints
@@ -26,6 +26,7 @@ from evenbreak.handicaps.charts.level_skills import LevelSkills
 from evenbreak.handicaps.charts.points_odds import PointsOdds, points_odds
 from evenbreak.matches.pace import Pace
 from evenbreak.ratings.roster import NOT_STATED
+from evenbreak.words import race
 
 
 def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:

@@ -11,12 +11,13 @@ from evenbreak.answers.kit.columns import column_of, columns_of, frame_table
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.remarks import Remark, Remarks, file_name, fingerprints
 from evenbreak.answers.kit.scales import form_used_words, game_chance, like_scale_words, points_on
-from evenbreak.answers.kit.wording import count_of, percent, race
+from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.answers.league.prior import level_words, prior_warnings
 from evenbreak.answers.league.rate import provisional_words
 from evenbreak.answers.league.sheet import MOST_ON_SHEET, NO_RACE, Sheet, count_groups, dates_of
 from evenbreak.files.csv_writer import rows_of
 from evenbreak.ratings.fitted import Ratings
+from evenbreak.words import race
 
 MOST_ACROSS = 30
 """Players whose races are a table on a terminal; of more only the ratings are shown there."""

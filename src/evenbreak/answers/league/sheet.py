@@ -15,7 +15,6 @@ import pandas as pd
 from evenbreak import __version__
 from evenbreak.answers.kit.remarks import file_name, fingerprints
 from evenbreak.answers.kit.scales import decimals_of, like_scale_words
-from evenbreak.answers.kit.wording import race
 from evenbreak.answers.league.roster_matchups import OfferedRaces, pairs_of, roster_matchups
 from evenbreak.errors import InputError
 from evenbreak.files.csv_writer import DECIMALS
@@ -29,7 +28,7 @@ from evenbreak.ratings.prior import PriorChoice
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
-from evenbreak.words import FilePath, joined
+from evenbreak.words import FilePath, joined, race
 
 
 def most_active(ratings: Ratings, top: int) -> list[int]:

@@ -9,7 +9,7 @@ from scipy.special import ndtri
 from evenbreak.answers.columns.shown import percent_interval
 from evenbreak.answers.kit.columns import columns_of
 from evenbreak.answers.kit.parts import Table
-from evenbreak.answers.kit.wording import count_of, percent, race
+from evenbreak.answers.kit.wording import count_of, percent
 from evenbreak.handicaps.charts.fair_scale import LeagueChart
 from evenbreak.ratings.estimates import Estimate
 from evenbreak.ratings.scale import Scale, scale_of
@@ -21,7 +21,7 @@ from evenbreak.ratings.validation.validate import (
     Validation,
     mostly_even,
 )
-from evenbreak.words import listed
+from evenbreak.words import listed, race
 
 UNLIKELY = 0.01
 """A p-value below which chance is ruled out; it is small because several tests are made."""

@@ -13,7 +13,7 @@ from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, in_files
 from evenbreak.answers.kit.parts import Table
 from evenbreak.answers.kit.scales import like_scale_words, points_on
-from evenbreak.answers.kit.wording import percent, race
+from evenbreak.answers.kit.wording import percent
 from evenbreak.answers.league.by_level import levels_of
 from evenbreak.answers.league.prior import evidence_rows, prior_details, prior_warnings
 from evenbreak.answers.league.roster_matchups import OfferedRaces, cannot_be_compared
@@ -29,7 +29,7 @@ from evenbreak.ratings.results import Results, who_won
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 from evenbreak.ratings.sources import rating_sources
-from evenbreak.words import FilePath, Sentence, joined, say
+from evenbreak.words import FilePath, Sentence, joined, race, say
 
 SOURCES = {
     "prior": say("assumed before"),

@@ -12,6 +12,7 @@ from evenbreak.answers.match.odds import TwoPlayers, match_words
 from evenbreak.games.ahead import Ahead
 from evenbreak.games.match import Match
 from evenbreak.matches.live import LiveOdds, Standing
+from evenbreak.words import tally
 
 _PLACE = ("score_a", "score_b", "set_a", "set_b", "next_break")
 
@@ -175,9 +176,9 @@ def _standing_words(match: Match, now: Standing, players: TwoPlayers) -> str:
 
 
 def _score_words(moment: Standing) -> str:
-    """Return a score, with that of the set under way: 1:0 (2:2)."""
-    (a, b), *inside = moment.scores
-    return f"{a}:{b}" + "".join(f" ({c}:{d})" for c, d in inside)
+    """Return a score, with that of the set under way: 1-0 (2-2)."""
+    games, *inside = moment.scores
+    return tally(games) + "".join(f" ({tally(of_set)})" for of_set in inside)
 
 
 Score = tuple[int, int]

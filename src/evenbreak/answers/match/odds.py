@@ -20,7 +20,7 @@ from evenbreak.games.race import Race
 from evenbreak.games.rack import Rack
 from evenbreak.matches.odds import MatchOdds, match_odds
 from evenbreak.ratings.scale import Scale
-from evenbreak.words import joined, say
+from evenbreak.words import joined, say, tally
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -374,7 +374,7 @@ def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
 
     >>> from evenbreak.games import Race, Rack
     >>> match_words(Race(3, 1, Race(3, 3, Rack(0.6)), score=(1, 0)))
-    'Race 3:1 in sets of 3:3, score 1:0'
+    'Race 3:1 in sets of 3:3, score 1-0'
     """
     if isinstance(match, Ahead):
         a, b = names
@@ -387,7 +387,7 @@ def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
     if isinstance(match.rack, Match):
         text += f" in sets of {match.rack.m}:{match.rack.n}"
     if any(match.score):
-        text += f", score {match.score[0]}:{match.score[1]}"
+        text += f", score {tally(match.score)}"
     if (winner := match.decided(*match.score)) is not None:
         text += f": {names[winner - 1]} has won"
     return text

@@ -10,7 +10,7 @@ from evenbreak.answers.kit.wording import percent
 from evenbreak.handicaps.charts.level_audit import INNINGS
 from evenbreak.handicaps.charts.level_chart import PointsChart
 from evenbreak.handicaps.charts.points_odds import MATCH_POINTS, points_odds
-from evenbreak.words import say
+from evenbreak.words import say, tally
 
 
 def points_answer(
@@ -44,7 +44,7 @@ def points_answer(
                 y=odds.share_2,
             )
         )
-    so_far = f", score {score[0]}:{score[1]}" if any(score) else ""
+    so_far = f", score {tally(score)}" if any(score) else ""
     low, high = (percent(chance) for chance in sorted(by_innings))
     values = {
         "p_win_a": ours,

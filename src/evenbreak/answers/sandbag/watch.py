@@ -10,14 +10,14 @@ from evenbreak.answers.columns.shown import evidence
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.columns import columns_of, in_files
 from evenbreak.answers.kit.parts import Table
-from evenbreak.answers.kit.wording import count_of, percent, race, some_of
+from evenbreak.answers.kit.wording import count_of, percent, some_of
 from evenbreak.league.sandbag_watch import PlayedNight, Watched
 from evenbreak.ratings.day_form import with_form
 from evenbreak.ratings.fit import fit
 from evenbreak.ratings.results import Results
 from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale, scale_of
-from evenbreak.words import listed, say
+from evenbreak.words import listed, race, say
 
 SHOWN = 10
 """How many players a terminal shows, if no more are flagged."""

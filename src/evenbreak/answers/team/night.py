@@ -20,7 +20,7 @@ from evenbreak.teams.evening.events import (
 from evenbreak.teams.evening.fold import TeamEvening
 from evenbreak.teams.evening.moves import choices
 from evenbreak.teams.night import WINNER
-from evenbreak.words import Sentence, joined, listed, say, say_count
+from evenbreak.words import Sentence, joined, listed, say, say_count, tally
 
 _DECIDED = 1e-9
 
@@ -198,13 +198,12 @@ def event_words(event: Event, plan: NightPlan, shown: set[int]) -> str:
             return say("{team} handed in the line-up: {players}", team=names[team], players=line_up)
         case Proposed(team, number, score):
             return say(
-                "{team} reports {a}:{b} in set {n}",
+                "{team} reports {score} in set {n}",
                 team=names[team],
-                a=score[0],
-                b=score[1],
+                score=tally(score),
                 n=number,
             )
         case Result(number, score):
-            return say("result of set {n}: {a}:{b}", n=number, a=score[0], b=score[1])
+            return say("result of set {n}: {score}", n=number, score=tally(score))
         case Undone():
             return say("last entry undone")

@@ -11,7 +11,7 @@ from evenbreak.answers.tournament.tournament import against
 from evenbreak.tournaments.evening.events import race_words
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.undoing import Loss, losses
-from evenbreak.words import Sentence, joined, say, say_count
+from evenbreak.words import Sentence, joined, say, say_count, tally
 
 
 class Choice(NamedTuple):
@@ -87,9 +87,10 @@ def _stop_details(stop: Evening, lost: Sequence[Loss]) -> list[Sentence]:
         if one.match in stop.on_tables:
             said.append(
                 say(
-                    "Table {table}: {pair}, {race}, from 0-0.",
+                    "Table {table}: {pair}, {race}, from {none}.",
                     table=stop.plan.table_name(stop.on_tables[one.match].call.table),
                     pair=against(_first_names(stop, stop.pair(one.match))),
+                    none=tally((0, 0)),
                     race=race_words(stop.needed(one.match, stop.pair(one.match))),
                 )
             )
@@ -106,7 +107,7 @@ def _stop_details(stop: Evening, lost: Sequence[Loss]) -> list[Sentence]:
             said.append(say("Open again: {match}.", match=open_words(stop, one.match)))
         if one.result is not None:
             said[-1] = say("{open} {result} no longer counts.", open=said[-1], result=number)
-    scores = ["{}-{}".format(*one.score) for one in lost if one.score and any(one.score)]
+    scores = [tally(one.score) for one in lost if one.score and any(one.score)]
     if len(scores) == 1:
         said.append(say("{score} stays in the history.", score=scores[0]))
     elif scores:

@@ -40,7 +40,7 @@ from evenbreak.tournaments.evening.history import as_read
 from evenbreak.tournaments.evening.plan import KNOCK_OUT, pairings
 from evenbreak.tournaments.evening.settling import TieBreak
 from evenbreak.tournaments.evening.undoing import losses
-from evenbreak.words import Sentence, joined, say
+from evenbreak.words import Sentence, joined, say, tally
 
 
 def live_words(state: Evening, match: str) -> Sentence:
@@ -128,7 +128,7 @@ def called_words(before: Evening, after: Evening) -> list[Sentence]:
 
 def _live(state: Evening, match: str) -> str:
     """Return the score of a match in play, in the order of its players."""
-    return "{}-{}".format(*state.live[match].of(state.pair(match)))
+    return tally(state.live[match].of(state.pair(match)))
 
 
 def and_words(names: Sequence[str]) -> Sentence | str:
@@ -227,7 +227,7 @@ def lost_words(before: Evening, after: Evening) -> list[Sentence]:
     for one in losses(before, after):
         name = before.match_words(one.match)
         match = say("{pair} ({match})", match=name, pair=against(one.players))
-        at = "" if one.score is None or not any(one.score) else "{}-{}".format(*one.score)
+        at = "" if one.score is None or not any(one.score) else tally(one.score)
         table = None if one.table is None else before.plan.table_name(one.table)
         if one.result is not None:
             match = say("{result} ({match})", match=name, result=before.result_words(one.result))
@@ -387,7 +387,7 @@ def event_words(what: What, state: Evening) -> Sentence:
             )
         case Scored(match=match, score=score):
             name = state.match_words(match)
-            return say("score {a}-{b} in {match}", a=score[0], b=score[1], match=name)
+            return say("score {score} in {match}", score=tally(score), match=name)
         case Ranked():
             return say("tie-break")
         case Drawn():
@@ -406,7 +406,7 @@ def _short_words(state: Evening, result: Result) -> str:
     names = {"winner": result.winner, "loser": result.loser}
     if result.stands or result.forfeit or result.ended or state.uneven_race(result):
         return state.result_words(result)
-    return say("{winner} {won}-{lost} {loser}", won=won, lost=lost, **names)
+    return say("{winner} {score} {loser}", score=tally((won, lost)), **names)
 
 
 def history_words(events: Sequence[Event], state: Evening) -> list[Sentence]:

@@ -13,7 +13,7 @@ from evenbreak.answers.tournament.time import minute_of_day, time_of_day
 from evenbreak.tournaments.evening.events import Result
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.story import Step, Story
-from evenbreak.words import Sentence, joined, say
+from evenbreak.words import Sentence, joined, say, tally
 
 
 class Remark(NamedTuple):
@@ -43,7 +43,7 @@ def won_words(result: Result) -> Sentence:
     if result.forfeit:
         return say("{winner} beat {loser} by forfeit", winner=result.winner, loser=loser)
     games = result.games
-    score = f"{games[result.winner]}-{games[loser]}"
+    score = tally((games[result.winner], games[loser]))
     return say("{winner} {score} {loser}", winner=result.winner, score=score, loser=loser)
 
 

@@ -29,7 +29,7 @@ from evenbreak.tournaments.evening.format import (
     Slower,
     Table,
 )
-from evenbreak.words import Sentence, say
+from evenbreak.words import Sentence, race, say, tally
 
 Games: TypeAlias = Annotated[int, Meta(ge=0, le=10_000)]
 Seat: TypeAlias = Annotated[int, Meta(ge=0, le=255)]
@@ -416,7 +416,7 @@ def score_words(found: Result, needs: tuple[int, int] | None = None) -> Sentence
     >>> score_words(Result("W1.1", ("Ann", "Bo"), (3, 2), "Ann", ended="time"))
     'Ann beat Bo 3-2 on time'
     >>> score_words(Result("W1.1", ("Ann", "Bo"), (2, 2), "Bo"), (4, 2))
-    'Bo beat Ann 2-2 (race 2-4)'
+    'Bo beat Ann 2-2 (race 2:4)'
     """
     names: dict[str, Any] = {"winner": found.winner, "loser": found.loser}
     if found.forfeit:
@@ -428,23 +428,23 @@ def score_words(found: Result, needs: tuple[int, int] | None = None) -> Sentence
         )
     if needs is not None and needs[0] != needs[1] and not found.ended:
         each = dict(zip(found.players, needs, strict=True))
-        race = race_words((each[found.winner], each[found.loser]))
+        played = race_words((each[found.winner], each[found.loser]))
         even = score_words(found)
-        return say("{result} ({race})", result=even, race=race)
-    names |= {"won": found.games[found.winner], "lost": found.games[found.loser]}
+        return say("{result} ({race})", result=even, race=played)
+    names["score"] = tally((found.games[found.winner], found.games[found.loser]))
     if found.ended == "time":
-        return say("{winner} beat {loser} {won}-{lost} on time", **names)
+        return say("{winner} beat {loser} {score} on time", **names)
     if found.ended:
-        return say("{loser} conceded to {winner} at {won}-{lost}", **names)
-    return say("{winner} beat {loser} {won}-{lost}", **names)
+        return say("{loser} conceded to {winner} at {score}", **names)
+    return say("{winner} beat {loser} {score}", **names)
 
 
 def race_words(needs: tuple[int, int]) -> Sentence:
     """Return a race in words.
 
     >>> race_words((7, 7)), race_words((7, 5))
-    ('race to 7', 'race 7-5')
+    ('race to 7', 'race 7:5')
     """
     if needs[0] == needs[1]:
         return say("race to {n}", n=needs[0])
-    return say("race {race}", race="-".join(map(str, needs)))
+    return say("race {race}", race=race(needs))

@@ -46,7 +46,7 @@ from evenbreak.tournaments.evening.known import (
 from evenbreak.tournaments.evening.later_draws import draw_later
 from evenbreak.tournaments.evening.plan import changed, refuse_tables
 from evenbreak.tournaments.evening.undoing import losses
-from evenbreak.words import Command, Parameter, listed, say
+from evenbreak.words import Command, Parameter, listed, say, tally
 
 __all__ = ["known_match", "known_player"]
 
@@ -244,10 +244,9 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
     live = state.live.get(name)
     if live is not None and (live.what.players, live.what.score) == (pair, score):
         raise AlreadyError(
-            "{match} already stands at {a}-{b}",
+            "{match} is already at {score}",
             match=state.match_words(name),
-            a=score[0],
-            b=score[1],
+            score=tally(score),
         )
     if score[0] >= needs[0] or score[1] >= needs[1]:
         winner_of(state, name, pair, score)  # refuses what cannot be

@@ -35,7 +35,7 @@ from evenbreak.web.api.tokens import check_still, token_of
 from evenbreak.web.entering import Entered, SureError, asked_of, enter
 from evenbreak.web.night import Night, score_of
 from evenbreak.web.pages.moves import OF_COMMANDS
-from evenbreak.words import joined, say
+from evenbreak.words import joined, say, tally
 
 
 class _Agreed(Kind):
@@ -170,7 +170,7 @@ def _check_seen(state: Evening, match: str | None, seen: tuple[int, int]) -> Non
             parameter="seen",
             more={"score": now},
             match=state.match_words(name),
-            score="{}-{}".format(*now),
+            score=tally(now),
         )
 
 

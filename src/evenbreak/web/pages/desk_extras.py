@@ -32,7 +32,7 @@ from evenbreak.web.page import answer_shown, done, page, site_of
 from evenbreak.web.pages.me import phone_label, phone_words
 from evenbreak.web.sessions import DIRECTOR, author_words, check_director, let_in
 from evenbreak.web.site import begun, event_of, night_of, of_event
-from evenbreak.words import say
+from evenbreak.words import say, tally
 
 RACES = {
     "race": say("Race to"),
@@ -205,7 +205,7 @@ def _scores(state: Evening) -> Iterator[tuple[int, str, str]]:
             open_rows.pop(match, None)
     for (_, undone), entries in rows:
         whats = [what for k in entries if isinstance(what := state.log[k - 1].what, Scored)]
-        scores = ["{}-{}".format(*what.score) for what in whats]
+        scores = [tally(what.score) for what in whats]
         told = scores if len(scores) <= _MOST_SCORES else ["…", *scores[-_MOST_SCORES:]]
         match = state.match_words(whats[0].match) if state.drawn else whats[0].match
         words = say("score {scores} in {match}", scores=", ".join(told), match=match)

@@ -27,7 +27,7 @@ from evenbreak.web.guard import MOST_BYTES, RefusalError
 from evenbreak.web.league import League
 from evenbreak.web.page import answer_shown, as_file, done, page, site_of
 from evenbreak.web.site import Site, begun
-from evenbreak.words import joined, say
+from evenbreak.words import joined, say, tally
 
 if TYPE_CHECKING:
     from evenbreak.answers.league.sheet import Sheet
@@ -195,7 +195,7 @@ def _matches(sheet: Sheet, seat: int) -> list[Played]:
         own, theirs = scores if first else scores[::-1]
         date = "" if results.date is None else str(results.date[row])
         other = results.players[int((results.player_b if first else results.player_a)[row])]
-        score = f"{own}:{theirs}" if any(scores) else ""
+        score = tally((own, theirs)) if any(scores) else ""
         won = int(winner[row]) == (1 if first else 2)
         found.append(Played("" if date == "NaT" else date, other, score, won))
     return found
