@@ -19,6 +19,7 @@ from evenbreak.cli.program import program
 
 sys.path.insert(0, str(Path(__file__).parent))
 import addresses
+import answer_tables
 import league_keys
 import option_tables
 from narrow_blocks import narrow
@@ -216,7 +217,7 @@ def write_help(app, docname, source) -> None:  # noqa: ARG001
 def write_tables(app, docname, source) -> None:  # noqa: ARG001
     """Write the tables that `--help` and the program's own descriptions hold where a page asks."""
     if docname.startswith("reference/"):
-        for made in (option_tables, league_keys, addresses):
+        for made in (option_tables, answer_tables, league_keys, addresses):
             source[0] = made.with_tables(source[0])
 
 

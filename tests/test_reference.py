@@ -6,6 +6,7 @@ from itertools import product
 from pathlib import Path
 
 import addresses
+import answer_tables
 import league_keys
 import option_tables
 
@@ -20,11 +21,21 @@ COMMANDS = sorted((REFERENCE / "commands").glob("*.md"))
 @each_of("page", [*COMMANDS, REFERENCE / "league-file.md", REFERENCE / "interface.md"])
 def test_links_in_tables_that_the_build_writes_lead_somewhere(page: Path) -> None:
     built = text = page.read_text("utf-8")
-    for made in (option_tables, league_keys, addresses):
+    for made in (option_tables, answer_tables, league_keys, addresses):
         built = made.with_tables(built)
     assert len(built) > len(text) or "<!--" not in text
     assert "<!--" not in built
-    assert broken_links(page, built) == []
+    assert broken_links(page, built, ROOT) == []
+
+
+def test_every_answer_has_a_table_and_every_meaning_a_key() -> None:
+    marks = [m for page in COMMANDS for m in answer_tables.MARK.findall(page.read_text("utf-8"))]
+    schemas = answer_tables.SCHEMAS["$defs"]
+    assert sorted(marks) == sorted(schemas)
+    for command, meanings in answer_tables.MEANINGS.items():
+        if ":" not in command:
+            table = answer_tables.table_at(command)
+            assert [key for key, of in meanings.items() if f"| `{key}` | {of} |" not in table] == []
 
 
 def test_no_option_of_a_command_is_in_two_tables() -> None:

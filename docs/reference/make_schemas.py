@@ -3,16 +3,19 @@
     python docs/reference/make_schemas.py
 
 The questions are those of tests/test_faces.py, which holds every answer to the schema.
+What a key means is in answers.toml, or else what a person reads above the column.
 """
 
 import json
 import re
 import sys
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
+MEANINGS = Path(__file__).with_name("answers.toml")
 SCHEMA = ROOT / "src" / "evenbreak" / "answers" / "answers.schema.json"
 TYPES = {str: "string", bool: "boolean", int: "number", float: "number", type(None): "null"}
 SAID = {
@@ -69,8 +72,10 @@ def main() -> None:
         command = command_of(name)
         answers.setdefault(command, []).append(json.loads(faces.json))
         words.setdefault(command, {}).update(words_of(faces.answer))
+    means = tomllib.loads(MEANINGS.read_text("utf-8"))
     found = {
-        command: schema_of(answers[command], words[command] | SAID) for command in sorted(answers)
+        command: schema_of(answers[command], words[command] | means.get(command, {}) | SAID)
+        for command in sorted(answers)
     }
     for one in found.values():  # a quantity may be one that there is none of
         for name, value in one["properties"].items():
