@@ -174,6 +174,9 @@ def write_tree(app, docname, source) -> None:  # noqa: ARG001
     if docname.endswith("index") or docname in {"reference/api", "reference/commands"}:
         pages = "\n".join(dict.fromkeys(LISTED.findall(source[0])))
         source[0] += f"\n```{{toctree}}\n:hidden:\n\n{pages}\n```\n"
+    if docname == "explanation/decisions/index":
+        # Contributors come to them by CONTRIBUTING.md; readers need no list of them.
+        source[0] = f"---\norphan: true\n---\n\n{source[0]}"
 
 
 def write_cells(app, docname, source) -> None:  # noqa: ARG001
