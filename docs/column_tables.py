@@ -1,13 +1,13 @@
 """The tables of columns in the reference of files, made from the schemas that read them.
 
 `python docs/column_tables.py` (`make column-tables`) writes them between their marks:
-`<!-- columns: roster -->` and `<!-- end of columns -->`.
+`<!-- columns: roster -->` and `<!-- end of columns -->`. The build of the pages adds the other
+titles of each column, and those in other languages where `<!-- titles -->` stands.
 """
 
 from __future__ import annotations
 
 import re
-from functools import partial
 from pathlib import Path
 
 from evenbreak.files import arcs, chain_files, charts, practice
@@ -21,6 +21,7 @@ from evenbreak.ratings.results_frame import FORFEITS, LARGEST_WHOLE
 
 PAGE = Path(__file__).parent / "reference" / "files.md"
 TABLE = re.compile(r"(<!-- columns: ([^>]+) -->\n)(?:.*?\n)??(<!-- end of columns -->)", re.DOTALL)
+TITLES = "<!-- titles -->"
 
 _NEEDED = [name for name, column in columns.RESULTS.columns.items() if column.needed]
 _OTHERS = [name for name in columns.RESULTS.columns if name not in _NEEDED]
@@ -43,25 +44,27 @@ SCHEMAS = {
     "season": roster.OF_SEASON,
     "pairs": season.PAIRS,
     "schedule": season.SCHEDULE.only("week"),
-    "team": teams.TEAM.only("level"),
     "team results": teams.TEAM_RESULTS,
     "teams": teams.TEAMS,
 }
 
 
-def table_of(schema: Schema) -> str:
-    """Return the table of the columns that somebody writes by hand."""
-    rows = [_row(name, column) for name, column in schema.columns.items() if _is_told(column)]
-    return "\n".join(
-        ["| column | also called | what it holds | cells |", "|---|---|---|---|", *rows, ""]
-    )
+def table_of(schema: Schema, *, full: bool = True) -> str:
+    """Return the table of the columns that a person writes, in full with their other titles."""
+    told = [(name, column) for name, column in schema.columns.items() if _is_told(column)]
+    rows = [
+        ["column", "also called", "what it holds", "cells"],
+        ["---"] * 4,
+        *(_row(name, column) for name, column in told),
+    ]
+    return "".join(f"| {' | '.join(row if full else [row[0], *row[2:]])} |\n" for row in rows)
 
 
 def _is_told(column: Column) -> bool:
     return bool(column.about or column.also or column.needed)
 
 
-def _row(name: str, column: Column) -> str:
+def _row(name: str, column: Column) -> list[str]:
     cells = [_cells(column)] if column.about or not isinstance(column, Text) else ["any text"]
     if column.needed and not column.instead:
         cells.append("required")
@@ -69,7 +72,7 @@ def _row(name: str, column: Column) -> str:
         cells.append(f"empty {column.empty}")
     elif not (column.filled or column.empty is None or isinstance(column, Text)):
         cells.append("may be empty")
-    return f"| `{name}` | {column.also} | {column.about} | {'; '.join(filter(None, cells))} |"
+    return [f"`{name}`", column.also, column.about, "; ".join(filter(None, cells))]
 
 
 def _cells(column: Column) -> str:
@@ -113,15 +116,13 @@ def titles_by_language() -> str:
     return "\n".join([*lines, ""])
 
 
-TABLES = {
-    **{name: partial(table_of, schema) for name, schema in SCHEMAS.items()},
-    "titles": titles_by_language,
-}
-
-
-def with_tables(text: str) -> str:
+def with_tables(text: str, *, full: bool = False) -> str:
     """Return the page with its tables as they are now."""
-    return TABLE.sub(lambda mark: mark[1] + TABLES[mark[2]]() + mark[3], text)
+    page = TABLE.sub(
+        lambda mark: mark[1] + table_of(SCHEMAS[mark[2]], full=full) + mark[3],
+        text,
+    )
+    return page.replace(TITLES, titles_by_language()) if full else page
 
 
 if __name__ == "__main__":

@@ -20,6 +20,7 @@ from evenbreak.cli.program import program
 sys.path.insert(0, str(Path(__file__).parent))
 import addresses
 import answer_tables
+import column_tables
 import league_keys
 import option_tables
 from narrow_blocks import narrow
@@ -222,6 +223,7 @@ def write_tables(app, docname, source) -> None:  # noqa: ARG001
     if docname.startswith("reference/"):
         for made in (option_tables, answer_tables, league_keys, addresses):
             source[0] = made.with_tables(source[0])
+        source[0] = column_tables.with_tables(source[0], full=True)
 
 
 OUTSIDE = re.compile(r"\[([^]]+)\]\(((?:\.\./)+(?:reports|benchmarks)/[^)#]+\.md)(?:#[^)]*)?\)")

@@ -9,7 +9,7 @@ from pathlib import Path
 import evenbreak.physics
 from places import ROOT
 
-PAGE = ROOT / "docs" / "reference" / "problems.md"
+PAGE = ROOT / "reports" / "problems.md"
 LAST = {1: 7, 2: 6, 3: 11, 4: 27, 5: 27}
 EXERCISES = ["1.1", "1.2", "1.3", "2.1", "2.2", "3.1", "4.1", "5.1"]
 PROBLEMS = [f"P{section}.{n}" for section, last in LAST.items() for n in range(1, last + 1)]
