@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 import csv
+import itertools
 import json
 from collections.abc import Iterable
-from datetime import datetime
 from html import escape
 from pathlib import Path
 
 from at_work import run
 
-from evenbreak.files.demo import write_demo_evening
+EVENING = """\
+new entrants.csv --race 5 --losers-race 4 --tables 2 --seeding rating --at 18:50 --out lesson.db
+draw --at 19:00 --file lesson.db
+call --at 19:05 --file lesson.db
+call --at 19:05 --file lesson.db
+result 1 5-4 --at 19:40 --file lesson.db
+"""
+"""The lesson's evening, as page_pictures.py has it, until the page shows who wins."""
 
 WIDTH, HEIGHT, LINE = 240, 136, 19
 INK, GRAY, BLUE = "#222", "#aaa", "#0072b2"
@@ -36,32 +43,39 @@ def _picture(heading: str, parts: Iterable[str]) -> str:
     )
 
 
-def _chances(heading: str, chances: list[tuple[str, float]]) -> str:
-    """Draw a bar for each name and chance; the first is the answer."""
+def director() -> str:
+    """Draw who wins the tournament of the lesson, after its first result."""
+    with Path("data", "demo_entrants.csv").open(encoding="utf-8") as file:
+        rows = [[*row[:2], row[-1]] for row in itertools.islice(csv.reader(file), 8)]
+    Path("entrants.csv").write_text("\n".join(map(",".join, rows)), encoding="utf-8")
+    for line in EVENING.splitlines():
+        run(f"tournament {line}")
+    odds = json.loads(run("tournament odds lesson.db --json"))["players"]
+    first = sorted(((one["name"], one["p_title"]) for one in odds), key=lambda one: -one[1])
     parts = []
-    for k, (name, p) in enumerate(chances):
+    for k, (name, p) in enumerate(first[:4]):
         y = 46 + LINE * 1.25 * k
         parts += [
             _text(10, y, name, strong=not k),
-            _box(126, y - 10, max(1.0, 66 * p), 12, GRAY if k else BLUE),
+            _box(140, y - 10, max(1.0, 74 * p), 12, GRAY if k else BLUE),
             _text(WIDTH - 8, y, f"{100 * p:.0f}%", end="end", strong=not k),
         ]
-    return _picture(heading, parts)
-
-
-def director() -> str:
-    """Draw who wins the demo's tournament, as it is half played."""
-    write_demo_evening("demo.db", datetime(2025, 3, 1, 18))
-    odds = json.loads(run("tournament odds demo.db --json"))["players"]
-    first = sorted(((one["name"], one["p_title"]) for one in odds), key=lambda one: -one[1])
-    return _chances("Who wins tonight", first[:4])
+    return _picture("Who wins tonight", parts)
 
 
 def captain() -> str:
-    """Draw whom to put up."""
-    options = json.loads(run(f"{TEAMS} --json"))["options"]
-    named = [(one["name"].split()[0], one["p_win"]) for one in options]
-    return _chances(f"Put up {named[0][0]}", named[:4])
+    """Draw who to put up, and what each other choice costs."""
+    best, *others = json.loads(run(f"{TEAMS} --json"))["options"]
+    lost = [(one["name"].split()[0], 100 * (best["p_win"] - one["p_win"])) for one in others]
+    parts = []
+    for k, (name, points) in enumerate(lost):
+        y = 46 + LINE * k
+        parts += [
+            _text(10, y, f"or {name}"),
+            _box(76, y - 9, max(1.0, 108 * points / lost[-1][1]), 11, GRAY),
+            _text(WIDTH - 8, y, f"\N{MINUS SIGN}{points:.1f}%", end="end"),
+        ]
+    return _picture(f"Put up {best['name'].split()[0]}: you win {100 * best['p_win']:.0f}%", parts)
 
 
 def operator() -> str:

@@ -79,9 +79,7 @@ import numpy as np
 from evenbreak.plots.picture import LINES, new_axes
 from evenbreak.tournaments import double_elimination, single_elimination, title_odds
 
-picture = new_axes(
-    "chance to win a match", "chance to win the tournament", size=(6.4, 4.0)
-)
+picture = new_axes("chance of winning a match", "chance of winning the tournament")
 chances = np.linspace(0.5, 1.0, 26)
 for players, line in ((8, LINES[0]), (16, LINES[1])):
     win = np.full((players, players), 0.5)

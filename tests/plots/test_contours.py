@@ -92,18 +92,18 @@ def titles(figure):
 def test_titles_have_the_shares_and_every_panel_the_dot():
     figure = breaks_figure(Rack(0.5, 0.1))
     assert titles(figure) == [
-        "winner breaks: A wins 0.643",
-        "loser breaks: A wins 0.833",
-        "alternate breaks: A wins 0.700",
-        "winner minus loser breaks: \N{MINUS SIGN}0.190",
+        "Winner breaks: A wins 64.3%",
+        "Loser breaks: A wins 83.3%",
+        "Alternate breaks: A wins 70.0%",
+        "Winner minus loser breaks: \N{MINUS SIGN}19.0%",
     ]
     for axes in figure.axes:
         assert [(line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines] == [(0.5, 0.1)]
 
 
 def test_the_first_breaker_counts_where_the_break_never_passes_on():
-    assert titles(breaks_figure(Rack(1, 1)))[0] == "winner breaks: A wins 1.000"
-    assert titles(breaks_figure(Rack(1, 1), first_breaker=2))[0] == "winner breaks: A wins 0.000"
+    assert titles(breaks_figure(Rack(1, 1)))[0] == "Winner breaks: A wins 100.0%"
+    assert titles(breaks_figure(Rack(1, 1), first_breaker=2))[0] == "Winner breaks: A wins 0.0%"
 
 
 def test_a_rack_whose_break_does_not_matter_is_on_the_diagonal():
@@ -118,9 +118,9 @@ def test_arrays_are_refused():
 
 def test_the_picture_says_what_it_shows():
     title, dot = breaks_figure(Rack(0.62, 0.55)).get_suptitle().splitlines()
-    assert "long run" in title
-    assert "0.62" in dot
-    assert "0.55" in dot
+    assert "long-run" in title
+    assert "62%" in dot
+    assert "55%" in dot
 
 
 SHOTS = [ShotChoice("bank", 0.4, 0.8), ShotChoice("safety", 0.3, 0.3)]

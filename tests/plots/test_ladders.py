@@ -25,11 +25,11 @@ def curves(axes):
 def test_errors_stand_beside_the_natural_and_the_normal_ones():
     (axes,) = ladder_figure(LAW, natural=NATURAL, within=1).axes
     drawn = curves(axes)
-    law = drawn["this ladder, sd 1.10"]
+    law = drawn["this ladder (sd 1.10)"]
     assert law.tolist() == [list(pair) for pair in zip(LAW.values, LAW.probability, strict=True)]
-    natural = drawn["correctly rated opponents, sd 0.89"]
+    natural = drawn["against correctly rated opponents (sd 0.89)"]
     assert natural[:, 1].tolist() == list(NATURAL.probability)
-    bell = drawn["normal distribution, same sd"]
+    bell = drawn["normal distribution with the same sd"]
     assert bell[:, 1].max() == pytest.approx(1.0 / (LAW.sd * np.sqrt(2.0 * np.pi)))
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
     assert "within 1 point: 80%" in labels
@@ -44,15 +44,15 @@ def test_errors_that_never_occur_are_left_out():
     law = Distribution((-2, -1, 0, 1, 2), (0.25, 0.0, 0.5, 0.0, 0.25))
     (axes,) = ladder_figure(law).axes
     drawn = curves(axes)
-    assert drawn[f"this ladder, sd {law.sd:.2f}"][:, 0].tolist() == [-2, 0, 2]
+    assert drawn[f"this ladder (sd {law.sd:.2f})"][:, 0].tolist() == [-2, 0, 2]
     # Half as many errors share the whole probability.
-    bell = drawn["normal distribution, same sd"]
+    bell = drawn["normal distribution with the same sd"]
     assert bell[:, 1].max() == pytest.approx(2.0 / (law.sd * np.sqrt(2.0 * np.pi)))
 
 
 def test_a_single_error_has_no_normal_distribution():
     (axes,) = ladder_figure(Distribution((0,), (1.0,))).axes
-    assert "normal distribution, same sd" not in curves(axes)
+    assert "normal distribution with the same sd" not in curves(axes)
 
 
 def settling(settled):
@@ -64,7 +64,7 @@ def test_how_newcomers_settle_is_marked_at_half_and_nine_of_ten():
     settled = [0.0, 0.2, 0.5, 0.8, 0.9, 0.99, 1.0, 1.0]
     axes = ladder_figure(LAW, curve=settling(settled)).axes[1]
     assert {text.get_text() for text in axes.texts} == {"half: 2 matches", "9 of 10: 4 matches"}
-    assert axes.get_xlabel().endswith("-30 points")
+    assert axes.get_xlabel().endswith("30 points too low")
     (steps,) = (line for line in axes.lines if line.get_drawstyle() == "steps-post")
     assert steps.get_ydata().tolist() == pytest.approx(settled[:7])
 

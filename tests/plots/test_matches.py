@@ -14,8 +14,8 @@ def test_curves_and_crossings():
     for played in formats:
         p, wins = curves[str(played)].get_xdata(), curves[str(played)].get_ydata()
         assert np.allclose(wins, win_probability(played.match(Rack(p))))
-    assert list(curves["worth the same"].get_xdata()) == [found.points[0].p1]
-    assert axes.get_xlabel() == "p = P(A wins a game)"
+    assert list(curves["equal formats"].get_xdata()) == [found.points[0].p1]
+    assert axes.get_xlabel() == "chance that A wins a game"
 
 
 def test_along_p1_at_a_fixed_p2():
@@ -27,7 +27,7 @@ def test_along_p1_at_a_fixed_p2():
     match = played.match(Rack(curve.get_xdata()[at], 0.7), breaks=winner_breaks, first_breaker=2)
     assert curve.get_ydata()[at] == pytest.approx(win_probability(match))
     assert "A breaks" in axes.get_xlabel()
-    assert "worth the same" not in [text.get_text() for text in axes.get_legend().get_texts()]
+    assert "equal formats" not in [text.get_text() for text in axes.get_legend().get_texts()]
 
 
 def test_the_picture_names_the_players():
@@ -35,8 +35,8 @@ def test_the_picture_names_the_players():
     axes = draw_formats(two, {}, [], p1=0.6, title="Ann against Bo", names=("Ann", "Bo"))
     assert axes.figure.get_suptitle() == "Ann against Bo"
     assert (axes.get_xlabel(), axes.get_ylabel()) == (
-        "p = P(Ann wins a game)",
-        "P(Ann wins the match)",
+        "chance that Ann wins a game",
+        "chance that Ann wins the match",
     )
     (line,) = (line for line in axes.lines if line.get_label() == "Ann against Bo")
     assert list(line.get_xdata()) == [0.6, 0.6]
@@ -101,6 +101,6 @@ def test_the_picture_names_match_and_players(odds):
     figure = course_figure(odds, title="Ann against Bo\nRace 4:3", names=("Ann", "Bo"))
     assert figure.get_suptitle() == "Ann against Bo\nRace 4:3"
     above, _ = figure.axes
-    assert above.get_ylabel() == "P(Ann wins the match)"
+    assert above.get_ylabel() == "chance that Ann wins the match"
     assert [text.get_text().split()[0] for text in above.get_legend().get_texts()] == ["Ann", "Bo"]
     assert course_figure(odds).get_suptitle() == ""

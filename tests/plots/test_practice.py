@@ -30,7 +30,7 @@ DAYS = np.array(["2024-09-03", "2024-09-10", "2024-09-17", "2024-09-24"], "M8[D]
 def test_scores_mean_band_and_the_new_one_after_them(days):
     interval = mean_interval(SCORES, 0.8)
     axes = draw_scores(ScoresFile(SCORES, days, "s.csv", ()), interval, new=53)
-    assert axes.get_title() == "Practice scores of s.csv"
+    assert axes.get_title() == "Practice scores: s.csv"
     points, mean, new = axes.lines
     assert points.get_ydata().tolist() == SCORES.tolist()
     assert set(mean.get_ydata()) == {48.0}
@@ -39,7 +39,7 @@ def test_scores_mean_band_and_the_new_one_after_them(days):
     (band,) = axes.patches
     assert (band.get_y(), band.get_y() + band.get_height()) == pytest.approx(interval[:2])
     assert [text.get_text() for text in axes.figure.legends[0].get_texts()] == [
-        "80% interval of the true mean",
+        "80% interval for the true mean",
         "scores",
         "mean 48.00",
         "new score 53",
@@ -74,12 +74,12 @@ def test_equal_scores_stand_beside_one_another():
     across = strip.get_xdata()
     assert len(set(np.round(across, 6))) == 100
     assert 0.69 < min(across) < max(across) < 1.31
-    assert axes.get_title() == "Practice scores, and their mean with its 95% interval"
+    assert axes.get_title() == "Practice scores, with their means and 95% intervals"
 
 
 def test_lists_without_intervals():
     axes = draw_two_lists(SCORES[:1], SCORES[1:2], ("old", "new"), (None, None))
-    assert axes.get_title() == "Practice scores, and their mean"
+    assert axes.get_title() == "Practice scores, with their means"
     assert [text.get_text() for text in axes.texts] == ["50.00", "44.00"]
 
 
@@ -109,9 +109,9 @@ def test_what_was_asked_is_shaded_and_named():
     axes = draw_score(law, asked=asked)
     _, *shades = axes.collections
     assert [shade.get_label() for shade in shades] == [
-        f"20 to 20 ({law.probability(20):.4f})",
-        f"over 30 ({law.at_least(31):.4f})",
-        "far (0.0000)",
+        f"20 to 20: {100 * law.probability(20):.1f}%",
+        f"over 30: {100 * law.at_least(31):.1f}%",
+        "far: 0.0%",
     ]
     assert len({shade.get_hatch() for shade in shades}) == 3
     one, above, far = (shade.get_paths() for shade in shades)
@@ -123,7 +123,7 @@ def test_what_was_asked_is_shaded_and_named():
 def test_no_line_where_no_spot_is_even():
     axes = draw_spot(StraightPool(9, 9, 0, 0.8))
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert labels == ["9 against 9"]
+    assert labels == ["9 points to 9"]
 
 
 @pytest.mark.parametrize(("p1", "p2"), [(0.9, 0.8), (0.8, 0.9)])

@@ -20,13 +20,12 @@ from evenbreak.sheets.bracket_page import (
     bracket_svg,
 )
 from evenbreak.sheets.bracket_paper import (
-    SMALLEST,
     Sheet,
     bracket_figure,
     bracket_pages,
     bracket_pdf,
 )
-from evenbreak.sheets.pdf_page import PAPERS
+from evenbreak.sheets.pdf_page import PAPERS, SMALLEST
 from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.tournaments.evening.fold import evening
@@ -180,10 +179,22 @@ def written_in(pdf):
     return pieces
 
 
+@pytest.mark.parametrize("paper", PAPERS)
+@pytest.mark.parametrize("count", [5, 7, 8])
+def test_a_page_is_filled_by_few_players_and_19_have_one(paper, count):
+    short = [f"{first} {last}" for first in FIRST[3:] for last in ("Lee", "Oduya", "Vandermeer")]
+    panels = bracket_panels(night("double", [*short, *(f"No {k}" for k in range(7))], 0))
+    assert len(bracket_pages(panels, SHEET, paper)) == 1
+    (page,) = bracket_pages(bracket_panels(night("double", short[:count], 0)), SHEET, paper)
+    frames, high = frames_of(page), PAPERS[paper].high
+    assert min(y for _, y, *_ in frames) < 0.25 * high
+    assert max(x + w for x, _, w, _ in frames) > 0.9 * PAPERS[paper].wide
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("paper", ["a4", "letter"])
-@pytest.mark.parametrize(("count", "most"), [(19, 1), (64, 6)])
-def test_the_pdf_holds_every_name_in_full_at_six_points_and_more(paper, count, most):
+@pytest.mark.parametrize(("count", "most"), [(19, 2), (64, 6)])
+def test_the_pdf_holds_every_name_in_full_at_eight_points_and_more(paper, count, most):
     players = long_names(count)
     panels = bracket_panels(night("double", players, count))
     pdf = bracket_pdf(panels, SHEET._replace(title="Night"), paper=paper)

@@ -1,4 +1,5 @@
 import re
+import zlib
 
 import matplotlib as mpl
 import pytest
@@ -9,6 +10,7 @@ from evenbreak.answers.tournament.printed import Card
 from evenbreak.sheets.paper_pages import FirstMatch, draw_list_pdf, score_cards_pdf
 from evenbreak.sheets.pdf_page import (
     PAPERS,
+    SMALLEST,
     Paper,
     drawable,
     pdf_bytes,
@@ -16,6 +18,8 @@ from evenbreak.sheets.pdf_page import (
     usual_paper,
     width_of,
 )
+from evenbreak.sheets.pdf_sheet import sheet_pdf
+from leagues import league, sheet_of
 from rows import each_of
 from tiers import examples
 
@@ -113,3 +117,29 @@ def test_cards_and_lists_are_on_the_paper_asked_for(paper):
     assert f"/MediaBox [ 0 0 {wide} {high} ]".encode() in cards
     listed = draw_list_pdf([first], "Tuesday", paper=paper)
     assert f"/MediaBox [ 0 0 {high} {wide} ]".encode() in listed
+
+
+def sizes_in(pdf):
+    """Return the sizes of the letters in a PDF."""
+    streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", pdf, re.DOTALL)
+    texts = [zlib.decompress(one) for one in streams if one[:1] == b"x"]
+    return {float(size) for one in texts for size in re.findall(rb"/F\S+ (\S+) Tf", one)}
+
+
+@pytest.mark.slow
+@each_of("paper", PAPERS)
+def test_no_letter_on_paper_is_too_small_to_read(paper):
+    names = ("Maximiliane Vandersloot-Hale", "Renée Dubois-Lachapelle")
+    card = Card(23, "losers’ side, round 12", names, (9, 7), "TV", "Winner to match 33")
+    codes = dict.fromkeys(names, "K7QX")
+    first = [FirstMatch(name, 1, 23, names[0], "TV") for name in names]
+    sheets = [sheet_of(league(many, f"{names[0]} {{}}"), prior_sd=1.0) for many in (3, 28)]
+    written = [
+        *(
+            score_cards_pdf([card], names[0], per_page=many, paper=paper, codes=codes, address="a")
+            for many in (1, 4)
+        ),
+        draw_list_pdf(first, "Tuesday", "Races to 5", paper=paper),
+        *(sheet_pdf(sheet, paper) for sheet in sheets),
+    ]
+    assert min(min(sizes_in(pdf)) for pdf in written) >= SMALLEST

@@ -69,7 +69,7 @@ def _ladder(asked: Any, answer: Answer) -> Axes | Figure:
         natural=findings.natural,
         within=findings.question.within,
         curve=findings.settling,
-        title=ladder_title(findings.ladder),
+        title=f"Ratings on {ladder_title(findings.ladder)}",
     )
 
 

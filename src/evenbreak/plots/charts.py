@@ -39,8 +39,8 @@ def draw_chart(
     points = report.scale.points_per_doubling
     axes = new_axes(
         f"rating difference ({points:.4g} points double the odds)",
-        "chance of the stronger player",
-        size=(7.6, 4.4),
+        "stronger player's chance of winning",
+        size=(6.4, 4.2),
         ax=ax,
     )
     axes.axhline(0.5, color="0.5", lw=0.8)
@@ -50,11 +50,15 @@ def draw_chart(
     axes.set_xlim(left=0.0)
     axes.margins(x=0.0, y=0.08)
     upright = _name_races(axes, report)
-    title = report.name if beside is None else f"{report.name} (races above) and {beside.name}"
+    title = (
+        report.name
+        if beside is None
+        else f"{report.name} (races above) compared with {beside.name}"
+    )
     axes.set_title(title, pad=36 if upright else 18, parse_math=False)
     if beside is not None:
         handles, names = axes.get_legend_handles_labels()
-        axes.legend(handles[::-1], names[::-1], loc="lower right")
+        axes.legend(handles[::-1], names[::-1], loc="best")
     return axes
 
 

@@ -27,6 +27,8 @@ _INSIDE = 1e-6
 """The distance of the grid from the edges: at a corner a limit may depend on the direction."""
 _CLEAR = 0.06
 """The distance of a label from the edge and from other lines; half of it is still enough."""
+_OFF_A_MARK = 0.11
+"""The distance of a label from a point that is marked."""
 _NOISE = 12
 """Digits kept, so that a line along which two formulas agree is straight."""
 
@@ -39,6 +41,7 @@ def contour_axes(
     y: str,
     levels: Sequence[float] = TENTHS,
     main: float = 0.5,
+    marked: Sequence[tuple[float, float]] = (),
 ) -> QuadContourSet:
     """Draw the contour lines of a function of two probabilities, each labeled with its level.
 
@@ -58,6 +61,8 @@ def contour_axes(
         the levels of the lines, increasing.
     main
         the level of the thick line, usually the even chance.
+    marked
+        points that labels keep away from.
 
     Returns
     -------
@@ -88,14 +93,16 @@ def contour_axes(
     )
     ticks = np.linspace(0.0, 1.0, 6)
     axes.set(xlim=(0, 1), ylim=(0, 1), xticks=ticks, yticks=ticks, aspect="equal")
-    axes.clabel(lines, fmt=_level, fontsize=9, manual=_label_places(lines))
+    axes.clabel(lines, fmt=_level, fontsize=9, manual=_label_places(lines, marked))
     axes.set(xlabel=x, ylabel=y)
     axes.tick_params(direction="in", top=True, right=True)
     return lines
 
 
-def _label_places(lines: QuadContourSet) -> list[tuple[float, float]]:
-    """Return a point on every line: off the edge, clear of other lines, near the center."""
+def _label_places(
+    lines: QuadContourSet, marked: Sequence[tuple[float, float]]
+) -> list[tuple[float, float]]:
+    """Return a point on every line: off the edge and the marks, clear of others, near the center."""
     pieces = [piece for level in lines.allsegs for piece in level if len(piece) > 1]
     places = []
     for here, piece in enumerate(pieces):
@@ -103,6 +110,8 @@ def _label_places(lines: QuadContourSet) -> list[tuple[float, float]]:
         if from_edge.max() < _CLEAR / 2:
             continue
         inner = piece[from_edge >= min(_CLEAR, from_edge.max())]
+        clear = _distance(inner, [np.array([point]) for point in marked]) >= _OFF_A_MARK
+        inner = inner[clear] if clear.any() else inner
         others = [outline for there, outline in enumerate(pieces) if there != here]
         tightness = -np.minimum(_distance(inner, others), _CLEAR)
         off_center = np.hypot(*(inner - 0.5).T)
@@ -126,12 +135,14 @@ def _level(level: Any) -> str:
     return f"{level:.4g}".replace("-", "\N{MINUS SIGN}")
 
 
-_X = "$p_1$ = P(A wins | A breaks)"
-_Y = "$p_2$ = P(B wins | B breaks)"
+_X = "A's chance when A breaks ($p_1$)"
+_Y = "B's chance when B breaks ($p_2$)"
 _DIFFERENCES = (-0.3, -0.2, -0.1, -0.05, 0, 0.05, 0.1, 0.2, 0.3)
 
 
-def share_panels(*, x: str, y: str, first_breaker: int = 1) -> tuple[Picture, list[Axes]]:
+def share_panels(
+    *, x: str, y: str, first_breaker: int = 1, marked: Sequence[tuple[float, float]] = ()
+) -> tuple[Picture, list[Axes]]:
     """Draw player 1's long-run share of racks over (p1, p2) in four panels without titles.
 
     The panels are winner, loser and alternate breaks, and winner minus loser breaks.
@@ -142,6 +153,8 @@ def share_panels(*, x: str, y: str, first_breaker: int = 1) -> tuple[Picture, li
         what p1 and p2 are the probabilities of.
     first_breaker
         who breaks the first rack, as in `evenbreak.practice.long_run_share`.
+    marked
+        points that labels keep away from.
 
     Raises
     ------
@@ -156,13 +169,14 @@ def share_panels(*, x: str, y: str, first_breaker: int = 1) -> tuple[Picture, li
     >>> len(panels)
     4
     """
-    figure = Picture(figsize=(8.8, 9.2), layout="constrained")
+    figure = Picture(figsize=(6.8, 7.6), layout="constrained")
+    figure.get_layout_engine().set(h_pad=0.12, w_pad=0.1)  # type: ignore[union-attr]
     panels = list(np.ravel(figure.subplots(2, 2)))
     for axes, share in zip(panels, _shares(first_breaker), strict=True):
         if axes is panels[3]:
-            contour_axes(axes, share, x=x, y=y, levels=_DIFFERENCES, main=0.0)
+            contour_axes(axes, share, x=x, y=y, levels=_DIFFERENCES, main=0.0, marked=marked)
         else:
-            contour_axes(axes, share, x=x, y=y)
+            contour_axes(axes, share, x=x, y=y, marked=marked)
     return figure, panels
 
 
@@ -199,31 +213,31 @@ def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Picture:
     Source: Fig. 5.6.
 
     >>> [axes.get_title() for axes in breaks_figure(Rack(0.9, 0.5)).axes][:2]
-    ['winner breaks: A wins 0.833', 'loser breaks: A wins 0.643']
+    ['Winner breaks: A wins 83.3%', 'Loser breaks: A wins 64.3%']
     """
     rack.of_numbers()
     p1, p2 = rack.p1, rack.chance(2, breaker=2)
-    figure, panels = share_panels(x=_X, y=_Y, first_breaker=first_breaker)
+    figure, panels = share_panels(x=_X, y=_Y, first_breaker=first_breaker, marked=[(p1, p2)])
     *shares, difference = (share(p1, p2) for share in _shares(first_breaker))
-    text = f"{difference:+.3f}".replace("-", "\N{MINUS SIGN}")
+    text = f"{100 * difference:+.1f}".replace("-", "\N{MINUS SIGN}")
     titles = [
-        f"{name} breaks: A wins {share:.3f}"
+        f"{name.capitalize()} breaks: A wins {100 * share:.1f}%"
         for name, share in zip(("winner", "loser", "alternate"), shares, strict=True)
     ]
-    for axes, title in zip(panels, [*titles, f"winner minus loser breaks: {text}"], strict=True):
-        axes.set_title(title)
+    for axes, title in zip(panels, [*titles, f"Winner minus loser breaks: {text}%"], strict=True):
+        axes.set_title(title, fontsize=10)
         mark_points(axes, [(p1, p2, "")])
     write_title(
         figure,
-        "A's share of the racks in the long run, by break format\n"
-        f"The dot: A wins {p1:g} of the racks A breaks, B wins {p2:g} of the racks B breaks",
+        "A's long-run share of the racks, by break format\n"
+        f"Dot: A wins {100 * p1:.4g}% of the racks A breaks, B {100 * p2:.4g}% of those B breaks",
     )
     return figure
 
 
 _TITLES = {
-    "infinite": "P(you win), the two shots repeated",
-    "two shots": "P(you win), even after two misses",
+    "infinite": "Your chance of winning, shot after shot",
+    "two shots": "Your chance of winning, even after two misses",
 }
 
 
@@ -255,15 +269,16 @@ def draw_shots(
 
     >>> axes = draw_shots([ShotChoice("bank", 0.4, 0.8)])
     >>> axes.get_title()
-    'P(you win), the two shots repeated'
+    'Your chance of winning, shot after shot'
     """
     one_of(look_ahead, "look_ahead", LOOK_AHEADS)
-    axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.6, 5.6), ax=ax)
+    axes = new_axes("", "", title=_TITLES[look_ahead], size=(5.0, 5.2), ax=ax)
     contour_axes(
         axes,
         partial(one_ball_win, look_ahead=look_ahead),
-        x="$p_1$ = P(you make the shot)",
-        y="$p_2$ = P(the opponent makes what a miss leaves)",
+        marked=[(shot.p1, shot.p2) for shot in shots],
+        x="chance that you make the shot ($p_1$)",
+        y="chance they make what a miss leaves ($p_2$)",
     )
     mark_points(axes, [(shot.p1, shot.p2, shot.name) for shot in shots])
     return axes

@@ -15,10 +15,12 @@ from evenbreak.stats.summary import Distribution
 _SHOWN = 1e-3
 """Errors rarer than this share of the most frequent one are beyond the edge of the picture."""
 
-_LETTER = 8.0
+_SIDE = {True: "high", False: "low"}
+
+_LETTER = 8.5
 """Font size of a system's name."""
 
-_PANEL = (450.0, 300.0)
+_PANEL = (400.0, 300.0)
 """The approximate width and height of the axes of the systems, in points."""
 
 _Box = tuple[float, float, float, float]
@@ -56,7 +58,7 @@ def ladder_figure(
     curve: Settling | None = None,
     title: str | None = None,
 ) -> Picture:
-    """Draw the distribution of the rating error, and beside it how fast newcomers settle.
+    """Draw the distribution of the rating error, and below it how fast newcomers settle.
 
     The normal distribution with the same mean and standard deviation is drawn for comparison.
 
@@ -76,11 +78,11 @@ def ladder_figure(
     >>> from evenbreak.stats import Distribution
     >>> figure = ladder_figure(Distribution((-1, 0, 1), (0.25, 0.5, 0.25)))
     >>> figure.axes[0].get_xlabel()
-    'rating error: rating less skill (points)'
+    'rating minus true skill (points)'
     """
-    width = 6.4 if curve is None else 10.6
-    figure = Picture(figsize=(width, 4.4), layout="constrained")
-    panels = figure.subplots(1, 1 if curve is None else 2, squeeze=False)[0]
+    figure = Picture(figsize=(5.4, 4.4 if curve is None else 7.8), layout="constrained")
+    figure.get_layout_engine().set(h_pad=0.1)  # type: ignore[union-attr]
+    panels = figure.subplots(1 if curve is None else 2, 1, squeeze=False)[:, 0]
     _draw_law(panels[0], law, natural, within)
     if curve is not None:
         _draw_settling(panels[1], curve)
@@ -106,7 +108,9 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
         label=f"within {within} point{'s' * (within != 1)}: {100 * inside:.0f}%",
     )
     style = LINES[0]
-    axes.plot(errors, chance, "o", ms=3.5, color=style.color, label=f"this ladder, sd {law.sd:.2f}")
+    axes.plot(
+        errors, chance, "o", ms=3.5, color=style.color, label=f"this ladder (sd {law.sd:.2f})"
+    )
     axes.vlines(errors, 0.0, chance, color=style.color, linewidth=0.8)
     if natural is not None:
         style = LINES[2]
@@ -116,7 +120,7 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
             values[p > 0.0],
             p[p > 0.0],
             **style._asdict(),
-            label=f"correctly rated opponents, sd {natural.sd:.2f}",
+            label=f"against correctly rated opponents (sd {natural.sd:.2f})",
         )
     shown = errors[chance > _SHOWN * chance.max()]
     edge = max(abs(shown[0]), abs(shown[-1]), within) + 1.5
@@ -129,13 +133,13 @@ def _draw_law(axes: Axes, law: Distribution, natural: Distribution | None, withi
             spacing * bell,
             **style._asdict(),
             linewidth=1.2,
-            label="normal distribution, same sd",
+            label="normal distribution with the same sd",
         )
-    axes.set(xlabel="rating error: rating less skill (points)", ylabel="probability")
+    axes.set(xlabel="rating minus true skill (points)", ylabel="probability")
     axes.set_xlim(-edge, edge)
     axes.set_ylim(bottom=0.0)
     axes.tick_params(direction="in", top=True, right=True)
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.5)
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.16), frameon=False, fontsize=9)
 
 
 def _draw_settling(axes: Axes, curve: Settling) -> None:
@@ -161,7 +165,7 @@ def _draw_settling(axes: Axes, curve: Settling) -> None:
     unit_axis(axes, "y")
     axes.set_xlim(0, max(last - 1, 1))
     axes.set(
-        xlabel=f"matches played since the error was {curve.start:+d} points",
+        xlabel=f"matches since the rating was {abs(curve.start)} points too {_SIDE[curve.start > 0]}",
         ylabel=f"share of players within {curve.within} points",
     )
 
@@ -188,10 +192,10 @@ def draw_systems(points: Iterable[SystemPoint], *, chart: str = "", ax: Axes | N
     """
     on_chart = f" on {chart}" if chart else ""
     axes = new_axes(
-        "matches until a rating has settled (mean)",
-        "sd of the rating error (% of the points that double the odds)",
+        "matches until a newcomer's rating settles (mean)",
+        "typical rating error (% of a doubling of the odds)",
         title=f"Systems and step sizes{on_chart}",
-        size=(7.2, 5.0),
+        size=(6.4, 5.0),
         ax=ax,
     )
     listed = sorted(points, key=lambda point: point.matches)
@@ -199,8 +203,14 @@ def draw_systems(points: Iterable[SystemPoint], *, chart: str = "", ax: Axes | N
     front = [point for point in listed if point.unbeaten]
     axes.plot(*_places(front), color="0.6", linewidth=0.8, zorder=1)
     kinds = (
-        (True, "o", black, black, f"steps{on_chart}: no other is more accurate and faster"),
-        (False, "o", "white", black, "steps that another step beats"),
+        (
+            True,
+            "o",
+            black,
+            black,
+            f"best step sizes{on_chart}: none is both more accurate and faster",
+        ),
+        (False, "o", "white", black, "step sizes that another one beats"),
         (None, "D", orange, orange, "other charts and systems"),
     )
     for unbeaten, mark, inside, edge, label in kinds:

@@ -38,8 +38,9 @@ def draw_errors(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     """
     axes = new_axes(
         "week",
-        "rating less true skill (points)",
+        "rating minus true skill (points)",
         title="How far off ratings are",
+        counts="x",
         ax=ax,
     )
     week = weeks["week"].to_numpy()
@@ -57,7 +58,6 @@ def draw_errors(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     axes.plot(week, mean, **LINES[0]._asdict(), label="mean")
     axes.plot(week, sd, **LINES[1]._asdict(), label="standard deviation")
     axes.set_xlim(float(week[0]), float(week[-1]))
-    axes.locator_params(axis="x", integer=True)
     axes.legend(loc="upper right", frameon=False, ncols=2)
     bottom, top = axes.get_ylim()
     axes.set_ylim(bottom, top + 0.25 * (top - bottom))  # room for the legend
@@ -79,7 +79,7 @@ def draw_gaps(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     """
     rows = fairness[fairness["group"] == "gap"]
     axes = new_axes(
-        "gap between the true skills of the day (points)",
+        "difference in true skill that night (points)",
         "share of matches won by the stronger player",
         title="How fair matches are",
         ax=ax,
@@ -124,8 +124,8 @@ def draw_standings(standings: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     if many > MOST_PLAYERS:
         rows = rows.iloc[[*range(half), *range(many - half, many)]]
         title += f": the first and the last {half} of {many:,}"
-    size = (6.4, 1.4 + 0.22 * len(rows))
-    axes = new_axes("matches won in a season", "", title=title, size=size, ax=ax)
+    size = (5.8, 1.4 + 0.22 * len(rows))
+    axes = new_axes("matches won in a season", "", title=title, size=size, counts="x", ax=ax)
     place = np.arange(len(rows))[::-1]
     mean, sd = rows["points_mean"].to_numpy(), rows["points_sd"].to_numpy()
     low = rows["points_p10"].to_numpy(float, na_value=np.nan)
@@ -160,9 +160,10 @@ def draw_even(deciles: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     'share of their matches that are even'
     """
     axes = new_axes(
-        "players by true skill, the weakest first",
+        "players by true skill (1: the weakest tenth)",
         "share of their matches that are even",
         title="How even matches are, by skill",
+        counts="x",
         ax=ax,
     )
     _lines(axes, deciles, "part", "p_even")
@@ -183,8 +184,9 @@ def draw_errors_compared(nights: pd.DataFrame, *, ax: Axes | None = None) -> Axe
     """
     axes = new_axes(
         "night",
-        "ratings off by (doublings of the odds)",
+        "typical rating error (doublings of odds)",
         title="How far off ratings are",
+        counts="x",
         ax=ax,
     )
     _lines(axes, nights, "night", "error", markers=False)
@@ -204,7 +206,6 @@ def _lines(axes: Axes, frame: pd.DataFrame, x: str, y: str, *, markers: bool = T
                           label=str(name))  # fmt: skip
         else:
             axes.plot(*values, **line, label=str(name))
-    axes.locator_params(axis="x", integer=True)
     axes.set_ylim(bottom=0.0)
 
 
@@ -214,7 +215,7 @@ MOST_NAMED = 6
 
 @in_our_look
 def draw_pay(pays: Sandbagging, *, ax: Axes | None = None) -> Axes:
-    """Draw the chance to win each match in earnest, for several numbers of dumped matches.
+    """Draw the chance of winning each match that counts, for several numbers of dumped matches.
 
     Parameters
     ----------
@@ -230,9 +231,10 @@ def draw_pay(pays: Sandbagging, *, ax: Axes | None = None) -> Axes:
     ['honest', '2 dumped', '4 dumped', '6 dumped', '8 dumped']
     """
     axes = new_axes(
-        "match in earnest",
-        "chance to win it",
-        title="What dumped matches bring",
+        "match that counts",
+        "chance of winning it",
+        title="What dumping matches gains",
+        counts="x",
         ax=ax,
     )
     most, many = len(pays.rows) - 1, pays.p_win.shape[1]
@@ -242,7 +244,6 @@ def draw_pay(pays: Sandbagging, *, ax: Axes | None = None) -> Axes:
         label = f"{dumped} dumped" if dumped else "honest"
         axes.plot(matches, pays.p_win[dumped], **line._asdict(), label=label)
     axes.set_xlim(1, max(many, 2))
-    axes.locator_params(axis="x", integer=True)
     # Room above the lines for their names.
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.25 * (high - low))
@@ -271,10 +272,11 @@ def draw_watch(watched: Sequence[Watched], *, alpha: float, ax: Axes | None = No
     ['alarm', 'Ann']
     """
     axes = new_axes(
-        "match of the player",
+        "match number of the player",
         "evidence",
-        title="Evidence for sandbagging",
-        size=(7.4, 4.2),
+        title="Evidence of sandbagging",
+        size=(6.4, 4.2),
+        counts="x",
         ax=ax,
     )
     named = sorted(watched, key=lambda watch: -float(watch.log_e.max()))[:MOST_NAMED]
@@ -286,7 +288,6 @@ def draw_watch(watched: Sequence[Watched], *, alpha: float, ax: Axes | None = No
         axes.plot(*_curve(watch), **line._asdict(), label=watch.player)
     axes.set_yscale("log")
     axes.set_xlim(left=0)
-    axes.locator_params(axis="x", integer=True)
     legend = axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize=9)
     for text in legend.get_texts():
         text.set_parse_math(False)
@@ -296,6 +297,10 @@ def draw_watch(watched: Sequence[Watched], *, alpha: float, ax: Axes | None = No
 def _curve(watched: Watched) -> tuple[range, list[float]]:
     values = [1.0, *(math.exp(min(max(value, -300.0), 300.0)) for value in watched.log_e)]
     return range(len(values)), values
+
+
+_ENOUGH = 20
+"""Fewer games or matches than this say next to nothing about a chance, and are not drawn."""
 
 
 @in_our_look
@@ -312,23 +317,34 @@ def draw_calibration(validation: Validation, *, ax: Axes | None = None) -> Axes:
     ...     date=["2024-09-03", "2024-09-10", "2024-09-17"])
     >>> axes = draw_calibration(validate(season, prior_sd=0.5))
     >>> axes.get_xlabel()
-    'chance given to the favorite'
+    'predicted chance of the favorite'
     """
     axes = new_axes(
-        "chance given to the favorite",
+        "predicted chance of the favorite",
         "share that the favorite won",
-        title="Chances given, and how often favorites won",
-        size=(6.0, 5.4),
+        title="How often favorites won, and were expected to",
+        size=(5.4, 4.8),
         ax=ax,
     )
-    axes.plot([0.5, 1.0], [0.5, 1.0], color="0.6", linewidth=1.0, zorder=0, label="right")
+    axes.plot(
+        [0.5, 1.0], [0.5, 1.0], color="0.6", linewidth=1.0, zorder=0, label="perfect prediction"
+    )
     groups: tuple[tuple[str, Sequence[CalibrationBin], str, float, str], ...] = (
         ("games", validation.games, "o", -0.006, LINES[0].color),
         ("matches", validation.matches, "s", 0.0, LINES[1].color),
-        ("matches, ratings at face value", validation.matches_plug_in, "^", 0.006, LINES[2].color),
+        (
+            "matches, ratings treated as exact",
+            validation.matches_plug_in,
+            "^",
+            0.006,
+            LINES[2].color,
+        ),
     )
-    lowest = 0.5
+    lowest, few = 0.5, 0
     for name, bins, marker, shift, color in groups:
+        enough = [row for row in bins if row.games >= _ENOUGH]
+        few += len(bins) - len(enough) if enough else 0
+        bins = enough or bins
         if not bins:
             continue
         axes.errorbar(
@@ -348,4 +364,11 @@ def draw_calibration(validation: Validation, *, ax: Axes | None = None) -> Axes:
     axes.set_xlim(0.49, 1.01)
     axes.set_ylim(max(0.0, lowest - 0.02), 1.01)
     axes.legend(loc="upper left", frameon=False)
+    if few:
+        text = (
+            f"Without {few} groups of fewer than {_ENOUGH}"
+            if few > 1
+            else f"Without a group of fewer than {_ENOUGH}"
+        )
+        axes.text(0.98, 0.02, text, transform=axes.transAxes, ha="right", fontsize=9, color="0.35")
     return axes

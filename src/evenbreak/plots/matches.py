@@ -60,13 +60,13 @@ def draw_formats(
     >>> two = [match_format("2:1"), match_format("4:2")]
     >>> axes = draw_formats(two, {}, [crossings(*two)], p1=0.6)
     >>> [text.get_text() for text in axes.get_legend().get_texts()]
-    ['2:1', '4:2', 'worth the same', 'A against B']
+    ['2:1', '4:2', 'equal formats', 'A against B']
     """
     fixed = {name: line.get(name) for name in ("p2", "break_odds")}
     matters = any(value is not None for value in fixed.values())
     a, b = names
-    x = f"p1 = P({a} wins a game | {a} breaks)" if matters else f"p = P({a} wins a game)"
-    axes = new_axes(x, f"P({a} wins the match)", size=(6.4, 5.6), ax=ax)
+    x = f"chance that {a} wins a game {a} breaks" if matters else f"chance that {a} wins a game"
+    axes = new_axes(x, f"chance that {a} wins the match", size=(5.4, 4.8), ax=ax)
     chances = np.linspace(0.0, 1.0, _POINTS)[1:-1]
     rack: Rack = rack_along(chances, **fixed)
     axes.axhline(0.5, color="0.7", linewidth=0.8)
@@ -91,7 +91,7 @@ def draw_formats(
             ms=6,
             zorder=4,
             clip_on=False,
-            label="worth the same",
+            label="equal formats",
         )
     axes.axvline(p1, color="0.5", linewidth=1.0, zorder=0, label=f"{a} against {b}")
     unit_axis(axes, "x", "y")
@@ -135,9 +135,9 @@ def course_figure(
     >>> from evenbreak.matches import live_odds
     >>> figure = course_figure(live_odds(Race(3, 2, Rack(0.6)), [1, 2, 1]))
     >>> [label.get_text() for label in figure.axes[1].get_xticklabels()]
-    ['0:0', '1:0', '1:1', '2:1']
+    ['0-0', '1-0', '1-1', '2-1']
     """
-    figure = Picture(figsize=(7.2, 5.4), layout="constrained")
+    figure = Picture(figsize=(6.0, 4.8), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     wins = [moment.p_win_1 for moment in odds.course]
     racks = range(len(wins))
@@ -157,7 +157,7 @@ def course_figure(
     place, va = _clear_of(wins, most + 0.5)
     label = above.text(most + 0.5, place, change, fontsize=9, ha="center", va=va)
     label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.0})  # over the line of 1/2
-    above.set(ylim=(-0.03, 1.03), ylabel=f"P({names[0]} wins the match)")
+    above.set(ylim=(-0.03, 1.03), ylabel=f"chance that {names[0]} wins the match")
     above.legend(frameon=False, loc="best")
     take_names_as_they_are(above)
     leverages = [moment.leverage or 0.0 for moment in odds.course[:-1]]
@@ -167,7 +167,7 @@ def course_figure(
     shown = list(racks)[::step]
     below.set_xticks(shown, [_score(odds.course[i].scores) for i in shown])
     if any(len(moment.scores) > 1 for moment in odds.course):
-        below.set_xlabel("score, and below it the score of the set")
+        below.set_xlabel("score, and the score of the set below it")
     for axes in (above, below):
         axes.tick_params(direction="in", top=True, right=True)
     if title:

@@ -17,12 +17,20 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from matplotlib.ticker import MaxNLocator
 
 from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 
 Asked = ParamSpec("Asked")
 Drawn = TypeVar("Drawn")
+
+
+_LOOK = {
+    "axes.titlesize": 11,
+    "xtick.major.pad": 6,  # the zeros of two axes are apart
+    "ytick.major.pad": 5,
+}
 
 
 @contextmanager
@@ -36,6 +44,7 @@ def our_look() -> Iterator[None]:
     """
     with mpl.rc_context():
         mpl.rcdefaults()
+        mpl.rcParams.update(_LOOK)
         yield
 
 
@@ -155,7 +164,8 @@ def new_axes(
     y: str,
     *,
     title: str | None = None,
-    size: tuple[float, float] = (6.0, 4.2),
+    size: tuple[float, float] = (5.4, 3.8),
+    counts: str = "",
     ax: Axes | None = None,
 ) -> Axes:
     """Return labeled axes.
@@ -168,6 +178,8 @@ def new_axes(
         text above the axes.
     size
         width and height of a new figure in inches.
+    counts
+        "x", "y" or "xy": what counts something, and has ticks at whole numbers only.
     ax
         the axes to use; None: those of a new figure.
 
@@ -178,6 +190,9 @@ def new_axes(
     axes = ax or new_plot(size)
     axes.set(xlabel=x, ylabel=y)
     axes.tick_params(direction="in", top=True, right=True)
+    for name in counts:
+        axis = {"x": axes.xaxis, "y": axes.yaxis}[name]
+        axis.set_major_locator(MaxNLocator("auto", steps=[1, 2, 5, 10], integer=True))
     if title:
         axes.set_title(title)
     return axes

@@ -63,13 +63,13 @@ def draw_scores(
     axes = new_axes(
         "number of the score" if file.dates is None else "date",
         "score",
-        title=f"Practice scores of {Path(file.source).name}",
+        title=f"Practice scores: {Path(file.source).name}",
+        counts="" if file.dates is not None else "x",
         ax=ax,
     )
     if file.dates is None:
         when: NDArray[np.float64] | NDArray[np.datetime64] = np.arange(1.0, len(file.scores) + 1)
         later: float | np.datetime64 = len(file.scores) + 1.0
-        axes.locator_params(axis="x", integer=True)
     else:
         when = file.dates
         # After the last score by the usual distance between scores, or a day.
@@ -79,7 +79,7 @@ def draw_scores(
             figure_of(axes).autofmt_xdate()
     mean = float(file.scores.mean())
     if interval is not None:
-        share = f"{100 * interval.confidence:g}% interval of the true mean"
+        share = f"{100 * interval.confidence:g}% interval for the true mean"
         axes.axhspan(interval.low, interval.high, color=BAND, linewidth=0, label=share, zorder=0)
     axes.plot(when, file.scores, "o", color=LINES[0].color, label="scores")
     axes.axhline(mean, **LINES[1]._asdict(), label=f"mean {mean:.2f}", zorder=1)
@@ -109,7 +109,7 @@ def draw_practice_shots(
     ax
         the axes to draw on; None: those of a new figure.
     """
-    log, title = file.log, f"Practice shots of {Path(file.source).name}"
+    log, title = file.log, f"Practice shots: {Path(file.source).name}"
     axes = new_axes("shot" if log.day is None else "date", "share made", title=title, ax=ax)
     share = f"{100 * confidence:g}% interval"
     if log.day is None:
@@ -125,8 +125,8 @@ def draw_practice_shots(
         days, place = np.unique(log.day, return_inverse=True)
         made, tried = (np.bincount(place, each) for each in (log.made, log.tried))
         lows, highs = share_intervals(made, tried, confidence)
-        axes.vlines(days, lows, highs, color="0.7", label=f"{share} of a day")
-        axes.plot(days, made / tried, "o", color=LINES[0].color, label="made on a day")
+        axes.vlines(days, lows, highs, color="0.7", label=f"{share} for that day")
+        axes.plot(days, made / tried, "o", color=LINES[0].color, label="share made that day")
         if found.change is not None:
             last = np.array([days[days < found.since].max(), days.max()])
             ends = zip((days.min(), found.since), last, strict=True)
@@ -148,7 +148,7 @@ def _draw_trend(axes: Axes, when: NDArray[Any], line: TrendLine) -> None:
     dates, (at, low, high) = when[order], (column[order] for column in line)
     style = LINES[2]
     axes.fill_between(
-        dates, low, high, color=style.color, alpha=0.15, linewidth=0, label="interval of the trend"
+        dates, low, high, color=style.color, alpha=0.15, linewidth=0, label="interval for the trend"
     )
     axes.plot(dates, at, **style._asdict(), label="trend")
 
@@ -174,8 +174,8 @@ def draw_two_lists(
     ['before\n2 scores', 'after\n1 score']
     """
     shares = {f"{100 * interval.confidence:g}" for interval in intervals if interval is not None}
-    with_interval = f" with its {shares.pop()}% interval" if shares else ""
-    axes = new_axes("", "score", title=f"Practice scores, and their mean{with_interval}", ax=ax)
+    with_interval = f" and {shares.pop()}% intervals" if shares else ""
+    axes = new_axes("", "score", title=f"Practice scores, with their means{with_interval}", ax=ax)
     for place, (scores, interval) in enumerate(zip((before, after), intervals, strict=True)):
         _strip(axes, place, scores, interval)
     labels = [
@@ -250,7 +250,7 @@ def draw_score(
     scores = np.arange(low, high + 1)
     chances = law.probability(scores)
     played = "an inning" if innings == 1 else f"{innings} innings"
-    axes = new_axes(f"balls made in {played}", "probability", ax=ax)
+    axes = new_axes(f"balls made in {played}", "probability", counts="x", ax=ax)
     axes.fill_between(scores, chances, step="mid", color="0.85", linewidth=0)
     axes.step(scores, chances, where="mid", color="0.45", linewidth=1.0)
     for color, hatch, (name, least, most) in zip(_COLORS, _HATCHES, asked, strict=False):
@@ -264,7 +264,7 @@ def draw_score(
             edgecolor=color,
             hatch=hatch,
             linewidth=0.0,
-            label=f"{name} ({p:.4f})",
+            label=f"{name}: {100 * p:.1f}%",
         )
     for line, (name, at) in zip(LINES, law.fair_line._asdict().items(), strict=False):
         axes.axvline(at, **line._asdict(), linewidth=1.6, label=f"{name} {at:.4g}")
@@ -291,7 +291,7 @@ def draw_spot(match: StraightPool, *, ax: Axes | None = None) -> Axes:
     >>> from evenbreak.matches import StraightPool
     >>> axes = draw_spot(StraightPool(50, 50, 0.9, 0.8))
     >>> axes.get_xlabel()
-    'points that B needs'
+    'points B needs'
     """
     weaker, even, _ = even_spot(match)
     name = f"points_{weaker}"
@@ -299,11 +299,12 @@ def draw_spot(match: StraightPool, *, ax: Axes | None = None) -> Axes:
     most = max(now, min(2 * (even or now), match.points_1 + match.points_2 - now))
     points = np.unique(np.linspace(1, most, _POINTS).round().astype(int)).tolist()
     wins = [straight_pool_odds(replace(match, **{name: n})).p_win_1 for n in points]
-    shots = f"A makes a shot with {float(match.p1):.4g}, B with {float(match.p2):.4g}"
+    shots = f"A makes {100 * float(match.p1):.4g}% of shots, B {100 * float(match.p2):.4g}%"
     axes = new_axes(
-        f"points that {' AB'[weaker]} needs",
-        "P(A wins the match)",
+        f"points {' AB'[weaker]} needs",
+        "chance that A wins the match",
         title=shots,
+        counts="x",
         ax=ax,
     )
     curve, half = LINES[:2]
@@ -313,11 +314,11 @@ def draw_spot(match: StraightPool, *, ax: Axes | None = None) -> Axes:
         [straight_pool_odds(match).p_win_1],
         "o",
         color=curve.color,
-        label=f"{match.points_1} against {match.points_2}",
+        label=f"{match.points_1} points to {match.points_2}",
     )
     axes.axhline(0.5, color="0.7", linewidth=0.8)
     if even is not None:
-        name = f"nearest to even: {even}"
+        name = f"closest to even: {even}"
         axes.axvline(even, **half._asdict(), label=name)
     axes.set_ylim(-0.02, 1.02)
     axes.margins(x=0.02)
@@ -326,7 +327,7 @@ def draw_spot(match: StraightPool, *, ax: Axes | None = None) -> Axes:
 
 
 _LEVEL = "level"
-_FRACTION = "fraction of the attempts"
+_FRACTION = "share of the attempts"
 _TICKS = 20
 """Up to this many levels, each one has its own tick."""
 
@@ -348,7 +349,9 @@ def draw_drill(statistics: DrillStatistics, *, ax: Axes | None = None) -> Axes:
     9
     """
     law = statistics.distribution
-    axes = new_axes(_LEVEL, _FRACTION, title="Where the drill settles", ax=ax)
+    axes = new_axes(
+        _LEVEL, _FRACTION, counts="x", title="Where the drill settles in the long run", ax=ax
+    )
     levels = np.arange(1, len(law.values) + 1)
     axes.bar(levels, [float(p) for p in law.probability], 0.8, color="0.75", edgecolor="black")
     _mark_mean(axes, law.mean, f"mean {law.mean:.2f}", "0.75")
@@ -366,7 +369,9 @@ def draw_log(analysis: LogAnalysis, *, ax: Axes | None = None) -> Axes:
     -----
     Source: exercise 5.1.
     """
-    axes = new_axes(_LEVEL, _FRACTION, title="Your drill so far and in the long run", ax=ax)
+    axes = new_axes(
+        _LEVEL, _FRACTION, counts="x", title="Your drill so far and in the long run", ax=ax
+    )
     levels = np.array([report.level for report in analysis.levels])
     visited, implied = (
         [getattr(report, name) for report in analysis.levels] for name in ("visited", "implied")
@@ -393,7 +398,7 @@ def draw_log(analysis: LogAnalysis, *, ax: Axes | None = None) -> Axes:
         zorder=1,
         label="its 95% interval",
     )
-    _finish(axes, levels.tolist())
+    _finish(axes, levels.tolist(), room=0.46)
     return axes
 
 
@@ -408,10 +413,10 @@ def _mark_mean(axes: Axes, mean: float, label: str, color: str, *, above: float 
     return height
 
 
-def _finish(axes: Axes, levels: Sequence[int]) -> None:
+def _finish(axes: Axes, levels: Sequence[int], *, room: float = 0.24) -> None:
     if len(levels) <= _TICKS:
         axes.set_xticks(levels)
     axes.set_xlim(0.4, len(levels) + 0.6)
     # Leave room above the bars for the legend.
-    axes.set_ylim(0.0, 1.24 * axes.get_ylim()[1])
+    axes.set_ylim(0.0, (1.0 + room) * axes.get_ylim()[1])
     axes.legend(loc="upper right", frameon=False, ncols=2)

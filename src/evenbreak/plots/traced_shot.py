@@ -16,7 +16,7 @@ from evenbreak.physics.shot import Shot
 from evenbreak.physics.units import DEGREE, INCH
 from evenbreak.plots.picture import LINES, Picture, in_our_look
 
-_SIZE = (9.0, 8.0)
+_SIZE = (5.0, 6.0)
 _CUE = LINES[1].color
 _OBJECT = LINES[2].color
 _DASHES: dict[str, Any] = {"slides": "-", "rolls": (0, (4, 2))}
@@ -31,7 +31,7 @@ _ALIGNED: dict[str, dict[int, Any]] = {
     "y": {-1: "top", 0: "center", 1: "bottom"},
 }
 """How a word is aligned at a point: away from what is on its other side."""
-_WORD = 5.0
+_WORD = 7.0
 """Closer to a cushion than this, a word might run onto the rail; in inches."""
 _NEAR = 5.6
 """How much is shown on each side of the hit in the enlargement, in inches."""
@@ -59,19 +59,19 @@ def shot_on_table(traced: Shot | AimedShot) -> Picture:
     aimed = traced if isinstance(traced, AimedShot) else None
     shot = traced.shot if isinstance(traced, AimedShot) else traced
     figure = Picture(figsize=_SIZE)
-    whole = bare_axes(figure, (0.02, 0.42, 0.96, 0.57))
+    whole = bare_axes(figure, (0.01, 0.52, 0.98, 0.47))
     draw_table(whole, shot.table)
     _draw_shot(whole, shot, aimed)
     for leg in shot.legs[-2:]:
         _draw_end(whole, leg, shot.table)
-    near = bare_axes(figure, (0.03, 0.02, 0.42, 0.36))
+    near = bare_axes(figure, (0.02, 0.12, 0.44, 0.33))
     near.set_title("At the hit" if shot.reached else "As aimed", fontsize=11, pad=4)
     _draw_shot(near, shot, aimed)
     middle = (0.5 * (shot.ghost_position + shot.object_position)) / INCH
     for name, at, reach in zip("xy", middle, (1.25 * _NEAR, _NEAR), strict=True):
         near.set(**{f"{name}lim": (at - reach, at + reach)})
     near.add_patch(_frame(near))
-    _write_key(bare_axes(figure, (0.48, 0.02, 0.5, 0.36)), shot, aimed)
+    _write_key(bare_axes(figure, (0.48, 0.01, 0.51, 0.49)), shot, aimed)
     return figure
 
 
@@ -116,7 +116,7 @@ def _draw_end(axes: Axes, leg: Leg, table: PoolTable) -> None:
         out = int(place[axis] < _WORD) - int(place[axis] > size - _WORD)
         place[axis] = np.clip(place[axis], 0.5, size - 0.5)
         aligned.append(_ALIGNED["xy"[axis]][int(out or np.rint(beside[axis]))])
-    axes.text(place[0], place[1], word, color=color, ha=aligned[0], va=aligned[1], fontsize=9)
+    axes.text(place[0], place[1], word, color=color, ha=aligned[0], va=aligned[1], fontsize=10)
 
 
 def _write_key(axes: Axes, shot: Shot, aimed: AimedShot | None) -> None:
@@ -138,12 +138,12 @@ def _write_key(axes: Axes, shot: Shot, aimed: AimedShot | None) -> None:
     rows["tangent line"] = Line2D([], [], **_TANGENT)
     rows["ghost ball"] = Circle((0.0, 0.0), **_GHOST)
     if aimed is not None:
-        rows["ghost ball, ignoring throw"] = Circle((0.0, 0.0), **_UNAIDED)
+        rows["ghost ball without throw"] = Circle((0.0, 0.0), **_UNAIDED)
         rows["target"] = Line2D([], [], marker="x", ms=7, color="black", ls="none")
-    legend: dict[str, Any] = {"loc": "upper left", "frameon": False, "handlelength": 3.2}
+    legend: dict[str, Any] = {"loc": "upper left", "frameon": False, "handlelength": 2.6}
     legend["handler_map"] = {Circle: HandlerPatch(patch_func=as_circle)}
     axes.legend(rows.values(), rows.keys(), fontsize=9.5, **legend)
-    axes.text(0.62, 0.955, "\n".join(_angles(shot, aimed)), fontsize=9.5, va="top", ha="left")
+    axes.text(0.06, 0.02, "\n".join(_angles(shot, aimed)), fontsize=10, va="bottom", ha="left")
     axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0), aspect="auto")
 
 

@@ -390,12 +390,33 @@ def _on_white() -> str:
     return f"{colors}background:#fff;color:#0e151d;"
 
 
-def bracket_picture(panels: Sequence[Panel]) -> bytes:
-    """Return the drawing of a bracket as an SVG file, dark letters on white."""
+_TITLE, _ABOUT = 50.0, 18.0  # heights above the drawing, the line below the title included
+
+
+def bracket_picture(panels: Sequence[Panel], title: str = "", about: str = "") -> bytes:
+    """Return the drawing of a bracket as an SVG file, dark letters on white.
+
+    Parameters
+    ----------
+    panels
+        the parts of the bracket.
+    title, about
+        the name of the tournament, and what is played; '' for none.
+    """
+    above = _TITLE * bool(title) + _ABOUT * bool(about)
     style = (
         f"svg{{{_on_white()}font-family:system-ui,'Segoe UI',Roboto,'Noto Sans',"
         f"sans-serif}}{own_file('bracket.css').partition('.phone')[0]}"
     )
+    style += ".title{font-weight:700}.drawn .about{fill:var(--ink-2)}"
     head, _, drawn = str(bracket_svg(panels)).partition(">")
     head = head.replace("<svg", '<svg xmlns="http://www.w3.org/2000/svg"', 1)
+    wide, high = map(float, re.findall(r'viewBox="0 0 (\d+) (\d+)"', head)[0])
+    head = re.sub(
+        "viewBox=.*? w", f'viewBox="-8 {-8 - above:g} {wide + 16:g} {high + above + 16:g}" w', head
+    )
+    for text, kind, size, y in ((title, "title", 30.0, 24.0), (about, "about", 19.0, 56.0)):
+        if text:
+            small = min(size, (wide - 40.0) / max(1.0, rough_width(text, bold=kind == "title")))
+            drawn = _text(kind, 34.0, y - above, escape(text), small) + drawn
     return f"{head}><style>{style}</style>{drawn}\n".encode()

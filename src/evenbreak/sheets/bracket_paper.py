@@ -12,24 +12,33 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from evenbreak.answers.tournament.bracket_view import Box, Line, Panel
 from evenbreak.sheets.bracket_drawing import BOX_HIGH, BOX_WIDE, Drawing, Placed, drawing, pages
-from evenbreak.sheets.pdf_page import PAPERS, POINTS, Paper, fitted, pdf_bytes, width_of
+from evenbreak.sheets.pdf_page import (
+    PAPERS,
+    POINTS,
+    SMALLEST,
+    Paper,
+    fitted,
+    pdf_bytes,
+    width_of,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SMALLEST = 6.2
-"""The least size of type on paper, in points."""
-
-LARGEST = 9.5
+LARGEST = 13.0
 """The largest size of a name, in points."""
 
-_MARGIN = 0.4
-_HEAD, _FOOT = 0.72, 0.16  # above and below the bracket, in inches
-_SCORE = 0.24  # the width of the box of a score
-_EDGE = 0.045  # beside a name
-_MOST_ROW, _MOST_COLUMN = 0.62, 2.9
-_LINE = 1.14  # the height of a line of type, in sizes of its letters
-_LEAST_ROW = SMALLEST / (0.8 * 0.5 * BOX_HIGH * POINTS)  # of a match whose names are on one line
+_MARGIN = 0.3
+_HEAD, _FOOT = 0.62, 0.18  # above and below the bracket, in inches
+_SCORE = 0.23  # the width of the box of a score
+_EDGE = 0.04  # beside a name
+_ONWARD = 0.2  # beside the page's last round, for the numbers of matches on others
+_MOST_ROW, _MOST_COLUMN = 1.0, 2.9
+_LINE = 0.955  # the height of a line of type, in sizes of its letters
+_ON_ONE_LINE = 0.92  # of the height of a line of a match, the most that its letters are
+_LEAST_ROW = SMALLEST / (
+    _ON_ONE_LINE * 0.5 * BOX_HIGH * POINTS
+)  # of a match whose names are on one line
 _TWO_LINES = 2.0 * _LINE * SMALLEST / (0.97 * 0.5 * BOX_HIGH * POINTS)  # of one with two
 
 
@@ -58,7 +67,7 @@ class Sheet(NamedTuple):
 def bracket_pdf(panels: Sequence[Panel], sheet: Sheet, *, paper: str = "a4") -> bytes:
     """Return the bracket as a PDF, on one page if its names can be read there, else on more.
 
-    No name is cut or shortened: it is written smaller, down to 6.2 points, or on two lines, and
+    No name is cut or shortened: it is written smaller, down to 8 points, or on two lines, and
     else the bracket goes on more pages.
 
     Parameters
@@ -85,7 +94,7 @@ def bracket_pages(panels: Sequence[Panel], sheet: Sheet, paper: str = "a4") -> l
         scale = _Scale(
             _MARGIN,
             _MARGIN + _HEAD,
-            min(_MOST_COLUMN, room_wide / drawn.wide),
+            min(_MOST_COLUMN, (room_wide - _onward(drawn)) / drawn.wide),
             min(_MOST_ROW, room_high / drawn.high),
         )
         _around(page, sheet, f"{number}/{len(parts)}" if len(parts) > 1 else "")
@@ -100,11 +109,16 @@ def bracket_figure(panels: Sequence[Panel], sheet: Sheet) -> Figure:
     needed = max((width_of(one.text, LARGEST, bold=True) for one in _lines(panels)), default=1.0)
     column = min(6.0, max(2.2, (needed / 0.97 + _SCORE + 2 * _EDGE) / BOX_WIDE))
     scale = _Scale(_MARGIN, _MARGIN + _HEAD, column, 0.52)
-    wide = max(7.0, drawn.wide * column + 2 * _MARGIN)
+    wide = max(7.0, drawn.wide * column + _onward(drawn) + 2 * _MARGIN)
     page = Paper((wide, drawn.high * scale.row + 2 * _MARGIN + _HEAD + _FOOT))
     _around(page, sheet, "")
     _draw(page, drawn, scale)
     return page.figure
+
+
+def _onward(drawn: Drawing) -> float:
+    """Return the width that the numbers of matches elsewhere take beside the last round."""
+    return _ONWARD if any(number for *_, number in drawn.onward) else 0.0
 
 
 def _lines(panels: Sequence[Panel]) -> Iterator[Line]:
@@ -115,8 +129,10 @@ def _parts(panels: Sequence[Panel], wide: float, high: float) -> list[list[Panel
     """Return the parts for each page, so that they are few and all names can be read."""
     names = {one.text for one in _lines(panels)}
     best: list[list[Panel]] = []
-    for across in range(max(len(panel.rounds) for panel in panels), 0, -1):
-        room = min(_MOST_COLUMN, wide / across) * BOX_WIDE - _SCORE - 2 * _EDGE
+    whole = max(len(panel.rounds) for panel in panels)
+    for across in range(whole, 0, -1):
+        onward = _ONWARD if across < whole else 0.0
+        room = min(_MOST_COLUMN, (wide - onward) / across) * BOX_WIDE - _SCORE - 2 * _EDGE
         one_line = all(width_of(name, SMALLEST, bold=True) <= 0.98 * room for name in names)
         two_lines = all(
             max(width_of(half, SMALLEST, bold=True) for half in _halves(name)) <= 0.98 * room
@@ -124,7 +140,10 @@ def _parts(panels: Sequence[Panel], wide: float, high: float) -> list[list[Panel
         )
         if not one_line and not two_lines and across > 1:
             continue
-        found = pages(panels, high / (_LEAST_ROW if one_line else _TWO_LINES), across)
+        rows = high / (_LEAST_ROW if one_line else _TWO_LINES)
+        found = pages(panels, rows, across)
+        if len(found) == 1 and across < whole:  # no line has to come back from the right
+            found = [part for panel in panels for part in pages([panel], rows, across)]
         if not best or len(found) < len(best):
             best = found
         if len(best) == 1:
@@ -169,10 +188,10 @@ def _around(page: Paper, sheet: Sheet, number: str) -> None:
     room = right - _MARGIN
     title, size = fitted(sheet.title, 16, room, bold=True)
     page.text(_MARGIN, _MARGIN + 0.16, title, size=size, bold=True)
-    about, size = fitted(sheet.about, 8.5, room)
-    page.text(_MARGIN, _MARGIN + 0.36, about, size=max(size, SMALLEST))
+    about, size = fitted(sheet.about, 10, room)
+    page.text(_MARGIN, _MARGIN + 0.4, about, size=max(size, SMALLEST))
     foot = "  ".join(filter(None, (sheet.foot, number)))
-    page.text(_MARGIN, page.high - 0.3, foot, size=7, color="0.3")
+    page.text(_MARGIN, page.high - 0.24, foot, size=SMALLEST, color="0.3")
 
 
 def _draw(page: Paper, drawn: Drawing, scale: _Scale) -> None:
@@ -187,7 +206,7 @@ def _draw(page: Paper, drawn: Drawing, scale: _Scale) -> None:
             page.text(at_x + 0.02, at_y - 0.04, f"to {number}", size=SMALLEST, color="0.3")
     for one in drawn.headings:
         x, y = scale.at(one.x, one.y)
-        text, size = fitted(one.text, 10 if one.large else 8.5, scale.column * BOX_WIDE, bold=True)
+        text, size = fitted(one.text, 12 if one.large else 10, scale.column * BOX_WIDE, bold=True)
         page.text(x, y, text, size=max(size, SMALLEST), bold=True)
     for placed in drawn.boxes:
         _box(page, placed, scale)
@@ -200,7 +219,7 @@ def _box(page: Paper, placed: Placed, scale: _Scale) -> None:
     page.frame(x, y - half, wide, 2.0 * half, thick=0.8)
     page.line((x, x + wide), (y, y), lw=0.4)
     page.line((x + wide - _SCORE,) * 2, (y - half, y + half), lw=0.4)
-    page.text(x - 0.04, y - 0.03, str(box.number), size=6.5, bold=True, ha="right")
+    page.text(x - 0.04, y - 0.03, str(box.number), size=SMALLEST, bold=True, ha="right")
     for k, line in enumerate(box.lines):
         over = box.state in ("done", "forfeit")  # else a pen writes the score
         shown = line if over else line._replace(score="")
@@ -212,7 +231,7 @@ def _line(page: Paper, line: Line, x: float, y: float, wide: float, high: float)
     middle = x + wide - 0.5 * _SCORE
     if line.score:
         score = "w/o" if line.score == "forfeit" else line.score
-        size = min(LARGEST + 0.5, 0.8 * high * POINTS) if score.isdigit() else SMALLEST
+        size = min(LARGEST, _ON_ONE_LINE * high * POINTS) if score.isdigit() else SMALLEST
         page.centered(middle, y, score, size=size, bold=line.won)
     elif line.needs:
         at = y + 0.5 * high - 0.03
@@ -232,10 +251,10 @@ def written(line: Line, room: float, high: float) -> list[tuple[str, float, floa
     room, high
         the room for the name, in inches.
     """
-    largest = min(LARGEST if line.known else 7.5, 0.8 * high * POINTS)
+    largest = min(LARGEST if line.known else 9.0, _ON_ONE_LINE * high * POINTS)
     text, size = fitted(line.text, largest, room, bold=line.won)
     halves = _halves(line.text)
-    if size >= min(7.0, largest) or not halves[1]:
+    if size >= min(SMALLEST, largest) or not halves[1]:
         return [(text, 0.0, size)]
     most = min(largest, 0.97 * high * POINTS / (2 * _LINE))
     two = min(fitted(half, most, room, bold=line.won)[1] for half in halves)

@@ -9,6 +9,7 @@ from evenbreak.answers.tournament.printed import Card
 from evenbreak.sheets.pdf_page import MARGIN, PAPERS, Paper, fitted, pdf_bytes
 
 _SIZE, _ROW = 11.0, 0.27
+_MOST_ROW = 0.5  # of a list that is short
 _TOP = MARGIN + 0.75
 
 
@@ -54,6 +55,7 @@ def draw_list_pdf(
     listed = sorted(players, key=lambda first_match: first_match.name.casefold())
     wide, high = PAPERS[paper].upright
     most = int((high - MARGIN - _TOP) / _ROW)
+    row = min(_MOST_ROW, max(_ROW, (high - MARGIN - _TOP) / max(1, len(listed))))
     pages = []
     for start in range(0, max(1, len(listed)), most):
         page = Paper((wide, high))
@@ -62,22 +64,23 @@ def draw_list_pdf(
         line, size = fitted(about, 10, wide - 2 * MARGIN)
         page.text(MARGIN, MARGIN + 0.45, line, size=size)
         for k, first_match in enumerate(listed[start : start + most]):
-            _row(page, first_match, _TOP + (k + 0.7) * _ROW, wide, gray=k % 2 == 0)
+            _row(page, first_match, _TOP + k * row, row, gray=k % 2 == 0)
         pages.append(page.figure)
     return pdf_bytes(pages, f"The draw: {event}")
 
 
-def _row(page: Paper, first_match: FirstMatch, y: float, wide: float, *, gray: bool) -> None:
+def _row(page: Paper, first_match: FirstMatch, top: float, high: float, *, gray: bool) -> None:
+    wide, y = page.wide, top + 0.5 * high + 0.054
     if gray:
-        page.band(MARGIN, y - 0.7 * _ROW, wide - 2 * MARGIN, _ROW, gray="0.93")
-    name, size = fitted(first_match.name, _SIZE, 2.6, bold=True)
+        page.band(MARGIN, top, wide - 2 * MARGIN, high, gray="0.93")
+    name, size = fitted(first_match.name, _SIZE * min(1.4, high / _ROW), 2.6, bold=True)
     page.text(MARGIN + 0.05, y, name, size=size, bold=True)
     page.text(MARGIN + 2.75, y, f"seed {first_match.seed}", size=9, color="0.3")
     number = f"match {first_match.match}" if first_match.match else ""
     page.text(MARGIN + 3.4, y, number, size=_SIZE)
     against = f"against {first_match.other}" if first_match.other else ""
-    against, size = fitted(against, _SIZE, 2.1)
-    page.text(MARGIN + 4.3, y, against, size=size)
+    against, size = fitted(against, _SIZE, 2.35)
+    page.text(MARGIN + 4.2, y, against, size=size)
     if first_match.table:
         page.text(wide - MARGIN - 0.05, y, f"table {first_match.table}", size=_SIZE, ha="right")
 
@@ -177,7 +180,7 @@ def _player(
         side = 0.62 * unit
         page.code(left + room - side, y - 0.2 * unit, side, address)
         at = y + 0.54 * unit
-        page.text(left + room - 0.5 * side, at, code, size=6.6 * unit, bold=True, ha="center")
+        page.text(left + room - 0.5 * side, at, code, size=8 * unit, bold=True, ha="center")
         room -= side + 0.1 * unit
     text, size = fitted(name, 15 * unit, room - 0.8 * unit, bold=True)
     page.text(left, y, text, size=size, bold=True)

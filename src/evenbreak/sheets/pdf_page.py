@@ -57,6 +57,9 @@ MARGIN = 0.5
 POINTS = 72.0
 """In an inch."""
 
+SMALLEST = 8.0
+"""The smallest letters on paper, in points: smaller ones are hard to read on a wall."""
+
 UNKNOWN = "\N{WHITE SQUARE}"
 """Stands for a letter that the font lacks."""
 

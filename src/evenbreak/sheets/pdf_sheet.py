@@ -26,6 +26,7 @@ from evenbreak.sheets.pdf_page import (
     MARGIN,
     PAPERS,
     POINTS,
+    SMALLEST,
     UNKNOWN,
     Paper,
     drawable,
@@ -46,13 +47,13 @@ from evenbreak.sheets.race_blocks import (
 )
 
 MOST_ON_A_PAGE = 28
-LARGEST, SMALLEST = 11.0, 7.0
-"""Sizes of letters, in points: more looks lost on the page, less cannot be read on a wall."""
+LARGEST = 13.0
+"""The largest letters of the table, in points: larger ones look lost on the page."""
 
 LONGEST_NAME, LONGEST_RATING = 1.75, 1.5
-WIDEST_CELL, HIGHEST_ROW = 0.6, 0.34
-WIDEST_BARS, NARROW_BARS, NARROWEST_BARS = 3.2, 1.6, 1.0
-GAP, CELL_EDGE = 0.12, 0.05
+WIDEST_CELL, HIGHEST_ROW = 0.7, 0.5
+WIDEST_BARS, NARROW_BARS, NARROWEST_BARS = 3.2, 1.6, 0.75
+GAP, CELL_EDGE = 0.12, 0.035
 HEADING, TICKS = 1.08, 0.45
 """Heights of what is above the slanted names and below the table."""
 
@@ -103,7 +104,7 @@ def page_sizes(
 ) -> PageSizes:
     """Return how large all can be, so that names, table and ticks have the height `room`."""
     rows = len(parts_of(lines, MOST_ON_A_PAGE)[0])
-    size = min(LARGEST, 0.64 * POINTS * (room - 1.2) / rows)
+    size = min(LARGEST, max(SMALLEST, 0.64 * POINTS * (room - 1.2) / rows))
 
     def widest(texts: Sequence[str], size: float) -> float:
         return max(width_of(text, size) for text in texts)
@@ -124,7 +125,7 @@ def page_sizes(
     across = wide - (fixed + bars + 5 * GAP)
     columns = len(parts_of(lines, min(MOST_ON_A_PAGE, int(across / least)))[0])
     cell = min(WIDEST_CELL, across / columns)
-    slant_size = min(size, 0.6 * cell * POINTS)
+    slant_size = max(SMALLEST, min(size, 0.6 * cell * POINTS))
     slanted = widest([slanted_name(line, slant_size) for line in lines], slant_size) + 0.15
     height = slanted * math.sin(math.radians(SLANT))
     return PageSizes(
@@ -224,7 +225,8 @@ def _heading(page: Paper, sheet: Sheet, shown: Sheet) -> None:
     for k, line in enumerate(lines):
         text = shortened(line, 10.0, page.wide - 2 * MARGIN)
         page.text(MARGIN, MARGIN + 0.5 + 0.2 * k, text, size=10.0)
-    page.text(MARGIN, MARGIN + 0.93, how_to_read(shown.paired), size=LARGEST, bold=True)
+    text, size = fitted(how_to_read(shown.paired), 11.0, page.wide - 2 * MARGIN, bold=True)
+    page.text(MARGIN, MARGIN + 0.93, text, size=size, bold=True)
 
 
 def _notes(sheet: Sheet, shown: Sheet) -> Iterator[str]:
@@ -326,7 +328,7 @@ class _Table:
         def place(at: float) -> float:
             return start + (end - start) * at / 100
 
-        for tick in self.ticks:
+        for tick in self.ticks[:: 1 if end - start > NARROWEST_BARS else 2]:
             page.line([place(tick.at)] * 2, [sizes.top, self._bottom], color="0.75")
             page.centered(place(tick.at), self._bottom + 0.1, tick.label, size=NOTE)
         for y, line in self._middles():

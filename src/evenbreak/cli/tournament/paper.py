@@ -170,7 +170,9 @@ def print_paper(asked: Print) -> Answer:
     if not cards:
         refuse("no match is waiting to be played, so there is no card to print")
     paper = asked.paper or usual_paper()
-    write_file(place, score_cards_pdf(cards, _title(asked), per_page=asked.per_page, paper=paper))
+    write_file(
+        place, score_cards_pdf(cards, _title(state, asked), per_page=asked.per_page, paper=paper)
+    )
     written = say_count(
         "{n} score card is in {file}.",
         "{n} score cards are in {file}.",
@@ -180,8 +182,9 @@ def print_paper(asked: Print) -> Answer:
     return printed_answer(state, written)
 
 
-def _title(asked: Show | Print) -> str:
-    return asked.title or PurePath(asked.path).stem
+def _title(state: Evening, asked: Show | Print) -> str:
+    stem = PurePath(asked.path).stem
+    return asked.title or state.plan.name or stem[:1].upper() + stem[1:]
 
 
 def _drawing(state: Evening, asked: Show | Print, kind: str) -> bytes:
@@ -194,15 +197,15 @@ def _drawing(state: Evening, asked: Show | Print, kind: str) -> bytes:
     if kind == ".html":
         from evenbreak.sheets.bracket_page import bracket_html
 
-        return bracket_html(panels, [_title(asked), about])
+        return bracket_html(panels, [_title(state, asked), about])
     if kind == ".svg":
         from evenbreak.sheets.bracket_page import bracket_picture
 
-        return bracket_picture(panels)
+        return bracket_picture(panels, _title(state, asked), about)
     from evenbreak.sheets.bracket_paper import Sheet, bracket_figure, bracket_pdf
     from evenbreak.sheets.pdf_page import usual_paper
 
-    sheet = Sheet(_title(asked), about, foot if kind == ".pdf" else "", champion)
+    sheet = Sheet(_title(state, asked), about, foot if kind == ".pdf" else "", champion)
     if kind == ".pdf":
         return bracket_pdf(panels, sheet, paper=asked.paper or usual_paper())
     from evenbreak.plots.picture import image_bytes
@@ -223,4 +226,4 @@ def _draw_list(state: Evening, asked: Print) -> bytes:
         players.append(FirstMatch(one.name, one.seed, one.match or 0, other, table))
     form = state.bracket.format
     about = f"{form[0].upper()}{form[1:]}. {races_words(state.races)}"
-    return draw_list_pdf(players, _title(asked), about, paper=asked.paper or usual_paper())
+    return draw_list_pdf(players, _title(state, asked), about, paper=asked.paper or usual_paper())

@@ -80,7 +80,7 @@ def _name_spin(axes: Axes, side: float, place: tuple[float, float], ha: str) -> 
     whole, rest = divmod(abs(side), 1.0)
     sign = "\N{MINUS SIGN}" if side < 0.0 else ""
     name = sign + (f"{whole:.0f}" if whole or not rest else "") + _QUARTERS[rest]
-    axes.text(*place, name, fontsize=7.5, ha=ha, va="center")
+    axes.text(*place, name, fontsize=8, ha=ha, va="center")
 
 
 def small_circle() -> Axes:
