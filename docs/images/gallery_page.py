@@ -8,57 +8,52 @@ from pathlib import PurePath
 
 from shown import SHOWN, Shown
 
-WIDTH = 42
-"""Characters of a line of code on a card."""
+WIDTH, WIDE = 42, 84
+"""Characters of a line of code on a card, and on a wide one."""
 
 HEAD = """\
 # Gallery
 
-Every chart evenbreak draws, with the command or the Python behind it. Each leads to its page.
-Commands write to the file that you name, as PNG or SVG; in a notebook charts show themselves. The
-sample data are in the folder `data/`.
+Every chart evenbreak draws, with the command or the Python behind it; click one for its page.
+Commands write PNG or SVG to the file you name; in a notebook, charts display themselves. The sample
+data is in the folder `data/`.
 """
 
-PAGES = """\
+PAGE = (
+    ("front_page", "On the wall and on every phone", "Scores, who is next, the finish time, who wins."),
+    ("page/call", "Call the next matches", "The director's phone: a free table, and who goes there."),
+    ("page/match", "Keep your own score", "A player's phone: tap for a game, see your chance."),
+    ("page/tonight", "Follow along", "Everyone's phone: tables, finish time, title odds."),
+)
+"""Pictures of the page, which `page_pictures.py` makes: file, title, words. The first is wide."""
+
+PAPER = """\
 ## Pages and paper
 
-Not everything is a picture:
-
-| what | command |
+| What | Command |
 |---|---|
-| any answer as a web page | `evenbreak odds 612 521 --scale fargo --race 7:7 --html odds.html`, and so with other commands |
+| the evening live, on phones and the wall | [`evenbreak serve`](how-to/a-page-for-phones-and-the-screen.md) |
+| the bracket as a page, or on paper | `evenbreak tournament show --out bracket.html`, or `bracket.pdf` |
+| score cards, the bracket, the draw | `evenbreak tournament print cards`, `bracket` or `draw` |
 | the sheet for [phones and printers](how-to/publish-your-league.md) | `evenbreak report data/demo_league.csv --out sheet --page` |
 | the sheet as a workbook | `evenbreak report data/demo_league.csv --out sheet --excel` |
-| the bracket as a page, or on paper | `evenbreak tournament show --out bracket.html`, or `bracket.pdf` |
-| score cards, the bracket, the list of the draw | `evenbreak tournament print cards`, `bracket` or `draw` |
-| the evening live, on phones and the screen | [`evenbreak serve`](how-to/a-page-for-phones-and-the-screen.md) |
+| any answer as a web page | `evenbreak odds 612 521 --scale fargo --race 7:7 --html odds.html` |
+
+PDFs are on US Letter or A4, whichever is usual where your computer is; `--paper letter` or
+`--paper a4` decides.
+
+## The book's figures
+
+`evenbreak reproduce --out reports` redraws every figure of Shepard's *Amateur Physics for the
+Amateur Pool Player*, the book this program grew out of: [see them all](../reports/index.md).
 """  # noqa: E501
 
-PHONE = (
-    ("call", "Call the next matches", "The director's phone: which match goes to which table."),
-    ("match", "Keep your own score", "A player's phone: the score, and the chances as it goes on."),
-    ("tonight", "Tonight", "Everybody's phone: tables, the end of the evening, title odds."),
-)
-"""Pictures of the page, which `page_pictures.py` makes: name, title, words."""
 
-TEXT = """\
-## The figures of the text
-
-Shepard's *Amateur Physics for the Amateur Pool Player*, the book this program grew out of, has 27
-figures. One command draws them all again, next to tables of every number in it. The pages that it
-writes are in the repository, `reports/index.md` and `reports/physics.md`:
-
-```sh
-evenbreak reproduce --out reports
-```
-"""
-
-
-def _command(text: str) -> str:
+def _command(text: str, width: int) -> str:
     """Return a command in lines that fit a card, broken before options."""
     lines = ["evenbreak"]
     for part in re.split(" (?=--)", text):
-        if len(lines[-1]) + 1 + len(part) <= WIDTH or lines == ["evenbreak"]:
+        if len(lines[-1]) + 1 + len(part) <= width or lines == ["evenbreak"]:
             lines[-1] += f" {part}"
         else:
             lines.append(f"  {part}")
@@ -68,10 +63,17 @@ def _command(text: str) -> str:
 def _made(one: Shown) -> str:
     if one.python:
         # Not "python": make_images.py has run it, which takes longer than an example may.
-        return f"```py\n{one.python}```\n"
+        return _folded(f"```py\n{one.python}```\n")
     command = one.command.replace("FILE", PurePath(one.name).name)
-    lines = "\n".join(map(_command, [*one.first.splitlines(), command]))
-    return f"```sh\n{lines}\n```\n"
+    width = WIDE if one.wide else WIDTH
+    lines = "\n".join(_command(line, width) for line in (*one.first.splitlines(), command))
+    shown = f"```sh\n{lines}\n```\n"
+    return _folded(shown) if one.first else shown
+
+
+def _folded(code: str) -> str:
+    """Return long code behind a line to tap."""
+    return f"<details><summary>How it is made</summary>\n\n{code}\n</details>\n"
 
 
 def _boxed(kind: str, *parts: str) -> str:
@@ -81,25 +83,25 @@ def _boxed(kind: str, *parts: str) -> str:
 
 def _card(one: Shown) -> str:
     return _boxed(
-        "picture",
+        "picture wide" if one.wide else "picture",
         f"[![{one.title}](images/{PurePath(one.name).name})]({one.page})\n",
         f"[{one.title}]({one.page}). {one.says}\n",
         _made(one),
     )
 
 
-def _on_a_phone() -> Iterator[str]:
+def _live() -> Iterator[str]:
     """Yield the cards of the page's pictures."""
     page = "tutorial/evening-by-page.md"
-    for name, title, says in PHONE:
-        shown = f"[![{title}](images/page/{name}.png)]({page})\n\n[{title}]({page}). {says}\n"
-        yield _boxed("picture", shown)
+    for name, title, says in PAGE:
+        shown = f"[![{title}](images/{name}.png)]({page})\n\n[{title}]({page}). {says}\n"
+        yield _boxed("picture" if "/" in name else "picture wide", shown)
 
 
 def gallery_page() -> str:
     """Return the page as Markdown."""
     parts = [HEAD]
-    for group, shown in SHOWN.items():
-        parts += [f"## {group}\n", _boxed("gallery", *map(_card, shown))]
-    parts += [PAGES, _boxed("gallery", *_on_a_phone())]
-    return "\n".join([*parts, TEXT])
+    for k, (group, shown) in enumerate(SHOWN.items()):
+        cards = (*(_live() if k == 0 else ()), *map(_card, shown))
+        parts += [f"## {group}\n", _boxed("gallery", *cards)]
+    return "\n".join([*parts, PAPER])

@@ -52,7 +52,7 @@ def make(one: Shown, place: Path) -> bytes:
             # A module that has imported it calls it by its own name.
             for holder in [one for one in sys.modules.values() if vars(one).get(name) is draw]:
                 watch.enter_context(mock.patch.object(holder, name, seen[-1]))
-        for line in one.first.splitlines():
+        for line in (*one.first.splitlines(), *one.then.splitlines()):
             run(line)
         if one.python:
             names: dict[str, object] = {}

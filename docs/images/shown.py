@@ -10,7 +10,28 @@ NIGHT = """\
 tournament new data/demo_roster.csv --race 5 --losers-race 4 --tables 2 --at 18:50
 tournament draw --at 19:00
 tournament call --at 19:02
-tournament result 3 5:3 --at 19:40
+tournament result 3 5-3 --at 19:40
+"""
+
+LATER = """\
+tournament result 1 5-2 --at 19:45
+tournament result 2 4-5 --at 20:20
+tournament result 4 5-4 --at 20:30
+tournament result 7 4-1 --at 21:05
+tournament result 5 5-3 --at 21:10
+tournament result 8 2-4 --at 21:20
+tournament call --at 21:21
+"""
+"""The night goes on, after the essentials' first result."""
+
+END = """\
+tournament result 6 5-4 --at 22:00
+tournament result 10 4-3 --at 22:05
+tournament result 9 4-2 --at 22:40
+tournament result 11 3-5 --at 22:55
+tournament result 12 4-1 --at 23:15
+tournament result 13 4-3 --at 23:40
+tournament result 14 5-4 --at 00:20
 """
 
 
@@ -28,7 +49,11 @@ class Shown(NamedTuple):
     draws
         the functions of evenbreak.plots that draw it.
     first
-        commands to run before, a line each.
+        commands to run before, one per line.
+    then
+        commands to run after those, which the page does not show.
+    wide
+        whether its card is as wide as the page.
     """
 
     name: str
@@ -39,23 +64,36 @@ class Shown(NamedTuple):
     python: str = ""
     draws: str = ""
     first: str = ""
+    then: str = ""
+    wide: bool = False
 
 
 SHOWN: dict[str, tuple[Shown, ...]] = {
-    "Tournaments and sheets": (
+    "Tonight": (
         Shown(
             "bracket.svg",
-            "A bracket as it stands",
-            "Results, who plays next, and where losers go.",
+            "The bracket, live",
+            "Results, who is on which table, and where the losers go.",
             "how-to/run-an-evening.md",
-            "tournament show --at 19:40 --out FILE",
-            first=NIGHT,
+            "tournament show --at 21:30 --title 'Tuesday 9-Ball' --out FILE",
+            first=NIGHT + LATER,
+            wide=True,
+        ),
+        Shown(
+            "story.svg",
+            "The odds through a night",
+            "Who was going to win that night, after every match.",
+            "how-to/run-an-evening.md",
+            "tournament export --story --out FILE",
+            then=END,
+            wide=True,
         ),
         Shown(
             "sheet.png",
             "The sheet for the wall",
-            "The fairest race for each pair, and everybody's rating with its uncertainty.",
+            "The fairest race for each pair, and everyone's rating with its uncertainty.",
             "tutorial/first-evening.md",
+            wide=True,
             python="""\
 from evenbreak.answers import OfferedRaces, Sheet, most_active
 from evenbreak.files import read_results
@@ -69,11 +107,13 @@ sheet = Sheet.of(file, ratings, offered, most_active(ratings, 10), choice)
 (picture,) = sheet_pages(sheet)
 """,
         ),
+    ),
+    "Matches": (
         Shown(
             "second_chance.svg",
             "What a second chance is worth",
             "A favorite's title odds in single and in double elimination.",
-            "explanation/brackets.md",
+            "explanation/brackets.md#exact-odds-in-brackets",
             python="""\
 import numpy as np
 from evenbreak.plots.picture import LINES, new_axes
@@ -93,12 +133,10 @@ for players, line in ((8, LINES[0]), (16, LINES[1])):
 picture.legend(fontsize=9)
 """,
         ),
-    ),
-    "Matches": (
         Shown(
             "live.svg",
             "A match in progress",
-            "A's chance after each game, and how much depended on it.",
+            "A's chance after each game, and how much each game mattered.",
             "how-to/during-a-match.md",
             "live --p 0.6 --race 7:5 --racks abbababaab --plot FILE",
             draws="course_figure",
@@ -106,7 +144,7 @@ picture.legend(fontsize=9)
         Shown(
             "formats.svg",
             "Match formats side by side",
-            "Who gains by which format, and where two are worth the same.",
+            "Who each format helps, and where two are equal.",
             "how-to/match-formats.md",
             'compare --p 0.6667 9:5 "3:1 of 3:3" "ahead 5:3" --plot FILE',
             draws="draw_formats",
@@ -114,8 +152,8 @@ picture.legend(fontsize=9)
         Shown(
             "breaks.svg",
             "Break formats",
-            "The long-run share of the racks, for any two players.",
-            "how-to/match-formats.md",
+            "How many racks you win in the long run, for any two players.",
+            "how-to/match-formats.md#which-break-format-is-better-for-you",
             "breaks --p1 0.9 --p2 0.5 --win 1 --lose 2 --plot FILE",
             draws="breaks_figure",
         ),
@@ -124,7 +162,7 @@ picture.legend(fontsize=9)
         Shown(
             "chart.svg",
             "A chart, audited",
-            "The stronger player's chance at each rating difference, beside another chart.",
+            "The stronger player's chance at each rating difference, next to another chart.",
             "how-to/a-fair-chart.md",
             "chart audit data/house_chart.csv --scale npl --beside npl_10 --plot FILE",
             draws="draw_chart",
@@ -140,15 +178,15 @@ picture.legend(fontsize=9)
         Shown(
             "systems.svg",
             "Accurate or quick",
-            "How far off ratings stay, against how long newcomers take, for several systems.",
+            "Rating errors and the time newcomers take to settle, for several systems.",
             "how-to/how-wrong-are-our-ratings.md",
             "ladder --compare --plot FILE",
             draws="draw_systems",
         ),
         Shown(
             "pay.svg",
-            "What losing on purpose pays",
-            "The chance to win afterwards, for several numbers of dumped matches.",
+            "What losing on purpose gains",
+            "The chance of winning the matches that count, after dumping some.",
             "how-to/sandbagging.md",
             "sandbag pay --chart npl_12 --stake 50 --dumped-stake 5 --plot FILE",
             draws="draw_pay",
@@ -166,7 +204,7 @@ picture.legend(fontsize=9)
         Shown(
             "calibration.svg",
             "Can the ratings be trusted?",
-            "How often favorites won, against the chance that they had been given.",
+            "How often favorites won, and how often they were expected to.",
             "how-to/can-i-trust-the-ratings.md",
             "validate data/demo_league.csv --prior 30 --plot FILE",
             draws="draw_calibration",
@@ -183,7 +221,7 @@ picture.legend(fontsize=9)
         Shown(
             "season/wins_by_gap.svg",
             "A season: the handicaps",
-            "How often the stronger player wins, by how much stronger they are.",
+            "How often the stronger player wins, by the gap in skill.",
             "how-to/simulate-a-season.md",
             "simulate data/demo_league_roster.csv --chart npl_10 --weeks 30 --replicas 100 "
             "--no-matches --jobs 1 --out season",
@@ -192,7 +230,7 @@ picture.legend(fontsize=9)
         Shown(
             "compared/even_by_decile.svg",
             "Handicap systems side by side: even matches",
-            "For whom each system makes matches even, from the weakest tenth to the strongest.",
+            "Who gets even matches, from the weakest tenth to the strongest.",
             "how-to/compare-handicap-systems.md",
             "simulate data/demo_league_roster.csv --compare npl --compare 'step 2' --replicas 100 "
             "--jobs 1 --out compared",
@@ -221,8 +259,8 @@ picture.legend(fontsize=9)
         Shown(
             "shot.svg",
             "A shot, traced",
-            "Where both balls go and stop, and where to aim so that throw does no harm.",
-            "how-to/shots.md",
+            "Where both balls go, and where to aim to allow for throw.",
+            "how-to/shots.md#draw-a-shot",
             "physics shot --cue-ball 30,15 --object-ball 50,15 --pocket foot-right --speed 80 "
             "--offset -0.4 --plot FILE",
             draws="shot_on_table",
@@ -246,7 +284,7 @@ picture.legend(fontsize=9)
         Shown(
             "long_run.svg",
             "A drill in the long run",
-            "Where it settles, for a player who makes 4 shots in 5.",
+            "Where a player who makes 4 shots in 5 ends up.",
             "tutorial/read-your-practice.md",
             "drill --p 0.8 --plot FILE",
             draws="draw_drill",
@@ -270,7 +308,7 @@ picture.legend(fontsize=9)
         Shown(
             "practice_shots.svg",
             "Which shots went in",
-            "Single shots by day, and the earlier and the later half of the tries.",
+            "Single shots by day, before and after the halfway point.",
             "how-to/did-my-practice-help.md",
             "practice data/practice_shots.csv --plot FILE",
             draws="draw_practice_shots",
@@ -279,15 +317,15 @@ picture.legend(fontsize=9)
             "runs.svg",
             "How long the runs are",
             "The score of several innings, with a range shaded.",
-            "how-to/did-my-practice-help.md",
+            "how-to/did-my-practice-help.md#runs-bets-and-straight-pool",
             "runs --mean 24 --innings 5 --between 100..150 --plot FILE",
             draws="draw_score",
         ),
         Shown(
             "spot.svg",
             "A spot in straight pool",
-            "What each number of points is worth, and which makes the match even.",
-            "how-to/did-my-practice-help.md",
+            "A's chance for each spot, and the one that makes the match even.",
+            "how-to/did-my-practice-help.md#runs-bets-and-straight-pool",
             "straight --averages 24:19 --points 150 --plot FILE",
             draws="draw_spot",
         ),
@@ -296,8 +334,8 @@ picture.legend(fontsize=9)
         Shown(
             "one_ball.svg",
             "One ball left",
-            "A game is a directed graph; its arcs carry chances.",
-            "how-to/your-own-chain.md",
+            "A game is a directed graph; its arcs carry probabilities.",
+            "how-to/your-own-chain.md#draw-a-game",
             python="""\
 from evenbreak.games import OneBall
 from evenbreak.plots import draw
@@ -309,8 +347,8 @@ picture = draw(OneBall(0.4, 0.8))
         Shown(
             "race.svg",
             "A race",
-            "Every score, from 0:0 to the end.",
-            "how-to/your-own-chain.md",
+            "Every score, from 0-0 to the end.",
+            "how-to/your-own-chain.md#draw-a-game",
             python="""\
 from evenbreak.games import Race, Rack
 from evenbreak.plots import draw
@@ -323,7 +361,7 @@ picture = draw(Race(3, 2, Rack(0.6)), title="Race 3:2")
             "ahead.svg",
             "Ahead by some games",
             "A chain with no last game.",
-            "how-to/your-own-chain.md",
+            "how-to/your-own-chain.md#draw-a-game",
             python="""\
 from evenbreak.games import Ahead, Rack
 from evenbreak.plots import draw
@@ -337,7 +375,7 @@ picture = draw(Ahead(3, 2, Rack(2 / 3)), title=title)
             "drill.svg",
             "A graph of your own",
             "Any networkx graph, here a drill with symbols for its chances.",
-            "how-to/your-own-chain.md",
+            "how-to/your-own-chain.md#draw-a-game",
             python="""\
 import networkx as nx
 from evenbreak.plots import draw

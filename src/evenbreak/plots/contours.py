@@ -102,7 +102,7 @@ def contour_axes(
 def _label_places(
     lines: QuadContourSet, marked: Sequence[tuple[float, float]]
 ) -> list[tuple[float, float]]:
-    """Return a point on every line: off the edge and the marks, clear of others, near the center."""
+    """Return a point on every line: off edges and marks, clear of others, near the center."""
     pieces = [piece for level in lines.allsegs for piece in level if len(piece) > 1]
     places = []
     for here, piece in enumerate(pieces):

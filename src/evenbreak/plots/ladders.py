@@ -15,8 +15,6 @@ from evenbreak.stats.summary import Distribution
 _SHOWN = 1e-3
 """Errors rarer than this share of the most frequent one are beyond the edge of the picture."""
 
-_SIDE = {True: "high", False: "low"}
-
 _LETTER = 8.5
 """Font size of a system's name."""
 
@@ -164,8 +162,9 @@ def _draw_settling(axes: Axes, curve: Settling) -> None:
             )
     unit_axis(axes, "y")
     axes.set_xlim(0, max(last - 1, 1))
+    off = f"{abs(curve.start)} points too {'high' if curve.start > 0 else 'low'}"
     axes.set(
-        xlabel=f"matches since the rating was {abs(curve.start)} points too {_SIDE[curve.start > 0]}",
+        xlabel=f"matches since the rating was {off}",
         ylabel=f"share of players within {curve.within} points",
     )
 

@@ -110,7 +110,7 @@ def page_sizes(
         return max(width_of(text, size) for text in texts)
 
     place = widest([line.place for line in lines], size)
-    name = min(LONGEST_NAME, widest([line.name for line in lines], size))
+    name = min(longest_name(size), widest([line.name for line in lines], size))
     rating = min(LONGEST_RATING, widest([rating_text(line) for line in lines], size))
     grouped = any(line.group is not None for line in lines)
     group = GAP + max(width_of(GROUP, NOTE), widest(list(map(group_text, lines)), size))
@@ -144,6 +144,11 @@ def page_sizes(
     )
 
 
+def longest_name(size: float) -> float:
+    """Return the width that a name may have, in inches: as many letters where they are large."""
+    return LONGEST_NAME * max(1.0, size / 11.0)
+
+
 def rating_text(line: PlayerLine) -> str:
     """Return a rating with its standard error."""
     return f"{line.rating} ± {line.error}"
@@ -156,7 +161,7 @@ def group_text(line: PlayerLine) -> str:
 
 def slanted_name(line: PlayerLine, size: float) -> str:
     """Return what stands above a player's column."""
-    return f"{line.place}  {shortened(line.name, size, LONGEST_NAME)}"
+    return f"{line.place}  {shortened(line.name, size, longest_name(size))}"
 
 
 LEADING = 1.45

@@ -101,7 +101,7 @@ class _Drawing:
         self.over = max(last.values()) > 1.0 - 1e-9
         longest = max(len(name) for name in self.names[:LINES])
         room = letters * _LETTER * (longest + 5) + 3.0 * letters
-        self.left, self.right = 3.6 * letters, self.width - min(room, 0.45 * self.width)
+        self.left, self.right = 4.0 * letters, self.width - min(room, 0.45 * self.width)
         self.top, self.bottom = 1.0 * letters, self.height - 2.0 * letters
         highest = max(story.highest.values())
         self.step = 0.25 if highest > 0.5 else 0.1 if highest > 0.2 else 0.05
