@@ -20,8 +20,16 @@ data is in the folder `data/`.
 """
 
 PAGE = (
-    ("front_page", "On the wall and on every phone", "Scores, who is next, the finish time, who wins."),
-    ("page/call", "Call the next matches", "The director's phone: a free table, and who goes there."),
+    (
+        "front_page",
+        "On the wall and on every phone",
+        "Scores, who is next, the finish time, who wins.",
+    ),
+    (
+        "page/call",
+        "Call the next matches",
+        "The director's phone: a free table, and who goes there.",
+    ),
     ("page/match", "Keep your own score", "A player's phone: tap for a game, see your chance."),
     ("page/tonight", "Follow along", "Everyone's phone: tables, finish time, title odds."),
 )

@@ -146,7 +146,7 @@ def page_sizes(
 
 def longest_name(size: float) -> float:
     """Return the width that a name may have, in inches: as many letters where they are large."""
-    return LONGEST_NAME * max(1.0, size / 11.0)
+    return LONGEST_NAME * max(1.0, size / 11.5)
 
 
 def rating_text(line: PlayerLine) -> str:
