@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
 from evenbreak.checks import one_of
@@ -169,8 +170,7 @@ def share_panels(
     >>> len(panels)
     4
     """
-    figure = Picture(figsize=(6.8, 7.6), layout="constrained")
-    figure.get_layout_engine().set(h_pad=0.12, w_pad=0.1)  # type: ignore[union-attr]
+    figure = Picture(figsize=(6.8, 7.6), layout=ConstrainedLayoutEngine(h_pad=0.12, w_pad=0.1))
     panels = list(np.ravel(figure.subplots(2, 2)))
     for axes, share in zip(panels, _shares(first_breaker), strict=True):
         if axes is panels[3]:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from evenbreak.handicaps.ladders.settling import Settling
 from evenbreak.plots.picture import LINES, Picture, in_our_look, new_axes, unit_axis
@@ -78,8 +79,8 @@ def ladder_figure(
     >>> figure.axes[0].get_xlabel()
     'rating minus true skill (points)'
     """
-    figure = Picture(figsize=(5.4, 4.4 if curve is None else 7.8), layout="constrained")
-    figure.get_layout_engine().set(h_pad=0.1)  # type: ignore[union-attr]
+    size, roomy = (5.4, 4.4 if curve is None else 7.8), ConstrainedLayoutEngine(h_pad=0.1)
+    figure = Picture(figsize=size, layout=roomy)
     panels = figure.subplots(1 if curve is None else 2, 1, squeeze=False)[:, 0]
     _draw_law(panels[0], law, natural, within)
     if curve is not None:

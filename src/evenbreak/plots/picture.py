@@ -26,7 +26,7 @@ Asked = ParamSpec("Asked")
 Drawn = TypeVar("Drawn")
 
 
-_LOOK = {
+_LOOK: Any = {
     "axes.titlesize": 11,
     "xtick.major.pad": 6,  # the zeros of two axes are apart
     "ytick.major.pad": 5,
