@@ -8,7 +8,7 @@ from datetime import datetime, timedelta
 from typing import Any, NamedTuple
 
 from evenbreak.answers.tournament.time import time_of_day
-from evenbreak.answers.tournament.tournament import races_words
+from evenbreak.answers.tournament.tournament import races_words, short_place
 from evenbreak.tournaments.brackets.bracket import Place
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.later_draws import can_draw
@@ -255,7 +255,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
                 entrant.standard_error,
                 name in provisional,
                 titles.get(name),
-                str(places.get(name, "")),
+                short_place(places[name]) if name in places else "",
                 match,
                 other,
                 table,

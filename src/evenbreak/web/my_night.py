@@ -10,6 +10,7 @@ import numpy as np
 
 from evenbreak.answers.tournament.bracket_view import round_names, source_words
 from evenbreak.answers.tournament.time import time_of_day
+from evenbreak.answers.tournament.tournament import short_place
 from evenbreak.files.store.desk import Phones, Sides
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.standing import NOBODY
@@ -323,7 +324,7 @@ def place_of(
     if place is None:
         return "", None
     paid = shared_prize(prizes, place.first, place.last, unit)
-    return str(place), None if place.event else paid
+    return short_place(place), None if place.event else paid
 
 
 def _from_words(state: Evening, slot: Source) -> Sentence | str:

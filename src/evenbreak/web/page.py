@@ -43,6 +43,7 @@ from evenbreak.words import (
     Figure,
     capital_in_face,
     in_face,
+    joined,
     race,
     say,
     say_as,
@@ -84,7 +85,12 @@ FIELDS = {
 FORMS = {
     "tournament correct": say("Correct a result"),
     "tournament draw": say("Make the draw"),
+    "tournament new": say("New tournament"),
+    "tournament next": say("Tonight"),
+    "tournament rename": say("Correct a name"),
     "tournament result": say("Enter result"),
+    "tournament stand": say("Let it stand"),
+    "tournament swap-tables": say("Trade"),
     "tournament tiebreak": say("Break the ties"),
     "tournament undo": say("Undo"),
 }
@@ -255,6 +261,7 @@ def page(
             say=say,
             say_as=say_as,
             say_count=say_count,
+            joined=joined,
             tally=tally,
             race_of=race,
             whole=_whole,
@@ -421,5 +428,5 @@ def page_face(language: str) -> Face:
 
 def _whole(text: str) -> Markup:
     """Return a text whose scores, such as 5-1, are not broken over lines."""
-    shown = re.sub(r"\d+-\d+", r"<b class=whole>\g<0></b>", str(escape(text)))
+    shown = re.sub(r"\d+[-:]\d+", r"<b class=whole>\g<0></b>", str(escape(text)))
     return Markup(f"<span>{shown}</span>")  # noqa: S704

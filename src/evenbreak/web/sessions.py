@@ -228,4 +228,6 @@ def author_words(kept: str) -> str:
         return say("program: {name}", name=kept.removeprefix(PROGRAM))
     if kept.startswith(_CAPTAIN):
         return say("captain of {team}", team=kept.removeprefix(_CAPTAIN))
+    if kept.startswith("phone "):
+        return say("phone {label}", label=kept.removeprefix("phone "))
     return kept

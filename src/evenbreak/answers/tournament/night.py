@@ -27,7 +27,7 @@ from evenbreak.answers.tournament.time import (
     minute_of_day,
     time_of_day,
 )
-from evenbreak.answers.tournament.tournament import against, pair_words, races_words
+from evenbreak.answers.tournament.tournament import against, pair_words, races_words, short_place
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.brackets.standing import NOBODY
 from evenbreak.tournaments.clock.finish import Call
@@ -371,7 +371,9 @@ def _next_table(
 def _places(state: Evening) -> Table:
     """Return who finished where."""
     found = sorted(decided_places(state).items(), key=lambda one: (one[1].event, one[1]))
-    return Table("places", columns_of("place name"), [[str(place), name] for name, place in found])
+    return Table(
+        "places", columns_of("place name"), [[short_place(place), name] for name, place in found]
+    )
 
 
 def bracket_table(state: Evening) -> Table:

@@ -213,6 +213,9 @@ def against(pair: Sequence[str]) -> Sentence:
     return say("{a} against {b}", a=pair[0], b=pair[1])
 
 
+_EVENTS = {"consolation": say("consolation")}
+
+
 def place_words(place: Place) -> Sentence:
     """Return a place, or the places that some players share.
 
@@ -224,7 +227,19 @@ def place_words(place: Place) -> Sentence:
     words = ordinal(place.first)
     if place.first != place.last:
         words = say("{first} to {last}", first=words, last=ordinal(place.last))
-    return say("{place} ({event})", place=words, event=place.event) if place.event else words
+    if place.event:
+        return say("{place} ({event})", place=words, event=_EVENTS[place.event])
+    return words
+
+
+def short_place(place: Place) -> str:
+    """Return a place, or those that some players share, in figures.
+
+    >>> short_place(Place(5, 6)), short_place(Place(1, 1, "consolation"))
+    ('5-6', 'consolation 1')
+    """
+    span = str(place._replace(event=""))
+    return joined([_EVENTS[place.event], span]) if place.event else span
 
 
 def _of_swiss(bracket: Bracket, slot: Slot) -> bool:

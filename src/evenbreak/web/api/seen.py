@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from evenbreak.answers.tournament.bracket_view import Box, Panel
 from evenbreak.answers.tournament.moves import event_name
+from evenbreak.answers.tournament.tournament import short_place
 from evenbreak.tournaments.brackets.bracket import Source
 from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.evening.listed import decided_places
@@ -81,7 +82,7 @@ class Seen(NamedTuple):
         """The places that are decided, and who has them."""
         decided = decided_places(self.state) if self.state.drawn else {}
         first = sorted(decided.items(), key=lambda one: (one[1].event, one[1]))
-        return [(str(place), name) for name, place in first]
+        return [(short_place(place), name) for name, place in first]
 
     @property
     def panels(self) -> tuple[Panel, ...]:
