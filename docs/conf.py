@@ -151,7 +151,7 @@ def write_rooms(app, docname, source) -> None:  # noqa: ARG001
 
 
 UNSEEN = re.compile(r"^(?:[^\n]+\n)*?<!--\n(```\{.*?^```)\n-->$", re.MULTILINE | re.DOTALL)
-LISTED = re.compile(r"^(?:- |\*\*)\[[^]]+\]\(((?!\.\.)[^)#]+)\.md\)", re.MULTILINE)
+LISTED = re.compile(r"^(?:- |\*\*)\[[^]]+\]\(((?!\.\.)[^)#]+)\.md\)(?=[:, ]|\*\*$)", re.MULTILINE)
 NOTEBOOK = """\
 ---
 file_format: mystnb
