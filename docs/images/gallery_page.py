@@ -14,24 +14,23 @@ WIDTH, WIDE = 42, 84
 HEAD = """\
 # Gallery
 
-Every chart evenbreak draws, with the command or the Python behind it; click one for its page.
-Commands write PNG or SVG to the file you name; in a notebook, charts display themselves. The sample
-data is in the folder `data/`.
+Every chart evenbreak draws, and how to draw it; click one for its page. Commands write PNG or SVG;
+in a notebook, charts display themselves. Sample data: the folder `data/`.
 """
 
 PAGE = (
     (
         "front_page",
         "On the wall and on every phone",
-        "Scores, who is next, the finish time, who wins.",
+        "Scores, chances, finish time.",
     ),
     (
         "page/call",
         "Call the next matches",
-        "The director's phone: a free table, and who goes there.",
+        "The director's phone.",
     ),
-    ("page/match", "Keep your own score", "A player's phone: tap for a game, see your chance."),
-    ("page/tonight", "Follow along", "Everyone's phone: tables, finish time, title odds."),
+    ("page/match", "Keep your own score", "A player's phone: tap for a game."),
+    ("page/tonight", "Follow along", "Everyone's phone: tables and title odds."),
 )
 """Pictures of the page, which `page_pictures.py` makes: file, title, words. The first is wide."""
 
@@ -44,16 +43,14 @@ PAPER = """\
 | the bracket as a page, or on paper | `evenbreak tournament show --out bracket.html`, or `bracket.pdf` |
 | score cards, the bracket, the draw | `evenbreak tournament print cards`, `bracket` or `draw` |
 | the sheet for [phones and printers](how-to/publish-your-league.md) | `evenbreak report data/demo_league.csv --out sheet --page` |
-| the sheet as a workbook | `evenbreak report data/demo_league.csv --out sheet --excel` |
 | any answer as a web page | `evenbreak odds 612 521 --scale fargo --race 7:7 --html odds.html` |
 
-PDFs are on US Letter or A4, whichever is usual where your computer is; `--paper letter` or
-`--paper a4` decides.
+PDFs are US Letter or A4, whichever your computer's region uses, or as `--paper letter|a4` says.
 
 ## The book's figures
 
-`evenbreak reproduce --out reports` redraws every figure of Shepard's *Amateur Physics for the
-Amateur Pool Player*, the book this program grew out of: [see them all](../reports/index.md).
+`evenbreak reproduce` redraws every figure of Shepard's *Amateur Physics for the Amateur Pool
+Player*, which this program grew out of: [see them all](../reports/index.md).
 """  # noqa: E501
 
 
@@ -68,15 +65,16 @@ def _command(text: str, width: int) -> str:
     return " \\\n".join(lines)
 
 
-def _made(one: Shown) -> str:
+def _made(one: Shown, made: set[str]) -> str:
+    """Return what makes a picture; `made` are the commands that stand further up."""
     if one.python:
         # Not "python": make_images.py has run it, which takes longer than an example may.
         return _folded(f"```py\n{one.python}```\n")
     command = one.command.replace("FILE", PurePath(one.name).name)
-    width = WIDE if one.wide else WIDTH
-    lines = "\n".join(_command(line, width) for line in (*one.first.splitlines(), command))
-    shown = f"```sh\n{lines}\n```\n"
-    return _folded(shown) if one.first else shown
+    if command in made:
+        return "The same command draws it.\n"
+    made.add(command)
+    return f"```sh\n{_command(command, WIDE if one.wide else WIDTH)}\n```\n"
 
 
 def _folded(code: str) -> str:
@@ -89,12 +87,12 @@ def _boxed(kind: str, *parts: str) -> str:
     return "\n".join((f'<div class="{kind}">\n', *parts, "</div>\n"))
 
 
-def _card(one: Shown) -> str:
+def _card(one: Shown, made: set[str]) -> str:
     return _boxed(
         "picture wide" if one.wide else "picture",
         f"[![{one.title}](images/{PurePath(one.name).name})]({one.page})\n",
         f"[{one.title}]({one.page}). {one.says}\n",
-        _made(one),
+        _made(one, made),
     )
 
 
@@ -108,8 +106,8 @@ def _live() -> Iterator[str]:
 
 def gallery_page() -> str:
     """Return the page as Markdown."""
-    parts = [HEAD]
+    parts, made = [HEAD], set[str]()
     for k, (group, shown) in enumerate(SHOWN.items()):
-        cards = (*(_live() if k == 0 else ()), *map(_card, shown))
+        cards = (*(_live() if k == 0 else ()), *(_card(one, made) for one in shown))
         parts += [f"## {group}\n", _boxed("gallery", *cards)]
     return "\n".join([*parts, PAPER])

@@ -73,7 +73,7 @@ SHOWN: dict[str, tuple[Shown, ...]] = {
         Shown(
             "bracket.svg",
             "The bracket, live",
-            "Results, who is on which table, and where the losers go.",
+            "Results, tables, and where losers go.",
             "how-to/run-an-evening.md",
             "tournament show --at 21:30 --title 'Tuesday 9-Ball' --out FILE",
             first=NIGHT + LATER,
@@ -82,7 +82,7 @@ SHOWN: dict[str, tuple[Shown, ...]] = {
         Shown(
             "story.svg",
             "The odds through a night",
-            "Who was going to win that night, after every match.",
+            "Who will win, after every match.",
             "how-to/run-an-evening.md",
             "tournament export --story --out FILE",
             then=END,
@@ -91,7 +91,7 @@ SHOWN: dict[str, tuple[Shown, ...]] = {
         Shown(
             "sheet.png",
             "The sheet for the wall",
-            "The fairest race for each pair, and everyone's rating with its uncertainty.",
+            "The fairest race for each pair, and everyone's rating.",
             "tutorial/first-evening.md",
             wide=True,
             python="""\
@@ -136,7 +136,7 @@ picture.legend(fontsize=9)
         Shown(
             "live.svg",
             "A match in progress",
-            "A's chance after each game, and how much each game mattered.",
+            "A's chance after each game, and what each one mattered.",
             "how-to/during-a-match.md",
             "live --p 0.6 --race 7:5 --racks abbababaab --plot FILE",
             draws="course_figure",
@@ -152,7 +152,7 @@ picture.legend(fontsize=9)
         Shown(
             "breaks.svg",
             "Break formats",
-            "How many racks you win in the long run, for any two players.",
+            "How many racks each player wins in the long run.",
             "how-to/match-formats.md#which-break-format-is-better-for-you",
             "breaks --p1 0.9 --p2 0.5 --win 1 --lose 2 --plot FILE",
             draws="breaks_figure",
@@ -162,7 +162,7 @@ picture.legend(fontsize=9)
         Shown(
             "chart.svg",
             "A chart, audited",
-            "The stronger player's chance at each rating difference, next to another chart.",
+            "The stronger player's chance, next to another chart.",
             "how-to/a-fair-chart.md",
             "chart audit data/house_chart.csv --scale npl --beside npl_10 --plot FILE",
             draws="draw_chart",
@@ -178,7 +178,7 @@ picture.legend(fontsize=9)
         Shown(
             "systems.svg",
             "Accurate or quick",
-            "Rating errors and the time newcomers take to settle, for several systems.",
+            "Rating errors and settling times of several systems.",
             "how-to/how-wrong-are-our-ratings.md",
             "ladder --compare --plot FILE",
             draws="draw_systems",
@@ -186,7 +186,7 @@ picture.legend(fontsize=9)
         Shown(
             "pay.svg",
             "What losing on purpose gains",
-            "The chance of winning the matches that count, after dumping some.",
+            "Chances in the matches that count, after dumping some.",
             "how-to/sandbagging.md",
             "sandbag pay --chart npl_12 --stake 50 --dumped-stake 5 --plot FILE",
             draws="draw_pay",
@@ -204,7 +204,7 @@ picture.legend(fontsize=9)
         Shown(
             "calibration.svg",
             "Can the ratings be trusted?",
-            "How often favorites won, and how often they were expected to.",
+            "How often favorites won, and were expected to.",
             "how-to/can-i-trust-the-ratings.md",
             "validate data/demo_league.csv --prior 30 --plot FILE",
             draws="draw_calibration",
@@ -230,7 +230,7 @@ picture.legend(fontsize=9)
         Shown(
             "compared/even_by_decile.svg",
             "Handicap systems side by side: even matches",
-            "Who gets even matches, from the weakest tenth to the strongest.",
+            "Who gets even matches, weakest to strongest.",
             "how-to/compare-handicap-systems.md",
             "simulate data/demo_league_roster.csv --compare npl --compare 'step 2' --replicas 100 "
             "--jobs 1 --out compared",
@@ -248,7 +248,7 @@ picture.legend(fontsize=9)
         Shown(
             "season/standings.svg",
             "A season: the table",
-            "How many matches each player wins: the mean, and 8 seasons in 10.",
+            "How many matches each player wins.",
             "how-to/simulate-a-season.md",
             "simulate data/demo_league_roster.csv --chart npl_10 --weeks 30 --replicas 100 "
             "--no-matches --jobs 1 --out season",
@@ -259,7 +259,7 @@ picture.legend(fontsize=9)
         Shown(
             "shot.svg",
             "A shot, traced",
-            "Where both balls go, and where to aim to allow for throw.",
+            "Where both balls go, with throw allowed for.",
             "how-to/shots.md#draw-a-shot",
             "physics shot --cue-ball 30,15 --object-ball 50,15 --pocket foot-right --speed 80 "
             "--offset -0.4 --plot FILE",
@@ -308,7 +308,7 @@ picture.legend(fontsize=9)
         Shown(
             "practice_shots.svg",
             "Which shots went in",
-            "Single shots by day, before and after the halfway point.",
+            "Single shots by day.",
             "how-to/did-my-practice-help.md",
             "practice data/practice_shots.csv --plot FILE",
             draws="draw_practice_shots",
@@ -324,7 +324,7 @@ picture.legend(fontsize=9)
         Shown(
             "spot.svg",
             "A spot in straight pool",
-            "A's chance for each spot, and the one that makes the match even.",
+            "A's chance for each spot.",
             "how-to/did-my-practice-help.md#runs-bets-and-straight-pool",
             "straight --averages 24:19 --points 150 --plot FILE",
             draws="draw_spot",
@@ -374,7 +374,7 @@ picture = draw(Ahead(3, 2, Rack(2 / 3)), title=title)
         Shown(
             "drill.svg",
             "A graph of your own",
-            "Any networkx graph, here a drill with symbols for its chances.",
+            "Any networkx graph, here a drill.",
             "how-to/your-own-chain.md#draw-a-game",
             python="""\
 import networkx as nx
