@@ -101,7 +101,7 @@ def _live() -> Iterator[str]:
     page = "tutorial/evening-by-page.md"
     for name, title, says in PAGE:
         shown = f"[![{title}](images/{name}.png)]({page})\n\n[{title}]({page}). {says}\n"
-        yield _boxed("picture" if "/" in name else "picture wide", shown)
+        yield _boxed("picture phone" if "/" in name else "picture wide", shown)
 
 
 def gallery_page() -> str:
