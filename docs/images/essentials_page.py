@@ -11,7 +11,7 @@ from shown import NIGHT
 
 
 class Step(NamedTuple):
-    """What somebody wants, the command for it, and which paragraphs of its output are shown."""
+    """What is wanted, the command for it, and which paragraphs of its output are shown."""
 
     wanted: str
     command: str
@@ -32,24 +32,25 @@ TEAMS = "lineup data/demo_team.csv data/demo_opponents.csv --race 5 --sets 5 --o
 PAGES = (
     Page(
         "The director's evening",
-        "Players are a CSV file with the columns <code>player</code> and <code>rating</code>; a "
-        "rating may be missing. The evening is kept in <code>tonight.db</code>; leave out "
-        "<code>--at</code>, which sets the clock here. To run all of it from a phone, type "
+        "List the players in a CSV file with the columns <code>player</code> and "
+        "<code>rating</code>; a rating may be missing. The night is saved in "
+        "<code>tonight.db</code>. Leave out <code>--at</code>, which only sets the clock for this "
+        "page. To run everything from a phone instead, type "
         "<b><code>evenbreak serve tonight.db --lan</code></b> and scan the code that it prints.",
         (
-            Step("Begin: the list, the races, the tables", NEW, (0,)),
+            Step("Start: the list, the races, the tables", NEW, (0,)),
             Step("Make the draw", DRAW, (1,)),
-            Step("Send the next matches to the tables", CALL, (1,)),
+            Step("Call the next matches", CALL, (1,)),
             Step("Enter a result", RESULT, (1, 2)),
         ),
         (
-            ("The score was wrong", "tournament correct 3 4:5"),
+            ("The score was wrong", "tournament correct 3 4-5"),
             ("Take back the last entry", "tournament undo"),
             (
-                "A late player takes a bye, if one is open",
+                "A late player takes an open bye",
                 'tournament late "Wanda Late" --rating 60',
             ),
-            ("Somebody goes home", 'tournament drop "Otto Birnhuber"'),
+            ("Someone goes home", 'tournament drop "Otto Birnhuber"'),
             ("The bracket, and a picture of it", "tournament show --out bracket.pdf"),
             ("Odds of every place; prizes", "tournament odds; tournament prizes --fee 20"),
             ("Score cards, bracket or draw on paper", "tournament print cards"),
@@ -58,8 +59,8 @@ PAGES = (
     Page(
         "League night",
         "Results are a CSV file or workbook with the columns <code>player_a</code>, "
-        "<code>player_b</code>, <code>score_a</code> and <code>score_b</code>, a match a row. "
-        "Names such as <code>results.csv</code> below stand for your own files.",
+        "<code>player_b</code>, <code>score_a</code> and <code>score_b</code>, one match per row. "
+        "Put your own files in place of names such as <code>results.csv</code>.",
         (
             Step(
                 "A sheet for the wall, from last season's results",
@@ -89,26 +90,26 @@ PAGES = (
     Page(
         "The captain's night",
         "Each team is a CSV file with the columns <code>player</code> and <code>rating</code>, for "
-        "caps also <code>level</code>. In the order, A is you and B are they. <code>--sure</code> "
-        "takes the ratings as right; without it the answer allows for how far they may be off.",
+        "caps <code>level</code> too. In the order, A is you and B is them. <code>--sure</code> "
+        "treats the ratings as exact; without it the answer allows for their uncertainty.",
         (
-            Step("Whom to put up when you name first", TEAMS, (1, 2, 3)),
+            Step("Who to put up when you name first", TEAMS, (1, 2, 3)),
             Step(
-                "Whom to answer with",
-                f'{TEAMS} --used "Dario Pellengrino, Winston Peake" --score 1:0 '
+                "Who to answer with",
+                f'{TEAMS} --used "Dario Pellengrino, Winston Peake" --score 1-0 '
                 '--named "Tomáš Havrlant"',
                 (1, 2),
             ),
         ),
         (
-            ("A match is still on", 'lineup … --playing "Dario Pellengrino v Winston Peake 3:4"'),
-            ("Both write a name unseen", "lineup … --order blind"),
+            ("A match is still on", 'lineup … --playing "Dario Pellengrino v Winston Peake 3-4"'),
+            ("Blind picks", "lineup … --order blind"),
             ("A cap on the sum of the levels", "lineup … --cap 23"),
             (
                 "A head start to make a round even",
                 "round ours.csv theirs.csv --single-games 1 --everybody",
             ),
-            ("How the season may end", "season results.csv schedule.csv --up 2 --down 1"),
+            ("How the season could end", "season results.csv schedule.csv --up 2 --down 1"),
         ),
     ),
     Page(
@@ -131,19 +132,19 @@ PAGES = (
 )
 
 STYLE = """\
-@page { size: A4; margin: 14mm 15mm; }
-body { font: 10.5pt/1.35 system-ui, sans-serif; margin: 2rem auto; max-width: 44rem;
+@page { margin: 10mm 14mm; }
+body { font: 10pt/1.3 system-ui, sans-serif; margin: 2rem auto; max-width: 44rem;
   padding: 0 1rem; }
 .head { color: #555; font-weight: bold; margin: 0; }
 h1 { font-size: 1.5rem; margin: .1rem 0 .5rem; }
 h2 { font-size: 1rem; margin: .7rem 0 .2rem; }
 code, pre { font-family: ui-monospace, "DejaVu Sans Mono", monospace; }
-pre { background: #f4f4f4; border-radius: 4px; font-size: 8.2pt; line-height: 1.25; margin: .2rem 0;
+pre { background: #f4f4f4; border-radius: 4px; font-size: 8pt; line-height: 1.2; margin: .2rem 0;
   overflow-x: auto; padding: .4rem .6rem; }
 pre b { white-space: pre-wrap; }
 pre span, td span { white-space: nowrap; }
 table { border-collapse: collapse; margin-top: 1rem; width: 100%; }
-td { border-top: 1px solid #ccc; padding: .25rem .6rem .25rem 0; vertical-align: top; }
+td { border-top: 1px solid #ccc; padding: .2rem .6rem .2rem 0; vertical-align: top; }
 td code { font-size: 8.5pt; font-weight: bold; }
 section + section { border-top: 2px solid #888; margin-top: 2rem; padding-top: 1rem; }
 h2, pre, tr { break-inside: avoid; }

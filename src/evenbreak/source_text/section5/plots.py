@@ -97,7 +97,7 @@ def break_formats() -> Figure:
     figure, panels = share_panels(x=_BREAK_1, y=_BREAK_2)
     names = ("Winner breaks", "Loser breaks", "Alternate breaks")
     titles = [f"{name}: player 1's share $W$" for name in names]
-    for axes, title in zip(panels, [*titles, "Winner breaks less loser breaks"], strict=True):
+    for axes, title in zip(panels, [*titles, "Winner minus loser breaks"], strict=True):
         axes.set_title(title)
     return figure
 
