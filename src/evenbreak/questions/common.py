@@ -157,7 +157,7 @@ FormOfDay: TypeAlias = Annotated[
         usual="what the list of ratings states, else 0",
         section="Details",
         more="A standard deviation, as `evenbreak rate` finds it; see [form of the day]"
-        "(../../explanation/ratings.md#form-of-the-day).",
+        "(../../explanation/ratings.md#day-to-day-form).",
     ),
 ]
 ByWay: TypeAlias = Annotated[

@@ -107,7 +107,7 @@ ROSTER = Schema(
     ),
     races_lost=_COUNT.called("", "the same for matches lost"),
     match_form=Number(
-        about="[form of the day](../explanation/ratings.md#form-of-the-day): how much the log-odds "
+        about="[day-to-day form](../explanation/ratings.md#day-to-day-form): how much the log-odds "
         "of a game vary from match to match; the same in each row",
         least=0,
         most=3,
