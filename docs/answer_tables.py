@@ -25,17 +25,22 @@ COMMON = {"heading", "sentences", "details", "warnings", "schema_version"}
 
 def tables_of(name: str, shape: dict[str, Any]) -> Iterator[str]:
     """Yield the table of the keys of an object, and those of the objects within it."""
-    within = []
-    lines = [f"**`{name}`**\n"] if name else []
-    lines += ["| key | meaning |", "|---|---|"]
+    within, rows, plain = [], [], []
     for key, value in shape["properties"].items():
         if not name and key in COMMON:
             continue
         inner = value if "properties" in value else value.get("items", {})
         if "properties" in inner:
             within.append((f"{name}.{key}".strip("."), inner))
-        lines.append(f"| `{key}` | {value.get('description', '')} |")
-    yield "\n".join([*lines, ""])
+        means = value.get("description", "")
+        if means in {"", key.replace("_", " ")}:
+            plain.append(f"`{key}`")
+        else:
+            rows.append(f"| `{key}` | {means} |")
+    lines = [f"**`{name}`**", ""] if name else []
+    lines += ["| key | meaning |", "|---|---|", *rows, ""] if rows else []
+    lines += [f"{'Also' if rows else 'The keys'}: {', '.join(plain)}.", ""] if plain else []
+    yield "\n".join(lines)
     for named, inner in within:
         yield from tables_of(named, inner)
 
