@@ -16,15 +16,7 @@ from evenbreak.answers.kit.answer import Answer
 
 
 class Place(NamedTuple):
-    """Where a question and what answers it are declared: nothing is imported before it is asked.
-
-    Parameters
-    ----------
-    question
-        its class, in `evenbreak.questions`.
-    answer
-        the function that answers it, in `evenbreak.answers`.
-    """
+    """Where a question and its answer are declared, by module and name; imported when asked."""
 
     question: str
     answer: str
@@ -73,19 +65,7 @@ def question_of(command: str) -> Any:
 
 
 def answer_to(command: str, asked: Any) -> Answer:
-    """Return the answer to a question.
-
-    Parameters
-    ----------
-    command
-        its name.
-    asked
-        the question, of the class that `question_of` returns.
-
-    Raises
-    ------
-    EvenbreakError
-        if it cannot be answered; an `AskedError` if it contradicts itself.
+    """Return the answer to a question; an AskedError if the question contradicts itself.
 
     >>> odds = question_of("odds")(p=0.6, race=(7, 5))
     >>> print(answer_to("odds", odds).sentences[0])

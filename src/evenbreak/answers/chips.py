@@ -38,19 +38,7 @@ _EXACT = 4  # players at most whose chances are exact
 
 @dataclass(frozen=True, eq=False)
 class ChipField:
-    """The players of a chip tournament.
-
-    Parameters
-    ----------
-    names, ratings
-        who they are.
-    scale
-        what the ratings mean.
-    tables
-        how many tables there are.
-    source
-        where they come from, in words.
-    """
+    """The players of a chip tournament."""
 
     names: Sequence[str]
     ratings: Floats
@@ -91,25 +79,8 @@ def chip_odds_answer(
 ) -> Answer:
     """Return who wins a chip tournament.
 
-    Parameters
-    ----------
-    field
-        the players.
-    chart
-        the chips at the start.
-    left
-        instead: the last players at one table and their chips, in the order of the line; the
-        first stays at the table, the second is the challenger.
-    seed
-        of the simulation.
-    warnings
-        about the question.
-
-    >>> from evenbreak.ratings import SCALES
-    >>> ratings = np.array([650.0, 350.0])
-    >>> field = ChipField(["Ann", "Bo"], ratings, SCALES["fargo"], 1, "in club.csv")
-    >>> print(chip_odds_answer(field, left={"Ann": 4, "Bo": 8}).sentences[0])
-    Ann is the favorite and wins 97% of the time.
+    `chart` sets the chips at the start; or `left` gives the last players at one table and their
+    chips: the first is at the table, the second is the challenger, and the others wait in line.
     """
     rng = np.random.default_rng(seed)
     if left is None:

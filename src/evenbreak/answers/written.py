@@ -12,16 +12,7 @@ from evenbreak.words import FilePath, listed, say
 
 
 def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> Answer:
-    """Return what the folder of the demo holds, and three commands to try.
-
-    Parameters
-    ----------
-    folder
-        where the files are.
-    files
-        what each of them holds.
-    new
-        those that were not there before.
+    """Return what the demo's folder holds, and three commands to try.
 
     >>> print(demo_answer("try", {"drill_log.csv": "a drill"}, ["drill_log.csv"]).sentences[0])
     Wrote 1 file to try. The players are made up.
@@ -50,18 +41,9 @@ def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> An
 def league_answer(
     path: str, files: Sequence[tuple[str, str, str]], commands: Any, warnings: Sequence[str] = ()
 ) -> Answer:
-    """Return what a new file of a league was written from, and what can be run now.
+    """Return what a league's new file was written from, and what can be run now.
 
-    Parameters
-    ----------
-    path
-        the file.
-    files
-        each file of the folder, what it is taken as ('' if nothing), and what it holds.
-    commands
-        what each command is for, and the command.
-    warnings
-        about the files.
+    Each of `files` is a name, what it is taken as ('' if nothing), and its content in words.
 
     >>> answer = league_answer("league.toml", [("a.csv", "results", "9 matches")], [])
     >>> print(answer.sentences[0])
@@ -93,22 +75,7 @@ MEANINGS = {
 
 
 def reproduction_answer(folder: str, verdicts: Mapping[str, int], files: Iterable[str]) -> Answer:
-    """Return how the numbers of the source text compare, and what was written.
-
-    Parameters
-    ----------
-    folder
-        where the files are.
-    verdicts
-        how many numbers have each verdict.
-    files
-        the names of the files.
-
-    >>> answer = reproduction_answer("text", {"agrees": 8, "erratum": 1}, ["index.md", "a.csv"])
-    >>> print(answer.sentences[0])
-    Of 9 numbers in the source text, 8 are confirmed and 1 is wrong in the text. Start with
-    text/index.md.
-    """
+    """Return how the numbers of the source text compare, and what was written."""
     names = list(files)
     total, wrong = sum(verdicts.values()), verdicts.get("erratum", 0)
     confirmed = verdicts.get("agrees", 0) + verdicts.get("formula", 0)

@@ -34,20 +34,10 @@ SPREAD = 2
 
 @dataclass(frozen=True)
 class DesignTask:
-    """What is asked of a design.
+    """What is asked of a design; the fields are those of `evenbreak.handicaps.design`.
 
-    Parameters
-    ----------
-    scale, limits, target, tilt, up_to, rows
-        as for `evenbreak.handicaps.design`.
-    beside
-        other charts to compare with. Unless `up_to` is given, the last difference that counts
-        is the smallest `last_difference` of these.
-
-    >>> from evenbreak.ratings import SCALES
-    >>> task = DesignTask(SCALES["npl"], RaceLimits((5, 7), weaker_least=2))
-    >>> task.design()[0].race(12)
-    (4, 3)
+    Without `up_to`, the last difference that counts is the smallest `last_difference` of the charts
+    compared with (`beside`).
     """
 
     scale: Scale

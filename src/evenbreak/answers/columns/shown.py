@@ -204,18 +204,10 @@ Entry = tuple[str, Column]
 def number(
     key: str, words: str | None = None, show: Show | int = str, name: Any = None, **how: Any
 ) -> Entry:
-    """Return an entry of the registry.
+    """Return an entry of the registry: a column by its key.
 
-    Parameters
-    ----------
-    key
-        what answers call it; its name in files too, unless `name` is another.
-    words
-        what a person reads, with fields for what only an answer knows; None: it is in files only.
-    show
-        how a person reads a value; a number is one of decimals.
-    name, how
-        as for `Column`.
+    `words` may have fields that only an answer fills in; without words the column is in files only.
+    A number as `show` is its decimals.
     """
     reads = decimals(show) if isinstance(show, int) else show
     return key, Column(key if name is None else name, words, reads, **how)

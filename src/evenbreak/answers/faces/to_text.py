@@ -17,17 +17,9 @@ _GAP = 2
 
 
 def to_text(answer: Content, *, width: int = WIDTH, verbose: bool = False) -> str:
-    """Return an answer as text.
+    """Return an answer as text, without its warnings, which go elsewhere.
 
-    Parameters
-    ----------
-    answer
-        what is shown; its warnings are not, since they go elsewhere.
-    width
-        the columns of the terminal. Paragraphs are broken there; of a table that is wider the
-        columns are parted, each part with the columns that stand flush left.
-    verbose
-        whether to show details too.
+    A table wider than `width` is split by columns; each part repeats those that are flush left.
     """
     parts = [answer.heading, *answer.parts, *(answer.details if verbose else ())]
     return "\n\n".join(filter(None, (_shown(part, width, verbose) for part in parts))) + "\n"

@@ -30,24 +30,9 @@ DEFECTIVE = (
 def by_way(
     via: Way | None, pairs: Iterable[tuple[Any, Any]], *, beside: Way = "kernel", note: str = ""
 ) -> list[Part]:
-    """Return what an answer says about the way that was asked for; nothing if none was.
+    """Return what an answer adds when a method was asked for; nothing if none was.
 
-    Parameters
-    ----------
-    via
-        the way.
-    pairs
-        numbers by this way, each with the same number by the way `beside`; None for none.
-    beside
-        the way to compare with.
-    note
-        what else to know about the way.
-
-    >>> for part in by_way("eigen", [(0.5, 0.5), (0.25, 0.25000000000000006)]):
-    ...     print(part if isinstance(part, str) else [(one.name, one.value) for one in part.of])
-    Calculated by eigenvectors: the game's graph became a sparse matrix, and the limit was read \
-off its eigenvectors of eigenvalue 1.
-    [('via', 'eigen'), ('kernel_difference', 5.551115123125783e-17)]
+    Each of `pairs` is a number by this method and by the method `beside`.
     """
     if via is None:
         return []
@@ -71,14 +56,9 @@ def error_of_share(share: float, runs: int) -> float:
 
 
 def luck_words(errors: Iterable[float], figures: str = "share") -> str:
-    """Return by how much other luck would move the figures of one simulation, 19 times in 20.
+    """Return how far another seed would move the figures of a simulation, 19 times in 20.
 
-    Parameters
-    ----------
-    errors
-        their standard errors, as shares of 1.
-    figures
-        what one of them is called.
+    The standard errors are shares of 1.
 
     >>> luck_words([0.01, 0.02], "title odds")
     'other luck would move no title odds by more than about 4.0 percentage points'

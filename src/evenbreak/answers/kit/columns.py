@@ -46,25 +46,10 @@ def column_of(
     unit: str = "",
     **fields: Any,
 ) -> Column:
-    r"""Return a column.
+    """Return a column by its key; with a hyphen before it the column is in files only.
 
-    Parameters
-    ----------
-    key
-        its key; with a hyphen before it the column is in files only.
-    show
-        how a value is read, where only the answer knows; otherwise as the registry has it.
-    detail
-        whether it is for those who ask for details; otherwise as the registry has it.
-    unit
-        the ending of its name, where the unit is chosen by the user.
-    fields
-        what the fields of its words and of its name stand for.
-
-    >>> column_of("race_a", a="Ann").words, column_of("-race_a").words
-    ('Ann\nneeds', None)
-    >>> column_of("score_b", b="Bo", score=3).name
-    'score_b_3'
+    `fields` fill in its words and name; `show` and `detail` override the registry, `unit` ends the
+    name.
     """
     entry = COLUMNS[key.removeprefix("-")]
     changes: dict[str, Any] = {}
@@ -84,14 +69,7 @@ def column_of(
 
 
 def columns_of(keys: str, /, *, show: Mapping[str, Show] = NOTHING, **fields: Any) -> list[Column]:
-    """Return columns by their keys, which are parted by blanks.
-
-    Parameters
-    ----------
-    keys, fields
-        as for `column_of`.
-    show
-        how the values of some are read, by key.
+    """Return columns by their keys, separated by spaces; `show` overrides the registry by key.
 
     >>> [one.name for one in columns_of("player rating -scale")]
     ['player', 'rating', 'scale']
@@ -109,16 +87,7 @@ def in_files(
 def table_by_column(
     name: str, values: Mapping[Any, Iterable[Any]], *, order: Iterable[int] | None = None
 ) -> Table:
-    """Return a table whose values are known column by column.
-
-    Parameters
-    ----------
-    name
-        as for `Table`.
-    values
-        those of each column, which is given by its key if it needs no fields.
-    order
-        the rows by their places, if in another order than the values.
+    """Return a table from its columns; one that needs no fields may be given by its key.
 
     >>> table_by_column("ratings", {"player": ["Ann", "Bo"], "rating": [1, 2]}, order=[1, 0]).rows
     [('Bo', 2), ('Ann', 1)]
@@ -148,14 +117,7 @@ def quantity_of(key: str, value: Any, /, **fields: Any) -> Quantity:
 def quantities_of(
     values: Mapping[str, Any], /, *, notes: Mapping[str, str] = NOTHING, **fields: Any
 ) -> list[Quantity]:
-    """Return values by their keys as quantities.
-
-    Parameters
-    ----------
-    values, fields
-        as for `column_of`; None where there is no value.
-    notes
-        what is said behind some, such as an interval, by key.
+    """Return values by their keys as quantities; a note (an interval, say) follows the value.
 
     >>> [one.name for one in quantities_of({"mean": 4.5, "-sd": 1.5})]
     ['mean', 'sd']

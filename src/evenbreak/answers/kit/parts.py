@@ -19,26 +19,11 @@ Show: TypeAlias = Callable[[Any], str]
 class Column:
     """A column of a table.
 
-    Parameters
-    ----------
-    name
-        its name in files and JSON, with the unit in it; or several names, where a person reads
-        as one what files keep apart, such as a race: its values are then tuples. Without any
-        name, (), only a person reads it.
-    words
-        what a person reads above it, its lines parted by line breaks; None: it is in files only.
-    show
-        a value as a person reads it; None is shown empty, whatever this says.
-    left
-        whether a person finds it flush left.
-    whole
-        whether its words stay on one line where the table is too wide, to be copied from there.
-    detail
-        whether only those read it who ask for details.
-    exact
-        whether CSV has its numbers with all their digits, in place of six decimals.
-    cell
-        a value as CSV has it, such as 'yes' for True; by default the value itself.
+    `name` is its name in files and JSON, with the unit in it; several names split what a person
+    reads as one, such as a race, and the values are then tuples. A column without a name, (), is
+    for people only, one without `words` for files only. `whole` keeps the words on one line, to be
+    copied; `detail` shows the column only on request; with `exact` CSV keeps all digits instead of
+    six decimals; `cell` is the value in CSV, such as 'yes' for True.
     """
 
     name: str | tuple[str, ...]
@@ -64,18 +49,8 @@ class Column:
 class Table:
     """Rows of values with named columns.
 
-    Parameters
-    ----------
-    name
-        its key in JSON; empty for a view of numbers that JSON holds elsewhere.
-    columns
-        what stands in each row.
-    rows
-        the values, a row at a time; whatever can be gone through more than once.
-    title
-        a line above it.
-    most
-        how many of its rows a person reads, the first; None: all.
+    Without a name it is a view of numbers that JSON holds elsewhere. People see the first `most`
+    rows, or all.
     """
 
     name: str
@@ -127,17 +102,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Quantity:
-    """One number, or a plain word, with its name.
-
-    Parameters
-    ----------
-    column
-        its name, its words and how it is shown, as of a column of a table.
-    value
-        None where there is none; it is then not shown.
-    note
-        what stands behind it, such as an interval.
-    """
+    """One number, or a plain word, with its name; not shown where the value is None."""
 
     column: Column
     value: Any
@@ -171,17 +136,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Quantities:
-    """Quantities, a line each.
-
-    Parameters
-    ----------
-    of
-        the quantities.
-    title
-        a line above them.
-    in_json
-        False for a view of numbers that JSON holds elsewhere.
-    """
+    """Quantities, one per line; not `in_json` where JSON holds the numbers elsewhere."""
 
     of: Sequence[Quantity]
     title: str = ""
@@ -206,27 +161,12 @@ SCHEMA_VERSION = 1
 
 @dataclass(frozen=True)
 class Content:
-    """What a question is answered with: sentences, quantities, tables and warnings, and no face.
+    """The answer to a question, whatever the output format.
 
-    Parameters
-    ----------
-    heading
-        what was asked, and of whom or what, in a line or two.
-    parts
-        what a person reads, in that order. The first is a paragraph: the answer in words.
-    details
-        what only those read who ask for it: statistics, with their words explained.
-    warnings
-        what may be wrong with what was given, a sentence each.
-    data
-        what JSON holds besides the quantities and tables of `parts` and `details`.
-    csv
-        the one of its tables or quantities that goes into a file or a pipe; without it the
-        first of `parts`.
-    schema_version
-        of its JSON.
-    drawn
-        what a picture of it shows (`evenbreak.plots.asked`).
+    People read `parts`, the first of which is the answer in words, and on request `details`. JSON
+    holds `data` in addition to their quantities and tables. `csv` is the table that goes into a
+    file or a pipe; by default, the first of `parts`. `drawn` is what a picture shows
+    (`evenbreak.plots.asked`).
     """
 
     heading: str

@@ -17,17 +17,7 @@ MOST_NAMES = 5
 
 
 class Remark(NamedTuple):
-    """Something worth knowing about an answer, and what there is to say of it.
-
-    Attributes
-    ----------
-    what
-        what it is about.
-    why
-        what there is to say.
-    names
-        the players or pairs that it is about.
-    """
+    """Something worth knowing about an answer, and the players or pairs that it is about."""
 
     what: str
     why: str

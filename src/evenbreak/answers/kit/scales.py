@@ -103,18 +103,9 @@ AGAINST = 10.0
 def contradiction(scale: Scale, roster: Roster, results: Results) -> str:
     """Return what results say against the scale of the ratings before them; '' if nothing.
 
-    The games are compared with what the differences of the ratings mean on each known scale. Read
-    on one with too few points to a doubling, everyone ahead is a clear favorite, and those who do
-    not win like one look like sandbaggers.
-
-    Parameters
-    ----------
-    scale
-        by which the ratings are read.
-    roster
-        the ratings.
-    results
-        of the players.
+    The games are compared with what the rating differences mean on each known scale. Read on a
+    scale with too few points per doubling, everyone ahead is a clear favorite, and those who don't
+    win like one look like sandbaggers.
 
     >>> from evenbreak.ratings import SCALES, Results, Roster
     >>> listed = Roster(["Ann", "Bo"], [540, 450])
@@ -198,25 +189,9 @@ def two_ratings_doubts(scale: Scale, *ratings: float) -> list[str]:
 def league_doubts(
     scale: Scale, ratings: ArrayLike, remedy: str, names: Sequence[str] = ()
 ) -> list[str]:
-    """Return a warning for each thing that is unusual in the ratings of a league.
+    """Return a warning for each unusual thing in a league's ratings (NaN: unrated).
 
-    Parameters
-    ----------
-    scale
-        by which they are read.
-    ratings
-        NaN is no rating.
-    remedy
-        what to do if they are ratings of another scale.
-    names
-        of the players, to name those who are far from the others.
-
-    >>> from evenbreak.ratings import SCALES
-    >>> league_doubts(SCALES["npl"], [560, 600, 640], "say which with --scale")
-    ['NPL ratings average about 80, but these average about 600; say which with --scale']
-    >>> league_doubts(SCALES["npl"], [70, 80, 94, 560], "")
-    ['1 of 4 ratings is more than 180 points from the median of 87; are they all on the same
-    scale?']
+    `remedy` is what to do if they belong to another scale.
     """
     import numpy as np
 
@@ -241,16 +216,7 @@ def league_doubts(
 
 
 def far_doubts(scale: Scale, ratings: ArrayLike, names: Sequence[str] = ()) -> list[str]:
-    """Return a warning if some ratings are very far from the others, as after a slip.
-
-    Parameters
-    ----------
-    scale
-        of the ratings.
-    ratings
-        NaN is no rating.
-    names
-        of the players, to name those who are far from the others.
+    """Return a warning if ratings (NaN: none) are very far from the others, as after a typo.
 
     >>> from evenbreak.ratings import SCALES
     >>> far_doubts(SCALES["fargo"], [580, 5800, 612], ["Ann", "Bo", "Cy"])
@@ -296,20 +262,7 @@ def far_doubts(scale: Scale, ratings: ArrayLike, names: Sequence[str] = ()) -> l
 
 
 def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
-    """Return a warning if new players start at a middle that is far from everybody else.
-
-    Parameters
-    ----------
-    scale
-        whose middle a new player is given.
-    ratings
-        NaN is a new player.
-
-    >>> from evenbreak.ratings import SCALES
-    >>> starter_doubts(SCALES["fargo"], [92, 71, float("nan")])
-    ['new players start at 500, the middle of the Fargo scale, but the other ratings go from 71 to
-    92; set the rating of a new player with starter']
-    """
+    """Return a warning if the scale's middle, where new players (NaN) start, is far from all."""
     import numpy as np
 
     known = np.asarray(ratings, dtype=float)

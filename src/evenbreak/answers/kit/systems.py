@@ -72,18 +72,10 @@ def refuse_other_scale(
     *,
     stated: bool = False,
 ) -> None:
-    """Refuse a list whose ratings are on another scale, or look like it, or are skill levels.
+    """Refuse a list whose ratings are on another scale, look like it, or are skill levels.
 
-    Parameters
-    ----------
-    file
-        the list.
-    scale, whose
-        the scale by which the ratings would be read, and where it comes from.
-    remedy
-        what to do about it.
-    stated
-        whether the user stated the scale, which then is not doubted and may be of skill levels.
+    A scale that the user stated isn't doubted, and may be of skill levels. `whose` says where the
+    scale comes from, `remedy` what to do.
     """
     from evenbreak.answers.kit.scales import scale_words
     from evenbreak.files.lists.roster import refuse_to_read

@@ -33,16 +33,8 @@ REFITTED_PLAYERS, REFITTED_LEAGUES, REFITTED_SEED = 40, 8, 1
 class LadderComparison(NamedTuple):
     """Systems and step sizes side by side.
 
-    Parameters
-    ----------
-    chart, opponents
-        the chart of the steps, and who the opponents are, in a word.
-    systems
-        the National Pool League by each of its charts, then other systems.
-    steps
-        each step size on the chart, with whether no other step is better in both ways.
-    refitted
-        ratings refitted every week to all results, simulated; None if they were not.
+    `steps` has for each step size whether no other is better in both ways; `refitted` are ratings
+    refitted every week to all results, None if they were not simulated.
     """
 
     chart: Chart

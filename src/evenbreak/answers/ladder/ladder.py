@@ -40,22 +40,7 @@ _FEW, _ALL = 0.1, 0.995
 
 
 def ladder_answer(found: LadderFindings, warnings: Sequence[str] = ()) -> Answer:
-    """Return how far off ratings are on a ladder; in files, a row for each rating error.
-
-    Parameters
-    ----------
-    found
-        what the ladder says.
-    warnings
-        what may be wrong with what was given.
-
-    >>> from evenbreak.answers.ladder.ladder import LadderQuestion
-    >>> from evenbreak.handicaps import Ladder
-    >>> found = LadderFindings(Ladder("npl"), LadderQuestion(-30, 5, False, "natural"))
-    >>> print(ladder_answer(found).sentences[0])
-    In the long run, 9 out of 10 ratings are within 7 points of the player's skill; 25% are off by \
-more than 5 points, 1 in 70 by more than 10.
-    """
+    """Return how far off ratings are on a ladder; in files, one row per rating error."""
     said = [_how_far_off(found), _how_unfair(found.favorite), _how_soon(found)]
     if abs(found.inflation) >= 0.005:
         said.append(_inflation(found.inflation))
@@ -287,20 +272,10 @@ Found = TypeVar("Found")
 
 
 class LadderQuestion(NamedTuple):
-    """What is asked of a ladder besides its distribution of rating errors.
+    """What is asked of a ladder in addition to its distribution of rating errors.
 
-    Parameters
-    ----------
-    start
-        the rating error of the player whose settling is followed, in points.
-    within
-        an error of at most this many points counts as settled.
-    newcomer
-        whether that player moves by the system's newcomer steps.
-    opponents
-        who the opponents are: natural, autocorrelated, equal skill or league.
-    via
-        the way to the distribution, as for `Ladder.law`.
+    `start` is the error, in points, of the player whose settling is followed, by newcomer steps if
+    `newcomer`; an error of at most `within` points counts as settled.
     """
 
     start: int
@@ -311,20 +286,7 @@ class LadderQuestion(NamedTuple):
 
 
 class LadderFindings:
-    """What a ladder says.
-
-    Parameters
-    ----------
-    ladder
-        the ladder.
-    question
-        what is asked of it.
-
-    Attributes
-    ----------
-    missing
-        why parts that are None could not be worked out, a sentence each.
-    """
+    """The answers of a ladder; `missing` says why those that are None couldn't be calculated."""
 
     def __init__(self, ladder: Ladder, question: LadderQuestion) -> None:
         self.ladder, self.question = ladder, question

@@ -24,18 +24,9 @@ def level_ladder_answer(
     newcomer: int,
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return the long run of a system of levels, a row for players as strong as each level.
+    """Return the long run of a system of levels, one row for players as strong as each level.
 
-    Parameters
-    ----------
-    system
-        the system.
-    weights
-        how many opponents there are of each level; None: everyone meets their equals.
-    newcomer
-        the level at which newcomers start.
-    warnings
-        what may be wrong with what was given.
+    `weights` are the numbers of opponents of each level; None: everyone meets their equals.
 
     >>> from evenbreak.handicaps import system_of
     >>> answer = level_ladder_answer(system_of("level-steps"), None, 3)

@@ -24,29 +24,11 @@ from evenbreak.words import FilePath, Parameter, Sentence, listed, say
 def by_level(
     file: RosterFile, chart: LevelChart | PointsChart, results: str | None = None
 ) -> tuple[RosterFile, LevelSkills | None]:
-    """Return a list with the levels that a chart reads, and what chances come from.
+    """Return a list with the levels that a chart reads, and the strengths of these levels.
 
-    Ratings in a list without a scale that are all levels of the chart are levels.
-
-    Parameters
-    ----------
-    file
-        the list.
-    chart
-        the chart.
-    results
-        the file of the league's own results, if there is one.
-
-    Returns
-    -------
-    tuple
-        the list; and how strong the levels are, None where the list has ratings, from which the
-        chances then come, or where the chart is one of points.
-
-    Raises
-    ------
-    InputError
-        if the list states no levels.
+    Ratings in a list without a scale that are all levels of the chart are taken as levels. The
+    strengths are None where the list has ratings, which then give the chances, or where the chart
+    is one of points. A list without levels is an InputError.
     """
     roster = file.roster
     if np.isnan(roster.level).all():

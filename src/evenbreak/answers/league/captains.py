@@ -20,18 +20,11 @@ _Numbers = tuple[float, ...]
 
 @dataclass(frozen=True, eq=False)
 class SealedCaptains:
-    """Captains who know the published numbers, and nothing else, and write their line-ups unseen.
+    """Captains who know only the published numbers and write their line-ups unseen.
 
-    Both hand in a line-up of `sealed`, drawn from the mixture that nobody can exploit; the pairs
-    fall at random. A night is won with more matches than the other team. A team whose weakest
-    line-up is over the cap plays with that.
-
-    Parameters
-    ----------
-    sets
-        matches of a night.
-    cap
-        the most that the levels of a line-up may add up to, where levels are published.
+    Both hand in a line-up of `sealed`, drawn from the mixture that no one can exploit; the pairs
+    are random. The team with more matches wins the night. A team whose weakest line-up is over the
+    cap plays that one.
     """
 
     sets: int

@@ -30,13 +30,7 @@ CONFIDENCE = 0.9
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """A contest with its measures.
-
-    Parameters
-    ----------
-    contest, world, systems
-        what was played; differences are taken from the first system.
-    """
+    """A contest with its measures; differences are from the first system."""
 
     contest: Contest
     world: World
@@ -90,20 +84,10 @@ def comparison_answer(
     pace: Pace | str | None = None,
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return systems side by side; in files, a row for each system and measure.
+    """Return systems side by side; in files, one row per system and measure.
 
-    Parameters
-    ----------
-    comparison
-        what was played.
-    settings
-        what a reader must know besides, such as the seed and the name of the roster's file.
-    assumed
-        what is assumed of the players, in sentences.
-    pace
-        how fast games are, or their discipline; None: lengths are in games alone.
-    warnings
-        what may be wrong with what was given.
+    `settings` are other facts for the reader, such as the seed; `assumed` are sentences; without a
+    pace, lengths are in games only.
     """
     world, contest = comparison.world, comparison.contest
     replicas = int(contest.replicas.sum())
@@ -414,11 +398,8 @@ def _tables(comparison: Comparison, shown: Mapping[str, _Shown]) -> Iterator[Tab
 def measures_frame(comparison: Comparison) -> pd.DataFrame:
     """Return every measure of every system, with its difference from the first.
 
-    Returns
-    -------
-    pandas.DataFrame
-        system, measure (the keys of `MEASURES`), value, standard_error and margin, half of its
-        90 % interval; difference from the first system and difference_margin, half of its own.
+    `margin` and `difference_margin` are half of a 90 % interval; measures are the keys of
+    `MEASURES`.
     """
     rows = []
     for place, name in enumerate(comparison.names):
@@ -437,27 +418,20 @@ def measures_frame(comparison: Comparison) -> pd.DataFrame:
 
 
 def deciles_frame(comparison: Comparison) -> pd.DataFrame:
-    """Return how the parts of a league fare under each system, the weakest players first.
+    """Return the results of each part of a league under each system, the weakest players first.
 
-    Returns
-    -------
-    pandas.DataFrame
-        system; part, from 1; p_even and p_win, the share of their matches that are even and their
-        mean chance to win one; titles, as a multiple of an equal share; each with its standard
-        error. In a league of teams titles are by the strength of the team.
+    The columns p_even and p_win are the share of their matches that are even and their mean chance
+    of winning one; titles are multiples of an equal share, in a league of teams by the strength of
+    the team. Each has its standard error.
     """
     return _parts_frame(comparison, ("p_even", "p_win", "titles"), "part", 1)
 
 
 def nights_frame(comparison: Comparison) -> pd.DataFrame:
-    """Return how far off ratings are by night, and newcomers' by the nights since they came.
+    """Return the error of ratings by night (0: before the first), and newcomers' since they came.
 
-    Returns
-    -------
-    pandas.DataFrame
-        system; night, 0 before the first; error, root mean square in doublings of the odds, over
-        the cycle of nights that ends with this one; newcomer_error, the same of newcomers this
-        many nights after they came; each with its standard error.
+    Errors are root mean squares in doublings of the odds, over the cycle of nights that ends with
+    this one; each has its standard error.
     """
     return _parts_frame(comparison, ("error", "newcomer_error"), "night", 0)
 

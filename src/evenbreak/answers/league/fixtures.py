@@ -20,20 +20,7 @@ def fixtures_answer(
     only: str = "",
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return fixtures.
-
-    Parameters
-    ----------
-    listed
-        the fixtures; of those left, what is still to be played.
-    who
-        'player' or 'team'.
-    played
-        how many have been played; None where that is not asked.
-    only
-        the one whose fixtures they are; '' where they are everyone's.
-    warnings
-        about the files.
+    """Return fixtures, which `who`, 'player' or 'team', plays; `only` is whose, '' for everyone's.
 
     >>> from evenbreak.league.tables.fixtures import fixtures
     >>> print(fixtures_answer(fixtures(["Ann", "Bo", "Cy", "Di"])).sentences[0])

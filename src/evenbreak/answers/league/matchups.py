@@ -377,14 +377,7 @@ def points_matchups_answer(
 ) -> Answer:
     """Return the points that the players of each pair need, and each player's chance.
 
-    Parameters
-    ----------
-    file
-        a list whose levels are all on the chart.
-    pairs
-        places in its roster, shape (k, 2).
-    chart
-        the chart.
+    All levels in the list are on the chart; pairs are places in its roster, shape (k, 2).
     """
     roster = file.roster
     known: dict[tuple[int, int], PointsOdds] = {}

@@ -291,23 +291,9 @@ def nights_of_files(
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
 
-    Parameters
-    ----------
-    system
-        the league's system.
-    first
-        the list of ratings before the first night.
-    season
-        the results.
-    chart
-        which sets the races where the results state none.
-    stated
-        whether players have the levels that the results state, in place of the system's.
-
-    Raises
-    ------
-    DataError
-        with every problem that keeps the results from moving ratings, and its line.
+    The chart sets races where the results have none; `stated` uses the levels of the results
+    instead of the system's. A DataError names every line that keeps the results from moving
+    ratings.
     """
     problems: dict[str, None] = {}
     first = replace(first, roster=listed(system, first.roster))
@@ -438,11 +424,8 @@ def rating_changes_of_files(
 ) -> RatingChanges:
     """Return how a night's results change the ratings of a list.
 
-    Raises
-    ------
-    DataError
-        with everything that prevents it, each in its line: players who are not on the list,
-        matches whose winner cannot be determined.
+    A DataError names each line that prevents it: a player not on the list, a match without a
+    winner.
     """
     results = tonight.results
     found = night_problems(system, last.roster, results, chart=chart)

@@ -111,15 +111,7 @@ NOTHING_LEFT_OUT = "Nothing: every match in the file was used, and every player 
 def left_out(
     sheet: Sheet, *, listed: int | None = None, in_table: int | None = None
 ) -> Iterator[Remark]:
-    """Yield what the numbers do not include.
-
-    Parameters
-    ----------
-    sheet
-        the whole sheet.
-    listed, in_table
-        how many players the list of ratings and the table of races show; None: all.
-    """
+    """Yield what the numbers don't include; None in place of a number of players shown: all."""
     if skipped := sheet.file.skipped:
         yield Remark(count_of(skipped, "bad row"), "left out, as asked")
     yield from _uncounted_matches(sheet.ratings)

@@ -91,10 +91,10 @@ def unfair(chances: Any) -> Any:
 
 
 def all_pairs(roster: Roster) -> Ints:
-    """Return all pairs of players as places in the roster, the stronger of the two first.
+    """Return all pairs as places in the roster, the stronger player first.
 
-    The pairs come in the order of the list of ratings, in which provisional ratings are last;
-    players with equal ratings stay in the order of the roster.
+    Pairs are in the order of the list of ratings, provisional ratings last; equal ratings keep the
+    roster's order.
 
     >>> all_pairs(Roster(["Ann", "Bo", "Cy"], [70, 92, 81])).tolist()
     [[1, 2], [1, 0], [2, 0]]
@@ -121,14 +121,10 @@ def pairs_of(roster: Roster, order: ArrayLike) -> Ints:
 def check_roster(
     file: RosterFile, roster: Roster, chart: Any, scale: Scale, playing: ArrayLike | None = None
 ) -> None:
-    """Refuse ratings that are not levels of the chart, and standard errors that are too large.
+    """Refuse ratings that aren't levels of the chart, and standard errors that are too large.
 
-    `playing` are the places of those who play, any number of times; None: everybody.
-
-    Raises
-    ------
-    DataError
-        with one line for each such player.
+    `playing` are the places of those who play, repeats allowed; None: everyone. The DataError has
+    one line per player.
     """
     most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
     plays = np.full(len(roster), playing is None)
@@ -219,15 +215,8 @@ class Races:
 class RosterMatchups:
     """The races of pairs of players.
 
-    Parameters
-    ----------
-    frame
-        a row for each pair, as `roster_matchups` describes it.
-    chart_lengths, best_lengths
-        the distribution of the length of each pair's race from the chart and of the fairest one,
-        without the pairs that no chain of opponents links; None if that kind is not asked for.
-    linked
-        which pairs are linked by a chain of opponents.
+    `frame` is described by `roster_matchups`. Distributions of length leave out pairs not `linked`
+    by a chain of opponents, and are None for a kind not asked for.
     """
 
     frame: pd.DataFrame
@@ -250,46 +239,14 @@ def roster_matchups(
     pace: Pace | None = None,
     form: float = 0.0,
 ) -> RosterMatchups:
-    """Return the races of pairs of players, their chances and their lengths.
+    """Return the races of pairs (places in the roster, shape (k, 2)), with chances and lengths.
 
-    Parameters
-    ----------
-    roster
-        how strong everybody is, with new players filled in. A player whose error is not stated
-        is taken to be rated exactly.
-    pairs
-        places in the roster, shape (k, 2).
-    scale
-        what the points mean.
-    chart
-        the league's chart; ratings are rounded to whole points to look it up, and a chart by skill
-        level is looked up with the levels.
-    levels
-        how strong the levels are, where the chances come from them; None: from the ratings.
-    offered
-        the races among which the fairest is sought.
-    pace
-        how fast matches are played; None: no minutes.
-    form
-        how much the log-odds of a game vary from match to match (standard deviation).
-
-    Returns
-    -------
-    RosterMatchups
-        its frame has player_a, player_b; difference of the ratings and difference_error, its
-        standard error (none where it is stated for neither), in points; p_game_a and
-        p_game_a_plug_in; with a chart the columns chart_race_a, chart_race_b, chart_p_win_a,
-        chart_p_win_a_plug_in, chart_unfairness, chart_mean_games, chart_games_p90; with offered
-        races race_a, race_b, p_win_a, p_win_a_plug_in, mean_games, games_p90; with minutes also
-        mean_minutes and minutes_p90 of each; note. A chance is conditional on the ratings and
-        their errors, that of the race averaged over them; a plug-in chance on the ratings
-        being right. The unfairness is the distance of the chance from 1/2.
-
-    Raises
-    ------
-    InputError
-        if neither a chart nor races are offered, a player has no rating, or the chart has no
-        such level.
+    In the frame, chances are averaged over the errors of the two ratings; a plug-in chance treats
+    the ratings as exact, as does everything for a player without a standard error. Unfairness is
+    the distance of the chance from 1/2. `form` is the standard deviation of a game's log-odds from
+    match to match. Ratings are rounded to whole points to look up a chart, and a chart of skill
+    levels is looked up with the levels. It's an InputError if neither a chart nor races are
+    offered, a player has no rating, or the chart lacks a level.
     """
     if chart is None and offered is None:
         raise InputError("chart and offered are missing; give one of them at least")

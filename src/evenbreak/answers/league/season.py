@@ -36,30 +36,10 @@ def season_answer(
     exact: int = 0,
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return what came of a season; in files, the rows of `summary_rows`.
+    """Return the outcome of a season; in files, the rows of `summary_rows`.
 
-    Parameters
-    ----------
-    season, tally, tables
-        the season, what its replicas came to, and its tables.
-    settings
-        as for `summary_rows`.
-    drawn
-        for how many players the true skill is drawn for each season.
-    exact
-        for how many players, for want of anything else, the rating is taken as the skill.
-    warnings
-        what may be wrong with what was given.
-
-    >>> import numpy as np
-    >>> from evenbreak.answers.league.season_tables import season_tables
-    >>> from evenbreak.league import LeaguePlayers, Season, run_chunk
-    >>> season = Season(LeaguePlayers.of([92, 80]), "npl", weeks=3)
-    >>> tally = run_chunk(season, 20, np.random.SeedSequence(1))
-    >>> answer = season_answer(season, tally, season_tables(season, tally), {"seed": 1})
-    >>> print(answer.heading)
-    2 players, 3 weeks, 3 matches a season; system npl, chart npl_10
-    20 seasons simulated
+    `drawn` players have their true skill drawn for each season; for `exact` players nothing better
+    than the rating is known.
     """
     rows = summary_rows(season, tally, tables, settings)
     summary = Table("summary", columns_of("quantity value -standard_error"), rows)
@@ -284,15 +264,7 @@ Row = tuple[str, Any, float | None]
 def summary_rows(
     season: Season, tally: Tally, tables: SeasonTables, settings: Mapping[str, Any]
 ) -> list[Row]:
-    """Return the rows of `summary.csv`.
-
-    Parameters
-    ----------
-    season, tally, tables
-        the season, what its replicas came to, and its tables.
-    settings
-        what a reader must know besides, such as the seed and the name of the roster's file.
-    """
+    """Return the rows of `summary.csv`; settings (the seed, say) are repeated there."""
     replicas = int(tally.replicas.sum())
     played: dict[str, Any] = {
         **settings,

@@ -90,12 +90,8 @@ def _mean_and_sd(total: Any, squares: Any, replicas: int) -> tuple[Floats, Float
 def _quantiles(what: str, counts: Any, start: Any) -> dict[str, Any]:
     """Return the quantiles of each player: the smallest value that reaches each probability.
 
-    Parameters
-    ----------
-    counts
-        how often each player had each value; None if that was not kept.
-    start
-        the value of the first column (points), or of the middle one (ratings).
+    `counts` is None if it wasn't kept; `start` is the value of the first column (points) or of the
+    middle one (ratings).
     """
     names = [f"{what}_p{100 * q:.0f}" for q in QUANTILES]
     if counts is None:

@@ -206,29 +206,11 @@ class Band(NamedTuple):
 
 
 def chart_bands(offered: OfferedRaces, typical: Gap, furthest: float) -> list[Band]:
-    """Return the chart of races by rating difference that the fairest races come to.
+    """Return the chart by rating difference that the fairest races make; [] for over 40 lines.
 
-    Parameters
-    ----------
-    offered
-        the races to choose from. Where they may differ in length, the race nearest to
-        even jumps back and forth between lengths as ratings part, and no chart is made.
-    typical
-        how sure a difference is, and what it means; its own difference does not matter.
-    furthest
-        the difference, in points, up to which the chart goes.
-
-    Returns
-    -------
-    list of Band
-        differences are whole multiples of the last decimal in which ratings are shown;
-        empty where there is no chart, or one of more than 40 lines.
-
-    >>> for band in chart_bands(OfferedRaces(race_to=7), Gap(0.0, scale="npl"), 20.0):
-    ...     print(band.first, band.stronger, band.weaker, round(band.p_first, 3))
-    0.0 7 7 0.5
-    3.5 7 6 0.443
-    11.2 7 5 0.435
+    Its differences are whole multiples of the last decimal shown. Where races may differ in length,
+    the fairest one jumps back and forth between lengths, and there is no chart. `typical` gives the
+    uncertainty of a difference.
     """
     if offered.games is not None and offered.games[0] != offered.games[1]:
         return []

@@ -39,20 +39,9 @@ def table_answer(
     about: str = "",
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return a league's table.
+    """Return a league's table; with the table before the last day, the changes in place too.
 
-    Parameters
-    ----------
-    table
-        the table.
-    earlier
-        the table before the last day of it.
-    who, score
-        'player' or 'team', 'games' or 'sets': whose table it is, and what their scores count.
-    about
-        what it counts, such as 'Matches at home'.
-    warnings
-        about the files.
+    `score` is 'games' or 'sets'; `about` is what is counted, such as 'Matches at home'.
 
     >>> from evenbreak.league import league_table, player_matches
     >>> from evenbreak.ratings import Results

@@ -40,14 +40,7 @@ def tidy_answer(
 ) -> Answer:
     """Return what became of a league's results.
 
-    Parameters
-    ----------
-    found
-        the results.
-    answers
-        names with those that they mean, as somebody has just answered: lines to keep.
-    roster
-        the players of the league's list, if it has one.
+    `answers` are the names just answered, with what they mean: lines to keep.
     """
     changes: Counter[str] = Counter(change.kind for change in found.changes)
     matches = count_of(len(found.results), "match", "matches")

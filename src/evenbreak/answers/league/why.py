@@ -186,16 +186,8 @@ def _now_in_words(
 class ByChart(NamedTuple):
     """The race that a chart sets for two players, by their levels or by their ratings.
 
-    Parameters
-    ----------
-    chart
-        its name.
-    race
-        the games that a and b need.
-    p_win, p_rated
-        P(a wins): by what the chart reads, and by the ratings; NaN without ratings to compare.
-    stated
-        their levels, and how strong these are; None by ratings.
+    `p_win` and `p_rated` are P(a wins) by what the chart reads, and by the ratings (NaN without
+    any).
     """
 
     chart: str

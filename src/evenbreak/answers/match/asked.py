@@ -190,15 +190,7 @@ def refuse_giants(match: Match, most: int = MOST_SCORES) -> None:
 
 
 def players_of(asked: Players, form: float | None = None) -> TwoPlayers:
-    """Return the players that a question describes.
-
-    Parameters
-    ----------
-    asked
-        the question.
-    form
-        the form of the day that it states; None: that of the list.
-    """
+    """Return the players of a question; its own day-to-day form replaces that of the list."""
     if asked.p1 is not None and asked.p2 is not None:
         first = asked.first_break or ("b" if asked.breaks == "b" else "a")
         rack: Rack[float] = Rack(asked.p1, asked.p2)

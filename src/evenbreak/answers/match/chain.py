@@ -37,24 +37,7 @@ NAMED = 5
 def chain_answer(
     chain: Chain, *, steps: int | None = None, warnings: Sequence[str] = (), via: Way | None = None
 ) -> Answer:
-    """Return the stochastic limit of a chain from its start, or its density after some steps.
-
-    Parameters
-    ----------
-    chain
-        the chain; its states are texts.
-    steps
-        files then hold the density after so many steps, in place of the limit.
-    warnings
-        what may be wrong with the chain, a sentence each.
-    via
-        the way to the limit, as for `stochastic_limit`.
-
-    >>> from evenbreak.chains import chain_of
-    >>> arcs = [("S1", "W", 0.3), ("S1", "S2", 0.7), ("S2", "L", 0.2), ("S2", "S1", 0.8)]
-    >>> print(chain_answer(chain_of(arcs, start="S1")).sentences[0])
-    The chain ends in 'W' (0.6818) or 'L' (0.3182), after 3.86 steps on average.
-    """
+    """Return the stochastic limit of a chain, or its probability vector after some steps."""
     limit = stochastic_limit(chain, via=via)
     mean_steps, doubts = mean_steps_of(chain)
     states, structure = list(chain.states), chain.structure
@@ -135,26 +118,13 @@ def _places(density: Mapping[Any, float]) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Road:
-    """What a game's road from its graph to its limit passes.
+    """A game's way from its graph to its limit.
 
-    Parameters
-    ----------
-    graph
-        the game as a directed graph; its states are texts, and the chances out of each add up to
-        1 to the last digit.
-    chain
-        the sparse transition matrix of the graph.
-    limits
-        the stochastic limit by each way that can find it; by elimination always.
-    spectrum
-        all eigenpairs, or for a large chain the leading ones. If the matrix has too few
-        eigenvectors, only those of eigenvalue 1; None where these are not certain either.
-    gap
-        see `spectral_gap`; None if it is not certain.
-    period
-        see `apparent_period`; that of the limit if it is not certain.
-    refused
-        why there is no answer, by what there is none of: a way, 'spectrum', 'gap'.
+    In `graph` the chances out of each state add up to 1 to the last digit. `limits` has the limit
+    by each method that can find it, always by elimination. `spectrum` has all eigenpairs, of a
+    large chain the leading ones, only those of eigenvalue 1 if the matrix has too few eigenvectors;
+    None if not even these are certain. `gap` and `period` are those of `spectral_gap` and
+    `apparent_period`. `refused` gives the reason for each missing answer.
     """
 
     graph: nx.DiGraph[str]
@@ -182,29 +152,7 @@ class Road:
 
 
 def road_of(game: Game | nx.DiGraph[Any], *, start: str | None = None) -> Road:
-    """Return the road of a game.
-
-    Parameters
-    ----------
-    game
-        the game, or the graph of one as `graph_of` returns it.
-    start
-        the state in which to begin, if it is not that of the game or graph.
-
-    Raises
-    ------
-    GameError
-        if two states are written alike.
-
-    >>> from evenbreak.games import OneBall
-    >>> road = road_of(OneBall(0.4, 0.8))
-    >>> road.graph, road.chain
-    (<networkx.classes.digraph.DiGraph object at ...>, <Chain of 4 states, 6 arcs, start 'S1'>)
-    >>> road.spectrum.values.round(4), round(road.limits["eigen"]["W"], 12)
-    (array([ 1.    ,  1.    ,  0.3464, -0.3464]), 0.454545454545)
-    >>> list(road.refused)
-    []
-    """
+    """Return the way of a game to its limit; a GameError if two states have the same text."""
     graph = _adding_up(_named(graph_of(game) if isinstance(game, Game) else game))
     chain = chain_of(graph, start=start)
     limits: dict[str, Limit] = {}

@@ -25,17 +25,7 @@ SAME = 1e-12
 
 
 class Compared(NamedTuple):
-    """A format with what it means for the two players.
-
-    Parameters
-    ----------
-    format
-        the format.
-    odds
-        its odds, as the two play now.
-    even
-        where it is even.
-    """
+    """A format with its odds for the two players, and where it is even."""
 
     format: MatchFormat
     odds: MatchOdds
@@ -51,16 +41,8 @@ def compare_answer(
 ) -> Answer:
     """Return match formats side by side.
 
-    Parameters
-    ----------
-    players
-        who plays.
-    compared
-        the formats.
-    pairs
-        where two of them, by their places in `compared`, are worth the same.
-    hold
-        what stays the same as p1 varies, where the break matters: p2 or break.
+    `pairs` has where two formats, by place, are worth the same; `hold` is what stays fixed as p1
+    varies where the break matters: p2 or the break.
     """
     names = [str(one.format) for one in compared]
     axis = "p1" if players.rack.break_matters else "p"
@@ -181,21 +163,7 @@ def breaks_answer(
     first_breaker: int = 1,
     via: Way | None = None,
 ) -> Answer:
-    """Return the break formats, the best for player 1 first; player 1 is A.
-
-    Parameters
-    ----------
-    rack
-        the chances with the break.
-    win, lose, first_breaker, via
-        as for `compare_break_formats`.
-
-    >>> from evenbreak.games import Rack
-    >>> print(breaks_answer(Rack(0.9, 0.5), lose=2).sentences[0])
-    A does best with winner breaks, winning 83% of the racks; B does best with loser breaks, ...
-    At these stakes A comes out ahead with winner and alternate breaks and behind with loser breaks.
-    Over 100 racks with winner breaks, A comes out 50 points ahead on average, give or take 17.
-    """
+    """Return the break formats, the best for player 1 (A) first."""
     stakes: dict[str, Any] = {"win": win, "lose": lose, "first_breaker": first_breaker}
     values = compare_break_formats(rack, via=via, **stakes)
     kernel = {value.name: value.share for value in compare_break_formats(rack, **stakes)}

@@ -30,27 +30,7 @@ WAY_WORDS = {"kernel": "the closed form", "elimination": "elimination", "eigen":
 
 
 def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Answer:
-    """Return what the graph of a game is, and where it leads.
-
-    Parameters
-    ----------
-    title
-        the game in words.
-    road
-        what was found.
-    warnings
-        what was not written, or was there before.
-
-    >>> from evenbreak.answers.match.chain import road_of
-    >>> from evenbreak.games import OneBall
-    >>> answer = graph_answer("One-ball", road_of(OneBall(0.4, 0.8)))
-    >>> print(answer.sentences[0])
-    One-ball is a graph of 4 states and 4 arcs.
-    Player 1 wins with chance 0.4545 and player 2 with chance 0.5455.
-    The chain ends in 'L' (0.5455) or 'W' (0.4545), after 1.82 steps on average.
-    >>> print(answer.sentences[2])
-    The closed form, elimination and the eigenvectors give the same limit, to within 1e-12.
-    """
+    """Return what the graph of a game is, and where it leads."""
     chain, structure = road.chain, road.chain.structure
     mean_steps, doubts = mean_steps_of(chain)
     states, arcs = len(chain), road.graph.number_of_edges()

@@ -24,17 +24,9 @@ LARGE_SWING = 0.15
 def live_answer(
     players: TwoPlayers, match: Match, odds: LiveOdds, *, comebacks: bool = False
 ) -> Answer:
-    """Return where a match stands, as `live_odds` found it.
+    """Return the state of a match and its odds.
 
-    Parameters
-    ----------
-    players, match
-        who plays, and what.
-    odds
-        the match so far.
-    comebacks
-        whether to show the chances at every score still to come; files then hold these in
-        place of the course.
+    With `comebacks`, files hold the chances at every score that is still possible.
     """
     now, course = odds.now, _course(odds)
     to_come = Table(

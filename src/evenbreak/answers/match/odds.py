@@ -48,33 +48,10 @@ _AVERAGED = say("All of this is averaged over how far off that may be.")
 class TwoPlayers:
     """Two players, A and B, and how a game between them goes.
 
-    Parameters
-    ----------
-    rack
-        their chances in a game.
-    breaks, first_breaker
-        who breaks, where that matters: the name of a format (`FORMATS`), and 1 or 2.
-    ratings, scale
-        what the chances come from, if they come from ratings.
-    names
-        what the two are called.
-    errors
-        how far each rating may be off (standard errors), if they come from a list.
-    form
-        how much the log-odds of a game vary from match to match (standard deviation).
-    levels
-        their skill levels, where a chart by skill level is used.
-    skills
-        how strong the levels are, where the chances come from them: the ratings are then points of
-        difference, the second one 0.
-    assumed
-        what is assumed about the errors of their ratings, '' if nothing is.
-
-    >>> from evenbreak.ratings import scale_of
-    >>> print(TwoPlayers.rated(612, 521, scale_of("fargo")).description)
-    A rated 612, B rated 521, on the Fargo scale (100 points double the odds)
-    >>> print(TwoPlayers(Rack(0.6, 0.5), "winner", 2).description)
-    The breaker wins a game with probability 0.6 (A) or 0.5 (B); winner breaks, B breaks first
+    `breaks` names a format of `FORMATS`. `errors` are standard errors of the ratings, `form` is the
+    standard deviation of a game's log-odds from match to match. With `skills`, the strengths of
+    levels, the ratings are points of difference, the second one 0. `assumed` says what is assumed
+    about the errors, if anything.
     """
 
     rack: Rack[float]
@@ -233,25 +210,10 @@ class TwoPlayers:
 def odds_answer(
     players: TwoPlayers, match: Match, *, exact: bool = False, via: Way | None = None
 ) -> Answer:
-    """Return the chances of a match between two players, and its length.
+    """Return the chances of a match and its length.
 
-    They are averaged over how far ratings from a list may be off, and over form of the day.
-
-    Parameters
-    ----------
-    players, match
-        who plays what.
-    exact
-        whether to add the chances of winning as fractions, of players without ratings.
-    via
-        the way to the chances, of players whose ratings are taken as exact; see `match_odds`.
-
-    >>> from evenbreak.answers.match.odds import TwoPlayers
-    >>> from evenbreak.games import Race, Rack
-    >>> answer = odds_answer(TwoPlayers(Rack(0.6)), Race(7, 5, Rack(0.6)))
-    >>> print(answer.sentences[0])
-    A wins the match 53% of the time.
-    It lasts 9.3 games on average, and 9 out of 10 such matches end within 11.
+    They are averaged over the errors of listed ratings, and over day-to-day form. `exact` adds the
+    chances of winning as fractions, for players without ratings; `via` is for exact ratings.
     """
     odds = _odds(players, match) if via is None else match_odds(match, via=via)
     p_win = _exact_wins(match) if exact else ()
@@ -422,22 +384,7 @@ def _refuse_without_odds(players: TwoPlayers, asked: Fair) -> None:
 def fair_answer(
     players: TwoPlayers, races: Sequence[FairRace], *, target: float = 0.5, via: Way | None = None
 ) -> Answer:
-    """Return races as found by `fair_races`, the nearest to the target first.
-
-    Parameters
-    ----------
-    players, races, target
-        as for `fair_races`, and what it returns.
-    via
-        the way by which the chances of these races were found.
-
-    >>> from evenbreak.answers.match.odds import TwoPlayers
-    >>> from evenbreak.games import Rack
-    >>> from evenbreak.handicaps import fair_races
-    >>> races = fair_races(Rack(0.6), race_to=7, top=2)
-    >>> print(fair_answer(TwoPlayers(Rack(0.6)), races).sentences[0])
-    The fairest race is 7:5. A wins it 53% of the time, and it lasts 9.3 games on average.
-    """
+    """Return races found by `fair_races`, the nearest to the target first."""
     a, b = players.names
     rows = [
         (race.race_1, race.race_2, race.p_win_1, race.mean_games, race.games_p90) for race in races

@@ -50,22 +50,7 @@ _COLUMNS = columns_of(
 def oneball_answer(
     shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", via: Way | None = None
 ) -> Answer:
-    """Return the shots that a player may choose from, the best first, and which to take.
-
-    Parameters
-    ----------
-    shots
-        what the player may choose from, named by numbers.
-    look_ahead
-        as for `compare_shots`.
-    via
-        the way to the chances of winning.
-
-    >>> from evenbreak.practice import ShotChoice
-    >>> print(oneball_answer([ShotChoice("1", 0.4, 0.8), ShotChoice("2", 0.3, 0.3)]).sentences[0])
-    Take shot 2: you win 59% of the time, against 45% with shot 1.
-    Shot 2 stays the best as long as a miss leaves the opponent a chance below 0.5143.
-    """
+    """Return the shots that a player may choose from, the best first, and which one to take."""
     ranked = compare_shots(shots, look_ahead=look_ahead, via=via)
     other = "two shots" if look_ahead == "infinite" else "infinite"
     otherwise = compare_shots(shots, look_ahead=other, via=via)
@@ -133,15 +118,7 @@ def _even_at(shot: ShotChoice, look_ahead: str) -> float | None:
 
 
 def _advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot], look_ahead: str) -> str:
-    """Return what to do, and what it depends on.
-
-    Parameters
-    ----------
-    ranked, otherwise
-        the shots as asked, and by another look-ahead.
-    look_ahead
-        the one asked for.
-    """
+    """Return what to do, and what it depends on; `otherwise` is by another look-ahead."""
     best = ranked[0]
     wins = f"you win {percent(best.win)} of the time"
     if not any((best.shot.p1, best.shot.p2, *best.shot.later)) and best.win == 0.0:
@@ -183,17 +160,7 @@ def _alone(one: RankedShot, look_ahead: str) -> str:
 def straight_answer(match: StraightPool, averages: tuple[float, float] | None = None) -> Answer:
     """Return the chances of a match of straight pool, its length and its spot; player 1 is A.
 
-    Parameters
-    ----------
-    match
-        the match, with the same `safety_1` and `safety_2`.
-    averages
-        the balls an inning that the two make on average, if their chances come from these.
-
-    >>> from evenbreak.matches import StraightPool
-    >>> print(straight_answer(StraightPool(100, 100, 0.9, 0.85)).sentences[0])
-    A wins the match 89% of the time. The winner needs 11.8 innings on average.
-    For an even match, B should play to 60 points: A then wins 50% of the time.
+    `averages` are the balls per inning that the chances come from, if they do.
     """
     odds, spot = straight_pool_odds(match), even_spot(match)
     even_a = even_b = None

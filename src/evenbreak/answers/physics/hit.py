@@ -32,20 +32,10 @@ degrees = decimals(2)
 class Hit(NamedTuple):
     """A hit: angles in degrees, right above 0 and left below.
 
-    Parameters
-    ----------
-    cut
-        cut angle; the object ball goes to the right if it is above 0, to the left if below.
-    topspin
-        J_y: 1 is natural roll, 0 stun, below 0 draw.
-    side
-        J_z: right english above 0, left english below.
-    mu
-        coefficient of friction between the balls, or how it falls with the speed of the slip.
-    friction
-        the law of friction, one of `FRICTION_LAWS`.
-    speed
-        of the cue ball, in m/s; None if the friction does not depend on it.
+    With a cut above 0 the object ball goes to the right. `topspin` is J_y: 1 is natural roll, 0
+    stun, below 0 draw; `side` is J_z: above 0 right english. `mu` is the friction between the
+    balls, or its fall with slip speed; the cue ball's speed, in m/s, is None if the friction
+    doesn't depend on it.
     """
 
     cut: float
@@ -113,15 +103,7 @@ class Hit(NamedTuple):
         return f"{cut_words(self.cut)}; {spin_words(self.topspin)}, {english}"
 
     def asked(self, found: Collision, speed: Unit) -> list[Quantity]:
-        """Return what was asked, which files hold before the answer.
-
-        Parameters
-        ----------
-        found
-            the hit, whose friction was used.
-        speed
-            the unit of speed.
-        """
+        """Return the question, which precedes the answer in files."""
         values: dict[str, Any] = {
             "-cut_deg": self.cut,
             "topspin": self.topspin,
@@ -206,14 +188,9 @@ SWERVE = say(
 
 
 def squirt_words(angle: float, units: Units) -> Sentence:
-    """Return where to point the cue, so that the cue ball travels along its line.
+    """Return where to point the cue so that the cue ball travels along its line.
 
-    Parameters
-    ----------
-    angle
-        of the squirt, in degrees, above 0 with right english.
-    units
-        in which the answer is given.
+    The angle is in degrees, above 0 with right english.
 
     >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> print(squirt_words(-1.0, IMPERIAL))
@@ -239,28 +216,9 @@ def aim_answer(
 ) -> Answer:
     """Return where to aim so that the object ball, thrown, reaches its target.
 
-    Parameters
-    ----------
-    hit
-        its cut is the angle at which the object ball has to leave.
-    distance
-        from the object ball to the middle of the pocket, in meters.
-    units
-        in which the answer is given.
-    squirt
-        of the shaft, in degrees at 100 % english; 0 leaves it out.
-
-    Raises
-    ------
-    InputError
-        if the object ball cannot be cut that thin.
-
-    >>> from evenbreak.answers.physics.units import IMPERIAL
-    >>> hit = Hit(-14.5, 0.0, 0.0, 0.06, "limited")
-    >>> answer = aim_answer(hit, 0.9144, IMPERIAL)
-    >>> print(answer.sentences[0])
-    Aim 1.57 inches to the left of the middle of the pocket (a thinner cut); throw brings the
-    ball back.
+    The hit's cut is the angle at which the object ball must leave; the distance to the pocket is in
+    meters, the squirt in degrees at 100 % english. An InputError if the ball can't be cut that
+    thin.
     """
     length, (angle, topspin, side) = units.length, hit.cut_and_spin
     friction: dict[str, Any] = {"mu": hit.mu, "friction": hit.friction, "speed": hit.speed}
@@ -291,14 +249,8 @@ def aim_answer(
 def aim_words(offset: float, cut: float, hit: Hit, length: Unit) -> str:
     """Return where to aim, in a sentence.
 
-    Parameters
-    ----------
-    offset
-        to the right of the middle of the pocket, in meters.
-    cut
-        the cut angle to aim for, below 0 if it is to the side opposite to that of the hit.
-    hit, length
-        the hit, and the unit of the offset.
+    The offset is in meters, right of the middle of the pocket; the cut is below 0 on the side
+    opposite to that of the hit.
     """
     amount = length.text(abs(offset), 2)
     if length.is_nothing(offset, 2):
@@ -411,13 +363,7 @@ def cue_ball_path_answer(hit: Hit, units: Units) -> Answer:
 def path_words(rough: float | None, smooth: float | None, hit: Hit) -> str:
     """Return where the cue ball goes, in a sentence.
 
-    Parameters
-    ----------
-    rough, smooth
-        the deflection in degrees with and without friction between the balls; None where the
-        cue ball stands still.
-    hit
-        which side the object ball goes to.
+    Deflections are in degrees, with and without friction between the balls; None: it stops dead.
 
     >>> path_words(None, None, Hit(0.0, 0.0, 0.0, 0.0556, "limited"))
     'The cue ball stops dead.'

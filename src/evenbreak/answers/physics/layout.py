@@ -19,18 +19,8 @@ Place = tuple[float, float]
 class Layout:
     """A table with two balls on it, in the units of the question.
 
-    Parameters
-    ----------
-    units
-        of lengths.
-    table
-        the table.
-    cut, distance
-        degrees, and between the centers of the balls; or
-    object_ball, pocket
-        where the object ball is and where it should go.
-    cue_ball
-        where the cue ball is; None for the middle of the head string.
+    Either `cut` (degrees) and `distance` (between centers), or the object ball and its pocket; the
+    cue ball is by default in the middle of the head string.
     """
 
     units: Units

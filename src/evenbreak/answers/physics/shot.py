@@ -23,26 +23,7 @@ from evenbreak.physics.shot import Shot, spin_ratios
 
 
 def shot_answer(traced: Shot | AimedShot, units: Units, pocket: Pocket | None = None) -> Answer:
-    """Return where both balls of a shot go, and how.
-
-    Parameters
-    ----------
-    traced
-        the shot.
-    units
-        in which the answer is given.
-    pocket
-        at which an aimed shot is aimed.
-
-    >>> import math
-    >>> from evenbreak.answers.physics.units import METRIC
-    >>> from evenbreak.physics import shot, strike_for_speed
-    >>> found = shot(strike_for_speed(1.1), math.radians(30.0), 0.5)
-    >>> print(shot_answer(found, METRIC).sentences[0])
-    The object ball stops after 5.15 s, 205.5 centimeters from the head cushion and 11.0 from
-    the right one. The cue ball stops after 4.67 s, 175.4 centimeters from the head cushion and
-    112.4 from the right one.
-    """
+    """Return where both balls of a shot go, and how."""
     aimed = traced if isinstance(traced, AimedShot) else None
     found = traced.shot if isinstance(traced, AimedShot) else traced
     quantities = [

@@ -38,25 +38,8 @@ def strike_answer(
 ) -> Answer:
     """Return what a strike makes of the cue ball, and whether it is a miscue.
 
-    Parameters
-    ----------
-    strike
-        how the tip hits the ball.
-    units
-        in which the answer is given.
-    cloth
-        that the ball slides on.
-    distance
-        meters after which the spin is asked for.
-    speed_known
-        whether the speed of the cue is known; if not, there are only ratios.
-
-    >>> from evenbreak.answers.physics.units import IMPERIAL
-    >>> from evenbreak.physics import strike
-    >>> answer = strike_answer(strike(1.524, -0.3), IMPERIAL, cloth=Cloth())
-    >>> print(answer.sentences[0])
-    No miscue: the cue ball leaves at 77.0 inches per second with draw (-0.75). It is a stun
-    shot after 19.6 inches and rolls after 28.8 inches.
+    The spin is given after `distance` meters on the cloth; without a known speed there are only
+    ratios.
     """
     found = _found(strike, cloth, units, distance, speed_known)
     if strike.miscue:  # the tip slips, and none of this comes true
@@ -194,21 +177,7 @@ def _time_to(distance: float, strike: Strike, cloth: Cloth) -> float:
 
 
 def break_cue_answer(forearm: float, ball: float, weight: Unit, stick: float | None) -> Answer:
-    """Return the weight of the best cue to break with.
-
-    Parameters
-    ----------
-    forearm, ball, stick
-        the masses of forearm and hand, of the cue ball and of a cue to compare, in kilograms.
-    weight
-        in which the answer is given.
-
-    >>> from evenbreak.physics.units import OUNCE
-    >>> answer = break_cue_answer(36.0 * OUNCE, 6.0 * OUNCE, IMPERIAL.mass, 19.0 * OUNCE)
-    >>> print(answer.sentences[0])
-    The best cue to break with weighs 15.4 ounces. One of 19 ounces breaks 0.7% slower for the
-    same effort.
-    """
+    """Return the weight of the best break cue; masses are in kilograms."""
     arm = forearm / ball
     best = best_stick_ratio(arm)
     most = break_energy_share(best, arm)

@@ -10,17 +10,7 @@ from evenbreak.words import Parameter, say
 
 
 class Unit(NamedTuple):
-    """A unit of length, speed or mass.
-
-    Parameters
-    ----------
-    size
-        one of it in SI units: meters, meters per second or kilograms.
-    key
-        the ending of the names of quantities in this unit.
-    words
-        its name in the plural.
-    """
+    """A unit: its size in SI units, the ending of names in it, its plural."""
 
     size: float
     key: str

@@ -22,24 +22,7 @@ from evenbreak.stats.summary import Distribution
 def drill_answer(
     statistics: DrillStatistics, description: str, *, via: Way | None = None
 ) -> Answer:
-    """Return where a drill settles in the long run, and what to practice.
-
-    Parameters
-    ----------
-    statistics
-        of the drill.
-    description
-        which drill it is, in a line.
-    via
-        the way by which the statistics were found.
-
-    >>> from evenbreak.games import Drill
-    >>> from evenbreak.practice import drill_statistics
-    >>> drill = drill_statistics(Drill.progressive(0.8))
-    >>> print(drill_answer(drill, "80% of shots").sentences[0])
-    Practice level 4: five more successes in 100 there raise your average level by 0.11, more than
-    at any other level. For now you settle at an average level of 4.35.
-    """
+    """Return where a drill settles in the long run, and what to practice."""
     law = statistics.distribution
     success = statistics.drill.success
     rows = zip(law.values, success, law.probability, statistics.gain, statistics.lift, strict=True)
@@ -108,14 +91,7 @@ def drill_log_answer(
 ) -> Answer:
     """Return what the log of a drill says.
 
-    Parameters
-    ----------
-    file, analysis
-        the log, and its analysis.
-    seed
-        of the simulations for its tests.
-    levels_given
-        whether the number of levels was given; otherwise it is the highest one in the log.
+    Without `levels_given`, the number of levels is the highest in the log.
     """
     log = file.log
     best, off = analysis.practice_next, analysis.furthest_off_model

@@ -28,25 +28,7 @@ TESTS = ("welch", "student", "anova", "variances", "mann_whitney", "chi_squared"
 
 
 def before_and_after_answer(before: ScoresFile, after: ScoresFile, found: Comparison) -> Answer:
-    """Return whether scores have changed, and by how much.
-
-    Parameters
-    ----------
-    before, after
-        the files of the two lists.
-    found
-        their comparison.
-
-    >>> import numpy as np
-    >>> from evenbreak.files.practice import ScoresFile
-    >>> from evenbreak.stats import compare
-    >>> old = np.array([50.0, 44, 46, 52, 47, 51, 49, 45, 48, 50])
-    >>> files = [ScoresFile(scores, None, "s.csv", ()) for scores in (old, old + 2)]
-    >>> found = compare(old, old + 2)
-    >>> print(before_and_after_answer(*files, found).sentences[0])
-    No sign of a change: you average 2.00 points more than before, but luck alone makes a difference
-    this large about 11 times in 100.
-    """
+    """Return whether scores have changed, and by how much."""
     sentences = [_change_in_words(found)]
     if found.low is not None and found.high is not None:
         sentences.append(
@@ -290,25 +272,7 @@ def _days(file: ScoresFile) -> str:
 
 
 def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95) -> Answer:
-    """Return how often luck alone gives a score like a new one.
-
-    Parameters
-    ----------
-    file
-        the earlier scores, two or more that differ.
-    score
-        the new one.
-    confidence
-        of the interval of the average.
-
-    >>> import numpy as np
-    >>> from evenbreak.files.practice import ScoresFile
-    >>> earlier = np.array([50.0, 44, 46, 52, 47, 51, 49, 45, 48, 50])
-    >>> print(new_score_answer(ScoresFile(earlier, None, "s.csv", ()), 53).sentences[0])
-    53 is 4.80 above your average, and this may well be luck: if nothing has changed, a score this
-    far off, up or down, happens about 12 times in 100. Several new scores would show more than
-    one.
-    """
+    """Return how often luck alone gives a score like a new one, from two or more that differ."""
     luck = was_it_luck(file.scores, score, confidence=confidence)
     sd = mean_interval(file.scores, confidence).sd
     high = score >= luck.mean

@@ -17,17 +17,7 @@ FAIR = 0.005
 
 @dataclass(frozen=True)
 class Asked:
-    """The ranges of scores whose chances are asked for, each of them optional.
-
-    Parameters
-    ----------
-    at_least
-        this score or more.
-    between
-        from one score to another, both included.
-    over
-        a bet on more than this, which may lie between two scores.
-    """
+    """Ranges of scores whose chances are asked for: N or more, from-to (inclusive), over a bet."""
 
     at_least: int | None = None
     between: tuple[int, int] | None = None

@@ -30,15 +30,6 @@ _CLEAR = 0.5
 def shots_answer(file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.95) -> Answer:
     """Return which shot to practice next, and whether the player got better.
 
-    Parameters
-    ----------
-    file
-        the log.
-    found
-        what it says.
-    confidence
-        of the intervals.
-
     >>> import numpy as np
     >>> from evenbreak.practice import ShotLog, analyse_shots
     >>> days = np.array(["2025-01-03", "2025-02-03"], dtype="M8[D]")

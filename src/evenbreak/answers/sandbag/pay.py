@@ -24,18 +24,10 @@ CYCLE = 10
 
 
 class PayQuestion(NamedTuple):
-    """How many matches are dumped and then played in earnest, from where, and for what.
+    """How many matches are dumped and how many then count, from which rating error, for what.
 
-    Parameters
-    ----------
-    dumped, earnest
-        the most matches dumped, and the matches played in earnest afterwards.
-    start
-        the rating error before, in points.
-    stake, dumped_stake
-        what a match won is worth more than one lost: in earnest, and where it is dumped.
-    in_a_row, prize
-        the matches won in a row that win a tournament, and what it pays.
+    `start` is in points; a stake is the difference in value between winning and losing a match.
+    `prize` is paid for `in_a_row` wins.
     """
 
     dumped: int
@@ -50,17 +42,10 @@ class PayQuestion(NamedTuple):
 class PayFindings(NamedTuple):
     """What sandbagging pays on one ladder.
 
-    Parameters
-    ----------
-    ladder
-        the ladder.
-    pays, all_pays
-        what is shown, and the same for as many matches dumped as the ladder has room for.
-    cycle
-        the most profitable cycle for a player willing to be a doubling under-rated; None if it
-        was not looked for.
-    enters
-        extra wins of a player who enters a doubling too low, established or as a newcomer.
+    `all_pays` goes on to as many dumped matches as the ladder allows; `cycle` is the most
+    profitable one for a player willing to be a doubling under-rated (None: not looked for);
+    `enters` has the extra wins of a player who enters a doubling too low, established or as a
+    newcomer.
     """
 
     ladder: Ladder
@@ -78,10 +63,7 @@ class PayFindings(NamedTuple):
 def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -> PayFindings:
     """Return what sandbagging pays on a ladder.
 
-    Raises
-    ------
-    InputError
-        if one match dumped already takes the rating to the ladder's end.
+    It's an InputError if one dumped match already takes the rating to the ladder's end.
     """
     asked = question._asdict()
     most = most_dumped(ladder, question.start)

@@ -39,18 +39,9 @@ def numbers_dumped(most: int) -> list[int]:
 def dumping_answer(
     system: System, rows: Sequence[Dumping], question: PayQuestion, leagues: int
 ) -> Answer:
-    """Return what dumping pays, in files a row for each number of matches.
+    """Return what dumping pays, in files one row per number of matches dumped, the first for none.
 
-    Parameters
-    ----------
-    system
-        the system.
-    rows
-        by the number of matches dumped, the first for none.
-    question
-        the stakes.
-    leagues
-        how many were played for each number; 0 where nothing was drawn.
+    `leagues` were played for each; 0 where nothing was drawn.
     """
     honest = rows[0].p_in_a_row
 

@@ -50,13 +50,7 @@ def with_even_races(season: ResultsFile) -> tuple[ResultsFile, list[str]]:
 
 
 def events_marked(results: Results, events: Sequence[str]) -> NDArray[np.bool_]:
-    """Return which matches belong to these events.
-
-    Raises
-    ------
-    InputError
-        if the results have no such event.
-    """
+    """Return which matches belong to these events; an InputError for an unknown event."""
     column = results.event
     known = sorted({str(event) for event in (() if column is None else column) if event})
     for event in events:

@@ -38,25 +38,10 @@ HONEST_PLAYER = {
 class WatchRow(NamedTuple):
     """A player's line: matches, the evidence against them, and when they were flagged.
 
-    Parameters
-    ----------
-    player, matches, won
-        the player, the number of matches and of matches won.
-    e_value, largest_e
-        the evidence after the last match, and its largest value after any match.
-    p_value
-        the smallest alpha at which the player would have been flagged.
-    e_any, e_established
-        the evidence after the last match, against honest players of each kind.
-    flagged
-        whether the player was flagged.
-    alarm_match, alarm_date
-        after which of their matches, counted from 1, and when; None where there is none.
-    league_wide
-        whether they would have been flagged at alpha divided by the number of players.
-    event
-        in which of the events that were tried their results look like dumped matches; None if in
-        no single one of them, or if the player is not flagged.
+    `e_value` is the evidence after the last match, `largest_e` its maximum, `p_value` the smallest
+    alpha at which the player would be flagged; `e_any` and `e_established` are the evidence against
+    honest players of each kind. `alarm_match` counts from 1; `league_wide` is for alpha divided by
+    the number of players. `event` is the one whose results look dumped; None if none does alone.
     """
 
     player: str
@@ -77,17 +62,7 @@ class WatchRow(NamedTuple):
 def sandbag_watch_answer(
     watched: Sequence[Watched], results: Results, source: str, *, warnings: Sequence[str] = ()
 ) -> Answer:
-    """Return whose results look like sandbagging; in files, a `WatchRow` for each player.
-
-    Parameters
-    ----------
-    watched
-        what `watch` returned for these results.
-    results, source
-        the season, and what its file is called.
-    warnings
-        what may be wrong with what was given.
-    """
+    """Return whose results look like sandbagging; in files, a `WatchRow` for each player."""
     rows = watch_rows(watched, results)
     players = Table(
         "players",
@@ -327,12 +302,10 @@ def _matches(rows: Sequence[tuple[Any, ...]]) -> Table:
 
 
 def match_rows(one: Watched, nights: Sequence[PlayedNight]) -> list[tuple[Any, ...]]:
-    """Return a line for each match of a player: what it was, and what it did to the evidence.
+    """Return a tuple for each match of a player: what it was, and its effect on the evidence.
 
-    Returns
-    -------
-    list of (row in the results, opponent, rating, opponent's rating, games won, games lost,
-    games the player needed, games the opponent needed, won, e after it, factor of e)
+    They are: row in the results, opponent, rating, opponent's rating, games won, games lost, games
+    needed, games the opponent needed, won, e after it, factor of e.
     """
     found, place = [], 0
     for night in nights:

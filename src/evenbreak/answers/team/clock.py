@@ -43,17 +43,7 @@ class Band(NamedTuple):
 
 @dataclass(frozen=True)
 class NightClock:
-    """When things happen on a team night.
-
-    Parameters
-    ----------
-    now
-        what time it is.
-    starts
-        for each set that is on no table yet, when it starts.
-    end
-        when the last set ends, if all of them are played.
-    """
+    """The times of a team night; `starts` has each set that is on no table yet."""
 
     now: datetime
     starts: Mapping[int, Band]
@@ -61,18 +51,9 @@ class NightClock:
 
 
 def night_clock(state: TeamEvening, now: str) -> NightClock:
-    """Return when the sets that are left start, and when the night ends.
+    """Return when the remaining sets start, and when the night ends.
 
-    Parameters
-    ----------
-    state
-        the state of the night, with all picks.
-    now
-        what time it is, such as 2025-03-01T19:30:00.
-
-    Notes
-    -----
-    A set without players is as long as those between the players who are left, on average.
+    A set without players is as long as those of the remaining players, on average.
     """
     begun = _begun(state)
     rng = np.random.default_rng(0)

@@ -39,20 +39,9 @@ def lineup_answer(
     warnings: Sequence[str] = (),
     solution: SolvedNight | None = None,
 ) -> Answer:
-    """Return whom to put up now.
+    """Return who to put up now; `point` is None before the first nomination.
 
-    Parameters
-    ----------
-    meeting
-        who meets whom, and what is played.
-    point
-        the point in the night; None: before the first nomination.
-    seed
-        of the ratings that are drawn, where they have standard errors.
-    warnings
-        about the question.
-    solution
-        of the night, if it is known; then the ratings are not drawn again.
+    With a known solution, the ratings are not drawn again.
 
     >>> from evenbreak.ratings import SCALES, Roster
     >>> from evenbreak.teams import Squad
@@ -304,16 +293,7 @@ _LISTED = 10
 def sealed_answer(
     meeting: Meeting, warnings: Sequence[str], solution: SealedNight | None = None
 ) -> Answer:
-    """Return whom to write on a line-up that the other team does not see.
-
-    Parameters
-    ----------
-    meeting
-        who meets whom, and what is played.
-    warnings
-        about the question.
-    solution
-        of the night, if it is known.
+    """Return who to write on a line-up that the other team doesn't see.
 
     >>> from evenbreak.ratings import SCALES, Roster
     >>> from evenbreak.teams import Squad

@@ -41,15 +41,7 @@ def decided(state: TeamEvening, chances: tuple[float, float] | None) -> bool:
 
 
 def needed_words(state: TeamEvening, chances: tuple[float, float] | None) -> str:
-    """Return how the night stands: who has won it, or what is still needed.
-
-    Parameters
-    ----------
-    state
-        the state of the night.
-    chances
-        of both teams; None: not known.
-    """
+    """Return the state of the night: who has won it, or what is still needed."""
     (first, second), (a, b) = state.teams, state.score
     if state.over and a == b:
         return say("The night ends in a tie.")
@@ -139,15 +131,7 @@ def waiting_words(state: TeamEvening) -> str:
 
 
 def history_words(events: Sequence[Event], state: TeamEvening) -> list[str]:
-    """Return what happened, a line each, without the picks that are still unseen.
-
-    Parameters
-    ----------
-    events
-        all of them.
-    state
-        the state after them.
-    """
+    """Return what happened, one line each, without the picks that are still unseen."""
     lines: list[str] = []
     plan, seen = state.plan, _open(state)
     kept: list[What] = []  # an undo may bring an earlier night back

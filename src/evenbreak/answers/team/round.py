@@ -46,30 +46,8 @@ def team_round_answer(
 ) -> Answer:
     """Return who wins a round, and the head start that makes it even.
 
-    Parameters
-    ----------
-    teams
-        both teams.
-    law
-        of the lead of the first.
-    played
-        what is played, in words.
-    scale
-        of the ratings.
-    strengths
-        what says how strong the players are; '': the ratings on this scale.
-    rests_on
-        what the chances rest on, if that is not the ratings.
-    games
-        the games of each match, if it is single games; then CSI's way is compared.
-    unit
-        what is added up: game, point or set.
-    everybody
-        whether everybody meets everybody.
-    names
-        what the teams are called.
-    warnings
-        about the question.
+    `law` is the distribution of the first team's lead. With `games`, those of each match if it is
+    single games, CSI's method is compared. `unit` is game, point or set.
 
     >>> from evenbreak.ratings import SCALES
     >>> from evenbreak.teams import round_law
@@ -179,24 +157,8 @@ _SMALL = 5e-4  # a chance that differs by less is the same
 class LeagueRules:
     """The teams of a league and its rules.
 
-    Parameters
-    ----------
-    rosters
-        each team's players, with a rating for everybody.
-    squads
-        the same with the caps of the league.
-    levels
-        each team's skill levels; NaN where none are stated.
-    race, scale
-        what is played in each set, and the scale of the ratings.
-    sets, order
-        how many sets a night has, and who names first.
-    form
-        of the day, by the list.
-    skills
-        how strong skill levels are, if the chances come from those.
-    count
-        what decides a night.
+    Everyone in `rosters` has a rating; `squads` are the same with the league's caps; `levels` are
+    NaN where not stated; `skills` are the strengths of levels, if the chances come from those.
     """
 
     rosters: Mapping[str, Roster]
@@ -251,16 +213,7 @@ class LeagueRules:
 def team_rules_answer(
     rules: LeagueRules, *, source: str = "", warnings: Sequence[str] = ()
 ) -> Answer:
-    """Return what a cap and the order of nomination do to a team league.
-
-    Parameters
-    ----------
-    rules
-        the teams and the rules.
-    source
-        the name of the file, for the heading.
-    warnings
-        about the question.
+    """Return the effect of a cap and of the order of nomination on a team league.
 
     >>> from evenbreak.ratings import SCALES
     >>> rosters = {

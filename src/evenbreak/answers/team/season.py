@@ -31,18 +31,8 @@ def team_season_answer(
 ) -> Answer:
     """Return the chances of each team's final place.
 
-    Parameters
-    ----------
-    found
-        the chances; those of the title, of `up` and of the places above `down` are watched.
-    up, down
-        how many teams go up and how many go down; None: nobody does.
-    rounds
-        what the matches watched are called: 'round 12', '' for the next matches.
-    known
-        whether the strengths are taken as right.
-    warnings
-        about the files.
+    `up` and `down` are the numbers of teams promoted and relegated, `rounds` what the watched
+    matches are called; with `known`, strengths are treated as exact.
 
     >>> from evenbreak.teams import TeamSeason, season_chances
     >>> season = TeamSeason(["Acers", "Bankers", "Caroms"], [[0, 1, 3, 2]], [[0, 2], [1, 2]],

@@ -18,28 +18,11 @@ from evenbreak.words import Sentence, say
 def lists_by_level(
     lists: Sequence[RosterFile], chart: LevelChart | PointsChart, results: str | None = None
 ) -> tuple[list[RosterFile], LevelSkills | None]:
-    """Return the lists of teams with the levels that a chart reads, and how strong those are.
+    """Return the teams' lists with the levels that a chart reads, and their strengths.
 
-    Parameters
-    ----------
-    lists
-        of the players of each team.
-    chart
-        the chart.
-    results
-        the file of the league's own results, which show how strong its levels are.
-
-    Returns
-    -------
-    tuple
-        the lists; and how strong the levels are, None if all lists have ratings, from which the
-        chances then come, or the chart is one of points. With levels the ratings of the lists are
-        their strengths, in Fargo points.
-
-    Raises
-    ------
-    InputError
-        if a list states no levels.
+    The strengths are None if all lists have ratings, which then give the chances, or if the chart
+    is one of points. With levels, ratings in the lists are their strengths in Fargo points. A list
+    without levels is an InputError.
     """
     read = [by_level(file, chart) for file in lists]
     files = [file for file, _ in read]

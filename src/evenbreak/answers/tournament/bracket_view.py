@@ -27,22 +27,9 @@ _ACROSS = 6
 
 
 class Line(NamedTuple):
-    """One player of a match.
+    """One player of a match: a name if `known`, else where the player comes from.
 
-    Parameters
-    ----------
-    text
-        the name, or where the player comes from.
-    known
-        whether it is a player.
-    score
-        games won, also of a match in play; 'forfeit' or ''.
-    won
-        whether this player won the match.
-    needs
-        the games that the player needs; None where it is over, or the players are not known.
-    chance
-        of winning the match; None where it is not known.
+    `score` includes a match in play; `needs` is None once it is over or while a player is unknown.
     """
 
     text: str
@@ -55,27 +42,11 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True)
 class Box:
-    """A match.
+    """A match, in the column of its round (from 0).
 
-    Parameters
-    ----------
-    match, number
-        its name, and the number by which people know it.
-    column
-        the round, from 0.
-    lines
-        its two players.
-    to, to_number
-        the match that the winner goes to; '' and 0 if none.
-    state
-        'waits', 'ready', 'called', 'playing', 'hill', 'done' or 'forfeit'; pages know 'sent' and
-        'two' besides, for scores that phones have sent.
-    title
-        its own heading, such as 'Final'; '' where that of its round will do.
-    beside
-        -1 if it stands above the final, in the same column, 1 if below; 0: in a place of its own.
-    table
-        the name of the table on which it is played; '' unless it is.
+    `to` is the winner's next match, '' for none. The state is 'waits', 'ready', 'called',
+    'playing', 'hill', 'done' or 'forfeit'; pages also know 'sent' and 'two', for scores that phones
+    have sent. `beside` is -1 above the final, 1 below it, both in its column, and 0 elsewhere.
     """
 
     match: str
@@ -99,18 +70,9 @@ class Round(NamedTuple):
 
 @dataclass(frozen=True)
 class Panel:
-    """A part of a bracket.
+    """A part of a bracket, its boxes from the top down.
 
-    Parameters
-    ----------
-    kind
-        'winners', 'losers', 'knock-out', 'consolation', or the name of another part.
-    title
-        what it is called.
-    rounds
-        the heading of each column.
-    boxes
-        its matches, from the top.
+    The kind is 'winners', 'losers', 'knock-out', 'consolation', or the name of another part.
     """
 
     kind: str
@@ -140,23 +102,7 @@ def bracket_panels(
 ) -> tuple[Panel, ...]:
     """Return the parts of the bracket of a tournament, each with its matches.
 
-    Parameters
-    ----------
-    state
-        the tournament.
-    chances
-        the first player's chance in matches that are played or ready.
-    states
-        states of matches that phones know better: 'sent', 'two'.
-
-    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result
-    >>> from evenbreak.tournaments.evening.fold import evening
-    >>> names = ("Ann", "Bo", "Cy", "Di")
-    >>> begun = Opened(Plan("single", 5), tuple(Entrant(name, 80.0) for name in names))
-    >>> happened = begun, Drawn(names, (0, 3, 1, 2)), Result("W1.1", ("Ann", "Di"), (5, 3), "Ann")
-    >>> (panel,) = bracket_panels(evening([Event("2025-03-01T19:30:00", w) for w in happened]))
-    >>> [(box.number, [line.text for line in box.lines]) for box in panel.boxes[1:]]
-    [(2, ['Bo', 'Cy']), (3, ['Ann', 'winner of 2'])]
+    `chances` are the first player's, `states` those that phones know better: 'sent', 'two'.
     """
     made = _panels(state)
     return tuple(

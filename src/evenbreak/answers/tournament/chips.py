@@ -143,16 +143,7 @@ def odds_data(night: Outlook) -> dict[str, Any]:
 
 
 def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answer:
-    """Return the state of a chip tournament: tables, line, chips, the odds, when it ends.
-
-    Parameters
-    ----------
-    night
-        the tournament.
-    said
-        what has just happened, a sentence each.
-    heading
-        what is played by whom.
+    """Return the state of a chip tournament: tables, line, chips, odds, finish time.
 
     >>> from evenbreak.tournaments import CHIP_CHARTS
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
@@ -243,19 +234,9 @@ def _players(night: Outlook, *, playing: bool) -> Table:
 def chip_time_answer(
     outlook: Outlook, heading: str, *, tables: int | None = None, turnover: Turnover | None = None
 ) -> Answer:
-    """Return when a chip tournament ends, and what another table would change.
+    """Return the finish time of a chip tournament, and what another table would change.
 
-    Parameters
-    ----------
-    outlook, heading
-        the tournament, and what is played by whom.
-    tables, turnover
-        as in `chip_minutes`.
-
-    Raises
-    ------
-    InputError
-        if nothing is left to play.
+    It's an InputError if nothing is left to play.
     """
     state = outlook.state
     if len(state.chip_night.order) < 2:

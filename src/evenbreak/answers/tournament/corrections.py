@@ -15,18 +15,10 @@ from evenbreak.words import Sentence, joined, say, say_count, tally
 
 
 class Choice(NamedTuple):
-    """What may happen to matches that are played on a result that is corrected.
+    """What may happen to matches played on a result that is corrected.
 
-    Parameters
-    ----------
-    follow
-        what the correction is then given: stop or keep.
-    headline
-        what happens, as a person would say it.
-    details
-        a line for each table, and for what stays in the history.
-    button
-        the choice, on a button.
+    `follow` is the option for it, stop or keep; `details` has a line per table, and one for what
+    stays in the history.
     """
 
     follow: str
@@ -36,16 +28,9 @@ class Choice(NamedTuple):
 
 
 def correction_choices(before: Evening, stop: Evening, match: str) -> list[Choice]:
-    """Return what may happen to matches that are played on a result; [] if there are none.
+    """Return what may happen to matches played on a result; [] if there are none.
 
-    Parameters
-    ----------
-    before
-        the state before the correction.
-    stop
-        the state after it, with matches in play stopped.
-    match
-        the match that is corrected.
+    `stop` is the state after the correction, with matches in play stopped.
     """
     lost = losses(before, stop)
     if not lost:

@@ -69,13 +69,8 @@ def favours(ratings: Floats, odds: PlaceOdds) -> list[Quantity]:
 def fairer_races(tournament: Tournament) -> list[Part]:
     """Return today's races, and those by side and by round that make the tournament fairest.
 
-    They take about as many games on average; the ratings are taken as right.
-
-    Raises
-    ------
-    InputError
-        if the races are not handicapped, something is still to be drawn, or the bracket is too
-        large for many exact answers.
+    They take about as many games on average; ratings are treated as exact. It's an InputError if
+    races aren't handicapped, something is still to be drawn, or the bracket is too large.
     """
     bracket, races = tournament.bracket, tournament.races
     if isinstance(races.race, int):

@@ -59,15 +59,7 @@ def live_words(state: Evening, match: str) -> Sentence:
 
 
 def happened(before: Evening, after: Evening, event: Event) -> list[Sentence]:
-    """Return in words what a result changed: who moves where, what no longer counts.
-
-    Parameters
-    ----------
-    before, after
-        the state before and after it.
-    event
-        what happened.
-    """
+    """Return in words what a result changed: who moves where, what no longer counts."""
     if not isinstance(event.what, Result):
         return []
     result = event.what
@@ -184,12 +176,7 @@ def settled_words(before: Evening, after: Evening) -> list[Sentence]:
 def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentence]:
     """Return in words which matches are open again, and which results count again.
 
-    Parameters
-    ----------
-    before, after
-        the state before and after something happened.
-    besides
-        the match in which it happened.
+    `besides` is the match in which it happened.
     """
     if not (before.drawn and after.drawn):
         return []

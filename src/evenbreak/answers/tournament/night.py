@@ -89,30 +89,9 @@ def night_answer(
     prizes: Sequence[float] = (),
     source: str = "",
 ) -> Answer:
-    """Return the state of a tournament: what is played next, the title odds, when it ends.
+    """Return the state of a tournament: what to play next, title odds, finish time.
 
-    Parameters
-    ----------
-    night
-        the tournament.
-    said
-        what has just happened, a sentence each.
-    decides
-        whether to find what each match that can be played decides.
-    prizes
-        the money for each place, for what the matches decide.
-    source
-        the name of its file, for the heading.
-
-    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
-    >>> from evenbreak.tournaments.evening.fold import evening
-    >>> both = Entrant("Ann", 80.0), Entrant("Bo", 70.0)
-    >>> happened = Opened(Plan("single", 5), both), Drawn(("Ann", "Bo"), (0, 1))
-    >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
-    >>> answer = night_answer(Outlook(state, "2025-03-01T19:30:00"))
-    >>> print(answer.sentences[0])
-    Now play match 1, Ann against Bo, on table 1.
-    It ends at about 20:12; eight times out of ten between 19:57 and 20:36.
+    `decides` adds what each match that can be played decides.
     """
     state = night.state
     if not state.drawn:

@@ -53,25 +53,10 @@ def tournament_odds_answer(
     seed: int = 0,
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return each player's chance of each place.
+    """Return each player's chance of each place, averaged over rating errors unless `sure`.
 
-    Parameters
-    ----------
-    tournament
-        who plays what.
-    sure
-        whether to take the ratings as right; otherwise the odds are averaged over how far those
-        with a standard error may be off.
-    walkovers
-        the chance that a match is a walkover.
-    prizes
-        the money for each place, for each player's average prize.
-    fairest
-        whether to find the races by side that make a handicapped tournament fairest.
-    seed
-        of what has to be sampled.
-    warnings
-        about the question.
+    `walkovers` is the chance that a match is a walkover; `fairest` looks for the races by side that
+    make a handicapped tournament fairest.
 
     >>> from evenbreak.files.lists.roster import RosterFile
     >>> from evenbreak.ratings import SCALES, Roster
@@ -130,21 +115,10 @@ def odds_table(
     *,
     shares: bool = False,
 ) -> Table:
-    """Return each player's chance of each place, beside those that take the ratings as right.
+    """Return each player's chance of each place, next to that with ratings treated as exact.
 
-    Parameters
-    ----------
-    ratings
-        each player's rating, in the bracket's order.
-    plug_in, odds
-        the odds if the ratings are right, and averaged over how far off they may be; the same
-        if they are not averaged.
-    prizes
-        the money for each place.
-    bands
-        the title odds of players without a rating if they are weak, and if they are strong.
-    shares
-        whether to say how many times an equal share the title odds are.
+    `bands` are the title odds of unrated players if they are weak, and if strong; `shares` adds
+    multiples of an equal share.
     """
     places = odds.bracket.places
     seats = range(len(odds.title))
@@ -191,8 +165,8 @@ def bands_words(bands: Bands) -> Sentence | str:
 def favorites(odds: PlaceOdds, bands: Bands = NOTHING) -> list[int]:
     """Return the players' seats, the favorite first.
 
-    A player without a rating comes where the low end of their band puts them: so nobody is the
-    favorite of a night for what a few games may or may not say.
+    An unrated player is placed by the low end of their band: a few games of an unknown player don't
+    make them the favorite.
     """
     players, title = odds.bracket.players, odds.title.tolist()
     known = [bands[name][0] if name in bands else title[k] for k, name in enumerate(players)]
@@ -344,19 +318,7 @@ class Solved(NamedTuple):
 
 
 def solved(tournament: Tournament, *, sure: bool, walkovers: float, seed: int) -> Solved:
-    """Return the odds of a tournament before its first match.
-
-    Parameters
-    ----------
-    tournament
-        who plays what.
-    sure
-        whether to take the ratings as right.
-    walkovers
-        the chance that a match is a walkover.
-    seed
-        of what has to be sampled.
-    """
+    """Return the odds of a tournament before its first match."""
     bracket = tournament.bracket
     uncertain = bool(tournament.skills[1].any()) and not sure
     form = tournament.file.form

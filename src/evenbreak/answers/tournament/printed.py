@@ -23,15 +23,7 @@ from evenbreak.words import Sentence, say
 
 
 def printed_answer(state: Evening, written: str) -> Answer:
-    """Return what has been written, with the list of the draw: who plays first where.
-
-    Parameters
-    ----------
-    state
-        the tournament.
-    written
-        what has been written to which file, as a sentence.
-    """
+    """Return what was written, with the list of the draw: who plays first where."""
     show = {"table": state.plan.table_name}
     columns = columns_of("seed name first_match between table", show=show)
     rows = [
@@ -52,13 +44,7 @@ class First(NamedTuple):
 
 
 def first_matches(state: Evening) -> list[First]:
-    """Return the first match of each player, in seed order.
-
-    Parameters
-    ----------
-    state
-        the tournament, drawn.
-    """
+    """Return the first match of each player, in seed order."""
     now = state.standing
     first: dict[str, str] = {}
     for match in state.bracket.matches:
@@ -77,21 +63,7 @@ def first_matches(state: Evening) -> list[First]:
 
 @dataclass(frozen=True)
 class Card:
-    """A score card.
-
-    Parameters
-    ----------
-    number
-        that of the match.
-    where
-        the part of the bracket, such as 'winners' side, round 2'.
-    names, needs
-        the players, and the games that each needs.
-    table
-        the name of the table; '' if it has not been called.
-    onward
-        where winner and loser go.
-    """
+    """A score card; `table` is '' until the match is called."""
 
     number: int
     where: Sentence | str
@@ -102,12 +74,9 @@ class Card:
 
 
 def score_cards(state: Evening, match: str | None = None) -> list[Card]:
-    """Return the cards of all matches whose players are known and that are not over, or of one.
+    """Return the cards of all open matches whose players are known, or of one.
 
-    Raises
-    ------
-    InputError
-        if the draw has not been made, or there is no such match with known players.
+    It's an InputError before the draw, or if there is no such match.
 
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
     >>> from evenbreak.tournaments.evening.fold import evening
@@ -149,15 +118,7 @@ def _card(state: Evening, name: str) -> Card:
 
 
 def paper_words(state: Evening, live: str = "") -> tuple[str, str, str | None]:
-    """Return what stands around a bracket on paper: what is played, when it was printed, who won.
-
-    Parameters
-    ----------
-    state
-        the tournament.
-    live
-        the address of its page; '' for none.
-    """
+    """Return the words around a bracket on paper: what is played, when it was printed, who won."""
     form = str(state.bracket.format)
     many = f"{len(state.order)} players, {form}. {races_words(state.races)}"
     played = f"After {len(state.counted)} matches." if state.counted else ""
@@ -191,25 +152,7 @@ def onward_words(state: Evening, name: str) -> Sentence | str:
 
 
 def tournament_matches_answer(state: Evening, event: str) -> Answer:
-    """Return all matches that were played, those that no longer count in the bracket among them.
-
-    Parameters
-    ----------
-    state
-        the tournament.
-    event
-        its name.
-
-    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result
-    >>> from evenbreak.tournaments.evening.fold import evening
-    >>> begun = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
-    >>> happened = begun, Drawn(("Ann", "Bo"), (0, 1)), Result("F", ("Ann", "Bo"), (5, 3), "Ann")
-    >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
-    >>> tournament_matches_answer(state, "tonight").to_frame().loc[0, ["player_a", "score_b"]]
-    player_a    Ann
-    score_b       3
-    Name: 0, dtype: object
-    """
+    """Return all matches played, including those that no longer count in the bracket."""
     columns = columns_of("date event match pair score_pair race_pair winner forfeit")
     rows = []
     for result, at in sorted(played_matches(state.records), key=lambda one: one.at):
@@ -240,15 +183,7 @@ def tournament_matches_answer(state: Evening, event: str) -> Answer:
 
 
 def tournament_events_answer(events: Sequence[Event], name: str) -> Answer:
-    """Return all that happened, in its order; what was undone is there too.
-
-    Parameters
-    ----------
-    events
-        the events.
-    name
-        the tournament's name.
-    """
+    """Return all events in order, including those that were undone."""
     columns = [column_of("event_title", title=title) for title in TITLES]
     table = Table("events", columns, [list(row) for row in event_rows(events)])
     return Answer(name, [f"{count_of(len(events), 'event')}.", table], csv=table)

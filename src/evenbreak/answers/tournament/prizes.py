@@ -21,18 +21,9 @@ from evenbreak.words import Sentence, joined, say, say_count
 def tournament_prizes_answer(
     state: Evening, money: PrizeMoney, odds: PlaceOdds | None, *, source: str = ""
 ) -> Answer:
-    """Return what each place is paid, and what each player may expect.
+    """Return what each place is paid, and each player's expected prize (None: before the draw).
 
-    Parameters
-    ----------
-    state
-        the tournament.
-    money
-        the prize money; the pot is that of the players who have paid, where that is noted.
-    odds
-        of the places, from here on; None before the draw.
-    source
-        what the tournament is called.
+    The pot is that of the players who have paid, where that is recorded.
 
     >>> from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
     >>> from evenbreak.tournaments.evening.fold import evening
@@ -117,20 +108,9 @@ def calcutta_answer(
     house: float = 0.0,
     source: str = "",
 ) -> Answer:
-    """Return what each player still to be sold in a Calcutta is worth now.
+    """Return the value now of each player still to be sold in a Calcutta.
 
-    Parameters
-    ----------
-    odds
-        of the places.
-    payouts
-        the shares of the pot that the places get.
-    sold
-        the bids of those who have been sold.
-    house
-        the part of the pot that is not paid out.
-    source
-        what the tournament is called.
+    `house` is the share of the pot that isn't paid out.
     """
     shares = payouts.shares(len(odds.bracket.players))
     raw = fair_shares(odds, shares)
@@ -169,39 +149,16 @@ def calcutta_answer(
 
 
 class Stake(NamedTuple):
-    """What a match decides.
-
-    Parameters
-    ----------
-    title
-        the title odds that its result moves from some players to others, on average.
-    prize
-        the prize money that it moves; None without prizes.
-    """
+    """What a match decides: the title odds and prize money that its result moves, on average."""
 
     title: float
     prize: float | None = None
 
 
 def stakes(outlook: Outlook, prizes: Sequence[float] = ()) -> dict[str, Stake]:
-    """Return what the matches that can be played decide, those that decide most first.
+    """Return what the playable matches decide, the most decisive first.
 
-    It is empty where that takes too long: in a very large bracket, a Swiss, and before a redraw.
-
-    Parameters
-    ----------
-    outlook
-        the tournament.
-    prizes
-        the money for each place.
-
-    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
-    >>> from evenbreak.tournaments.evening.fold import evening
-    >>> both = Entrant("Ann", 80.0), Entrant("Bo", 80.0)
-    >>> happened = Opened(Plan("single", 5), both), Drawn(("Ann", "Bo"), (0, 1))
-    >>> state = evening([Event("2025-03-01T19:30:00", what) for what in happened])
-    >>> stakes(Outlook(state, "2025-03-01T19:30:00"), [100.0])
-    {'F': Stake(title=0.5, prize=50.0)}
+    Empty where that takes too long: in a very large bracket, a Swiss, and before a redraw.
     """
     ready = set(outlook.state.standing.to_play)
     money = {lever.match: lever.swing for lever in outlook.leverages(prizes)} if prizes else {}

@@ -43,20 +43,7 @@ def short_names(names: Iterable[str], fits: Callable[[str], bool]) -> dict[str, 
     """Return what to write for each name: the longest of its forms that fits, else the shortest.
 
     The forms are the full name; "R. Dubois-Lachapelle"; "R. Dubois-L.". A form that another player
-    could have too gets more letters of the first name; a name of one word has no shorter form.
-
-    Parameters
-    ----------
-    names
-        everybody's.
-    fits
-        whether there is room for a text.
-
-    >>> players = ["Renée Dubois-Lachapelle", "Ann Lee", "Al Lee", "Bob 'The Hammer' Kowalski"]
-    >>> list(short_names(players, lambda text: len(text) <= 12).values())
-    ['R. Dubois-L.', 'Ann Lee', 'Al Lee', 'B. Kowalski']
-    >>> short_names(["Annabel Fernandez", "Andrew Fernandez"], lambda text: len(text) <= 14)
-    {'Annabel Fernandez': 'Ann. Fernandez', 'Andrew Fernandez': 'And. Fernandez'}
+    could share gets more letters of the first name; a one-word name has no shorter form.
     """
     distinct = list(dict.fromkeys(names))
     if all(map(fits, distinct)):

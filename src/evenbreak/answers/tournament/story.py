@@ -80,15 +80,7 @@ def remarks(story: Story) -> list[Remark]:
 
 
 def story_answer(state: Evening, story: Story) -> Answer:
-    """Return the story of a night: what stood out, and the title odds after each match.
-
-    Parameters
-    ----------
-    state
-        the state of the evening.
-    story
-        its story.
-    """
+    """Return the story of a night: what stood out, and the title odds after each match."""
     rows: list[list[Any]] = []
     odds: list[list[Any]] = []
     for k, step in enumerate(story.steps):

@@ -107,24 +107,8 @@ def tournament_time_answer(
 ) -> Answer:
     """Return when a tournament ends and when each of its matches starts.
 
-    Parameters
-    ----------
-    tournament
-        who plays what.
-    tables
-        how many tables there are.
-    pace
-        how long matches take: a discipline, at its usual pace, or a pace.
-    earlier
-        the nights before at this venue, which correct the pace of a discipline.
-    turnover
-        the time between two matches on a table; None: as in real events.
-    start
-        when it starts, in minutes after midnight; None: times are minutes from the start.
-    seed
-        of the evenings that are simulated.
-    warnings
-        about the question.
+    `earlier` nights at this venue correct the usual pace of a discipline. The start is in minutes
+    after midnight; None: times count from the start.
 
     >>> import numpy as np
     >>> from evenbreak.files.lists.roster import RosterFile
@@ -178,17 +162,7 @@ def _takes(found: Finish) -> str:
 def starts_table(
     found: Finish, show: Callable[[float], str], numbers: Mapping[str, int] | None = None
 ) -> Table:
-    """Return when each match still to be played starts, soonest first.
-
-    Parameters
-    ----------
-    found
-        the finish.
-    show
-        how a time is written.
-    numbers
-        the numbers of the matches, of a tournament under way.
-    """
+    """Return when each remaining match starts, soonest first."""
     if numbers is None:
         numbers = match_numbers(found.standing.bracket)
     columns = columns_of(
@@ -285,21 +259,7 @@ def what_if(
     *,
     taken: int = 0,
 ) -> Table:
-    """Return by how much changes move the end.
-
-    Parameters
-    ----------
-    found
-        when it ends as it is.
-    ask
-        when it ends with so many tables and such races.
-    bracket
-        the tournament.
-    tables, races
-        the tables and races as they are.
-    taken
-        the tables with matches under way, which cannot be taken away.
-    """
+    """Return by how much other tables or races move the end; tables in use can't be taken away."""
     changes = {"one_more_table": (tables + 1, races)}
     if tables > max(1, taken):
         changes["one_table_fewer"] = tables - 1, races

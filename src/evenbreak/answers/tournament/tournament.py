@@ -31,25 +31,10 @@ from evenbreak.words import Sentence, joined, ordinal, say
 
 @dataclass(frozen=True, eq=False)
 class Tournament:
-    """A tournament before its first match.
+    """A tournament before its first match; roster and bracket are in seed order.
 
-    Parameters
-    ----------
-    file
-        the list of entrants, as it was read.
-    roster
-        the entrants in seed order, the new ones with a rating.
-    bracket
-        who meets whom; its players are those of the roster, in the same order.
-    races
-        what is played in each match.
-    scale
-        what the points mean.
-    seeding
-        where the order of the seeds comes from, in words.
-    to_draw
-        what is drawn later: '' (nothing), the 'lines' of everybody, the 'qualifiers' of the
-        losers' side, or the 'rounds' of a Swiss.
+    `seeding` says where that order comes from; `to_draw` is what is drawn later: '' (nothing),
+    everyone's 'lines', the 'qualifiers' of the losers' side, or the 'rounds' of a Swiss.
     """
 
     file: RosterFile
@@ -168,20 +153,7 @@ Numbers: TypeAlias = Mapping[str, int]
 
 
 def slot_words(bracket: Bracket, slot: Slot, numbers: Numbers | None = None) -> str:
-    """Return who is in a slot of a match: a name, or where the player comes from.
-
-    Parameters
-    ----------
-    bracket, slot
-        the bracket, and a slot of one of its matches.
-    numbers
-        the numbers of the matches, of a tournament under way; None: those of the bracket.
-
-    >>> from evenbreak.tournaments import double_elimination
-    >>> bracket = double_elimination(["Ann", "Bo", "Cy"])
-    >>> [slot_words(bracket, slot) for slot in bracket.match("W2.1").slots]
-    ['Ann', 'winner of 1']
-    """
+    """Return who is in a slot of a match: a name, or where the player comes from."""
     if isinstance(slot, int):
         return bracket.players[slot]
     if slot.match == TO_DRAW:

@@ -44,17 +44,7 @@ def odds_under_way(
 ) -> Answer:
     """Return each player's chance of each place, given the results and scores so far.
 
-    Parameters
-    ----------
-    outlook
-        the tournament.
-    sure
-        whether to take the ratings as right; otherwise the odds are averaged over how far those
-        with a standard error may be off.
-    prizes
-        the money for each place.
-    source
-        the name of its file, for the heading.
+    Averaged over the errors of ratings that have one, unless `sure`.
 
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Scored
     >>> from evenbreak.tournaments.evening.fold import evening
@@ -135,24 +125,7 @@ def time_under_way(
     turnover: Turnover | None = None,
     source: str = "",
 ) -> Answer:
-    """Return when the tournament ends, and when each match to come starts.
-
-    Parameters
-    ----------
-    outlook
-        the tournament.
-    tables
-        how many tables there are; None: as many as it has.
-    turnover
-        the time between two matches on a table; None: as in real events.
-    source
-        the name of its file, for the heading.
-
-    Raises
-    ------
-    InputError
-        if nothing is left to play.
-    """
+    """Return when the tournament ends and remaining matches start; InputError if none does."""
     state = outlook.state
     if state.plan.form == "chips":
         above = heading(outlook, source)
