@@ -27,10 +27,9 @@ PAGE = (
     (
         "page/call",
         "Call the next matches",
-        "The director's phone.",
+        "The director's phone: which table is free, who goes there.",
     ),
-    ("page/match", "Keep your own score", "A player's phone: tap for a game."),
-    ("page/tonight", "Follow along", "Everyone's phone: tables and title odds."),
+    ("page/match", "Keep your own score", "A player's phone: tap for a game, see your chance."),
 )
 """Pictures of the page, which `page_pictures.py` makes: file, title, words. The first is wide."""
 
