@@ -1,9 +1,9 @@
 """Who comes to the repository on a Git host finds the way: short, with links that work there."""
 
 import re
+import runpy
 from pathlib import Path
 
-import hatch_build
 import pytest
 
 from git_host import GFM, broken_links, seen_in, seen_on
@@ -12,6 +12,7 @@ from rows import each_of
 from test_docs import PAGES, name_of
 
 DOCS = ROOT / "docs"
+BUILD = runpy.run_path(str(ROOT / "hatch_build.py"))
 SHOWN = [
     *PAGES,
     ROOT / "CHANGELOG.md",
@@ -79,8 +80,8 @@ def test_what_a_git_host_shows_as_it_should_is_not_taken_for_a_mark() -> None:
 
 def test_the_readme_of_the_package_leads_to_the_repository_or_nowhere() -> None:
     readme = (ROOT / "README.md").read_text("utf-8")
-    where = hatch_build.repository({"GITHUB_REPOSITORY": "pool/evenbreak"})
-    abroad = seen_in(hatch_build.for_an_index(readme, where, "v1.0.0"))
+    where = BUILD["repository"]({"GITHUB_REPOSITORY": "pool/evenbreak"})
+    abroad = seen_in(BUILD["for_an_index"](readme, where, "v1.0.0"))
     at_home = [link for link in seen_on(ROOT / "README.md").leads_to if not link.startswith("#")]
     there = [
         re.sub(r"^https://github.com/pool/evenbreak/(blob|raw)/v1.0.0/", "", link)
@@ -90,7 +91,7 @@ def test_the_readme_of_the_package_leads_to_the_repository_or_nowhere() -> None:
     assert there == at_home
     assert all(link.startswith((where, "#")) for link in abroad.leads_to)
     assert f'src="{where}/raw/v1.0.0/docs/images/front_page.png"' in GFM.render(
-        hatch_build.for_an_index(readme, where, "v1.0.0")
+        BUILD["for_an_index"](readme, where, "v1.0.0")
     )
-    unknown = seen_in(hatch_build.for_an_index(readme, hatch_build.repository({}), "v1.0.0"))
+    unknown = seen_in(BUILD["for_an_index"](readme, BUILD["repository"]({}), "v1.0.0"))
     assert [link for link in unknown.leads_to if not link.startswith("#")] == []
