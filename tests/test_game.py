@@ -114,7 +114,7 @@ def test_a_graph_has_no_room_for_arrays(make: Callable[[], Game]) -> None:
 def test_a_move_needs_a_probability(chance: float) -> None:
     coin = Coin()
     coin.moves = lambda _: {"heads": chance}  # type: ignore[method-assign]
-    with pytest.raises(GameError, match=r"'toss' -> 'heads' has probability .*; give a number"):
+    with pytest.raises(GameError, match=r"'toss' -> 'heads' has probability .*\. Give a number"):
         graph_of(coin)
 
 
@@ -125,5 +125,5 @@ def test_a_sum_that_misses_one_by_rounding_is_a_probability() -> None:
 
 
 def test_what_is_no_game_is_refused() -> None:
-    with pytest.raises(GameError, match=r"Rack\(p1=0\.5, p2=None\) is not a game"):
+    with pytest.raises(GameError, match=r"Rack\(p1=0\.5, p2=None\) isn't a game"):
         graph_of(Rack(0.5))  # type: ignore[arg-type]

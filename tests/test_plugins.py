@@ -127,14 +127,18 @@ def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, forgotten: None) -> 
     "kind, name, why",
     [
         ("system", "absent", "it failed with ModuleNotFoundError: No module named 'nowhere'"),
-        ("system", "lazy", "it is a class without initial and update; write it"),
-        ("system", "nameless", "it cannot be made without arguments (missing a required"),
+        (
+            "system",
+            "lazy",
+            "it's a class without initial and update. Write it",
+        ),
+        ("system", "nameless", "it can't be made without arguments (missing a required"),
         ("system", "one-sided", "race of the system none is"),
-        ("system", "text", "it isn't a System; derive its class from System: class int(System)"),
+        ("system", "text", "it isn't a System. Derive its class from System: class int(System)"),
         ("chart", "dip", "the race of row 3, 5:4, is easier for the stronger player than"),
-        ("chart", "gap", "row 2 begins at 12, but row 1 ends at 9"),
+        ("chart", "gap", "row 2 starts at 12, but row 1 ends at 9"),
         ("chart", "absent", "it failed with ModuleNotFoundError"),
-        ("chart", "wrong", "it is of the type Leaky; let it be a Chart"),
+        ("chart", "wrong", "it is of the type Leaky. Let it be a Chart"),
         ("game", "leaky", "the moves from 0 have chances that sum to 0.9, and not 1"),
         ("game", "pieces", "it failed with TypeError"),
         ("game", "absent", "it failed with ModuleNotFoundError"),
@@ -190,7 +194,7 @@ def test_a_name_that_two_packages_have_is_refused_with_both(
 
 
 def test_nobody_elses_name_is_refused_with_ours_and_theirs() -> None:
-    with pytest.raises(ValueError, match="system is 'theirs'; give npl, step"):
+    with pytest.raises(ValueError, match="system must be npl, step"):
         handicaps.system_of("theirs")
     assert handicaps.named_chart("theirs") is None
 
@@ -199,7 +203,7 @@ def test_nobody_elses_name_is_refused_with_ours_and_theirs() -> None:
 def test_names_that_begin_as_ours_or_are_a_word_of_ours_are_reached() -> None:
     assert type(handicaps.system_of("Elo Club")).__name__ == "Club"
     assert handicaps.system_of("elo-10").name == "elo 10"
-    with pytest.raises(ValueError, match=r"write it as elo \[K\]"):
+    with pytest.raises(ValueError, match=r"Write it as elo \[K\]"):
         handicaps.system_of("elo league")
     assert games.game_of_catalog("9-ball")[0] == "9-ball"
     assert games.game_of_catalog("drill 9-ball")[0] == "drill, progressive 9-ball"
@@ -222,8 +226,8 @@ def test_chances_for_a_game_that_takes_none_are_refused(tmp_path: Path) -> None:
         ("Ended", "it failed with SystemExit: no license"),
         ("Unset", "it failed with AttributeError: 'Unset' object has no attribute 'nobodys'"),
         ("Importing", "it failed with ModuleNotFoundError: No module named 'nowhere'"),
-        ("Nobodys", "but broken_rules has no Nobodys; name a class of it"),
-        ("Lazy", "it is a class without initial and update; write it"),
+        ("Nobodys", "but broken_rules has no Nobodys. Name a class of it"),
+        ("Lazy", "it's a class without initial and update. Write it"),
     ],
 )
 def test_an_error_of_ones_own_class_is_told_as_its_own(name: str, why: str) -> None:
@@ -307,9 +311,9 @@ class Arrays(Coin):
     ("game", "why"),
     [
         (Loud(), "does not print in 40 letters"),
-        (Negative(), "has probability -0.5; give 0 to 1"),
+        (Negative(), "has probability -0.5. Give 0 to 1"),
         (Winning(), "player 1 has won in 'start', but there are moves"),
-        (Nobody(), "the winner in '1' is 'Ann'"),
+        (Nobody(), "the winner in '1' must be 1, 2, ... or None; it is 'Ann'"),
         (Alike(), "two states print as '1'"),
         (Fickle(), "differ when asked for twice"),
         (Arrays(), "arrays are not its moves"),

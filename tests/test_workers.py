@@ -107,7 +107,7 @@ def test_workers_run_no_code_of_the_working_folder(tmp_path):
 
 @pytest.mark.parametrize("jobs", [0, -1, 1.5, "two"])
 def test_jobs_are_counted_from_one(jobs):
-    with pytest.raises(InputError, match="jobs is "):
+    with pytest.raises(InputError, match="jobs must"):
         list(in_order(pow, 2, [1], jobs=jobs))
 
 

@@ -63,9 +63,9 @@ class WorkerError(EvenbreakError, RuntimeError):
 class DataError(EvenbreakError, ValueError):
     """A file cannot be used; `problems` lists everything that is wrong with it, one line each.
 
-    >>> error = DataError(["r.csv:2: score_a 'x' is not a whole number; write 0, 1, 2, ..."])
+    >>> error = DataError(["r.csv:2: score_a 'x' isn't a whole number. Write 0, 1, 2, ..."])
     >>> error.problems
-    ("r.csv:2: score_a 'x' is not a whole number; write 0, 1, 2, ...",)
+    ("r.csv:2: score_a 'x' isn't a whole number. Write 0, 1, 2, ...",)
     """
 
     def __init__(self, problems: Iterable[str]) -> None:

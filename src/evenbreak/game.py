@@ -94,9 +94,9 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     2 4 0.75
     """
     if isinstance(game, type):
-        raise GameError(f"the game is the class {game.__name__}; give one of its objects")
+        raise GameError(f"the game is the class {game.__name__}. Give one of its objects.")
     if not hasattr(game, "moves"):
-        raise GameError(f"{game!r} is not a game; give an object with start, moves and winner")
+        raise GameError(f"{game!r} isn't a game. Give an object with start, moves and winner.")
     offer = getattr(game, "arcs", None)
     if offer is not None and (start is None or start == game.start):
         arcs: ArcArrays | None = offer()
@@ -140,7 +140,7 @@ def moves_of(
         position = {start: 0}
     except TypeError:
         raise GameError(
-            f"the start is {start!r}; give a state that can be hashed, such as a tuple"
+            f"the start must be a state that can be hashed, such as a tuple; you gave {start!r}"
         ) from None
     states = [start]
     sources: list[int] = []
@@ -151,8 +151,8 @@ def moves_of(
         moves = game.moves(state)
         if not hasattr(moves, "items"):
             raise GameError(
-                f"the moves from {state!r} are {moves!r}; give a dict from states to "
-                "probabilities, empty if the game is over"
+                f"the moves from {state!r} must be a dict from states to probabilities, "
+                f"empty if the game is over; you gave {moves!r}"
             )
         for target, chance in moves.items():
             try:
@@ -170,8 +170,8 @@ def moves_of(
                 raise _no_chance(state, target, chance)
         if moves and len(targets) == before:
             raise GameError(
-                f"every move from {state!r} has probability 0; "
-                "give probabilities that sum to 1, or no moves if the game is over"
+                f"every move from {state!r} has probability 0. Give probabilities that "
+                "sum to 1, or no moves if the game is over."
             )
         if len(states) > max_states:
             raise _too_many(max_states)
@@ -180,7 +180,7 @@ def moves_of(
 
 def _no_chance(state: Any, target: Any, chance: Any) -> GameError:
     return GameError(
-        f"the move {state!r} -> {target!r} has probability {chance!r}; give a number from 0 to 1"
+        f"the move {state!r} -> {target!r} has probability {chance!r}. Give a number from 0 to 1."
     )
 
 

@@ -48,7 +48,7 @@ def plugin(kind: Kind, name: str, admit: Callable[[Any], Any], *arguments: Any) 
         return None
     if len(points) > 1:
         raise InputError(
-            "{kind} is {name!r}, which {packages} both add; uninstall one of them",
+            "{kind} is {name!r}, which {packages} both add. Uninstall one of them.",
             kind=kind,
             name=name,
             packages=" and ".join(map(package_of, points[:2])),
@@ -78,17 +78,17 @@ def made(named: Any, *arguments: Any) -> Any:
     """
     if not callable(named):
         if arguments:
-            raise InputError("it is made already and takes no chances; leave them out")
+            raise InputError("it is made already and takes no chances. Leave them out.")
         return named
     if lacking := sorted(getattr(named, "__abstractmethods__", ())):
-        raise InputError("it is a class without {lacking}; write it", lacking=" and ".join(lacking))
+        raise InputError("it's a class without {lacking}. Write it.", lacking=" and ".join(lacking))
     try:
         inspect.signature(named).bind(*arguments)
     except TypeError as error:
         raise InputError(
-            "it takes other chances ({error}); give those"
+            "it takes other chances ({error}). Give those."
             if arguments
-            else "it cannot be made without arguments ({error}); give each parameter a default",
+            else "it can't be made without arguments ({error}). Give each parameter a default.",
             error=str(error),
         ) from None
     except ValueError:  # what is written in C may not say what it takes

@@ -133,9 +133,9 @@ def _broken_is_said() -> Iterator[None]:
         yield
     except BrokenExecutor as error:
         raise WorkerError(
-            "a worker process ended before its work was done: it was killed (did memory run out?), "
-            "or it could not start (a script that asks for workers must do so under "
-            "`if __name__ == '__main__':`); use fewer jobs"
+            "a worker process ended before its work was done: it was killed (did memory "
+            "run out?), or it couldn't start (a script that asks for workers must do so "
+            "under `if __name__ == '__main__':`). Use fewer jobs."
         ) from error
 
 

@@ -34,15 +34,15 @@ def test_the_matrix_is_canonical() -> None:
 
 @pytest.mark.parametrize("source", [None, 5, 0.5])
 def test_what_is_no_source_is_refused(source: object) -> None:
-    with pytest.raises(ChainError, match=r"the source is .*; give a game, a networkx.DiGraph, a "):
+    with pytest.raises(ChainError, match=r"the source must be a game, a networkx.DiGraph, a "):
         chain_of(source)  # type: ignore[arg-type]
 
 
 def test_a_game_with_arrays_of_chances_is_refused() -> None:
     rack = Rack(np.array([0.25, 0.5]))
-    with pytest.raises(EvenbreakError, match="p1 is an array"):
+    with pytest.raises(EvenbreakError, match=r"p1 must be one number\. For an array"):
         chain_of(Race(2, 2, rack))
-    with pytest.raises(EvenbreakError, match="p1 is an array"):
+    with pytest.raises(EvenbreakError, match=r"p1 must be one number\. For an array"):
         chain_of(Series(rack, breaks=winner_breaks))
 
     class Mine:
@@ -64,22 +64,34 @@ def test_a_game_with_arrays_of_chances_is_refused() -> None:
 @each_of(
     "triples, words",
     [
-        ([("A", "B", 0.5)], "the arcs out of state 'A' sum to 0.5; give probabilities"),
+        ([("A", "B", 0.5)], r"the arcs out of state 'A' sum to 0\.5\. Give probabilities"),
         ([("A", "B", 1.1)], "'A' -> 'B' has probability 1.1"),
         ([("A", "B", -0.5), ("A", "C", 1.5)], "probability -0.5"),
         ([("A", "B", float("nan"))], "probability nan"),
         ([("A", "B", float("inf"))], "probability inf"),
         ([("A", "B", 0.5), ("A", "B", 0.5)], "'A' -> 'B' is listed more than once"),
         ([("A", "A", 0.5), ("A", "B", 0.5), ("A", "A", 0)], "'A' -> 'A' is listed more than once"),
-        ([("A", "B", 0)], "sum to 0;"),
+        ([("A", "B", 0)], "sum to 0"),
         ([("A", "B", 1 + 2e-9)], "probability 1.000000002"),
         ([("A", "B", 1 - 2e-9)], "sum to 0.999999998"),
         ([("A", "B", 0.7), ("C", "B", 0.7)], r"'A' sum to 0.7 \(and so for 1 more\)"),
         ([("A", "B", 0.6), ("A", "A", 0.6)], "sum to 1.2"),
-        ([], "no states"),
-        ([("A", "B")], r"arc 1 is \('A', 'B'\)"),
-        ([("A", "B", 1), ("B", "A", "much")], "arc 2 is"),
-        ([("A", [1], 1)], r"arc 1 is \('A', \[1\], 1\)"),
+        ([], "state"),
+        (
+            [("A", "B")],
+            (
+                r"arc 1 must be \(source, target, probability\), states that can be hashed "
+                r"and a number; you gave \('A', 'B'\)"
+            ),
+        ),
+        ([("A", "B", 1), ("B", "A", "much")], "arc 2 must"),
+        (
+            [("A", [1], 1)],
+            (
+                r"arc 1 must be \(source, target, probability\), states that can be hashed "
+                r"and a number; you gave \('A', \[1\], 1\)"
+            ),
+        ),
     ],
 )
 def test_refused(triples: list[tuple[object, ...]], words: str) -> None:
@@ -144,7 +156,7 @@ def test_a_state_of_only_itself() -> None:
         (("AB", [0], [1], [0.5, 0.5]), r"shapes \(1,\), \(1,\), \(2,\)"),
         (("AB", [0.0], [1.0], [1.0]), "type float64"),
         (("AB", [[0]], [[1]], [[1.0]]), "shapes"),
-        (([], [], [], []), "no states"),
+        (([], [], [], []), "state"),
     ],
 )
 def test_arrays_refused(arrays: tuple[object, ...], words: str) -> None:
@@ -218,11 +230,11 @@ def test_the_start_of_a_graph() -> None:
 @pytest.mark.parametrize(
     ("attributes", "words"),
     [
-        ({}, "has no probability; give each arc a number"),
-        ({"probability": "half"}, "has probability 'half'; give each arc a number"),
-        ({"probability": None}, "has probability None; give each arc a number"),
-        ({"p": 1.0}, "carries 'p' and has no probability; name what holds it, as in weight='p'"),
-        ({"weight": "much"}, "has weight 'much'; give each arc a number"),
+        ({}, "has no probability. Give each arc a number"),
+        ({"probability": "half"}, "has probability 'half'. Give each arc a number"),
+        ({"probability": None}, "has probability None. Give each arc a number"),
+        ({"p": 1.0}, "carries 'p' and has no probability. Name what holds it, as in weight='p'"),
+        ({"weight": "much"}, "has weight 'much'. Give each arc a number"),
     ],
 )
 def test_an_arc_without_a_probability(attributes: dict[str, object], words: str) -> None:
@@ -237,7 +249,9 @@ def test_weights_of_networkx_are_read_where_no_arc_has_a_probability() -> None:
     lengths.add_weighted_edges_from([("A", "B", 2.0), ("A", "A", 6.0), ("B", "A", 1.0)])
     chain = chain_of(nx.stochastic_graph(lengths))
     assert chain.matrix.toarray().tolist() == [[0.75, 1.0], [0.25, 0.0]]
-    with pytest.raises(ChainError, match=r"only a weight, and .* 'A' -> 'B' has .* 2.0;.* weight="):
+    with pytest.raises(
+        ChainError, match=r"only a weight, and .* 'A' -> 'B' has .* 2\.0\. .* weight="
+    ):
         chain_of(lengths)
     for _, _, arc in lengths.edges(data=True):
         arc["p"] = 1.0 if arc["weight"] == 1.0 else arc["weight"] / 8.0
@@ -255,7 +269,7 @@ def test_weights_do_not_stand_in_for_some_probabilities() -> None:
 @pytest.mark.parametrize("kind", [nx.Graph, nx.MultiDiGraph])
 def test_other_graphs_are_refused(kind: type) -> None:
     graph = kind([("A", "B", {"probability": 1.0})])
-    with pytest.raises(ChainError, match=r"give a networkx\.DiGraph"):
+    with pytest.raises(ChainError, match=r"Give a networkx\.DiGraph"):
         chain_of(graph)
 
 
@@ -290,8 +304,15 @@ class Endless(Wild):
         ({0: {1: 0.0, 2: 0.0}}, GameError, "every move from 0 has probability 0"),
         ({0: {1: 0.5, 2: 0.4}}, ChainError, "'?0'? sum to 0.9"),
         ({0: {1: 1.5}}, GameError, "probability 1.5"),
-        ({0: None}, GameError, "moves from 0 are None"),
-        ({0: [(1, 1.0)]}, GameError, "moves from 0 are"),
+        (
+            {0: None},
+            GameError,
+            (
+                "moves from 0 must be a dict from states to probabilities, empty if the game "
+                "is over; you gave None"
+            ),
+        ),
+        ({0: [(1, 1.0)]}, GameError, "moves from 0 must"),
     ],
 )
 def test_games_refused(moves: dict[int, dict[int, float]], error: type, words: str) -> None:
@@ -304,7 +325,7 @@ def test_a_class_and_a_start_that_cannot_be_hashed_are_refused() -> None:
         chain_of(Wild)  # type: ignore[arg-type]
     game = Wild({})
     game.start = [0]  # type: ignore[assignment]
-    with pytest.raises(GameError, match="the start is"):
+    with pytest.raises(GameError, match="the start must"):
         chain_of(game)
 
 

@@ -214,7 +214,7 @@ class TestMapping:
         assert [] not in self.limit
         assert self.limit.get("won") == 0.75
         assert self.limit.get("drawn") is None
-        with pytest.raises(ChainError, match="state 'drawn' is not in the chain"):
+        with pytest.raises(ChainError, match="state 'drawn' isn't in the chain"):
             self.limit["drawn"]
 
     def test_a_limit_is_a_start(self):
@@ -296,7 +296,7 @@ def test_a_start_that_others_do_not_lead_to() -> None:
 
 
 def test_a_way_that_does_not_exist_names_those_that_do() -> None:
-    with pytest.raises(InputError, match=r"power.*elimination"):
+    with pytest.raises(InputError, match=r"elimination.*power"):
         limit_of(DRILL, via="power")
-    with pytest.raises(ChainError, match="use elimination"):
+    with pytest.raises(ChainError, match="Use elimination"):
         limit_of(Race(2, 2, Rack(0.4)), via="kernel")

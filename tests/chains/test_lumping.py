@@ -137,15 +137,15 @@ def test_rounding_does_not_keep_states_apart_but_rare_arcs_do() -> None:
 
 def test_two_states_are_named() -> None:
     chain = chain_of([("s", "won", 0.25), ("s", "t", 0.75), ("t", "won", 0.5), ("t", "s", 0.5)])
-    with pytest.raises(ChainError, match=r"states 's' and 't' .* to 'won' .* 0\.25 and 0\.5;"):
+    with pytest.raises(ChainError, match=r"states 's' and 't' .* to 'won' .* 0\.25 and 0\.5\."):
         lumped(chain, {"s": "play", "t": "play", "won": "won"})
     with pytest.raises(ChainError, match=r"states '(s|won)' and '(s|won)' have the same label"):
         lumped(chain, lambda state: "t" if state == "t" else "other")
     with pytest.raises(ChainError, match="no label for state 'won'"):
         lumped(chain, {"s": "play", "t": "play"})
-    with pytest.raises(ChainError, match="by is 'play'; give a function"):
+    with pytest.raises(ChainError, match="by must be a function"):
         lumped(chain, "play")
-    with pytest.raises(ChainError, match=r"label of state 's' is \(\['s'\],\); give a name"):
+    with pytest.raises(ChainError, match="label of state 's' must be a name, a number or a tuple"):
         coarsest_lumping(chain, lambda state: ([state],))
 
 

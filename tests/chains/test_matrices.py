@@ -46,7 +46,7 @@ def test_a_reading_that_is_not_stochastic_is_refused() -> None:
         chain_of(FROM, rows="to")
     with pytest.raises(ChainError, match="neither the rows nor the columns"):
         chain_of(FROM / 2)
-    with pytest.raises(InputError, match="rows is 'down'"):
+    with pytest.raises(InputError, match="rows must be 'from' or 'to'; you gave 'down'"):
         chain_of(FROM, rows="down")  # type: ignore[arg-type]
 
 
@@ -70,11 +70,11 @@ def test_the_labels_of_a_frame(index: str, columns: str, named: str) -> None:
 @pytest.mark.parametrize(
     ("source", "named"),
     [
-        (np.ones((2, 3)) / 3, r"shape \(2, 3\)"),
+        (np.ones((2, 3)) / 3, r"shape is \(2, 3\)"),
         (np.array([0.5, 0.5]), "two-dimensional"),
         (np.array([["a", "b"], ["c", "d"]]), "two-dimensional"),
         (np.array([[np.nan, 1.0], [1.0, 0.0]]), "neither"),
-        (np.array([[1.5, -0.5], [0.5, 0.5]]), "outside 0 to 1"),
+        (np.array([[1.5, -0.5], [0.5, 0.5]]), "must be 0 to 1"),
         (np.zeros((0, 0)), "at least one state"),
     ],
 )
@@ -95,7 +95,9 @@ def test_a_dict_of_dicts() -> None:
     chain = chain_of({"won": {}, "rack": {"won": Fraction(3, 4), "lost": 0.25}}, start="rack")
     assert chain.states == ["won", "rack", "lost"]
     assert stochastic_limit(chain).to_dict() == {"won": 0.75, "rack": 0.0, "lost": 0.25}
-    with pytest.raises(ChainError, match="moves from 'a' are 'b'"):
+    with pytest.raises(
+        ChainError, match="moves from 'a' must be a dict from states to probabilities; you gave 'b'"
+    ):
         chain_of({"a": "b"})
     with pytest.raises(ChainError, match=r"'a' sum to 0\.5"):
         chain_of({"a": {"b": 0.5}})
@@ -104,7 +106,7 @@ def test_a_dict_of_dicts() -> None:
 def test_the_weight_of_a_graph() -> None:
     graph = nx.DiGraph([("a", "b", {"chance": 0.25}), ("a", "c", {"chance": 0.75})])
     assert chain_of(graph, weight="chance").matrix[1, 0] == 0.25
-    with pytest.raises(ChainError, match="and has no probability; name what holds it"):
+    with pytest.raises(ChainError, match=r"and has no probability\. Name what holds it"):
         chain_of(graph)
     with pytest.raises(ChainError, match="'a' -> 'b' carries 'chance' and has no p"):
         chain_of(graph, weight="p")

@@ -81,9 +81,9 @@ def test_what_is_earned_after_absorption_does_not_count():
 @pytest.mark.parametrize(
     ("rewards", "message"),
     [
-        ({}, "give per_state or per_arc"),
+        ({}, "Give per_state or per_arc"),
         ({"per_state": {"X": 1}}, "state 'X'"),
-        ({"per_state": np.ones(2)}, r"shape \(2,\)"),
+        ({"per_state": np.ones(2)}, r"shape \(4,\); its shape is \(2,\)"),
         ({"per_state": {"S1": np.nan}}, "nan for state 'S1'"),
         ({"per_arc": {("S1", "L"): 1}}, "no arc 'S1' -> 'L'"),
     ],
@@ -99,6 +99,6 @@ def test_a_series_is_read_by_its_labels():
     assert total_reward(chain, per_state=rewards) == 4.0
     assert total_reward(chain, "b", per_state=rewards) == 3.0
     assert chain.density(pd.Series([0.75, 0.25], index=["b", "a"])).tolist() == [0.25, 0.75, 0.0]
-    for labels, message in ([0, 1], "state 0 is not in the chain"), (["a", "a"], "a label twice"):
+    for labels, message in ([0, 1], "state 0 isn't in the chain"), (["a", "a"], "a label twice"):
         with pytest.raises(ChainError, match=message):
             total_reward(chain, per_state=pd.Series([1.0, 2.0], index=labels))

@@ -149,7 +149,7 @@ def test_duplicate_entries_are_added_up_and_the_given_matrix_is_left_alone() -> 
     "wrong", ["text", [["a", "b"], ["c", "d"]], [1.0, 0.0], 3, None, [[1j, 0], [0, 1]]]
 )
 def test_what_is_not_a_matrix_is_refused(wrong) -> None:
-    with pytest.raises(ChainError, match="give a sparse matrix or"):
+    with pytest.raises(ChainError, match="Give a sparse matrix or"):
         Chain("ab", wrong)
 
 

@@ -138,9 +138,9 @@ def test_a_one_ball_game_with_symbols():
 
 
 def test_numbers_are_asked_for_where_a_game_has_symbols():
-    with pytest.raises(GameError, match="probability p1; give a number from 0 to 1"):
+    with pytest.raises(GameError, match=r"probability p1\. Give a number from 0 to 1"):
         chain_of(OneBall(p1, p2))
-    with pytest.raises(GameError, match="probability p1; give a number from 0 to 1"):
+    with pytest.raises(GameError, match=r"probability p1\. Give a number from 0 to 1"):
         win_probability(OneBall(p1, p2))
 
 
@@ -156,11 +156,11 @@ def test_refusals():
         symbolic_limit([("S", "W", p), ("S", "L", p)])
     with pytest.raises(ChainError, match="listed twice"):
         symbolic_limit([("S", "W", p), ("S", "W", q)])
-    with pytest.raises(ChainError, match="no arcs"):
+    with pytest.raises(ChainError, match="arc"):
         symbolic_limit([])
-    with pytest.raises(ChainError, match="the source is 3"):
+    with pytest.raises(ChainError, match="the source must"):
         symbolic_limit(3)
-    with pytest.raises(ChainError, match="'X' is not in the diagram"):
+    with pytest.raises(ChainError, match="'X' isn't in the diagram"):
         symbolic_limit(ONE_BALL, "X")
 
 
@@ -183,5 +183,5 @@ def test_without_sympy(monkeypatch):
 )
 def test_what_is_no_arc_is_refused(arc):
     for k, arcs in ((1, [arc]), (2, [("S", "A", 1), arc])):
-        with pytest.raises(ChainError, match=rf"arc {k} is .*; give \(source, target, prob"):
+        with pytest.raises(ChainError, match=rf"arc {k} must be \(source, target, prob"):
             symbolic_limit(arcs)

@@ -33,10 +33,12 @@ def test_eigenvectors_beside_a_close_eigenvalue(e) -> None:
     if e > 1e-16:
         assert stochastic_limit(chain, via="eigen").probability == pytest.approx(1 / 6, rel=1e-14)
         return
-    with pytest.raises(AccuracyError, match="use elimination"):
+    with pytest.raises(AccuracyError, match="Use elimination"):
         stochastic_limit(chain, via="eigen")
 
 
 def test_an_unknown_way() -> None:
-    with pytest.raises(InputError, match="via is 'power'"):
+    with pytest.raises(
+        InputError, match="via must be 'kernel', 'elimination' or 'eigen'; you gave 'power'"
+    ):
         stochastic_limit(chain_of(OneBall(0.3, 0.6)), via="power")

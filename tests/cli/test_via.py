@@ -80,7 +80,7 @@ def test_a_chain_without_a_closed_form_names_the_way_that_answers(run, tmp_path)
     battle.write_text("source,target,probability\nA,W,0.5\nA,B,0.5\nB,W,0.25\nB,L,0.25\nB,A,0.5\n")
     result = run("chain", str(battle), "--via", "kernel")
     assert result.exit_code == 1
-    assert "use elimination" in result.stderr
+    assert "Use elimination" in result.stderr
 
 
 def test_a_race_is_defective_and_a_single_rack_is_not(ask) -> None:

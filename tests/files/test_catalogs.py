@@ -70,5 +70,5 @@ def test_a_value_that_english_does_not_have_is_refused(write) -> None:
 
 def test_what_is_no_catalog_is_refused(write) -> None:
     write("fr", "this is no catalog")
-    with pytest.raises(DataError, match="is not a gettext catalog"):
+    with pytest.raises(DataError, match="isn't a gettext catalog"):
         face_in("fr")

@@ -131,8 +131,8 @@ def test_a_bad_matrix(tmp_path, rows, part) -> None:
         ("%%MatrixMarket matrix coordinate real general\n1 2 1\n1 1 1.0\n", "1 x 2"),
         ("%%MatrixMarket matrix coordinate complex general\n1 1 1\n1 1 1.0 0.5\n", "complex"),
         ("%%MatrixMarket matrix coordinate real general\n1 1 2\n1 1 0.5\n1 1 0.5\n", "twice"),
-        ("%%MatrixMarket matrix coordinate real general\n9999999999 9999999999 1\n", "not hold"),
-        ("%%MatrixMarket matrix array real general\n99999 99999\n1\n", "not hold"),
+        ("%%MatrixMarket matrix coordinate real general\n9999999999 9999999999 1\n", "'t hold"),
+        ("%%MatrixMarket matrix array real general\n99999 99999\n1\n", "'t hold"),
     ],
 )
 def test_what_is_no_square_matrix(tmp_path, text, part) -> None:
@@ -222,9 +222,9 @@ def edge(source, target, **attributes):
         ([edge("S", "W", probability=0.5), edge("S", "W", probability=1.0)], {}, "listed twice"),
         ([edge("S", "W", weight=3.0)], {}, "'S' -> 'W' has probability 3.0"),
         ([edge("S", "W", weight=3.0)], {}, "its weight divided by all that leave its source"),
-        ([edge("S", "W", p=1.0)], {"nodes": [{"id": "S"}]}, "'W', which is not among the nodes"),
+        ([edge("S", "W", p=1.0)], {"nodes": [{"id": "S"}]}, "'W', which isn't among the nodes"),
         ([{"source": "S"}], {"nodes": [{"id": "S"}]}, "arc 1 has no source or no target"),
-        ([], {"nodes": [{"id": "S", "winner": "Ann"}]}, "state 'S' has winner 'Ann'; give the"),
+        ([], {"nodes": [{"id": "S", "winner": "Ann"}]}, "state 'S' has winner 'Ann'. Give the"),
         ([], {"nodes": [{"id": k, "kind": "start"} for k in "AB"]}, "2 nodes of the kind start"),
         ([edge("S", "W", probability=1.0)], {"directed": False}, "directed"),
         ([edge("S", "W", probability=1.0)], {"multigraph": True}, "one arc"),
@@ -281,13 +281,13 @@ def test_a_graph_that_defines_entities_is_refused_unread(tmp_path, definition, e
 def test_a_graph_that_would_fill_the_memory_is_refused(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("evenbreak.files.chain_files.MOST_MEGABYTES", 0)
     path = json_file(tmp_path, [edge("S", "W", probability=1.0)])
-    assert "larger than 0 MB; write its arcs as CSV" in problem(path)
+    assert "larger than 0 MB. Write its arcs as CSV" in problem(path)
 
 
 def test_json_that_is_nested_without_end_is_refused(tmp_path) -> None:
     path = tmp_path / "graph.json"
     path.write_text("[" * 100_000)
-    assert "cannot be read as node-link JSON" in problem(path)
+    assert "can't be read as node-link JSON" in problem(path)
 
 
 def test_who_has_won_is_read_from_every_form(tmp_path) -> None:
@@ -296,7 +296,7 @@ def test_who_has_won_is_read_from_every_form(tmp_path) -> None:
     file = read_chain(path)
     assert file.winners == {"W": 2}
     assert dict(file.graph("S").nodes(data="winner")) == {"S": None, "W": 2}
-    with pytest.raises(DataError, match="start 'X' is not a state; the first states are 'S', 'W'"):
+    with pytest.raises(DataError, match="start 'X' isn't a state; the first states are 'S', 'W'"):
         file.chain("X")
 
 
@@ -325,7 +325,7 @@ def test_a_graph_in_another_form_of_json(tmp_path) -> None:
 def test_other_forms_of_graphs_and_matrices_are_named_and_not_read_as_tables(tmp_path, form):
     path = tmp_path / f"mine{form}"
     path.write_bytes(b"graph [ directed 1 ]")
-    assert f"a {form} file is not read here; write the graph as GraphML" in problem(path)
+    assert f"a {form} file isn't read here. Write the graph as GraphML" in problem(path)
 
 
 def test_a_missing_file(tmp_path) -> None:

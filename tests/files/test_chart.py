@@ -51,11 +51,20 @@ def test_other_names_of_columns_and_a_semicolon(write):
 def test_all_faults_of_a_chart_are_told_at_once_with_their_lines(write):
     path = write(ROWS + "0,4,5,4\n6,14,5,4\n\n12,20,4,6\n21,30,6,4\n")
     assert problems_of(path) == [
-        "F:2: row 1 is a race 5:4",
-        "F:3: row 2 begins at 6, but row 1 ends at 4",
-        "F:5: stronger_needs of row 3 is 4",
-        "F:5: row 3 begins at 12, but row 2 ends at 14",
-        "F:6: the last row ends at 30",
+        (
+            "F:2: row 1 is a race 5:4. Give an even race, since at a difference of 0 "
+            "neither player is the stronger."
+        ),
+        "F:3: row 2 starts at 6, but row 1 ends at 4. Start it at 5.",
+        (
+            "F:5: stronger_needs of row 3 must be 6 or more, since the stronger player "
+            "never needs fewer games"
+        ),
+        "F:5: row 3 starts at 12, but row 2 ends at 14. Start it at 15.",
+        (
+            "F:6: the last row ends at 30. Leave its end out, since a chart covers all "
+            "larger differences too."
+        ),
     ]
     file = read_chart_file(path)
     assert file.found.rows[0] == ChartRow(0, 4, 5, 4)
@@ -65,11 +74,23 @@ def test_all_faults_of_a_chart_are_told_at_once_with_their_lines(write):
 def test_cells_that_are_no_whole_numbers(write):
     path = write(ROWS + "0,four,5,5\n-5,,0,4\n5.5,,5,\n")
     assert problems_of(path, read_chart_file) == [
-        "F:2: difference_to 'four' is not a whole number from 0 to 1,000,000",
-        "F:3: difference_from '-5' is not a whole number from 0 to 1,000,000",
-        "F:3: stronger_needs '0' is not a whole number from 1 to 1,000",
-        "F:4: difference_from '5.5' is not a whole number from 0 to 1,000,000",
-        "F:4: weaker_needs is empty",
+        (
+            "F:2: difference_to 'four' isn't a whole number from 0 to 1,000,000. Write "
+            "points, such as 7."
+        ),
+        (
+            "F:3: difference_from '-5' isn't a whole number from 0 to 1,000,000. Write "
+            "points, such as 7."
+        ),
+        (
+            "F:3: stronger_needs '0' isn't a whole number from 1 to 1,000. Write a "
+            "number of games, such as 5."
+        ),
+        (
+            "F:4: difference_from '5.5' isn't a whole number from 0 to 1,000,000. Write "
+            "points, such as 7."
+        ),
+        "F:4: weaker_needs is empty. Write a number of games, such as 5.",
     ]
 
 
@@ -78,9 +99,9 @@ def test_cells_that_are_no_whole_numbers(write):
     [
         ("a,b\n1,2\n", "has none of the columns of a chart"),
         (ROWS, "has no rows below its header"),
-        ("from,to,stronger\n0,,5\n", "there is no column 'weaker_needs'"),
-        ("level,opponent_level\n3,3\n", "there is no column 'needs'"),
-        (ROWS + "9,4,5,5\n", "difference_to of row 1 is 4"),
+        ("from,to,stronger\n0,,5\n", "there's no column 'weaker_needs'"),
+        ("level,opponent_level\n3,3\n", "there's no column 'needs'"),
+        (ROWS + "9,4,5,5\n", "difference_to of row 1 must be 9 or more"),
         ("", "is empty"),
     ],
 )
@@ -98,10 +119,10 @@ def test_a_chart_of_levels_needs_each_pair_once_only(write):
 def test_faults_of_a_chart_of_levels(write):
     path = write(LEVELS + "3,3,2,2\n4,3,3,2\n3,4,3,3\n5,5,4,4\n5,3,2,3\n")
     assert problems_of(path) == [
-        "F: does not say what level 4 needs against level 4",
-        "F: does not say what level 4 needs against level 5",
-        "F: does not say what level 5 needs against level 4",
-        "F:4: level 3 needs 3 games against level 4 here but 2 in line 3",
+        "F: doesn't say what level 4 needs against level 4. Add a row.",
+        "F: doesn't say what level 4 needs against level 5. Add a row.",
+        "F: doesn't say what level 5 needs against level 4. Add a row.",
+        "F:4: level 3 needs 3 games against level 4 here but 2 in line 3. Keep one of the two.",
         "F:6: level 5 needs 2 games against level 3, which needs 3",
     ]
 
@@ -133,13 +154,17 @@ def test_a_chart_is_called_as_its_file_in_letters_that_print(tmp_path):
 
 @pytest.mark.parametrize("name", ["x" * 5000, "x\0y", "no/such", "x\ny"])
 def test_names_that_no_file_has(name):
-    with pytest.raises(DataError, match=r"no chart has this name.*fargo_r6_hot") as refused:
+    with pytest.raises(
+        DataError, match=r"no chart or file with this name.*fargo_r6_hot"
+    ) as refused:
         find_chart(name)
     assert "\n" not in str(refused.value)
 
 
 def test_neither_a_name_nor_a_file():
-    with pytest.raises(DataError, match=r"npl_9: there is no such file.*npl_20, apa_8ball"):
+    with pytest.raises(
+        DataError, match=r"npl_9: there's no chart or file with this name.*npl_20, apa_8ball"
+    ):
         find_chart("npl_9")
 
 

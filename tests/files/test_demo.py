@@ -47,7 +47,7 @@ def test_writing_twice_is_writing_once_and_what_is_missing_comes_back(tmp_path: 
 @pytest.mark.parametrize("name", DEMO)
 def test_a_file_of_the_reader_is_never_replaced(tmp_path: Path, name: str) -> None:
     (tmp_path / name).write_text("player\nAnn Lee\n")
-    with pytest.raises(DataError, match=f"{name} is there already"):
+    with pytest.raises(DataError, match=f"{name} already exists"):
         write_demo(tmp_path)
     assert [one.name for one in tmp_path.iterdir()] == [name]
     assert (tmp_path / name).read_text() == "player\nAnn Lee\n"

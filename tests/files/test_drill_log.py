@@ -73,19 +73,24 @@ def test_levels_of_the_drill(drill_file):
     assert "leads to level 3" in read_drill_log(path, levels=3).warnings[0]
     assert read_drill_log(path, levels=5).log.attempts.tolist() == [1, 2, 0, 0, 0]
     assert problems(path, levels=1) == [
-        f":{line}: level '2' is not a whole number from 1 to 1" for line in (3, 4)
+        f":{line}: level '2' isn't a whole number from 1 to 1. Write 1, 2, 3, ..., or give the "
+        "drill more levels."
+        for line in (3, 4)
     ]
 
 
 def test_all_problems_are_told_at_once(drill_file):
     path = drill_file("level,success\n0,yes\n1,maybe\n,no\n101,no\n2,\n3,no,no\n")
     assert problems(path) == [
-        ":2: level '0' is not a whole number from 1 to 100",
-        ":3: success 'maybe' is not yes or no",
-        ":4: level is empty",
-        ":5: level '101' is not a whole number from 1 to 100",
-        ":6: success is empty",
-        ":7: has 3 cells, but the header has 2",
+        ":2: level '0' isn't a whole number from 1 to 100. Write 1, 2, 3, ...",
+        ":3: success 'maybe' isn't yes or no. Write one of them, and a row for each attempt.",
+        ":4: level is empty. Write 1, 2, 3, ...",
+        ":5: level '101' isn't a whole number from 1 to 100. Write 1, 2, 3, ...",
+        ":6: success is empty. Write one of them, and a row for each attempt.",
+        (
+            ":7: has 3 cells, but the header has 2. Add what is missing, or quote cells "
+            "that hold the separator."
+        ),
     ]
 
 
@@ -93,8 +98,8 @@ def test_all_problems_are_told_at_once(drill_file):
     ("text", "words"),
     [
         ("level,success\n", "has no attempts below its header"),
-        ("1,yes\n2,no\n", "are not names of columns"),
-        ("level\n1\n", "there is no column 'success' among 'level'"),
+        ("1,yes\n2,no\n", "doesn't name columns"),
+        ("level\n1\n", "there's no column 'success' among 'level'"),
         ("", "is empty"),
     ],
 )

@@ -47,16 +47,32 @@ def test_some_dates_are_no_dates(read):
 def test_all_problems_at_once(read):
     text = "date,score\n2024-09-03,fifty\n3/9/2024,48\n2024-02-30,\n2024-09-24,1e12\n"
     assert problems(read, text) == [
-        ":2: score 'fifty' is not a number from -1,000,000,000 to 1,000,000,000",
-        ":3: date '3/9/2024' may have the month first or the day, and no date of the file shows "
-        "which",
-        ":4: score is empty",
-        ":4: date '2024-02-30' is not a date",
-        ":5: score '1e12' is not a number from -1,000,000,000 to 1,000,000,000",
+        (
+            ":2: score 'fifty' isn't a number from -1,000,000,000 to 1,000,000,000. "
+            "Write a score such as 48."
+        ),
+        (
+            ":3: date '3/9/2024' may have the month first or the day, and no date of the "
+            "file shows which. Add dates mdy (month first) or dates dmy (day first)."
+        ),
+        ":4: score is empty. Write a score such as 48.",
+        (
+            ":4: date '2024-02-30' isn't a date. Write 2024-09-03, 3.9.2024 or 9/3/2024, "
+            "or leave it empty."
+        ),
+        (
+            ":5: score '1e12' isn't a number from -1,000,000,000 to 1,000,000,000. Write "
+            "a score such as 48."
+        ),
     ]
 
 
 def test_no_scores(read):
-    assert problems(read, "score\n") == [": has no scores below its header"]
+    assert problems(read, "score\n") == [
+        ": has no scores below its header. Write one line for each."
+    ]
     (problem,) = problems(read, "date,mark\n2024-09-03,5\n")
-    assert problem == ":1: there is no column 'score' among 'date', 'mark'"
+    assert problem == (
+        ":1: there's no column 'score' among 'date', 'mark'. Add it (it may also be "
+        "called 'points', 'result' or 'total')."
+    )

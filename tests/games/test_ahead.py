@@ -61,10 +61,16 @@ def test_alternate_breaks_two_ahead() -> None:
 @pytest.mark.parametrize(
     ("parameters", "words"),
     [
-        ({"m": 0}, "m is 0"),
-        ({"rack": None}, "rack is None"),
+        ({"m": 0}, "m must be a whole number, 1 or more; you gave 0"),
+        (
+            {"rack": None},
+            (
+                r"rack must be a Rack\(p\), a Rack\(p1, p2\), a match, or a game with start, "
+                r"moves and winner; you gave None"
+            ),
+        ),
         ({"rack": Rack(0.5, 0.5)}, "breaks is missing"),
-        ({"score": (4, 0)}, "score is 4:0, which cannot be reached"),
+        ({"score": (4, 0)}, "score is 4:0, which can't be reached"),
     ],
 )
 def test_what_a_match_cannot_be(parameters: dict[str, object], words: str) -> None:

@@ -50,11 +50,11 @@ def test_other_chances(words, chances, game):
 
 
 def test_a_slip_gets_the_nearest_name():
-    with pytest.raises(InputError, match=r"give one of: one-ball$"):
+    with pytest.raises(InputError, match=r"Choose one of: one-ball$"):
         game_of_catalog("onebal")
 
 
 @pytest.mark.parametrize("words", ["", "drill", "winner breaks", "chess"])
 def test_names_of_none_or_of_several_are_refused(words):
-    with pytest.raises(InputError, match="give one of"):
+    with pytest.raises(InputError, match="Choose one of"):
         game_of_catalog(words)

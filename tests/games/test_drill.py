@@ -47,11 +47,14 @@ def test_the_progressive_drill() -> None:
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: Drill([]), r"success is \[\]; give a list"),
-        (lambda: Drill(0.5), r"success is 0\.5; give a list"),  # type: ignore[arg-type]
-        (lambda: Drill([0.5, 1.5]), r"success at level 2 is 1\.5"),
-        (lambda: Drill.progressive(-1), "p is -1"),
-        (lambda: Drill.progressive(0.5, levels=0), "levels is 0"),
+        (lambda: Drill([]), r"success must be a list of numbers from 0 to 1; you gave \[\]"),
+        (lambda: Drill(0.5), r"success must be a list of numbers from 0 to 1; you gave 0\.5"),  # type: ignore[arg-type]
+        (
+            lambda: Drill([0.5, 1.5]),
+            r"success at level 2 must be a number from 0 to 1; you gave 1\.5",
+        ),
+        (lambda: Drill.progressive(-1), "gave -1"),
+        (lambda: Drill.progressive(0.5, levels=0), "levels must"),
     ],
 )
 def test_what_a_drill_cannot_be(make: object, words: str) -> None:

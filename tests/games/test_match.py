@@ -83,14 +83,23 @@ def test_a_score_must_be_reachable(score):
     ("make", "named"),
     [
         (lambda: Race(3, 3, BROKEN), "breaks is missing"),
-        (lambda: Race(3, 3, 0.5), "rack is 0.5"),
+        (
+            lambda: Race(3, 3, 0.5),
+            (
+                r"rack must be a Rack\(p\), a Rack\(p1, p2\), a match, or a game with start, "
+                r"moves and winner; you gave 0\.5"
+            ),
+        ),
         (lambda: Race(3, 3, Race(2, 2, Rack(0.5), score=(2, 0))), "rack is a set"),
-        (lambda: Ahead(3, 0, Rack(0.5)), "n is 0"),
+        (lambda: Ahead(3, 0, Rack(0.5)), "n must be a whole number, 1 or more; you gave 0"),
         (lambda: Race(3, 3, OneBall(0.5, 0.5), breaks=winner_breaks), "breaks and first_breaker"),
         (lambda: Race(3, 3, OneBall(0.5, 0.5), first_breaker=2), "breaks and first_breaker"),
         (lambda: Race(3, 3, Over()), "over at its start"),
-        (lambda: Ahead(3, 3, BROKEN, breaks="winner"), "breaks is 'winner'"),
-        (lambda: Race(3, 3, Rack(0.5), first_breaker=0), "first_breaker is 0"),
+        (
+            lambda: Ahead(3, 3, BROKEN, breaks="winner"),
+            "breaks must be a break format such as winner_breaks; you gave 'winner'",
+        ),
+        (lambda: Race(3, 3, Rack(0.5), first_breaker=0), "first_breaker must"),
     ],
 )
 def test_wrong_values_are_named(make, named):

@@ -55,11 +55,14 @@ def test_the_winners_of_the_shots() -> None:
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: OneBall(1.2, 0.5), "p1 is 1.2"),
-        (lambda: OneBall(0.5, float("nan")), "p2 is nan"),
-        (lambda: OneBallLookAhead([]), r"shots is \[\]; give a list"),
-        (lambda: OneBallLookAhead([0.5, -1]), "shot 2 is -1"),
-        (lambda: OneBallLookAhead([0.5], after=2), "after is 2"),
+        (lambda: OneBall(1.2, 0.5), r"p1 must be a number from 0 to 1; you gave 1\.2"),
+        (lambda: OneBall(0.5, float("nan")), "p2 must be a number from 0 to 1; you gave nan"),
+        (
+            lambda: OneBallLookAhead([]),
+            r"shots must be a list of numbers from 0 to 1; you gave \[\]",
+        ),
+        (lambda: OneBallLookAhead([0.5, -1]), "shot 2 must be a number from 0 to 1; you gave -1"),
+        (lambda: OneBallLookAhead([0.5], after=2), "after must"),
     ],
 )
 def test_what_a_one_ball_game_cannot_be(make: object, words: str) -> None:

@@ -134,7 +134,7 @@ def test_a_start_score_is_one_that_play_can_reach(m: int, n: int, k: int) -> Non
         if (a, b) in played:
             Race(m, n, Rack(0.5), win_by=k, score=(a, b))
         else:
-            with pytest.raises(InputError, match="cannot be reached"):
+            with pytest.raises(InputError, match="can't be reached"):
                 Race(m, n, Rack(0.5), win_by=k, score=(a, b))
 
 
@@ -180,25 +180,40 @@ def test_the_set_winner_breaks() -> None:
 @each_of(
     "parameters, words",
     [
-        ({"m": 0}, "m is 0"),
-        ({"m": 2.5}, "m is 2.5"),
-        ({"n": "five"}, "n is 'five'"),
-        ({"n": -1}, "n is -1"),
-        ({"rack": 0.5}, "rack is 0.5"),
+        ({"m": 0}, "m must be a whole number, 1 or more; you gave 0"),
+        ({"m": 2.5}, r"gave 2\.5"),
+        ({"n": "five"}, "gave 'five'"),
+        ({"n": -1}, "gave -1"),
+        (
+            {"rack": 0.5},
+            (
+                r"rack must be a Rack\(p\), a Rack\(p1, p2\), a match, or a game with start, "
+                r"moves and winner; you gave 0\.5"
+            ),
+        ),
         ({"rack": Rack(0.5, 0.5)}, "breaks is missing"),
-        ({"breaks": "winner"}, "breaks is 'winner'; give a break format such as winner_breaks"),
-        ({"breaks": lambda b, w: b + w}, r"breaks\(1, 2\), the next breaker, is 3; give 1 or 2"),
-        ({"first_breaker": 3}, "first_breaker is 3"),
-        ({"first_breaker": np.array([1, 2])}, "first_breaker is array"),
-        ({"score": (1, 1, 1)}, r"score is \(1, 1, 1\); give the games that each player"),
-        ({"score": 2}, "score is 2; give the games that each player"),
-        ({"win_by": 0}, "win_by is 0"),
-        ({"score": (-1, 0)}, "score of player 1 is -1"),
-        ({"score": (0, 1.5)}, "score of player 2 is 1.5"),
-        ({"score": (6, 0)}, "score is 6:0, which cannot be reached"),
-        ({"score": (5, 4)}, "score is 5:4, which cannot be reached"),
-        ({"score": (6, 4)}, "score is 6:4, which cannot be reached"),
-        ({"score": (7, 3), "win_by": 2}, "score is 7:3, which cannot be reached"),
+        (
+            {"breaks": "winner"},
+            "breaks must be a break format such as winner_breaks; you gave 'winner'",
+        ),
+        (
+            {"breaks": lambda b, w: b + w},
+            r"breaks\(1, 2\), the next breaker, must be 1 or 2; you gave 3",
+        ),
+        ({"first_breaker": 3}, "first_breaker must"),
+        ({"first_breaker": np.array([1, 2])}, "first_breaker must be 1 or 2; you gave array"),
+        ({"score": (1, 1, 1)}, r"score is \(1, 1, 1\)\. Give the games that each player"),
+        ({"score": 2}, r"score is 2\. Give the games that each player"),
+        ({"win_by": 0}, "win_by must"),
+        ({"score": (-1, 0)}, "score of player 1 must be a whole number, 0 or more; you gave -1"),
+        (
+            {"score": (0, 1.5)},
+            r"score of player 2 must be a whole number, 0 or more; you gave 1\.5",
+        ),
+        ({"score": (6, 0)}, "score is 6:0, which can't be reached"),
+        ({"score": (5, 4)}, "score is 5:4, which can't be reached"),
+        ({"score": (6, 4)}, "score is 6:4, which can't be reached"),
+        ({"score": (7, 3), "win_by": 2}, "score is 7:3, which can't be reached"),
     ],
 )
 def test_what_a_race_cannot_be(parameters: dict[str, object], words: str) -> None:

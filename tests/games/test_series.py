@@ -44,9 +44,13 @@ def test_nobody_wins_a_series(breaker: int) -> None:
 
 
 def test_what_a_series_cannot_be() -> None:
-    with pytest.raises(InputError, match=r"rack is 0\.5"):
+    with pytest.raises(
+        InputError, match=r"rack must be a Rack\(p\) or a Rack\(p1, p2\); you gave 0\.5"
+    ):
         Series(0.5, breaks=winner_breaks)  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="breaks is 'winner'; give a break format"):
+    with pytest.raises(
+        InputError, match="breaks must be a break format such as winner_breaks; you gave 'winner'"
+    ):
         Series(Rack(0.5), breaks="winner")  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="first_breaker is 0"):
+    with pytest.raises(InputError, match="first_breaker must be 1 or 2; you gave 0"):
         Series(Rack(0.5, 0.5), breaks=winner_breaks, first_breaker=0)

@@ -59,12 +59,25 @@ def test_with_an_odd_number_one_rests():
 @pytest.mark.parametrize(
     ("skill", "by", "options", "message"),
     [
-        ([1.0], HOT, {}, "skill is not a list of two"),
-        ([1.0, math.nan], HOT, {}, "skill is not a list of two"),
-        (EQUAL, "nobody", {}, "chart is 'nobody'"),
-        (EQUAL, HOT, {"weeks": 1}, "weeks is 1"),
-        (EQUAL, HOT, {"leagues": 1}, "leagues is 1"),
-        (EQUAL, HOT, {"half_life": 0.0}, "half_life is 0.0; give weeks above 0"),
+        ([1.0], HOT, {}, "skill isn't a list of two"),
+        ([1.0, math.nan], HOT, {}, "skill isn't a list of two"),
+        (
+            EQUAL,
+            "nobody",
+            {},
+            (
+                "chart must be a chart by rating difference: fargo_r6_hot, npl_8, npl_10, "
+                "npl_12, npl_20, or a Chart of your own; you gave 'nobody'"
+            ),
+        ),
+        (EQUAL, HOT, {"weeks": 1}, "weeks must"),
+        (EQUAL, HOT, {"leagues": 1}, "leagues must"),
+        (
+            EQUAL,
+            HOT,
+            {"half_life": 0.0},
+            r"half_life must be a number of weeks above 0, or None; you gave 0\.0",
+        ),
     ],
 )
 def test_nonsense_is_refused(skill, by, options, message):

@@ -120,11 +120,14 @@ def test_schedules_travel_to_other_processes(schedule: Schedule) -> None:
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: RoundRobin(1), "players is 1; give a whole number, 2 or more"),
-        (lambda: RandomPairing(0), "matches_a_week is 0; give a whole number, 1 or more"),
-        (lambda: FixedSchedule([0], [0], [1]), "week holds 0.0"),
-        (lambda: FixedSchedule([1], [0.5], [1]), "a holds 0.5"),
-        (lambda: FixedSchedule(["x"], [0], [1]), "week is "),
+        (lambda: RoundRobin(1), "players must be a whole number, 2 or more; you gave 1"),
+        (lambda: RandomPairing(0), "matches_a_week must be a whole number, 1 or more; you gave 0"),
+        (
+            lambda: FixedSchedule([0], [0], [1]),
+            r"week must be whole numbers, 1 or more; it holds 0\.0",
+        ),
+        (lambda: FixedSchedule([1], [0.5], [1]), r"holds 0\.5"),
+        (lambda: FixedSchedule(["x"], [0], [1]), "week must be whole numbers, 1 or more; it is"),
         (lambda: FixedSchedule([1, 1], [0], [1]), "week, a and b have 2, 1 and 1 values"),
         (lambda: FixedSchedule([1], [3], [3]), "match 0 has player 3 twice"),
         (lambda: FixedSchedule([1], [0], [9]).pairs(1, RNG, 3), "has a player 9, but the league"),

@@ -45,14 +45,30 @@ def test_the_longest_move_is_a_newcomers_if_there_is_one() -> None:
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({"players": [50, 60]}, "give LeaguePlayers"),
-        ({"system": "nobody"}, "system is 'nobody'"),
-        ({"chart": "nobody"}, "chart is 'nobody'"),
-        ({"weeks": 0}, "weeks is 0"),
-        ({"play": "frames"}, "play is 'frames'; give 'matches' or 'racks'"),
+        ({"players": [50, 60]}, r"players must be LeaguePlayers; you gave \[50, 60\]"),
+        (
+            {"system": "nobody"},
+            (
+                r"system must be npl, step UP \[DOWN\], margin \[MOST\], elo \[K\], fixed "
+                r"\[GAMES\], none \[GAMES\], fargo-like, level-review, apa-like, tap-like, "
+                r"level-steps \[STEPS\], averages, win-percent or napa-like; you gave 'nobody'"
+            ),
+        ),
+        (
+            {"chart": "nobody"},
+            (
+                "chart must be a chart by rating difference: fargo_r6_hot, npl_8, npl_10, "
+                "npl_12, npl_20, or a Chart of your own; you gave 'nobody'"
+            ),
+        ),
+        ({"weeks": 0}, "weeks must"),
+        ({"play": "frames"}, "play must be 'matches' or 'racks'; you gave 'frames'"),
         ({"schedule": RoundRobin(4)}, "players is 4, but the league has 3"),
         ({"schedule": FixedSchedule([1], [0], [5])}, "the schedule has a player 5"),
-        ({"schedule": "weekly"}, "schedule is 'weekly'; give RoundRobin"),
+        (
+            {"schedule": "weekly"},
+            "schedule must be RoundRobin, RandomPairing or FixedSchedule; you gave 'weekly'",
+        ),
     ],
 )
 def test_what_is_refused(given: dict, said: str) -> None:

@@ -46,5 +46,5 @@ def test_a_race_of_games_goes_shot_by_shot(via) -> None:
 
 
 def test_arrays_of_chances_are_refused() -> None:
-    with pytest.raises(InputError, match="p1 is an array"):
+    with pytest.raises(InputError, match=r"p1 must be one number\. For an array"):
         odds_by_limit(Race(2, 2, Rack([0.5, 0.6], 0.5), breaks=winner_breaks), "eigen")

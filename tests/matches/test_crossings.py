@@ -140,14 +140,23 @@ def test_break_formats_may_be_functions():
 @pytest.mark.parametrize(
     ("options", "remedy"),
     [
-        ({"p2": 0.5, "break_odds": 2}, "leave one out"),
+        ({"p2": 0.5, "break_odds": 2}, "Leave one out"),
         ({"p2": 0.5}, "breaks is missing"),
-        ({"p2": 1.5, "breaks": "winner"}, "p2 is 1.5"),
+        ({"p2": 1.5, "breaks": "winner"}, r"p2 must be a number from 0 to 1; you gave 1\.5"),
         ({"break_odds": 0, "breaks": "winner"}, "above 0"),
         ({"break_odds": math.inf, "breaks": "winner"}, "above 0"),
         ({"break_odds": math.nan, "breaks": "winner"}, "above 0"),
-        ({"p2": 0.5, "breaks": "mine"}, "give 'winner'"),
-        ({"p2": 0.5, "breaks": "winner", "first_breaker": 3}, "give 1 or 2"),
+        (
+            {"p2": 0.5, "breaks": "mine"},
+            (
+                "breaks must be 'winner', 'loser', 'alternate', 'player 1' or 'player 2'; "
+                "you gave 'mine'"
+            ),
+        ),
+        (
+            {"p2": 0.5, "breaks": "winner", "first_breaker": 3},
+            "first_breaker must be 1 or 2; you gave 3",
+        ),
     ],
 )
 def test_wrong_parameters_say_how_to_mend_them(options, remedy):

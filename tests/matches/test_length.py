@@ -169,11 +169,13 @@ def test_a_set_that_is_over_is_no_set() -> None:
 
 
 def test_wrong_options_are_refused() -> None:
-    with pytest.raises(InputError, match="tail is 2, not a probability"):
+    with pytest.raises(InputError, match="tail must be a number from"):
         match_length(Race(2, 2, Rack(0.5)), tail=2)
-    with pytest.raises(InputError, match=r"q is \[0.5, 0.9\]; give one number"):
+    with pytest.raises(
+        InputError, match=r"q must be one number from 0 to 1; you gave \[0\.5, 0\.9\]"
+    ):
         match_length(Race(2, 2, Rack(0.5))).quantile([0.5, 0.9])  # type: ignore[arg-type]
-    with pytest.raises(InputError, match=r"q is 1\.5, not a probability"):
+    with pytest.raises(InputError, match=r"gave 1\.5"):
         match_length(Race(2, 2, Rack(0.5))).quantile(1.5)
 
 

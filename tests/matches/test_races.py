@@ -67,17 +67,23 @@ def test_wins_and_lengths_are_one_distribution():
 @each_of(
     "changes, message",
     [
-        ({"rack": 1.5}, "p1 is 1.5, not a probability"),
-        ({"rack": float("nan")}, "p1 is nan, not a probability"),
-        ({"rack": [0.5, 0.6]}, r"p1 is an array; give one number"),
-        ({"rack": Rack(0.6, 0.5), "breaks": lambda b, w: b + w}, "the next breaker, is 3; give 1"),
-        ({"rack": Rack(0.6, 0.5), "breaks": "winner"}, "breaks is 'winner'; give a break format"),
-        ({"m": -1}, "m is -1; give a whole number"),
-        ({"m": 2.5}, r"m is 2\.5; give a whole number"),
+        ({"rack": 1.5}, r"p1 must be a number from 0 to 1; you gave 1\.5"),
+        ({"rack": float("nan")}, "p1 must be a number from 0 to 1; you gave nan"),
+        ({"rack": [0.5, 0.6]}, r"p1 must be one number\. For an array, loop over it\."),
+        (
+            {"rack": Rack(0.6, 0.5), "breaks": lambda b, w: b + w},
+            r"breaks\(1, 2\), the next breaker, must be 1 or 2; you gave 3",
+        ),
+        (
+            {"rack": Rack(0.6, 0.5), "breaks": "winner"},
+            "breaks must be a break format such as winner_breaks; you gave 'winner'",
+        ),
+        ({"m": -1}, "m must be a whole number, 0 or more; you gave -1"),
+        ({"m": 2.5}, r"m must be a whole number, 0 or more; you gave 2\.5"),
         ({"rack": Rack(0.6, 0.5)}, "breaks is missing"),
-        ({"first_breaker": 0}, "first_breaker is 0; give 1 or 2"),
+        ({"first_breaker": 0}, "first_breaker must be 1 or 2; you gave 0"),
         ({"score": (5, 5)}, "both players"),
-        ({"score": (-1, 0)}, "score of player 1 is -1"),
+        ({"score": (-1, 0)}, "score of player 1 must be a whole number, 0 or more; you gave -1"),
     ],
 )
 def test_wrong_parameters_are_refused(changes, message):
@@ -86,5 +92,5 @@ def test_wrong_parameters_are_refused(changes, message):
 
 
 def test_a_level_outside_0_1_is_refused():
-    with pytest.raises(InputError, match="q is 2, not a probability"):
+    with pytest.raises(InputError, match="q must be a number from"):
         race_odds(5, 5, 0.6).quantile(2)

@@ -181,12 +181,21 @@ def test_arguments_may_be_averages():
 @pytest.mark.parametrize(
     ("make", "remedy"),
     [
-        (lambda: StraightPool(0, 5, 0.5, 0.5), "points_1 is 0; give a whole number, 1 or more"),
-        (lambda: StraightPool(5, 2.5, 0.5, 0.5), "points_2 is 2.5"),
-        (lambda: StraightPool(5, 5, 1.5, 0.5), "p1 is 1.5, not a probability"),
-        (lambda: StraightPool(5, 5, 0.5, 0.5, safety_2=-1), "safety_2 is -1"),
-        (lambda: StraightPool(5, 5, 0.5, 0.5, first=3), "first is 3; give 1 or 2"),
-        (lambda: straight_pool_odds(StraightPool(500, 5, 1e-6, 0.5)), "give a larger chance"),
+        (
+            lambda: StraightPool(0, 5, 0.5, 0.5),
+            "points_1 must be a whole number, 1 or more; you gave 0",
+        ),
+        (
+            lambda: StraightPool(5, 2.5, 0.5, 0.5),
+            r"points_2 must be a whole number, 1 or more; you gave 2\.5",
+        ),
+        (lambda: StraightPool(5, 5, 1.5, 0.5), r"p1 must be a number from 0 to 1; you gave 1\.5"),
+        (
+            lambda: StraightPool(5, 5, 0.5, 0.5, safety_2=-1),
+            "safety_2 must be a number from 0 to 1; you gave -1",
+        ),
+        (lambda: StraightPool(5, 5, 0.5, 0.5, first=3), "first must be 1 or 2; you gave 3"),
+        (lambda: straight_pool_odds(StraightPool(500, 5, 1e-6, 0.5)), "Give a larger chance"),
     ],
 )
 def test_wrong_values_say_how_to_mend_them(make, remedy):
@@ -272,5 +281,5 @@ def test_where_no_spot_makes_it_even_there_is_none():
 
 
 def test_a_limit_must_be_a_number_of_points():
-    with pytest.raises(InputError, match="most is 0"):
+    with pytest.raises(InputError, match="most must"):
         even_points(5, 0.5, 0.5, most=0)

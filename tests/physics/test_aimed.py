@@ -117,10 +117,10 @@ def test_one_friction_for_one_shot(mu):
 @pytest.mark.parametrize(
     ("places", "message"),
     [
-        (((0.5, 0.5), (1.0, 0.5), (0.2, 0.6)), "target cannot be reached"),
+        (((0.5, 0.5), (1.0, 0.5), (0.2, 0.6)), "target can't be reached"),
         (((0.5, 0.5), (1.0, 0.5), (1.01, 0.5)), "within the object ball"),
         (((0.5, 0.5), (0.54, 0.5), (1.5, 0.5)), "where the balls touch"),
-        (((0.5, 0.5), (1.0,), (1.5, 0.5)), "object_ball has shape"),
+        (((0.5, 0.5), (1.0,), (1.5, 0.5)), "object_ball must have x and y; its shape"),
         (((0.5, 0.5), (1.0, 3.0), (1.5, 0.5)), "object_ball is at"),
     ],
 )
@@ -199,6 +199,6 @@ def test_left_and_right_are_mirror_images(x, off, gap):
 
 
 def test_a_pocket_behind_the_cue_ball_is_refused():
-    with pytest.raises(InputError, match="target cannot be reached"):
+    with pytest.raises(InputError, match="target can't be reached"):
         at((25, 16), (50, 25), "head-right")
     assert math.isfinite(at((25, 16), (50, 25), "foot-right").turn)

@@ -50,14 +50,14 @@ from rows import each_of
 @pytest.mark.parametrize(
     ("value", "said"),
     [
-        (math.nan, "cut is nan;"),
-        (-math.inf, "cut is -inf;"),
-        ("1.0", "cut is '1.0';"),
-        (1j, "cut is 1j;"),
-        (10**400, "cut is 1000"),
-        (1e51, "cut is 1e+51;"),
-        ([0.0, math.nan], "cut holds nan;"),
-        ([3.0, -1e60], "cut holds -1e+60;"),
+        (math.nan, "it is nan"),
+        (-math.inf, "it is -inf"),
+        ("1.0", "it is '1.0'"),
+        (1j, "it is 1j"),
+        (10**400, "it is 1000"),
+        (1e51, "it is 1e+51"),
+        ([0.0, math.nan], "it holds nan"),
+        ([3.0, -1e60], "it holds -1e+60"),
     ],
 )
 def test_what_is_no_number_is_refused_by_name(value: object, said: str) -> None:
@@ -71,7 +71,7 @@ def test_the_ends_of_a_range() -> None:
     for wrong in (0.0, -1.0):
         with pytest.raises(InputError, match="1e-50"):
             positive(wrong, "x")
-    with pytest.raises(InputError, match="x is 5e-324"):
+    with pytest.raises(InputError, match="is 5e-324"):
         positive(5e-324, "x")
     assert positive(LEAST, "x") == LEAST
     with pytest.raises(InputError, match="from 0 to 1"):
@@ -95,7 +95,7 @@ def test_gravity_pulls_down(gravity: float) -> None:
         partial(rolling_time, 1.0, 0.01),
         partial(table_speed, 7.0),
     ):
-        with pytest.raises(InputError, match=r"gravity is .*; give a number from 1e-50"):
+        with pytest.raises(InputError, match=r"gravity must be a number from 1e-50"):
             answer(gravity=gravity)
 
 
@@ -106,9 +106,12 @@ def test_gravity_pulls_down(gravity: float) -> None:
         (lambda: collide([0.1, 0.2], speed=[1, 2, 3]), r"cut has shape .2,., speed has shape .3,."),
         (lambda: throw_angle(0.1, [0, 1], mu=[0.1, 0.2, 0.3]), "topspin has shape .*, mu has"),
         (lambda: aim([0.1, 0.2], [1, 2, 3]), "distance has shape"),
-        (lambda: deflection([0.1, 0.2], [1, 2, 3]), "give shapes that broadcast"),
+        (lambda: deflection([0.1, 0.2], [1, 2, 3]), "shapes must broadcast"),
         (lambda: strike([1, 2], [0.1, 0.2, 0.3]), "stick_speed has shape"),
-        (lambda: collide(0.5, None), "topspin is None"),
+        (
+            lambda: collide(0.5, None),
+            r"topspin must be a number from -1e\+50 to 1e\+50; it is None",
+        ),
     ],
 )
 def test_shapes_that_do_not_fit_are_refused_by_name(ask, message):
@@ -158,7 +161,7 @@ def test_every_formula_says_whose_shapes_do_not_fit(ask, names):
     vectors = r"(\[\.\.\., 0\])?"
     said = rf"{first}{vectors} has shape \(2,\), (.*, )?{second}{vectors} has shape \(3,\)"
     turned = rf"{first}{vectors} has shape \(3,\), {second}{vectors} has shape \(2,\)"
-    with pytest.raises(InputError, match=f"({said}|{turned}); give shapes that broadcast"):
+    with pytest.raises(InputError, match=f"shapes must broadcast; .*({said}|{turned})"):
         ask()
 
 

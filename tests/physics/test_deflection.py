@@ -163,13 +163,15 @@ def test_a_cut_to_the_left_is_the_mirror_image() -> None:
 
 
 def test_refusals() -> None:
-    with pytest.raises(InputError, match=r"cut is -1\.6"):
+    with pytest.raises(InputError, match=r"it is -1\.6"):
         deflection(-1.6)
-    with pytest.raises(InputError, match=r"topspin is 0\.0; give a number"):
+    with pytest.raises(
+        InputError, match=r"topspin must be a number from 1e-50 to 1e\+50; it is 0\.0"
+    ):
         largest_deflection_cut(0.0)
-    with pytest.raises(InputError, match=r"topspin is 2\.6"):
+    with pytest.raises(InputError, match=r"topspin must be .* to 2\.5; it is 2\.6"):
         unit_slope_cut(2.6)
-    with pytest.raises(InputError, match=r"topspin is 1\.0; give a number from -2\.5 to 0"):
+    with pytest.raises(InputError, match=r"topspin must be a number from -2\.5 to 0; it is 1\.0"):
         right_angle_cut(1.0)
-    with pytest.raises(InputError, match=r"topspin is 1\.6"):
+    with pytest.raises(InputError, match=r"topspin must be .* to 1\.58114; it is 1\.6"):
         split_cut(1.6)

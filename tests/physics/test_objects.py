@@ -40,8 +40,8 @@ FIELDS = [
 def test_no_field_is_anything_but_a_number_above_0(kind: Any, field: str, value: object) -> None:
     with pytest.raises(InputError) as refused:
         kind(**{field: value})
-    assert str(refused.value).startswith(f"{field} is ")
-    assert "give a number from 1e-50" in str(refused.value)
+    assert str(refused.value).startswith(f"{field} must be ")
+    assert "must be a number from 1e-50" in str(refused.value)
 
 
 @pytest.mark.parametrize(("kind", "field"), FIELDS)
@@ -100,5 +100,11 @@ def test_what_floats_is_lighter_than_the_liquid() -> None:
 
 
 def test_only_liquids_that_are_listed() -> None:
-    with pytest.raises(InputError, match="liquid is 'milk'; give 'water', "):
+    with pytest.raises(
+        InputError,
+        match=(
+            "liquid must be 'water', 'sugar solution', 'caesium chloride solution' or "
+            "'mercury'; you gave 'milk'"
+        ),
+    ):
         floats_in(BALL_SETS["pool"], "milk")

@@ -148,9 +148,9 @@ def test_arrays_broadcast_and_scalars_stay_scalars() -> None:
 
 
 def test_refusals() -> None:
-    with pytest.raises(InputError, match=r"offset is 1\.5; give a number from -1 to 1"):
+    with pytest.raises(InputError, match=r"offset must be a number from -1 to 1; it is 1\.5"):
         spin_of_offset(1.5)
-    with pytest.raises(InputError, match=r"z is 0\.0; give"):
+    with pytest.raises(InputError, match=r"z must be a number from 1e-50 to 2; it is 0\.0"):
         roll_side(0.1, 0.0)
     with pytest.raises(InputError, match="distance is more than a ball of this speed slides"):
         stun_offset(1.0, 5.0, CLOTH)

@@ -187,13 +187,17 @@ def test_a_slide_keeps_its_own_numbers() -> None:
 
 
 def test_refusals() -> None:
-    with pytest.raises(InputError, match=r"velocity has shape \(3,\); give \(\.\.\., 2\)"):
+    with pytest.raises(
+        InputError, match=r"velocity must have shape \(\.\.\., 2\); its shape is \(3,\)"
+    ):
         Slide(BALL, CLOTH, [0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0])
-    with pytest.raises(InputError, match="spin holds nan"):
+    with pytest.raises(
+        InputError, match=r"spin must be numbers from -1e\+50 to 1e\+50; it holds nan"
+    ):
         Slide(BALL, CLOTH, [0.0, 0.0], [1.0, 0.0], [0.0, math.nan, 0.0])
-    with pytest.raises(InputError, match=r"time is -1\.0"):
+    with pytest.raises(InputError, match=r"time must be a number from 0 to 1e\+50; it is -1\.0"):
         Slide(BALL, CLOTH, [0.0, 0.0], [1.0, 0.0], [0.0, 0.0, 0.0]).at(-1.0)
     with pytest.raises(InputError, match="velocity is 0 across the force"):
         parabola(1.0, (0.0, 1.0), CLOTH)
-    with pytest.raises(InputError, match=r"spin is 0\.5; give a number from -2\.5 to 0"):
+    with pytest.raises(InputError, match=r"spin must be a number from -2\.5 to 0; it is 0\.5"):
         stun_distance(1.0, 0.5, CLOTH)

@@ -172,12 +172,12 @@ def test_scalars_and_arrays() -> None:
 @pytest.mark.parametrize(
     ("shot", "options", "said"),
     [
-        ((-1.6,), {}, "cut is -1.6; give a number from -1.5708 to 1.5708"),
-        ((2.0,), {}, "cut is 2.0"),
-        ((0.1, math.nan), {}, "topspin is nan"),
-        ((0.1, 1.0, math.inf), {}, "side is inf"),
-        ((0.1,), {"mu": -0.1}, "mu is -0.1"),
-        ((0.1,), {"friction": "none"}, "friction is 'none'"),
+        ((-1.6,), {}, "cut must be a number from -1.5708 to 1.5708; it is -1.6"),
+        ((2.0,), {}, "it is 2.0"),
+        ((0.1, math.nan), {}, "topspin must be a number from -1e+50 to 1e+50; it is nan"),
+        ((0.1, 1.0, math.inf), {}, "side must be a number from -1e+50 to 1e+50; it is inf"),
+        ((0.1,), {"mu": -0.1}, "is -0.1"),
+        ((0.1,), {"friction": "none"}, "friction must be 'limited' or 'shepard'; you gave 'none'"),
     ],
 )
 def test_refusals(shot: tuple[float, ...], options: dict[str, object], said: str) -> None:

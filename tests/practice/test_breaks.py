@@ -241,14 +241,14 @@ def test_a_rack_whose_break_does_not_matter():
         (lambda: long_run_share(0.5, None, winner_breaks), "p2 is missing"),
         (lambda: long_run_share([0.5] * 2, [0.5] * 3, winner_breaks), "broadcast"),
         (lambda: long_run_share(0.5, 0.5, "winner"), "such as winner_breaks"),
-        (lambda: long_run_share(0.5, 0.5, winner_breaks, first_breaker=0), "give 1 or 2"),
-        (lambda: long_run_sd(0.5, 0.5, winner_breaks, first_breaker=0), "give 1 or 2"),
+        (lambda: long_run_share(0.5, 0.5, winner_breaks, first_breaker=0), "must be 1 or 2"),
+        (lambda: long_run_sd(0.5, 0.5, winner_breaks, first_breaker=0), "must be 1 or 2"),
         (lambda: compare_break_formats((0.5, 0.5)), "Rack(p1, p2)"),
         (lambda: compare_break_formats(Rack([0.5], 0.5)), "one number"),
         (lambda: compare_break_formats(Rack(0.5, 0.5), win=-1), "0 or more"),
         (lambda: compare_break_formats(Rack(0.5, 0.5), lose=math.inf), "0 or more"),
         (lambda: compare_break_formats(Rack(0.5, 0.5), lose="two"), "0 or more"),
-        (lambda: compare_break_formats(Rack(0.5, 0.5), first_breaker=3), "give 1 or 2"),
+        (lambda: compare_break_formats(Rack(0.5, 0.5), first_breaker=3), "must be 1 or 2"),
     ],
 )
 def test_wrong_values_say_how_to_mend_them(ask, remedy):

@@ -257,5 +257,5 @@ def test_the_same_seed_gives_the_same_answer() -> None:
 
 
 def test_replicas_are_one_or_more() -> None:
-    with pytest.raises(InputError, match="replicas is 0"):
+    with pytest.raises(InputError, match="replicas must"):
         analyzed(DrillLog([1], [1]), replicas=0)

@@ -220,7 +220,7 @@ def test_level_1_alone_tells_nothing() -> None:
 
 @pytest.mark.parametrize("confidence", [0, 1, 95, math.nan])
 def test_confidence_is_between_0_and_1(confidence: float) -> None:
-    with pytest.raises(InputError, match="confidence is"):
+    with pytest.raises(InputError, match="confidence must"):
         fit_progressive(log_of([(1, 0), (1, 1)]), confidence=confidence)
 
 

@@ -29,7 +29,7 @@ def test_values(kind: Kind, text: str, value: object) -> None:
     [(SCORE, "7-5-3"), (SCORE, "3"), (SCORE, "-1:3"), (SPAN, "13..7"), (SPAN, "7"), (RACE, "0")],
 )
 def test_other_texts_are_refused_and_shown(kind: Kind, text: str) -> None:
-    with pytest.raises(InputError, match="give") as refused:
+    with pytest.raises(InputError, match="Give") as refused:
         kind.read(text)
     assert repr(text) in str(refused.value)
 

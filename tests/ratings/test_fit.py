@@ -103,7 +103,7 @@ def test_every_component_has_the_anchor_as_its_mean():
 
 def test_players_of_different_components_are_not_compared():
     ratings = fit(Results.from_names(["A", "C"], ["B", "D"], [7, 7], [2, 3]))
-    with pytest.raises(InputError, match="'A' and 'D' are not connected"):
+    with pytest.raises(InputError, match="'A' and 'D' aren't connected"):
         ratings.win_probability("A", "D")
     with pytest.raises(InputError, match="'X'"):
         ratings.win_probability("A", "X")

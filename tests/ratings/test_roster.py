@@ -62,7 +62,7 @@ def test_the_error_of_so_many_games_on_the_fargo_scale():
 def test_position():
     roster = Roster(["Ann", "Bo"], [92.0, 71.5])
     assert [roster.position(name) for name in roster.players] == [0, 1]
-    with pytest.raises(InputError, match="player 'Cy' is not in the roster"):
+    with pytest.raises(InputError, match="player 'Cy' isn't in the roster"):
         roster.position("Cy")
 
 
@@ -72,11 +72,17 @@ def test_position():
         ((["Ann", "Ann"], [1, 2]), "each name once"),
         ((["Ann"], [1, 2]), "one value for each of 1 players"),
         ((["Ann"], [np.inf]), "NaN for a new player"),
-        ((["Ann"], ["x"]), "rating is"),
-        ((["Ann"], [1.0], None, [np.nan]), "give whole numbers"),
-        ((["Ann"], [1.0], None, np.array([1.5])), "give whole numbers"),
-        ((["Ann"], [1.0], [-1.0]), "give 0 or more"),
-        ((["Ann"], [1.0], [np.inf]), "give 0 or more"),
+        ((["Ann"], ["x"]), "rating must"),
+        ((["Ann"], [1.0], None, [np.nan]), "must be whole numbers"),
+        ((["Ann"], [1.0], None, np.array([1.5])), "must be whole numbers"),
+        (
+            (["Ann"], [1.0], [-1.0]),
+            "standard_error must be 0 or more; somewhere it is negative or infinite",
+        ),
+        (
+            (["Ann"], [1.0], [np.inf]),
+            "standard_error must be 0 or more; somewhere it is negative or infinite",
+        ),
     ],
 )
 def test_refused(columns, remedy):
@@ -99,12 +105,17 @@ def test_matches_are_kept_and_not_stated_where_nobody_says_them():
 
 
 def test_matches_are_counts():
-    with pytest.raises(InputError, match="matches is negative somewhere"):
+    with pytest.raises(
+        InputError,
+        match="matches must be 0 or more, NOT_STATED if unknown; somewhere it is negative",
+    ):
         Roster(["Ann"], [92], matches=[-2])
-    with pytest.raises(InputError, match="games is negative somewhere"):
+    with pytest.raises(
+        InputError, match="games must be 0 or more, NOT_STATED if unknown; somewhere it is negative"
+    ):
         Roster(["Ann"], [92], games=[-2])
 
 
 def test_ratings_are_not_text():
-    with pytest.raises(InputError, match=r"rating is .*; give numbers"):
+    with pytest.raises(InputError, match=r"rating must be numbers"):
         Roster(["Ann", "Bo"], ["92", "71.5"])

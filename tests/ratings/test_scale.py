@@ -92,7 +92,7 @@ def test_scale_of_knows_names_numbers_and_scales():
 
 @each_of("wrong", ["ffargo", "", 0, -30, "nan", math.inf, None, 1e-3, "1e7", 1e300])
 def test_scale_of_refuses_the_rest(wrong):
-    with pytest.raises(InputError, match="give npl, fargo, elo, or the points"):
+    with pytest.raises(InputError, match="must be npl, fargo, elo, or the points"):
         scale_of(wrong)
 
 

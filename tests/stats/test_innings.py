@@ -174,7 +174,7 @@ def test_both_tails_keep_their_digits(p, innings, safety, scores):
 @pytest.mark.parametrize(
     ("arguments", "remedy"),
     [
-        ((0.5, 0), "innings is 0"),
+        ((0.5, 0), "innings must be"),
         ((0.5, 2.5), "innings is 2.5"),
         ((1, 3), "such a run never ends"),
         ((0.99, 10_000), "fewer innings"),

@@ -130,16 +130,16 @@ def test_arrays_and_what_cannot_be():
 @each_of(
     "make, remedy",
     [
-        (lambda: RunLength(1), "give a number below 1"),
-        (lambda: RunLength(1.2), "give a number from 0 to 1"),
-        (lambda: RunLength(0.5, 2), "safety is 2"),
-        (lambda: RunLength(0.9999999), "give a smaller p"),
-        (lambda: RunLength.of_mean(-1), "give a number of balls, 0 or more"),
-        (lambda: RunLength.of_mean("many"), "give a number of balls, 0 or more"),
-        (lambda: RunLength.of_mean(math.inf), "give a number of balls, 0 or more"),
-        (lambda: RunLength.of_mean(10, 0), "give a number above 0"),
-        (lambda: RunLength(0.5).probability(0.5), "give whole numbers"),
-        (lambda: RunLength(0.5).quantile(1), "give a q below 1"),
+        (lambda: RunLength(1), "p must be below 1"),
+        (lambda: RunLength(1.2), r"p must be a number from 0 to 1; you gave 1\.2"),
+        (lambda: RunLength(0.5, 2), "safety must"),
+        (lambda: RunLength(0.9999999), "ive a smaller p"),
+        (lambda: RunLength.of_mean(-1), "must be a number of balls, 0 or more"),
+        (lambda: RunLength.of_mean("many"), "must be a number of balls, 0 or more"),
+        (lambda: RunLength.of_mean(math.inf), "must be a number of balls, 0 or more"),
+        (lambda: RunLength.of_mean(10, 0), "must be greater than 0;"),
+        (lambda: RunLength(0.5).probability(0.5), r"n must be whole numbers; it is 0\.5"),
+        (lambda: RunLength(0.5).quantile(1), "q must be below 1"),
     ],
 )
 def test_wrong_values_say_how_to_mend_them(make, remedy):

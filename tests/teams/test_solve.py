@@ -175,12 +175,12 @@ def test_doubles_use_up_both_players() -> None:
     ("point", "what"),
     [
         (Point(("a0",), ()), "both sides"),
-        (Point(("a0",), ("x",), 1), "'x' is not in the squad"),
+        (Point(("a0",), ("x",), 1), "'x' isn't in the squad"),
         (Point(("a0", "a0"), ("b0", "b1"), 0), "too often"),
         (Point(("a0",), ("b0",), 3), "lead of 3"),
         (Point(("a0",), ("b0",), 0), "lead of 0"),
-        (Point(named=("b0",)), "cannot be named"),
-        (Point(("a0", "a1", "a2"), ("b0", "b1", "b2"), 1), "nobody left"),
+        (Point(named=("b0",)), "can't be named"),
+        (Point(("a0", "a1", "a2"), ("b0", "b1", "b2"), 1), "no one left"),
     ],
 )
 def test_points_that_cannot_be_are_refused(point: Point, what: str) -> None:

@@ -322,7 +322,7 @@ def test_racks_of_a_player_whose_chips_were_gone_are_set_aside() -> None:
     assert sorted(wrong.chip_night.order) == ["B", "E"]
     with pytest.raises(InputError, match="stand"):
         stand(wrong, "R4")
-    with pytest.raises(InputError, match="does not count"):
+    with pytest.raises(InputError, match="doesn't count"):
         moves.correct(wrong, "r4", "E")
 
 
@@ -404,7 +404,7 @@ def test_races_change_in_the_matches_that_have_not_begun(handicapped: bool) -> N
     again = [*closed, Event(AT, moves.change(evening(closed), tables=2))]
     assert not evening(again).on_tables
     assert evening([*closed, Event(AT, Undone())]).on_tables
-    with pytest.raises(InputError, match="set tables, race"):
+    with pytest.raises(InputError, match="Set tables, race"):
         moves.change(evening(events))
 
 
@@ -483,9 +483,9 @@ def test_a_late_player_takes_a_bye_only_while_it_is_open() -> None:
     [
         (lambda s: moves.result(s, "W9.9", (5, 0)), "W9.9"),
         (lambda s: moves.result(s, "W1.1", (5, 5)), "5-5"),
-        (lambda s: moves.result(s, "W2.1", (5, 0)), "not ready"),
+        (lambda s: moves.result(s, "W2.1", (5, 0)), "isn't ready"),
         (lambda s: moves.correct(s, "W1.1", (5, 0)), "no result"),
-        (lambda s: moves.forfeit(s, "P2", "W1.1"), "P2 is not in match 1"),
+        (lambda s: moves.forfeit(s, "P2", "W1.1"), "P2 isn't in match 1"),
         (lambda s: moves.score(s, "W1.1", (5, 0)), "result 1 5:0"),
         (lambda s: stand(s, "W1.1"), "nothing to let stand"),
         (lambda s: break_ties(s, np.random.default_rng()), "no tie"),
@@ -533,7 +533,7 @@ def test_the_beginning_of_a_name_will_do_if_it_is_clear() -> None:
     assert moves.known_player(state, "bo") == "Anton Bo"
     with pytest.raises(InputError, match="Ann Lee, Anton Bo, Cy Anders"):
         moves.known_player(state, "an")
-    with pytest.raises(InputError, match="not in this tournament"):
+    with pytest.raises(InputError, match="isn't in this tournament"):
         moves.known_player(state, "nders")
 
 

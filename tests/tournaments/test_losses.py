@@ -192,7 +192,7 @@ def test_a_match_called_back_keeps_its_score_and_may_be_called_again() -> None:
     assert not after.on_tables
     assert after.live == before.live
     assert after.free_tables == [1, 2, 3]
-    with pytest.raises(InputError, match="is not on a table"):
+    with pytest.raises(InputError, match="1 isn't on a table"):
         moves.call_back(after, "W1.1")
     _, again = night.add(moves.call(after, "W1.1", 2))
     assert again.on_tables["W1.1"].call.table == 2

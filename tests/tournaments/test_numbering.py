@@ -69,7 +69,7 @@ def test_every_format_counts_from_one_and_after_those_that_feed_a_match(
             assert moves.known_match(state, text) == name
         if form != "chips":
             assert moves.known_match(state, str(numbers[name])) == name
-    with pytest.raises(InputError, match="there is no match '999'; the matches are 1, 2"):
+    with pytest.raises(InputError, match="there's no match '999'; the matches are 1, 2"):
         moves.known_match(state, "999")
 
 

@@ -21,8 +21,8 @@ def test_the_page_says_of_levels_what_the_command_says(tmp_path: Path) -> None:
             assert chance
             assert f"{chance[1]} of the time" in page
         for words, refusal in (
-            ({"a": "5", "b": "9"}, "'9' is not a skill level of APA 8-ball"),
-            ({"a": "Ann", "b": "3"}, "'Ann' is not a skill level"),
+            ({"a": "5", "b": "9"}, "'9' isn't a skill level of APA 8-ball"),
+            ({"a": "Ann", "b": "3"}, "'Ann' isn't a skill level"),
         ):
             refused = phone.open("/fair", scale="apa_8ball", race="5", **words)
             assert refused.status == 400

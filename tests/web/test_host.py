@@ -36,9 +36,9 @@ def test_the_page_is_printed_and_answered_under_the_name(
 @each_of(
     "words, refusal",
     [
-        (["--host", "pool.example"], "--host is for phones; give --lan too"),
-        (["--lan", "--host", "a b"], "give a name or an address"),
-        (["--lan", "--host", "http://x"], "give a name or an address"),
+        (["--host", "pool.example"], "--host is for phones. Give --lan too"),
+        (["--lan", "--host", "a b"], "be a name or an address"),
+        (["--lan", "--host", "http://x"], "be a name or an address"),
     ],
 )
 def test_what_is_no_name_is_refused(tmp_path: Path, words: list[str], refusal: str) -> None:

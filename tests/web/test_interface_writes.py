@@ -253,7 +253,7 @@ def test_what_people_call_by_a_number_may_be_one(night: Night) -> None:
     changed = night.enters("change", "desk", tables=3, reserved=3).json["said"]
     assert "3" in changed[0]
     got = night.enters("late", "desk", player="Zoe", rating="600")
-    assert got.json["detail"] == "'rating': \"600\" is text; leave out the quotes."
+    assert got.json["detail"] == "'rating': \"600\" is text. Leave out the quotes."
 
 
 def test_a_token_of_a_table_is_for_the_match_on_it(night: Night) -> None:
@@ -327,7 +327,7 @@ def test_refusals_name_addresses_people_and_what_a_token_is_for(night: Night) ->
         ),
         ("score", "tv", '{"match": "1", "score": [1, 0]}'): (
             403,
-            "Match 1 is not on the table of this program's token (only table 2).",
+            "Match 1 isn't on the table of this program's token (only table 2).",
         ),
     }
     for (move, who, body), (status, words) in told.items():

@@ -137,7 +137,7 @@ def test_a_phone_that_waits_in_a_match_that_nobody_is_in_any_more_is_told_so(hal
     assert hall.director.send("/desk/undo", entry=hall.state.numbers[-1]).status == 200
     shown = one.sends(1, 0)
     assert shown.status == 409
-    assert "is not being played now" in shown.words
+    assert "9 isn't being played now" in shown.words
 
 
 @pytest.mark.slow

@@ -206,7 +206,7 @@ def nothing_begun(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
         ({"tables": "1-3, 2"}, "tables are called 2"),
         ({"fee": "20", "payout": "80/30"}, "100 at most"),
         ({"entrants": "Ann,612\nBYE 2"}, "not a player"),
-        ({"entrants": " \n ", "scale": ""}, "Nobody has entered yet"),
+        ({"entrants": " \n ", "scale": ""}, "No one has entered yet"),
     ],
 )
 def test_a_form_that_is_refused_comes_back_as_it_was(
@@ -226,7 +226,7 @@ def test_doubtful_ratings_are_said(tmp_path: Path) -> None:
     with running(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         shown = director.send("/new", **ASKED | {"scale": "npl"})
-        assert "is it the right scale?" in shown.words
+        assert "Is it the right scale?" in shown.words
         new = ASKED | {"entrants": "Ann,612\nBo"} | again(director)
         assert "1 player without a rating (Bo)" in director.send("/new", **new).words
 

@@ -108,7 +108,7 @@ def test_colors_and_language_are_those_of_the_address(night: Night) -> None:
 
 def test_a_table_that_is_not_there_is_named_in_one_line(night: Night) -> None:
     got = night.browser.open("/overlay/9")
-    assert (got.status, got.text) == (404, "There is no table 9; the tables are 1, TV\n")
+    assert (got.status, got.text) == (404, "There's no table 9; the tables are 1, TV\n")
 
 
 def test_before_a_tournament_there_is_a_line_and_at_its_end_the_champion(tmp_path: Path) -> None:

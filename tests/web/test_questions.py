@@ -141,15 +141,22 @@ def test_no_file_and_no_code_can_be_named(
 @pytest.mark.parametrize(
     ("body", "parameter", "words"),
     [
-        ({"p": 0.6}, None, "The match is missing; give race M:N or ahead M:N, or the chart"),
-        ({**ODDS, "from_file": "ratings.csv"}, "from_file", "no parameter of this address"),
-        ({**ODDS, "race": "7:5"}, "race", "give two numbers in a list"),
+        ({"p": 0.6}, None, "match: give race M:N, ahead M:N or chart"),
+        ({**ODDS, "from_file": "ratings.csv"}, "from_file", "parameter of this address"),
+        ({**ODDS, "race": "7:5"}, "race", "list of two numbers."),
         ({**ODDS, "ratings": [190, 140], "scale": "snooker"}, "scale", "'snooker'"),
-        ({"ratings": [190, 140], "race": [7, 7]}, None, "say which with scale npl, scale fargo"),
+        (
+            {"ratings": [190, 140], "race": [7, 7]},
+            None,
+            (
+                "their scale: A wins a game against B 76% of the time by NPL ratings, 59% by "
+                "Fargo ratings, 57% by Elo ratings. Add scale npl, scale fargo"
+            ),
+        ),
         ({"p": 7, "race": [7, 7]}, "p", "0 to 1"),
-        ({"p": "0.6", "race": [7, 7]}, "p", "'p': \"0.6\" is text; leave out the quotes"),
-        ({"p": 0.6, "race": ["7", 7]}, "race", "'race': \"7\" is text; leave out the quotes"),
-        ({"p": [], "race": [7, 7]}, "p", "'p': [] is not a number"),
+        ({"p": "0.6", "race": [7, 7]}, "p", "'p': \"0.6\" is text. Leave out the quotes"),
+        ({"p": 0.6, "race": ["7", 7]}, "race", "'race': \"7\" is text. Leave out the quotes"),
+        ({"p": [], "race": [7, 7]}, "p", "'p': [] isn't a number"),
         ({"p": 10**400, "race": [7, 7]}, None, "a number that is too large"),
     ],
 )

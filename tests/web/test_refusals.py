@@ -158,7 +158,7 @@ def test_a_guest_cannot_ask_for_a_race_without_end(standing_hall: Hall, length: 
 def test_too_large_a_body_is_refused(standing_hall: Hall) -> None:
     size = str(guard.MOST_BYTES + 1)
     status, text = raw(standing_hall, "POST", "/pin", Content_Length=size)
-    assert (status, "send less" in text) == (413, True)
+    assert (status, "Send less" in text) == (413, True)
     body = b"".join(b"10000\r\n" + b"x" * 65536 + b"\r\n" for _ in range(40)) + b"0\r\n\r\n"
     kind = "application/x-www-form-urlencoded"
     try:
@@ -270,12 +270,12 @@ def test_undo_is_refused_once_something_else_came_in(hall: Hall) -> None:
     [
         ("/desk/result", {"match": "W1.1", "a": "x", "b": 0}, "whole number"),
         ("/desk/result", {"match": "W1.1", "a": 9, "b": 0}, "can't be the final"),
-        ("/desk/result", {"match": "W9.9", "a": 3, "b": 0}, "There is no match"),
-        ("/desk/call", {"match": "W2.1", "table": 1}, "not ready"),
+        ("/desk/result", {"match": "W9.9", "a": 3, "b": 0}, "There's no match"),
+        ("/desk/call", {"match": "W2.1", "table": 1}, "isn't ready"),
         ("/desk/late", {"player": " "}, "is blank"),
-        ("/desk/late", {"player": "Zoë", "rating": "high"}, "not a rating"),
+        ("/desk/late", {"player": "Zoë", "rating": "high"}, "isn't a rating"),
         ("/desk/late", {"player": "x" * 100}, "longer than"),
-        ("/desk/drop", {"player": "Nobody"}, "not in this tournament"),
+        ("/desk/drop", {"player": "Nobody"}, "isn't in this tournament"),
     ],
 )
 def test_a_wrong_entry_is_refused_in_one_line(

@@ -85,14 +85,14 @@ def chip_odds_answer(
     rng = np.random.default_rng(seed)
     if left is None:
         if chart is None:
-            raise InputError("chip chart is None; give one, or the chips that are left")
+            raise InputError("give a chip chart, or the chips that are left")
         names, ratings = list(field.names), field.ratings
         chips = chart.chips(ratings).tolist()
     else:
         names, chips = list(left), list(left.values())
         unknown = [name for name in names if name not in field.names]
         if unknown:
-            raise InputError("{unknown!r} is not {source}", unknown=unknown[0], source=field.source)
+            raise InputError("{unknown!r} isn't {source}", unknown=unknown[0], source=field.source)
         ratings = np.array([field.ratings[list(field.names).index(name)] for name in names])
     racks = rack_chances(ratings, scale=field.scale)
     exact = left is not None and len(names) <= _EXACT

@@ -63,8 +63,8 @@ class NotCertifiedError(AccuracyError):
 
     def __init__(self) -> None:
         super().__init__(
-            "the errors of the answer cannot be bounded: the chain is too slow or too close to "
-            "falling apart; use elimination, as stochastic_limit does"
+            "the errors of the answer can't be bounded: the chain is too slow or too "
+            "close to falling apart. Use elimination, as stochastic_limit does."
         )
 
 

@@ -78,16 +78,16 @@ class Chain:
         n, matrix = len(self.states), csc_of(self.matrix)
         if n == 0 or matrix.shape != (n, n):
             raise ChainError(
-                f"the matrix has shape {matrix.shape} for {n} states; give one row and one "
-                "column for each state, and at least one state"
+                "the matrix must have one row and one column for each state, and at "
+                f"least one state; its shape is {matrix.shape} for {n} states"
             )
         # Lazy sequences of states are distinct by construction.
         if isinstance(self.states, (list, tuple)) and len(set(self.states)) < n:
-            raise ChainError("a state is listed twice among the states; give each of them once")
+            raise ChainError("a state is listed twice among the states. Give each of them once.")
         if not ((matrix.data >= 0.0) & (matrix.data <= 1.0)).all():
-            raise ChainError("the matrix has entries outside 0 to 1; give probabilities")
+            raise ChainError("the entries of the matrix must be 0 to 1, and some aren't")
         if self.start is not None and self.start not in self.states:
-            raise ChainError(f"start is {self.start!r}, which is not a state of the chain")
+            raise ChainError(f"start is {self.start!r}, which isn't a state of the chain")
         object.__setattr__(self, "matrix", adding_up(matrix, self.states))
         object.__setattr__(self, "given", dict(self.given))
 
@@ -132,12 +132,12 @@ class Chain:
                [0.25, 1.  ]])
         """
         if copy is False:
-            raise ValueError("a chain has no dense matrix to share; leave copy=False out")
+            raise ValueError("a chain has no dense matrix to share. Leave copy=False out.")
         n = len(self)
         if 8 * n * n > _MOST_BYTES:
             raise ChainError(
-                f"the dense matrix of {n:,} states would take {8e-9 * n * n:,.0f} GB; use the "
-                "sparse one, chain.matrix"
+                f"the dense matrix of {n:,} states would take {8e-9 * n * n:,.0f} GB. Use "
+                "the sparse one, chain.matrix."
             )
         return self.matrix.toarray().astype(np.float64 if dtype is None else dtype, copy=False)
 
@@ -210,12 +210,10 @@ class Chain:
         if (v < 0.0).any():
             state = self.states[int(np.flatnonzero(v < 0.0)[0])]
             raise ChainError(
-                f"the start density of state {state!r} is negative; give probabilities"
+                f"the start density must be probabilities; that of state {state!r} is negative"
             )
         if not abs(v.sum() - 1.0) <= 1e-9:
-            raise ChainError(
-                f"the start density sums to {v.sum():.12g}; give probabilities that sum to 1"
-            )
+            raise ChainError(f"the start density must sum to 1; it sums to {v.sum():.12g}")
         return v
 
     def vector(self, values: Any, name: str) -> Floats:
@@ -238,7 +236,7 @@ class Chain:
         values = by_label(values, name)
         if isinstance(values, np.ndarray):
             if values.shape != v.shape:
-                raise ChainError(f"{name} has shape {values.shape}; give {v.shape}")
+                raise ChainError(f"{name} must have shape {v.shape}; its shape is {values.shape}")
             v += values
         elif isinstance(values, Mapping):
             for state, value in values.items():
@@ -248,7 +246,7 @@ class Chain:
         if not np.isfinite(v).all():
             first = int(np.flatnonzero(~np.isfinite(v))[0])
             held = f"{float(v[first])!r} for state {self.states[first]!r}"
-            raise ChainError(f"{name} holds {held}; give finite numbers")
+            raise ChainError(f"{name} must be finite numbers; it holds {held}")
         return v
 
     def simulate(
@@ -291,7 +289,7 @@ class Chain:
 
     def _own_start(self) -> Hashable:
         if self.start is None:
-            raise ChainError("the chain has no start of its own; give a start state")
+            raise ChainError("the chain has no start of its own. Give a start state.")
         return self.start
 
     def start_index(self, start: Any = None) -> int | None:
@@ -324,7 +322,7 @@ class Chain:
 
     def _unknown(self, state: Hashable) -> ChainError:
         first = ", ".join(map(repr, self.states[:5]))
-        return ChainError(f"state {state!r} is not in the chain; its first states are {first}")
+        return ChainError(f"state {state!r} isn't in the chain; its first states are {first}")
 
 
 def check_chain(chain: object) -> None:
@@ -333,11 +331,12 @@ def check_chain(chain: object) -> None:
     >>> check_chain([("A", "B", 1.0)])
     Traceback (most recent call last):
     ...
-    evenbreak.errors.ChainError: this is list [('A', 'B', 1.0)], not a chain; make one with ...
+    evenbreak.errors.ChainError: this is list [('A', 'B', 1.0)], not a chain. Make one with
+        chain_of.
     """
     if not isinstance(chain, Chain):
         raise ChainError(
-            f"this is {type(chain).__name__} {chain!r:.60}, not a chain; make one with chain_of"
+            f"this is {type(chain).__name__} {chain!r:.60}, not a chain. Make one with chain_of."
         )
 
 
@@ -348,7 +347,7 @@ def by_label(values: Any, name: str) -> Any:
     ):
         return values
     if not values.index.is_unique:
-        raise ChainError(f"{name} has a label twice; give each state one number")
+        raise ChainError(f"{name} has a label twice. Give each state one number.")
     return values.to_dict()
 
 
@@ -356,7 +355,7 @@ def check_present(states: Iterable[Hashable]) -> None:
     """Refuse NaN as a state: it is a gap in the data, and no NaN equals another."""
     for state in states:
         if isinstance(state, float) and math.isnan(state):
-            raise ChainError("a state is nan, a gap in the data; leave it out, or give it a name")
+            raise ChainError("a state is nan, a gap in the data. Leave it out, or give it a name.")
 
 
 def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:

@@ -215,8 +215,8 @@ def _turned_chances(T: csc_array, root: complex, entered: NDArray[Any]) -> NDArr
         return np.asarray(scipy.sparse.linalg.splu(A).solve(entered.astype(complex)))
     except RuntimeError:
         raise AccuracyError(
-            "transient states go round for too long to tell the eigenvectors of modulus 1 "
-            "apart; ask for the eigenvalues 1 alone, or use stochastic_limit"
+            "transient states go round for too long to tell the eigenvectors of modulus "
+            "1 apart. Ask for the eigenvalues 1 alone, or use stochastic_limit."
         ) from None
 
 
@@ -224,9 +224,9 @@ def no_basis(k: int, ones: int | None = None, residual: float = np.inf) -> Accur
     """Return the error for a matrix without k independent eigenvectors."""
     fewer = "" if ones is None else f" (k={ones}: the limit alone)"
     return AccuracyError(
-        f"no {k} independent eigenvectors were found (residual {residual:.1e}): the matrix is "
-        "defective or nearly so, or k cuts through a repeated eigenvalue; ask for fewer"
-        f"{fewer}, or use stochastic_limit and spectral_gap"
+        f"no {k} independent eigenvectors were found (residual {residual:.1e}): the "
+        "matrix is defective or nearly so, or k cuts through a repeated eigenvalue. Ask "
+        f"for fewer{fewer}, or use stochastic_limit and spectral_gap."
     )
 
 
@@ -273,7 +273,7 @@ def _sparse_others(M: csc_array, apart: Eigenpairs, k: int) -> Eigenpairs:
             by_side.append(scipy.sparse.linalg.eigs(operator, k=min(k + 1, n - 2), v0=start))
         except scipy.sparse.linalg.ArpackNoConvergence as error:
             raise AccuracyError(
-                f"the iteration for {k} eigenvalues of {n} did not converge; ask for fewer"
+                f"the iteration for {k} eigenvalues of {n} didn't converge. Ask for fewer."
             ) from error
     (values, right), (turned, left) = by_side
     # The two runs may list the eigenvalues in different orders.
@@ -424,9 +424,9 @@ class UnitPairs:
         work = sum(front.work for front in dissect(neighbors(T))[1]) if m > _FEW else 0.0
         if work > _MUCH_WORK:
             raise AccuracyError(
-                f"{m:,} states that nothing cuts in two take some {work:.0e} multiplications to "
-                "factor, which is too much for eigenvectors; use elimination, as stochastic_limit "
-                "does"
+                f"{m:,} states that nothing cuts in two take some {work:.0e} "
+                "multiplications to factor, which is too much for eigenvectors. Use "
+                "elimination, as stochastic_limit does."
             )
         return CertifiedSolve(T, leak, factored=True)
 

@@ -204,8 +204,9 @@ class Lifting:
         n = len(leaks)
         if n > _MOST_STATES:
             raise AccuracyError(
-                f"{n} states have too many arcs among them for an answer in fractions; leave exact "
-                f"out, or split the chain until at most {_MOST_STATES} are left"
+                f"{n} states have too many arcs among them for an answer in fractions. "
+                f"Leave exact out, or split the chain until at most {_MOST_STATES} are "
+                "left."
             )
         A = np.zeros((n, n), dtype=object)
         self._whole = []

@@ -115,15 +115,15 @@ def chain_of(
         return chain_from_arrays(*_arcs_of_mapping(source), start=start)
     if not isinstance(source, Iterable):
         raise ChainError(
-            f"the source is {source!r}; give a game, a networkx.DiGraph, a matrix, a dict of "
-            "dicts, or a list of (source, target, probability)"
+            "the source must be a game, a networkx.DiGraph, a matrix, a dict of dicts, "
+            f"or a list of (source, target, probability); you gave {source!r}"
         )
     return chain_from_arrays(*_arcs_of_triples(source), start=start)
 
 
 def _only_for(value: object, name: str, kind: str) -> None:
     if value is not None:
-        raise ChainError(f"{name} is {value!r}, but the source is not {kind}; leave {name} out")
+        raise ChainError(f"{name} is {value!r}, but the source isn't {kind}. Leave {name} out.")
 
 
 def chain_from_arrays(
@@ -182,7 +182,7 @@ def _fractions(probabilities: ArrayLike) -> tuple[NDArray[Any], dict[int, Fracti
     numbers = np.array([float(value) for value in values]).reshape(entered.shape)
     for k, fraction in fractions.items():
         if fraction and not numbers.flat[k]:
-            raise ChainError(f"the probability {fraction} is smaller than any float; leave it out")
+            raise ChainError(f"the probability {fraction} is smaller than any float. Leave it out.")
     return numbers, fractions
 
 
@@ -190,8 +190,8 @@ def _listed_twice(states: Sequence[Hashable], key: Ints) -> ChainError:
     ordered = np.sort(key)
     j, i = divmod(int(ordered[:-1][ordered[1:] == ordered[:-1]][0]), len(states))
     return ChainError(
-        f"the arc {states[j]!r} -> {states[i]!r} is listed more than once; "
-        "give one arc with the whole probability"
+        f"the arc {states[j]!r} -> {states[i]!r} is listed more than once. Give one arc "
+        "with the whole probability."
     )
 
 
@@ -202,11 +202,11 @@ def _checked_arrays(
     p = np.asarray(probabilities, dtype=np.float64)
     n = len(states)
     if n == 0:
-        raise ChainError("there are no states; give at least one")
+        raise ChainError("there must be at least one state")
     if not j.ndim == 1 or not j.shape == i.shape == p.shape:
         raise ChainError(
-            f"sources, targets and probabilities have shapes {j.shape}, {i.shape}, {p.shape}; "
-            "give one entry of each for every arc"
+            f"sources, targets and probabilities have shapes {j.shape}, {i.shape}, "
+            f"{p.shape}. Give one entry of each for every arc."
         )
     if j.size and (min(j.min(), i.min()) < 0 or max(j.max(), i.max()) >= n):
         raise ChainError(f"an arc leads from or to a position outside 0 to {n - 1}")
@@ -214,8 +214,8 @@ def _checked_arrays(
     if wrong.size:
         k = wrong[0]
         raise ChainError(
-            f"the arc {states[j[k]]!r} -> {states[i[k]]!r} has probability {float(p[k])!r}; "
-            "give a number from 0 to 1"
+            f"the arc {states[j[k]]!r} -> {states[i[k]]!r} has probability "
+            f"{float(p[k])!r}. Give a number from 0 to 1."
         )
     return j, i, p
 
@@ -224,7 +224,7 @@ def _positions(entered: ArrayLike) -> Ints:
     positions = np.asarray(entered)
     if positions.size and positions.dtype.kind not in "iu":
         raise ChainError(
-            f"sources and targets have type {positions.dtype}; give positions in `states`"
+            f"sources and targets have type {positions.dtype}. Give positions in `states`."
         )
     return positions.astype(np.int64, copy=False)
 
@@ -232,8 +232,8 @@ def _positions(entered: ArrayLike) -> Ints:
 def _chain_of_graph(graph: Any, weight: str | None, start: Hashable | None) -> Chain:
     if not graph.is_directed() or graph.is_multigraph():
         raise ChainError(
-            f"the graph is a {type(graph).__name__}; give a networkx.DiGraph, "
-            "one arc from each source to each target"
+            f"the graph is a {type(graph).__name__}. Give a networkx.DiGraph, one arc "
+            "from each source to each target."
         )
     position = {state: k for k, state in enumerate(graph)}
     rows = [row for _, row in graph.adjacency()]
@@ -247,7 +247,7 @@ def _chain_of_graph(graph: Any, weight: str | None, start: Hashable | None) -> C
         raise _without_probability(graph, name) from None
     starts = [state for state, kind in graph.nodes(data="kind") if kind == "start"]
     if len(starts) > 1:
-        raise ChainError(f"the graph has {len(starts)} nodes of kind 'start'; leave one")
+        raise ChainError(f"the graph has {len(starts)} nodes of kind 'start'. Leave one.")
     counts = np.fromiter(map(len, rows), dtype=np.int64, count=len(rows))
     ends = map(position.__getitem__, chained.from_iterable(rows))
     targets = np.fromiter(ends, dtype=np.int64, count=len(arcs))
@@ -258,8 +258,9 @@ def _chain_of_graph(graph: Any, weight: str | None, start: Hashable | None) -> C
     except ChainError as error:
         if weight is None and name == "weight":
             raise ChainError(
-                f"the arcs carry no probability, only a weight, and {error}; name the attribute "
-                "that holds it, as in weight='p', or scale with networkx.stochastic_graph"
+                f"the arcs carry no probability, only a weight, and {error} Name the "
+                "attribute that holds it, as in weight='p', or scale with "
+                "networkx.stochastic_graph."
             ) from None
         raise
 
@@ -267,17 +268,17 @@ def _chain_of_graph(graph: Any, weight: str | None, start: Hashable | None) -> C
 def _without_probability(graph: Any, name: str) -> ChainError:
     """Return what is wrong with the first arc that has no number of this name."""
     for source, target, arc in graph.edges(data=True):
-        where, remedy = f"the arc {source!r} -> {target!r}", "give each arc a number from 0 to 1"
+        where, remedy = f"the arc {source!r} -> {target!r}", "Give each arc a number from 0 to 1."
         if name not in arc:
             if arc:
                 where += f" carries {', '.join(map(repr, arc))} and"
-                remedy = f"name what holds it, as in weight={next(iter(arc))!r}"
-            return ChainError(f"{where} has no {name}; {remedy}")
+                remedy = f"Name what holds it, as in weight={next(iter(arc))!r}."
+            return ChainError(f"{where} has no {name}. {remedy}")
         try:
             _number(arc[name])
         except (TypeError, ValueError, ZeroDivisionError):
             break
-    return ChainError(f"{where} has {name} {arc[name]!r}; {remedy}")
+    return ChainError(f"{where} has {name} {arc[name]!r}. {remedy}")
 
 
 def _arcs_of_mapping(moves: Mapping[Any, Any]) -> ArcArrays:
@@ -285,7 +286,8 @@ def _arcs_of_mapping(moves: Mapping[Any, Any]) -> ArcArrays:
     for state, row in moves.items():
         if not isinstance(row, Mapping):
             raise ChainError(
-                f"the moves from {state!r} are {row!r}; give a dict from states to probabilities"
+                f"the moves from {state!r} must be a dict from states to probabilities; "
+                f"you gave {row!r}"
             )
     triples = ((j, i, chance) for j, row in moves.items() for i, chance in row.items())
     return _arcs_of_triples(triples, moves)
@@ -305,8 +307,8 @@ def _arcs_of_triples(triples: Iterable[Any], states: Iterable[Any] = ()) -> ArcA
             targets.append(position.setdefault(target, len(position)))
         except (TypeError, ValueError, ZeroDivisionError):
             raise ChainError(
-                f"arc {k} is {triple!r}; give (source, target, probability), "
-                "states that can be hashed and a number"
+                f"arc {k} must be (source, target, probability), states that can be "
+                f"hashed and a number; you gave {triple!r}"
             ) from None
     check_present(position)
     return ArcArrays(

@@ -155,9 +155,10 @@ class _Piece:
         entries = sum(front.entries for front in fronts)
         if entries > MOST_ENTRIES:
             raise AccuracyError(
-                f"a class of {len(order):,} states {reason}, and no few states cut it apart: "
-                f"its factors would be {entries:,} numbers in {entries * 8e-9:.2g} GB, and "
-                f"{MOST_ENTRIES:,} are allowed; join some of its states or split the chain"
+                f"a class of {len(order):,} states {reason}, and no few states cut it "
+                f"apart: its factors would be {entries:,} numbers in {entries * 8e-9:.2g} "
+                f"GB, and {MOST_ENTRIES:,} are allowed. Join some of its states or split "
+                "the chain."
             )
         return FrontElimination(self._arcs, self._leaks, order, fronts)
 

@@ -125,15 +125,17 @@ def limits_over(game_of: Callable[..., Game], /, **chances: ArrayLike) -> Family
     <FamilyLimit of 6 games over 4 states>
     """
     if not callable(game_of):
-        raise InputError(f"game_of is {game_of!r}; give a class of games or a function")
+        raise InputError(f"game_of must be a class of games or a function; you gave {game_of!r}")
     if not chances:
-        raise InputError("there are no chances; give arrays of them by name, such as p1=[0.4, 0.6]")
+        raise InputError(
+            "there are no chances. Give arrays of them by name, such as p1=[0.4, 0.6]."
+        )
     checked = {name: probability(value, name) for name, value in chances.items()}
     shape = together(**checked)
     count = math.prod(shape)
     if not count:
         empty = next(name for name, value in checked.items() if not np.size(value))
-        raise InputError(f"{empty} is empty; give one chance or more")
+        raise InputError(f"{empty} must not be empty. Give at least one chance.")
     flat = {
         name: value if isinstance(value, float) else np.broadcast_to(value, shape).ravel()
         for name, value in checked.items()

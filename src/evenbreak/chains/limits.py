@@ -318,8 +318,9 @@ def limit_matrix(chain: Chain) -> csc_array:
     entries = int(sizes.astype(np.int64) @ starts.astype(np.int64))
     if entries > MOST_ENTRIES:
         raise InputError(
-            f"the limits from all {n:,} states have {entries:,} entries that are not 0, more than "
-            f"{MOST_ENTRIES:,}; use stochastic_limit for the states you want to start from"
+            f"the limits from all {n:,} states have {entries:,} entries that aren't 0, "
+            f"more than {MOST_ENTRIES:,}. Use stochastic_limit for the states you want to "
+            "start from."
         )
     return csc_array(spread @ ends)
 
@@ -346,8 +347,8 @@ def _limit_in_line(chain: Chain, at: int | None) -> Limit:
     """Return the limit from the state `at`, whatever the order in which the line is given."""
     if chain.line is None or at is None:
         raise ChainError(
-            "there is no closed form for this chain and start: its states do not stand in a line, "
-            "or the start is a density; use elimination"
+            "there's no closed form for this chain and start: its states don't stand in "
+            "a line, or the start is a density. Use elimination."
         )
     order, walk = chain.line
     probability = np.empty(len(chain))
@@ -363,8 +364,8 @@ def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
     if not error <= _ERROR_BY_EIGENVECTORS:
         raise AccuracyError(
             f"the limit by eigenvectors is only proved to {error:.1e}, which is above "
-            f"{_ERROR_BY_EIGENVECTORS:g}: other eigenvalues are too close to 1; use elimination, "
-            "which loses no digits there"
+            f"{_ERROR_BY_EIGENVECTORS:g}: other eigenvalues are too close to 1. Use "
+            "elimination, which loses no digits there."
         )
     return Limit(chain, limit, _period_reached(chain, start), error)
 

@@ -132,10 +132,10 @@ def _labeled(chain: Chain, by: Any) -> tuple[list[Hashable], Places]:
     if isinstance(by, Mapping):
         missing = [state for state in chain.states if state not in by]
         if missing:
-            raise ChainError(f"by has no label for state {missing[0]!r}; give each state one")
+            raise ChainError(f"by has no label for state {missing[0]!r}. Give each state one.")
         by = by.__getitem__
     if not callable(by):
-        raise ChainError(f"by is {by!r:.60}; give a function of a state, or a mapping")
+        raise ChainError(f"by must be a function of a state, or a mapping; you gave {by!r:.60}")
     numbers: dict[Hashable, int] = {}
     block = []
     for state in chain.states:
@@ -144,7 +144,8 @@ def _labeled(chain: Chain, by: Any) -> tuple[list[Hashable], Places]:
             block.append(numbers.setdefault(label, len(numbers)))
         except TypeError:  # it cannot be hashed
             raise ChainError(
-                f"the label of state {state!r} is {label!r}; give a name, a number or a tuple"
+                f"the label of state {state!r} must be a name, a number or a tuple; you "
+                f"gave {label!r}"
             ) from None
     check_present(numbers)
     return list(numbers), np.array(block)
@@ -194,7 +195,7 @@ def _not_lumpable(
     b = int(differ.argmax())
     first, second = (chain.states[i] for i in pair)
     return ChainError(
-        f"states {first!r} and {second!r} have the same label {names[mine]!r}, but move to "
-        f"{names[b]!r} with the chances {to[0, b]:.12g} and {to[1, b]:.12g}; give them different "
-        "labels, or let coarsest_lumping find the labels"
+        f"states {first!r} and {second!r} have the same label {names[mine]!r}, but move "
+        f"to {names[b]!r} with the chances {to[0, b]:.12g} and {to[1, b]:.12g}. Give them "
+        "different labels, or let coarsest_lumping find the labels."
     )

@@ -80,7 +80,7 @@ def spectral_gap(chain: Chain) -> float:
     if not worst - largest <= 1e-3 * gap:
         raise AccuracyError(
             f"the gap is about {gap:.3g}, but an eigenvalue is known only to within "
-            f"{worst - largest:.1e}; follow the chain with propagate"
+            f"{worst - largest:.1e}. Follow the chain with propagate."
         )
     return gap
 
@@ -193,8 +193,8 @@ def _largest(block: csc_array, period: int) -> NDArray[Any]:
             values = eigs(block, count, v0=start, ncv=basis, maxiter=300, return_eigenvectors=False)
         except ArpackNoConvergence as error:
             raise AccuracyError(
-                f"the iteration for the eigenvalues of a class of {n} states did not "
-                "converge: its gap is small; follow the chain with propagate"
+                f"the iteration for the eigenvalues of a class of {n} states didn't "
+                "converge: its gap is small. Follow the chain with propagate."
             ) from error
         if count == n - 2 or (np.abs(values) < 1.0 - _ON_CIRCLE).any():
             return _falling(values)
@@ -250,8 +250,8 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
         powers.append(square / square.sum(axis=0))
         if len(powers) > 60:
             raise AccuracyError(
-                f"the chain is not within {eps} of its limit after 2^60 steps, as far as floats "
-                "can show; give a larger eps"
+                f"the chain isn't within {eps} of its limit after 2^60 steps, as far as "
+                "floats can show. Give a larger eps."
             )
     for i in reversed(range(len(powers) - 1)):
         further = powers[i] @ reached

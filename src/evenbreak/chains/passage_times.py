@@ -271,7 +271,7 @@ def conditioned(chain: Chain, target: Any) -> Chain:
     if not (h[states] > 0.0).all():
         raise AccuracyError("a chance of reaching the target is smaller than any float")
     if chain.start is not None and not h[chain.index(chain.start)]:
-        raise ChainError(f"the target {target!r} cannot be reached from {chain.start!r}")
+        raise ChainError(f"the target {target!r} can't be reached from {chain.start!r}")
     kept = np.flatnonzero(h)
     place = np.full(len(chain), -1)
     place[kept] = np.arange(len(kept))
@@ -299,7 +299,7 @@ def target_of(chain: Chain, target: Any) -> Bools:
     if isinstance(target, Hashable) and target in chain.position:
         targets = [target]
     if not targets:
-        raise ChainError("no target is given; give a state or a list of states")
+        raise ChainError("no target is given. Give a state or a list of states.")
     ends = np.zeros(len(chain), dtype=bool)
     ends[[chain.index(state) for state in targets]] = True
     return ends

@@ -74,8 +74,8 @@ def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = F
     steps = whole(steps, "steps")
     if steps > MOST_APPLIED:
         raise InputError(
-            f"steps is {steps}, after which rounding errors would show; give {MOST_APPLIED} or "
-            "fewer, or ask for the stochastic limit"
+            f"steps is {steps}, after which rounding errors would show. Give "
+            f"{MOST_APPLIED} or fewer, or ask for the stochastic limit."
         )
     v = chain.density(start)
     one_by_one = steps * (_CALL + chain.matrix.nnz)
@@ -84,14 +84,14 @@ def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = F
     if one_by_one > _MOST_WORK:
         most = int(_MOST_WORK // (_CALL + chain.matrix.nnz))
         raise InputError(
-            f"steps is {steps}, too many to take one by one in a chain of {len(chain)} states; "
-            f"give {most} or fewer, or ask for the stochastic limit"
+            f"steps is {steps}, too many to take one by one in a chain of {len(chain)} "
+            f"states. Give {most} or fewer, or ask for the stochastic limit."
         )
     if path and (steps + 1) * len(chain) > _MOST_ENTRIES:
         most = max(_MOST_ENTRIES // len(chain) - 1, 0)
         raise InputError(
-            f"steps is {steps}, and a path of so many densities of {len(chain)} states does not "
-            f"fit in memory; give {most} or fewer, or leave out the path"
+            f"steps is {steps}, and a path of so many densities of {len(chain)} states "
+            f"doesn't fit in memory. Give {most} or fewer, or leave out the path."
         )
     M = csr_array(evened(chain))
     densities = np.empty((steps + 1 if path else 1, len(chain)))

@@ -118,7 +118,7 @@ def _expected_reward(
 ) -> Floats:
     """Return the expected reward of a step begun in each state; shape (n,)."""
     if per_state is None and per_arc is None:
-        raise ChainError("there is no reward; give per_state or per_arc")
+        raise ChainError("there's no reward. Give per_state or per_arc.")
     per_state = {} if per_state is None else by_label(per_state, "per_state")
     if not isinstance(per_state, Mapping):
         per_state = np.asarray(per_state, dtype=float)
@@ -127,8 +127,8 @@ def _expected_reward(
         j, i = chain.index(source), chain.index(target)
         chance = float(chain.matrix[i, j])
         if chance == 0.0:
-            raise ChainError(f"there is no arc {source!r} -> {target!r} to earn a reward on")
+            raise ChainError(f"there's no arc {source!r} -> {target!r} to earn a reward on")
         reward[j] += chance * amount
     if not np.isfinite(reward).all():
-        raise ChainError("the reward of an arc is not finite; give finite numbers")
+        raise ChainError("the reward of an arc isn't finite. Give finite numbers.")
     return reward

@@ -59,7 +59,7 @@ class Sensitivity:
     def __getitem__(self, arc: tuple[Hashable, Hashable]) -> float:
         j, i = (self.chain.index(state) for state in arc)
         if self.chain.matrix[i, j] == 0.0:
-            raise ChainError(f"there is no arc {arc[0]!r} -> {arc[1]!r} in the chain")
+            raise ChainError(f"there's no arc {arc[0]!r} -> {arc[1]!r} in the chain")
         return float(self.matrix[i, j])
 
     def to_dict(self) -> dict[tuple[Hashable, Hashable], float]:
@@ -108,8 +108,8 @@ class Sensitivity:
         off = np.flatnonzero(~(np.abs(total) <= 1e-9 * scale))
         if len(off):
             raise ChainError(
-                f"the changes of the arcs out of {self.chain.states[off[0]]!r} sum to "
-                f"{total[off[0]]:.6g}; give changes that sum to 0"
+                f"the changes of the arcs out of {self.chain.states[off[0]]!r} must sum "
+                f"to 0; they sum to {total[off[0]]:.6g}"
             )
         return float(derivative)
 

@@ -127,8 +127,8 @@ class Spectrum:
         """
         if not np.isfinite(self._left).all():
             raise AccuracyError(
-                "a left vector has entries larger than any float: the stationary law spans too "
-                "many decades; use the vectors in `orthonormal`"
+                "a left vector has entries larger than any float: the stationary law "
+                "spans too many decades. Use the vectors in `orthonormal`"
             )
         return self._left
 
@@ -146,8 +146,8 @@ class Spectrum:
         if not self.limit_error <= TOLERANCE:
             raise AccuracyError(
                 f"the limit by eigenvectors may be wrong by {self.limit_error:.1e} "
-                f"(residual {self.residual:.1e}): the chain is slow or nearly falls apart; "
-                "use stochastic_limit"
+                f"(residual {self.residual:.1e}): the chain is slow or nearly falls "
+                "apart. Use stochastic_limit."
             )
         v = self.chain.density(start)
         return limit_by(self.right[:, : self.units], self._left[: self.units], v)
@@ -215,8 +215,8 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
         raise InputError(f"k is {k}; the chain has {n} states, give {n} or fewer")
     if k * n > MOST_ENTRIES:
         raise ChainError(
-            f"{k} pairs of vectors over {n} states do not fit in memory; ask for fewer, or find "
-            "the limit by elimination (stochastic_limit)"
+            f"{k} pairs of vectors over {n} states don't fit in memory. Ask for fewer, or "
+            "find the limit by elimination (stochastic_limit)."
         )
     ones = UnitPairs(chain)
     if forms is None:
@@ -287,7 +287,7 @@ class SymmetricForm:
             near_one = scipy.sparse.linalg.eigsh(self.matrix, k=k, sigma=SHIFT, v0=start)
         except scipy.sparse.linalg.ArpackNoConvergence as error:
             raise AccuracyError(
-                f"the iteration for {k} eigenvalues of {m} did not converge; ask for fewer"
+                f"the iteration for {k} eigenvalues of {m} didn't converge. Ask for fewer."
             ) from error
         return np.asarray(near_one[0]), np.asarray(near_one[1])
 

@@ -223,8 +223,8 @@ def mean_first_passages(chain: Chain) -> pd.DataFrame:
     n = len(chain)
     if n > MOST_STATES:
         raise ChainError(
-            f"the chain has {n} states; give at most {MOST_STATES}, or use first_passage for each "
-            "target that matters"
+            f"the chain must have at most {MOST_STATES} states; it has {n}. For a larger "
+            "one use first_passage for each target that matters."
         )
     means = np.full((n, n), np.inf)
     np.fill_diagonal(means, 0.0)
@@ -274,7 +274,7 @@ def kemeny_constant(chain: Chain) -> float:
         )
     if len(recurrent) > MOST_STATES:
         raise ChainError(
-            f"the closed class has {len(recurrent)} states; give at most {MOST_STATES}"
+            f"the closed class must have at most {MOST_STATES} states; it has {len(recurrent)}"
         )
     law = stationary_laws(chain)[recurrent]
     return float((law * _means_among(chain, recurrent)[:, law.argmax()]).sum())

@@ -104,7 +104,7 @@ def _sympy() -> Any:
         import sympy
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(
-            "formulas need sympy; install it with: pip install sympy"
+            "formulas need sympy. Install it with: pip install sympy"
         ) from error
     return sympy
 
@@ -124,24 +124,24 @@ def _diagram(source: Any, start: Hashable | None) -> tuple[Rows, Hashable]:
             formula = None
         if not isinstance(formula, sympy.Expr):
             raise ChainError(
-                f"arc {k} is {arc!r}; give (source, target, probability), states that can be "
-                "hashed and a number or a formula"
+                f"arc {k} must be (source, target, probability), states that can be "
+                f"hashed and a number or a formula; you gave {arc!r}"
             )
         if target in row:
-            raise ChainError(f"the arc {origin!r} -> {target!r} is listed twice; list it once")
+            raise ChainError(f"the arc {origin!r} -> {target!r} is listed twice. List it once.")
         row[target] = formula
     if not rows:
-        raise ChainError("there are no arcs; give at least one (source, target, probability)")
+        raise ChainError("there must be at least one arc (source, target, probability)")
     if start is None:
         start = next(iter(rows)) if own_start is None else own_start
     if start not in rows:
-        raise ChainError(f"the start {start!r} is not in the diagram; give one of its states")
+        raise ChainError(f"the start {start!r} isn't in the diagram. Give one of its states.")
     for state, row in rows.items():
         total = sum(row.values())
         if row and sympy.simplify(total - 1) != 0:
             raise ChainError(
-                f"the probabilities of state {state!r} sum to {total}, not 1; "
-                "write the last one as 1 minus the others"
+                f"the probabilities of state {state!r} sum to {total}, not 1. Write the "
+                "last one as 1 minus the others."
             )
         rows[state] = {target: p for target, p in row.items() if sympy.simplify(p) != 0}
     return rows, start
@@ -157,8 +157,8 @@ def _arcs(source: Any) -> tuple[Iterable[Any], Hashable | None]:
     if isinstance(source, Iterable):
         return source, None
     raise ChainError(
-        f"the source is {source!r:.60}; give a game, a networkx.DiGraph, or a list of "
-        "(source, target, probability)"
+        "the source must be a game, a networkx.DiGraph, or a list of (source, target, "
+        f"probability); you gave {source!r:.60}"
     )
 
 

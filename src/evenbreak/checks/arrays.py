@@ -60,7 +60,7 @@ def probability(value: Any, name: str) -> Any:
     >>> probability(1.5, "p")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: p is 1.5, not a probability; give a number from 0 to 1
+    evenbreak.errors.InputError: p must be a number from 0 to 1; you gave 1.5
     """
     if hasattr(value, "__len__") or hasattr(value, "ndim"):
         return plain(floats(value, name, low=0.0, high=1.0))
@@ -97,7 +97,7 @@ def floats(
     >>> floats([3, -1], "speed", low=0)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: speed holds -1.0; give finite numbers, 0 or more
+    evenbreak.errors.InputError: speed must be finite numbers, 0 or more; it holds -1.0
     """
     array, limits = _array(values), Limits(low, high, above, below)
     # The smallest and the largest are enough: NaN and infinity show in them.
@@ -106,7 +106,7 @@ def floats(
         wrong = next(x for x in array.flat if not limits.hold(x, x))
         held = f"holds {wrong}" if many else f"is {values!r}"
         raise InputError(
-            "{name} {held}; give {what}",
+            "{name} must be {what}; it {held}",
             name=Parameter(name),
             held=held,
             what=wanted or limits.numbers(many=many),
@@ -124,7 +124,7 @@ def whole_numbers(
     >>> whole_numbers([1, 2.5], "n", at_least=0)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: n holds 2.5; give whole numbers, 0 or more
+    evenbreak.errors.InputError: n must be whole numbers, 0 or more; it holds 2.5
     """
     least = -math.inf if at_least is None else at_least
     wanted = wanted or "whole numbers" + ("" if at_least is None else f", {at_least} or more")
@@ -133,7 +133,7 @@ def whole_numbers(
     if broken.any():
         held = f"holds {float(array[broken][0])!r}" if array.ndim else f"is {values!r}"
         raise InputError(
-            "{name} {held}; give {wanted}", name=Parameter(name), held=held, wanted=wanted
+            "{name} must be {wanted}; it {held}", name=Parameter(name), held=held, wanted=wanted
         )
     return array
 
@@ -165,11 +165,11 @@ def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = flo
     >>> column([80.5, 92], "rating", 3, "players")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: rating has shape (2,); give one value for each of 3 players
+    evenbreak.errors.InputError: rating must have one value for each of 3 players; its shape is (2,)
     >>> column(["no", "yes"], "forfeit", 2, "rows", bool)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: forfeit is ['no', 'yes']; give True or False
+    evenbreak.errors.InputError: forfeit must be True or False; you gave ['no', 'yes']
     """
     import numpy as np
 
@@ -181,14 +181,14 @@ def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = flo
         found = None
     if found is None:
         raise InputError(
-            "{name} is {values!r}; give {kind}",
+            "{name} must be {kind}; you gave {values!r}",
             name=Parameter(name),
             values=values,
             kind=_WANTED.get(kind.kind, "numbers"),
         )
     if found.shape != (count,):
         raise InputError(
-            "{name} has shape {found_shape}; give one value for each of {count} {each}",
+            "{name} must have one value for each of {count} {each}; its shape is {found_shape}",
             name=Parameter(name),
             found_shape=found.shape,
             count=count,
@@ -204,18 +204,20 @@ def names(values: Iterable[Any], name: str) -> tuple[str, ...]:
     >>> names(["Ann", float("nan")], "players")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: players holds nan, which is not text; give names
+    evenbreak.errors.InputError: players must be names; it holds nan, which isn't text
     """
     found = tuple(values)
     for value in found:
         if not isinstance(value, str):
             raise InputError(
-                "{name} holds {value!r}, which is not text; give names",
+                "{name} must be names; it holds {value!r}, which isn't text",
                 name=Parameter(name),
                 value=value,
             )
     if len(set(found)) < len(found):
-        raise InputError("{name} holds a name twice; give each name once", name=Parameter(name))
+        raise InputError(
+            "{name} must have each name once; one is there twice", name=Parameter(name)
+        )
     return found
 
 
@@ -232,7 +234,7 @@ def together(**arrays: ArrayLike) -> tuple[int, ...]:
     >>> together(p=0.5, m=[1, 2], n=[1, 2, 3])
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: m has shape (2,), n has shape (3,); give shapes that broadcast
+    evenbreak.errors.InputError: shapes must broadcast; m has shape (2,), n has shape (3,)
     """
     arrays = {name: array for name, array in arrays.items() if hasattr(array, "__len__")}
     if not arrays:
@@ -244,7 +246,7 @@ def together(**arrays: ArrayLike) -> tuple[int, ...]:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:
         held = ", ".join(f"{name} has shape {shape}" for name, shape in shapes.items())
-        raise InputError("{held}; give shapes that broadcast", held=held) from None
+        raise InputError("shapes must broadcast; {held}", held=held) from None
 
 
 def plain(array: Any) -> Any:

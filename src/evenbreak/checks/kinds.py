@@ -33,11 +33,11 @@ def kind_of(value: Any, name: str, kind: type[Kind]) -> Kind:
     >>> kind_of(0.5, "p", Fraction)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: p is 0.5; give a Fraction
+    evenbreak.errors.InputError: p must be a Fraction; you gave 0.5
     """
     if not isinstance(value, kind):
         raise InputError(
-            "{name} is {value!r}; give a {name_2}",
+            "{name} must be a {name_2}; you gave {value!r}",
             name=Parameter(name),
             value=value,
             name_2=kind.__name__,

@@ -63,12 +63,12 @@ def number(
     >>> number("x", "half_life", above=0, wanted="a number of days above 0")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: half_life is 'x'; give a number of days above 0
+    evenbreak.errors.InputError: half_life must be a number of days above 0; you gave 'x'
     """
     found, limits = _float(value), Limits(low, high, above, below)
     if not limits.hold(found, found):
         raise InputError(
-            "{name} is {value!r}; give {what}",
+            "{name} must be {what}; you gave {value!r}",
             name=Parameter(name),
             value=value,
             what=wanted or limits.numbers(),
@@ -82,7 +82,7 @@ def positive(value: Any, name: str, *, wanted: str = "") -> float:
     >>> positive(0, "mass")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: mass is 0; give a finite number above 0
+    evenbreak.errors.InputError: mass must be a finite number above 0; you gave 0
     """
     return number(value, name, above=0.0, wanted=wanted)
 
@@ -93,17 +93,17 @@ def number_probability(value: Any, name: str) -> float:
     >>> number_probability([0.4, 0.5], "p1")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: p1 is [0.4, 0.5]; give one number from 0 to 1
+    evenbreak.errors.InputError: p1 must be one number from 0 to 1; you gave [0.4, 0.5]
     """
     found: Any = value if isinstance(value, ManyAsOne) else _float(value)
     if not 0.0 <= found <= 1.0:
         many = isinstance(value, list | tuple) or hasattr(value, "ndim")
-        problem = "; give one" if many else ", not a probability; give a"
+        wanted = "one" if many else "a"
         raise InputError(
-            "{name} is {value!r}{problem} number from 0 to 1",
+            "{name} must be {wanted} number from 0 to 1; you gave {value!r}",
             name=Parameter(name),
             value=value,
-            problem=problem,
+            wanted=wanted,
         )
     return found  # type: ignore[no-any-return]
 
@@ -129,12 +129,12 @@ def number_probabilities(values: Any, name: str, each: str) -> tuple[float, ...]
     >>> number_probabilities([], "shots", "shot")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: shots is []; give a list of numbers from 0 to 1
+    evenbreak.errors.InputError: shots must be a list of numbers from 0 to 1; you gave []
     """
     listed = list(values) if hasattr(values, "__iter__") else []
     if not listed:
         raise InputError(
-            "{name} is {values!r}; give a list of numbers from 0 to 1",
+            "{name} must be a list of numbers from 0 to 1; you gave {values!r}",
             name=Parameter(name),
             values=values,
         )
@@ -172,7 +172,7 @@ def whole(
     >>> whole(0, "m", at_least=1)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: m is 0; give a whole number, 1 or more
+    evenbreak.errors.InputError: m must be a whole number, 1 or more; you gave 0
     """
     try:
         found = int(value)
@@ -187,7 +187,7 @@ def whole(
                 f" from {at_least} to {at_most}" if at_least is not None else f", at most {at_most}"
             )
         raise InputError(
-            "{name} is {value!r}; give {what}",
+            "{name} must be {what}; you gave {value!r}",
             name=Parameter(name),
             value=value,
             what=wanted or "a whole number" + limits,
@@ -208,13 +208,13 @@ def increasing(values: Iterable[Any], name: str, *, at_least: int | None = 0) ->
     >>> increasing([2, 2], "level")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: level 2 comes after 2; give increasing numbers
+    evenbreak.errors.InputError: level must increase; 2 comes after 2
     """
     found = tuple(whole(one, f"{name} {i}", at_least=at_least) for i, one in enumerate(values, 1))
     for below, above in pairwise(found):
         if below >= above:
             raise InputError(
-                "{name} {above} comes after {below}; give increasing numbers",
+                "{name} must increase; {above} comes after {below}",
                 name=Parameter(name),
                 above=above,
                 below=below,
@@ -244,7 +244,8 @@ def generator_of(value: Any, name: str = "rng") -> Generator:
     >>> generator_of(-1)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: rng is -1; give a whole number, 0 or more, or a ...
+    evenbreak.errors.InputError: rng must be a whole number, 0 or more, or a numpy.random.Generator;
+        you gave -1
     """
     import numpy as np
 
@@ -263,7 +264,7 @@ def one_of(value: Any, name: str, choices: tuple[Choice, ...]) -> Choice:
     >>> one_of(3, "first_breaker", (1, 2))
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: first_breaker is 3; give 1 or 2
+    evenbreak.errors.InputError: first_breaker must be 1 or 2; you gave 3
     """
     try:
         return choices[choices.index(value)]
@@ -271,7 +272,10 @@ def one_of(value: Any, name: str, choices: tuple[Choice, ...]) -> Choice:
         *others, last = map(repr, choices)
         listed = f"{', '.join(others)} or {last}"
         raise InputError(
-            "{name} is {value!r}; give {listed}", name=Parameter(name), value=value, listed=listed
+            "{name} must be {listed}; you gave {value!r}",
+            name=Parameter(name),
+            value=value,
+            listed=listed,
         ) from None
 
 

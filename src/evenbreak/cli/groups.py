@@ -78,8 +78,8 @@ def sandbag() -> None:
 LEAGUE = {
     "init": Entry("Write league.toml from what is in a league's folder.", "league.init"),
     "tidy": Entry("One clean list of matches out of all files of results.", "league.tidy:tidy"),
-    "table": Entry("The table: who is ahead of whom, and why.", "league.tables:table"),
-    "fixtures": Entry("Who plays whom, when and where; what is left.", "league.tables:fixtures"),
+    "table": Entry("The table: who is ahead, and why.", "league.tables:table"),
+    "fixtures": Entry("Who plays who, when and where; what is left.", "league.tables:fixtures"),
 }
 
 

@@ -18,7 +18,7 @@ SECTIONS = {
         "odds": Entry("The odds and the length of one match."),
         "live": Entry("The odds of a match under way, game by game."),
         "fair": Entry("The fairest race for two players."),
-        "compare": Entry("Match formats side by side: which is better for whom."),
+        "compare": Entry("Match formats side by side: which favors who."),
         "breaks": Entry("What each break format is worth, and fair stakes."),
         "straight": Entry("Straight pool: who wins, and which spot is fair."),
     },

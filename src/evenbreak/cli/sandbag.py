@@ -109,7 +109,7 @@ def _reviewed(
     from evenbreak.handicaps.systems.night_table import listed
 
     if asked.scale is not None and not asked.scale.same_points(SCALES["fargo"]):
-        asked.refuse("{scale} is for systems that move points by match; leave it out")
+        asked.refuse("{scale} is for systems that move points by match. Leave it out.")
     refuse_for_system(first, system)
     if asked.chart is not None and not isinstance(system, handicaps.MarkovSystem):
         system = system.on_chart(files.find_chart(asked.chart))
@@ -134,18 +134,18 @@ def _moved(
     """Return the system on the scale of the list; refuse or doubt one that results contradict."""
     from evenbreak.answers.kit.scales import contradiction, far_doubts
 
-    refuse_levels(first, f"the system {system.name} needs ratings in points; give a list of those")
+    refuse_levels(first, f"the system {system.name} needs ratings in points. Give a list of those.")
     own = system.scale.name != DEFAULT_SCALE
     assumed = own and scale is None
     points = system.scale if assumed else first.scale_by(scale, SAY_WHICH)
     whose = f"the system {system.name}" if scale is None else Parameter("scale")
-    remedy = "name the scale of the ratings, or correct the file"
+    remedy = "Name the scale of the ratings, or correct the file."
     refuse_other_scale(first, points, whose, remedy, stated=not assumed)
     doubts = far_doubts(points, first.roster.rating)  # a slip does not make another scale
     if not doubts and (against := contradiction(points, first.roster, season.results)):
         if scale is None:
             refuse(
-                "{file}: {against}; {remedy}", file=first.source, against=against, remedy=SAY_WHICH
+                "{file}: {against}. {remedy}", file=first.source, against=against, remedy=SAY_WHICH
             )
         doubts = [against]
     return on_scale(system, points), doubts

@@ -109,11 +109,11 @@ class Log(Generic[Entered]):
             case Undone(entry=entry):
                 entry = max(self.kept, default=0) if entry is None else entry
                 if entry <= self.fixed or entry not in self.kept:
-                    raise InputError("there is nothing to undo")
+                    raise InputError("there's nothing to undo")
                 self.undone[entry] = TakenBack(self.kept.pop(entry), number)
             case Redone(entry=entry):
                 if entry not in self.undone:
-                    raise InputError("entry {entry} is not undone", entry=entry)
+                    raise InputError("entry {entry} isn't undone", entry=entry)
                 self.kept[entry] = self.undone.pop(entry).event
                 self.kept = dict(sorted(self.kept.items()))
             case _:
@@ -131,7 +131,7 @@ class Kinds(Generic[What]):
     >>> kinds.read("redone", '{"entry": "three"}')
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: entry is 'three'; give a whole number
+    evenbreak.errors.InputError: entry must be a whole number; it is 'three'
     """
 
     def __init__(self, kinds: Mapping[str, type[What]]) -> None:
@@ -159,7 +159,7 @@ class Kinds(Generic[What]):
             if it is no such entry; the message names the field.
         """
         if kind not in self.kinds:
-            raise InputError("{kind!r} is not a kind of entry", kind=kind[:40])
+            raise InputError("{kind!r} isn't a kind of entry", kind=kind[:40])
         return read_json(self.kinds[kind], text)
 
 
@@ -183,7 +183,7 @@ def read_json(kind: type[What], text: str) -> What:
             raise error.__cause__ from None
         raise _refusal(str(error), data) from None
     if unknown := _unknown(data, msgspec.to_builtins(found)):
-        raise InputError("{unknown} is not known; leave it out", unknown=reprlib.repr(unknown))
+        raise InputError("{unknown} isn't known. Leave it out.", unknown=reprlib.repr(unknown))
     return found
 
 
@@ -218,7 +218,7 @@ _WORDS = {
     "`object`": "names and values",
     " <= ": " up to ",
     " >= ": " from ",
-    "Expected": "give",
+    "Expected ": "",
 }
 
 
@@ -243,9 +243,9 @@ def _refusal(why: str, value: Any) -> InputError:
             value = value.get(name) if isinstance(value, dict) else value
     if missing := _MISSING.match(wanted):
         names.append(missing[1])
-        return InputError("{missing} is missing; add it", missing=Parameter(" ".join(names)))
+        return InputError("{missing} is missing. Add it.", missing=Parameter(" ".join(names)))
     return InputError(
-        "{what} is {shown}; {wanted}",
+        "{what} must be {wanted}; it is {shown}",
         what=Parameter(" ".join(names) or "it"),
         shown=reprlib.repr(value),
         wanted=_wanted(wanted),

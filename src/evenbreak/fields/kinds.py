@@ -47,7 +47,7 @@ class Kind:
         (7, (7, 5), 'npl')
         """
         if not isinstance(value, str):
-            raise InputError("{value} is not text; put it in quotes", value=_as_json(value))
+            raise InputError("{value} isn't text. Put it in quotes.", value=_as_json(value))
         return self.read(value)
 
     def words(self, value: Any) -> str:
@@ -129,7 +129,7 @@ class Whole(Kind):
         if _WHOLE.fullmatch(typed) and self.low <= int(typed) <= self.high:
             return int(typed)
         raise InputError(
-            "{text!r}; give a whole number from {low} to {high}",
+            "{text!r} isn't a whole number from {low} to {high}",
             text=text,
             low=self.low,
             high=self.high,
@@ -178,7 +178,7 @@ class Number(Kind):
             raise InputError(
                 "{text!r}{wanted}{hint}",
                 text=text,
-                wanted=self.wanted or say("; {needed}", needed=self.needed),
+                wanted=self.wanted or say(" isn't {needed}", needed=self.needed),
                 hint=meant(text, self.low, self.high),
             )
         return number
@@ -191,7 +191,7 @@ class Number(Kind):
     def needed(self) -> str:
         """What to write, in words."""
         return say(
-            "give a number from {low:,.12g} to {high:,.12g}{such}",
+            "a number from {low:,.12g} to {high:,.12g}{such}",
             low=self.low,
             high=self.high,
             such=say(", such as {example}", example=self.example) if self.example else "",
@@ -227,12 +227,12 @@ class NumberOr(Kind):
         """Return the number, or the word."""
         if text.strip().lower() == self.word:
             return self.word
-        return Number(self.low, self.high, f"; give {self.wanted}, or {self.word}").read(text)
+        return Number(self.low, self.high, f" isn't {self.wanted}, or {self.word}").read(text)
 
     def load(self, value: Any) -> float | str:
         """Return the number or the word that JSON has."""
         if isinstance(value, str) and value != self.word:
-            raise InputError("{value!r}; give {wanted}, or {word}", value=value[:_SHOWN],
+            raise InputError("{value!r} isn't {wanted}, or {word}", value=value[:_SHOWN],
                              wanted=self.wanted, word=self.word)  # fmt: skip
         return self.read(value if value == self.word else _number_typed(value))
 
@@ -275,14 +275,14 @@ class TwoWhole(Kind):
         both = match is not None and (self.one or match[2] is not None)
         within = self.low <= min(m, n) and max(m, n) <= self.high
         if not (both and within) or (self.rising and m > n):
-            raise InputError("{text!r}; {wanted}", text=text, wanted=self.wanted)
+            raise InputError("{text!r} {wanted}", text=text, wanted=self.wanted)
         return m, n
 
     def load(self, value: Any) -> tuple[int, int]:
         """Return the two numbers that JSON has in a list."""
         limits = Whole(self.low, self.high)
         if not isinstance(value, list) or len(value) != 2:
-            raise InputError("{value}; give two numbers in a list", value=_as_json(value))
+            raise InputError("{value} isn't a list of two numbers", value=_as_json(value))
         m, n = map(limits.load, value)
         return self.read(self.words((m, n)))
 
@@ -309,7 +309,7 @@ class Choice(Kind):
         word = text.strip()
         if word not in self.of:
             words = ", ".join(map(repr, self.of))
-            raise InputError("{text!r} is not one of {words}", text=word, words=words)
+            raise InputError("{text!r} isn't one of {words}", text=word, words=words)
         return self.of[word] if isinstance(self.of, Mapping) else word
 
     def words(self, value: Any) -> str:
@@ -379,9 +379,9 @@ class Named(Kind):
 def _number_typed(value: Any) -> str:
     """Return a number that JSON has as it is typed; refuse what is none."""
     if isinstance(value, str):
-        raise InputError("{value} is text; leave out the quotes", value=_as_json(value))
+        raise InputError("{value} is text. Leave out the quotes.", value=_as_json(value))
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise InputError("{value} is not a number", value=_as_json(value))
+        raise InputError("{value} isn't a number", value=_as_json(value))
     return _as_json(value)
 
 

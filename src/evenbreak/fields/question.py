@@ -17,7 +17,7 @@ How to declare a question
 
         def check(self) -> None:
             if self.games is None and self.race_to is None:
-                self.refuse("the length is missing; give {games} LO..HI or {race_to} N")
+                self.refuse("missing races: give {games} LO..HI or {race_to} N")
 
 The docstring is the help of the command. A field without a default must be given; None is the
 default of what may be left out, and `usual` says in words what applies then. A field of several

@@ -87,7 +87,7 @@ class ArcsFile(NamedTuple):
             first_states = ", ".join(map(quoted, self.states[:5]))
             raise refusal(
                 self.source,
-                "start {start} is not a state; the first states are {states}",
+                "start {start} isn't a state; the first states are {states}",
                 start=quoted(start),
                 states=first_states,
             )
@@ -155,7 +155,7 @@ def _refuse_twice(
     for row in again:
         table.note(
             row,
-            "the arc {source} -> {target} is in line {line} already; keep one of the two",
+            "the arc {source} -> {target} is in line {line} already. Keep one of the two.",
             source=quoted(states[sources[row]]),
             target=quoted(states[targets[row]]),
             line=table.lines[first[which[row]]],
@@ -175,8 +175,8 @@ def sum_problems(
     wrong = np.sort(first[np.abs(sums[leaving] - 1.0) > SUM_TOLERANCE])
     return {
         row: say(
-            "the arcs out of {state} sum to {sum:.12g}, not 1; add what is missing (a self-loop "
-            "counts), or write more digits",
+            "the arcs out of {state} sum to {sum:.12g}, not 1. Add what is missing (a "
+            "self-loop counts), or write more digits.",
             state=quoted(states[sources[row]]),
             sum=sums[sources[row]],
         )

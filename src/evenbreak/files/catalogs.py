@@ -153,7 +153,7 @@ def read_catalog(place: Path) -> Catalog:
             return read_po(file, locale=None, abort_invalid=True)
     except (PoFileError, ValueError) as error:
         raise DataError(
-            [say("{file} is not a gettext catalog: {error}", file=FilePath(place), error=error)]
+            [say("{file} isn't a gettext catalog: {error}", file=FilePath(place), error=error)]
         ) from None
 
 

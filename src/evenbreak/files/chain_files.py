@@ -82,7 +82,7 @@ def read_chain(
     if form != ".mtx" and (states is not None or rows is not None):
         raise refusal(
             str(path),
-            "only a Matrix Market file (.mtx) needs {option}; leave it out",
+            "only a Matrix Market file (.mtx) needs {option}. Leave it out.",
             option=Parameter("states" if states is not None else "rows"),
         )
     if form == ".mtx":
@@ -90,8 +90,9 @@ def read_chain(
     if form in OTHER_FORMS:
         raise refusal(
             str(path),
-            "a {form} file is not read here; write the graph as GraphML (networkx.write_graphml), "
-            "the matrix in Matrix Market form (scipy.io.mmwrite), or the arcs as CSV",
+            "a {form} file isn't read here. Write the graph as GraphML "
+            "(networkx.write_graphml), the matrix in Matrix Market form "
+            "(scipy.io.mmwrite), or the arcs as CSV.",
             form=form,
         )
     if form in (".graphml", ".xml"):
@@ -128,7 +129,7 @@ def _node_link(content: bytes) -> nx.Graph[Any]:
     graph = nx.node_link_graph({"multigraph": False, **data}, edges=name)
     if len(graph) > len(data["nodes"]):
         stray = list(graph)[len(data["nodes"])]
-        raise ValueError(f"an arc leads from or to {stray!r}, which is not among the nodes")
+        raise ValueError(f"an arc leads from or to {stray!r}, which isn't among the nodes")
     if graph.number_of_edges() < len(data[name]) and graph.is_directed():
         raise ValueError("an arc is listed twice")
     return graph
@@ -137,23 +138,23 @@ def _node_link(content: bytes) -> nx.Graph[Any]:
 def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
     source, content = content_of(path)
     if len(content) > MOST_MEGABYTES << 20:
-        raise refusal(source, "is larger than {n} MB; write its arcs as CSV", n=MOST_MEGABYTES)
+        raise refusal(source, "is larger than {n} MB. Write its arcs as CSV.", n=MOST_MEGABYTES)
     try:
         graph = parsed(content)
     except Exception as error:
         form = "GraphML" if parsed is _graphml else "node-link JSON, with nodes and edges"
         reason = printable(" ".join(str(error).split()))
         raise refusal(
-            source, "cannot be read as {form} ({reason}); check the file", form=form, reason=reason
+            source, "can't be read as {form} ({reason}). Check the file.", form=form, reason=reason
         ) from None
     if not graph.is_directed() or graph.is_multigraph():
         raise refusal(
             source,
-            "{fault}; write a directed graph, with one arc from a state to another",
-            fault=say("is a multigraph") if graph.is_directed() else say("is not directed"),
+            "{fault}. Write a directed graph, with one arc from a state to another.",
+            fault=say("is a multigraph") if graph.is_directed() else say("isn't directed"),
         )
     if not len(graph):
-        raise refusal(source, "has no states; write a node for each")
+        raise refusal(source, "has no states. Write a node for each.")
     names = ("probability", *ARCS["probability"].aliases, WEIGHT)
     problems, triples = Problems(source), []
     position = {state: k for k, state in enumerate(graph)}
@@ -163,8 +164,8 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
             weighted = not attributes.keys() & {*names[:-1]} and WEIGHT in attributes
             problems.add(
                 None,
-                "the arc {start} -> {end} has {chance}; give each arc a number from 0 to 1, named "
-                "probability{scaled}",
+                "the arc {start} -> {end} has {chance}. Give each arc a number from 0 to "
+                "1, named probability{scaled}.",
                 start=quoted(str(j)),
                 end=quoted(str(i)),
                 chance=say("no probability")
@@ -177,7 +178,7 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
         triples.append((position[j], position[i], chance))
     states = [str(state) for state in graph]
     if len(set(states)) < len(states):
-        raise refusal(source, "has two states that are written alike; give each a name of its own")
+        raise refusal(source, "has two states that are written alike. Give each a name of its own.")
     problems.raise_any()
     ends = np.array([triple[:2] for triple in triples], dtype=np.int64).reshape(-1, 2)
     sources, targets = ends.T
@@ -188,7 +189,7 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
     nodes = dict(zip(states, graph.nodes.values(), strict=True))
     starts = [state for state, node in nodes.items() if node.get("kind") == "start"]
     if len(starts) > 1:
-        raise refusal(source, "has {n} nodes of the kind start; leave one", n=len(starts))
+        raise refusal(source, "has {n} nodes of the kind start. Leave one.", n=len(starts))
     start = starts[0] if starts else None
     winners = _winners({state: node.get("winner") for state, node in nodes.items()}, source)
     return ArcsFile(states, sources, targets, p, source, (), start, winners)
@@ -207,8 +208,8 @@ def _winners(winners: Mapping[str, Any], source: str) -> dict[str, int]:
         if players[state] < 1:
             raise refusal(
                 source,
-                "state {state} has winner {winner}; give the number of the player who has won "
-                "there, 1, 2, ...",
+                "state {state} has winner {winner}. Give the number of the player who "
+                "has won there, 1, 2, ...",
                 state=quoted(state),
                 winner=quoted(str(winner)),
             )
@@ -221,14 +222,14 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
     wrong = np.flatnonzero(~((matrix.data >= 0.0) & (matrix.data <= 1.0)))
     if wrong.size:
         entry = matrix.data[wrong[0]]
-        raise refusal(source, "has the entry {entry:.12g}; give numbers from 0 to 1", entry=entry)
+        raise refusal(source, "has the entry {entry:.12g}. Give numbers from 0 to 1.", entry=entry)
     by_columns, by_rows = (sums_to_1(matrix, axis=axis) for axis in (0, 1))
     warnings: tuple[str, ...] = ()
     if rows is None and by_rows and not by_columns:
         raise refusal(
             source,
-            "is row-stochastic: its rows sum to 1 and its columns do not, so a row holds the "
-            "chances out of its state; say so with {rows}='from', or transpose it",
+            "is row-stochastic: its rows sum to 1 and its columns don't, so a row holds "
+            "the chances out of its state. Say so with {rows}='from', or transpose it.",
             rows=Parameter("rows"),
         )
     if rows is None and by_rows and (matrix - matrix.T).count_nonzero():
@@ -255,8 +256,8 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
     for k in np.flatnonzero(np.abs(sums - 1.0) > SUM_TOLERANCE).tolist():
         problems.add(
             None,
-            "{line} {k} sums to {sum:.12g}, not 1; give probabilities out of each state, with a 1 "
-            "on the diagonal for a state that is never left",
+            "{line} {k} sums to {sum:.12g}, not 1. Give probabilities out of each state, "
+            "with a 1 on the diagonal for a state that is never left.",
             line=say("row") if rows == "from" else say("column"),
             k=k + 1,
             sum=sums[k],
@@ -277,13 +278,13 @@ def _square(content: bytes, source: str) -> csc_array[np.float64]:
         content += b"\n"
         *shape, entries, _, _, _ = mminfo(io.BytesIO(content))
         if max(shape) > 2 * entries or entries > len(content):  # room would be made for them all
-            raise ValueError(f"it does not hold the {entries:,} entries of {max(shape):,} states")
+            raise ValueError(f"it doesn't hold the {entries:,} entries of {max(shape):,} states")
         read: Any = mmread(io.BytesIO(content), spmatrix=False)
     except Exception as error:
         reason = printable(" ".join(str(error).split()))
         raise refusal(
             source,
-            "cannot be read as a Matrix Market file ({reason}); check the file",
+            "can't be read as a Matrix Market file ({reason}). Check the file.",
             reason=reason,
         ) from None
     entries_read = coo_array(read)
@@ -296,13 +297,13 @@ def _square(content: bytes, source: str) -> csc_array[np.float64]:
         size = " x ".join(map(str, entries_read.shape))
         raise refusal(
             source,
-            "holds a {kind}matrix of {size}; give a square one of real numbers",
+            "holds a {kind}matrix of {size}. Give a square one of real numbers.",
             kind=kind,
             size=size,
         )
     matrix: csc_array[np.float64] = csc_array(entries_read.astype(np.float64))
     if issparse(read) and matrix.nnz < entries_read.nnz:
-        raise refusal(source, "lists an entry twice; keep one of the two")
+        raise refusal(source, "lists an entry twice. Keep one of the two.")
     return matrix
 
 
@@ -316,8 +317,8 @@ def _states(
     if len(names) != n or len(set(names)) < n or not all(names):
         raise refusal(
             table.source,
-            "names {names} states in {rows} rows, and the matrix has {n}; give each a name of its "
-            "own, in the order of the matrix",
+            "names {names} states in {rows} rows, and the matrix has {n}. Give each a "
+            "name of its own, in the order of the matrix.",
             names=len(set(filter(None, names))),
             rows=len(names),
             n=n,

@@ -169,7 +169,7 @@ def _read(table: TextTable, chart: Schema) -> TextTable:
     if not table.found:
         table.problems.add(
             None,
-            "has none of the columns of a chart; name the columns {differences}, or {levels}",
+            "has none of the columns of a chart. Name the columns {differences}, or {levels}.",
             differences=", ".join(DIFFERENCES.columns),
             levels=", ".join(LEVELS.columns),
         )
@@ -178,7 +178,7 @@ def _read(table: TextTable, chart: Schema) -> TextTable:
         if name not in table and name != "opponent_needs":
             table.problems.add(None, missing_column(name, column.aliases))
     if not len(table.problems) and not len(table):
-        table.problems.add(None, "has no rows below its header; write one line for each race")
+        table.problems.add(None, "has no rows below its header. Write one line for each race.")
     return chart.of(table)
 
 
@@ -207,7 +207,7 @@ def _levels(table: TextTable, name: str) -> LevelChart:
     for mine, opponent in missing[:MOST_MISSING]:
         table.problems.add(
             None,
-            "does not say what level {level} needs against level {opponent}; add a row",
+            "doesn't say what level {level} needs against level {opponent}. Add a row.",
             level=mine,
             opponent=opponent,
         )
@@ -235,7 +235,7 @@ def _points(table: TextTable, name: str) -> PointsChart:
     try:
         return PointsChart(name, table["level"].tolist(), table["points"].tolist())
     except InputError as error:
-        table.problems.add(None, "is not a chart of points: {why}", why=error.sentence)
+        table.problems.add(None, "isn't a chart of points: {why}", why=error.sentence)
         table.problems.raise_any()
         raise
 
@@ -252,8 +252,8 @@ def _note(
     if before != games:
         table.note(
             row,
-            "level {level} needs {games} games against level {opponent} here but {before} in line "
-            "{line}; keep one of the two",
+            "level {level} needs {games} games against level {opponent} here but "
+            "{before} in line {line}. Keep one of the two.",
             level=pair[0],
             games=games,
             opponent=pair[1],
@@ -307,7 +307,7 @@ def find_chart_file(name_or_path: str | Path) -> ChartFile:
     if (found := named_chart(name)) is None:
         raise refusal(
             printable(name),
-            "there is no such file, and no chart has this name; name a file, or {charts}",
+            "there's no chart or file with this name. Charts: {charts}",
             charts=", ".join(chart_names()),
         )
     draft = ChartDraft(found.name, tuple(found.rows)) if isinstance(found, Chart) else found
@@ -378,7 +378,8 @@ def chip_chart_of(name_or_path: str) -> ChipChart:
         return CHIP_CHARTS[name_or_path]
     if not Path(name_or_path).exists() and name_or_path != "-":
         raise InputError(
-            "chip chart is {name!r}; give {charts}, or a file with the columns {columns}",
+            "there's no chip chart or file {name!r}. Charts: {charts}. A file needs the "
+            "columns {columns}.",
             name=name_or_path,
             charts=listed(list(CHIP_CHARTS), "or"),
             columns=listed(list(CHIPS.columns)),

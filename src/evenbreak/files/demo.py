@@ -17,7 +17,7 @@ DEMO: Mapping[str, str] = {
     "demo_entrants.csv": "the players of a tournament",
     "demo_league.csv": "a league's results over two seasons",
     "demo_roster.csv": "the players of a club and their ratings",
-    "demo_pairs.csv": "who plays whom tonight",
+    "demo_pairs.csv": "who plays who tonight",
     "demo_team.csv": "a captain's team",
     "demo_opponents.csv": "the team across the table",
     "drill_log.csv": "a player's attempts at a progressive drill",
@@ -52,7 +52,7 @@ def write_demo(folder: str | Path) -> list[str]:
     new = {name: text for name, text in content.items() if not (there / name).exists()}
     others = [name for name in DEMO if name not in new and not _holds(there / name, content[name])]
     if others:
-        problem = "is there already and is not the demo's; name another folder"
+        problem = "already exists and isn't the demo's. Choose another folder."
         raise DataError([f"{there / name} {problem}" for name in others])
     if new:
         write_files(there, new)

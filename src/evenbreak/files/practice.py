@@ -144,7 +144,7 @@ def rows_of_drill(
     if "drill" not in table:
         if drill is not None:
             table.problems.add(
-                None, "has no column 'drill'; leave {drill} out", drill=Parameter("drill")
+                None, "has no column 'drill'. Leave {drill} out.", drill=Parameter("drill")
             )
         return rows
     cells = table.cells("drill")
@@ -154,7 +154,7 @@ def rows_of_drill(
     if any(cells):
         for line, text in zip(table.lines.tolist(), cells, strict=True):
             if not text:
-                table.problems.add(line, "drill is empty; write which drill it was")
+                table.problems.add(line, "drill is empty. Write which drill it was.")
     names: dict[str, str] = {}
     for text in filter(None, cells):
         names.setdefault(letters(text) or text, text)
@@ -164,7 +164,7 @@ def rows_of_drill(
         if len(names) > 1:
             table.problems.add(
                 None,
-                "has {n} drills ({drills}); name one of them with {drill}",
+                "has {n} drills ({drills}). Name one of them with {drill}.",
                 n=len(names),
                 drills=drills,
                 drill=Parameter("drill"),
@@ -382,13 +382,16 @@ def _shots(table: TextTable, drill: str | None) -> ShotsFile:
     if drill is not None:
         table.problems.add(
             None,
-            "is a log of single shots, which has no drills; leave {drill} out",
+            "is a log of single shots, which has no drills. Leave {drill} out.",
             drill=Parameter("drill"),
         )
     made, tried = table["made"], table["tried"]
     good = table.read["made"].good & table.read["tried"].good
     table.note(
-        good & (made > tried), "made {made} of {tried}; correct one of them", made=made, tried=tried
+        good & (made > tried),
+        "made {made} of {tried}. Correct one of them.",
+        made=made,
+        tried=tried,
     )
     cells = table.cells("shot" if "shot" in table else "drill")
     names: dict[str, str] = {}

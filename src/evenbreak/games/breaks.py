@@ -61,11 +61,12 @@ def checked_format(breaks: Any) -> BreakFormat:
     >>> checked_format(lambda breaker, winner: winner - 1)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: breaks(1, 1), the next breaker, is 0; give 1 or 2
+    evenbreak.errors.InputError: breaks(1, 1), the next breaker, must be 1 or 2; you gave 0
     """
     if not callable(breaks):
         raise InputError(
-            "breaks is {breaks!r}; give a break format such as winner_breaks", breaks=breaks
+            "breaks must be a break format such as winner_breaks; you gave {breaks!r}",
+            breaks=breaks,
         )
     for breaker in (1, 2):
         for winner in (1, 2):

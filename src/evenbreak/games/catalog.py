@@ -82,9 +82,9 @@ def game_of_catalog(name: str, *chances: float) -> tuple[str, Game]:
     if len(matching) != 1:
         close = get_close_matches("".join(words), joined, n=3)
         near = matching or [joined[text] for text in close] or [*CATALOG, *added("game")]
-        which = "names several games" if matching else "is not a game of the catalog"
+        which = "names several games" if matching else "isn't a game of the catalog"
         raise InputError(
-            "{name!r} {which}; give one of: {near}", name=name, which=which, near="; ".join(near)
+            "{name!r} {which}. Choose one of: {near}", name=name, which=which, near="; ".join(near)
         )
     game = CATALOG[matching[0]]
     try:

@@ -68,7 +68,7 @@ def _chances_sum_to_1(game: Game, tried: _Tried) -> Iterator[str]:
             yield f"the moves from {state!r} differ when asked for twice"
         for target, p in moves.items():
             if not 0.0 <= p <= 1.0:
-                yield f"the move {state!r} -> {target!r} has probability {p!r}; give 0 to 1"
+                yield f"the move {state!r} -> {target!r} has probability {p!r}. Give 0 to 1."
         if moves and not math.isclose(total := sum(moves.values()), 1.0, abs_tol=1e-9):
             yield f"the moves from {state!r} have chances that sum to {float(total):.9g}, and not 1"
 
@@ -80,7 +80,7 @@ def _winners_end_it(game: Game, tried: _Tried) -> Iterator[str]:
             if winner is not None:
                 yield f"player {winner} has won in {state!r}, but there are moves from it"
         elif winner is not None and winner not in range(1, 1000):
-            yield f"the winner in {state!r} is {winner!r}; give 1, 2, ..., or None if nobody won"
+            yield f"the winner in {state!r} must be 1, 2, ... or None; it is {winner!r}"
 
 
 def _states_print_well(_: Game, tried: _Tried) -> Iterator[str]:

@@ -88,7 +88,7 @@ class ScoreStates(Sequence[tuple[int, ...]]):
             places = np.flatnonzero(here[start:stop])
             if places.size:
                 return int(places[0]) + start
-        raise ValueError(f"{value!r} is not a state")
+        raise ValueError(f"{value!r} isn't a state")
 
 
 def race_arcs(

@@ -79,7 +79,7 @@ class Rack(Generic[ChanceT]):
         if self.p2 is not None:
             self._check("2")
         elif self.q2 is not None:
-            raise InputError("q2 is given without p2; give both, or neither")
+            raise InputError("q2 is given without p2. Give both, or neither.")
         _ = self.shape  # raises if p1 and p2 do not broadcast
 
     def _check(self, player: str) -> None:
@@ -95,7 +95,7 @@ class Rack(Generic[ChanceT]):
             many = not isinstance(off, float | ManyAsOne)
             if (off.max(initial=0.0) if many else off) > _ROUNDING:
                 raise InputError(
-                    "p{player} and q{player} do not add up to 1; correct one of them", player=player
+                    "p{player} and q{player} don't add up to 1. Correct one of them.", player=player
                 )
         for name, chance in (("p", p), ("q", q)):
             own = copy(chance)  # so that a later change to the caller's array changes nothing here
@@ -159,12 +159,12 @@ class Rack(Generic[ChanceT]):
         >>> Rack([0.4, 0.5]).of_numbers()
         Traceback (most recent call last):
         ...
-        evenbreak.errors.InputError: p1 is an array; give one number, or loop over them
+        evenbreak.errors.InputError: p1 must be one number. For an array, loop over it.
         """
         for name, value in (("p1", self.p1), ("p2", self.p2)):
             if value is not None and not isinstance(value, float | ManyAsOne):
                 raise InputError(
-                    "{name} is an array; give one number, or loop over them", name=name
+                    "{name} must be one number. For an array, loop over it.", name=name
                 )
         return cast("Rack[float]", self)
 

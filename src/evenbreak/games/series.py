@@ -49,7 +49,9 @@ class Series:
 
     def __post_init__(self) -> None:
         if not isinstance(self.rack, Rack):
-            raise InputError("rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)", rack=self.rack)
+            raise InputError(
+                "rack must be a Rack(p) or a Rack(p1, p2); you gave {rack!r}", rack=self.rack
+            )
         self.rack.of_numbers()
         checked_format(self.breaks)
         first = one_of(self.first_breaker, "first_breaker", (1, 2))

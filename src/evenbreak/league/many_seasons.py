@@ -137,8 +137,9 @@ class _Chunk:
             self.highest, self.lowest = int(rating.max()), int(rating.min())
         if max(self.highest, -self.lowest) > _HIGHEST or self.rounds > _MANY:
             raise AccuracyError(
-                "weeks is {weeks}, but by week {week} a rating is beyond {highest} points, "
-                "or a player has played more than {many} matches; play fewer weeks",
+                "weeks is {weeks}, but by week {week} a rating is beyond {highest} "
+                "points, or a player has played more than {many} matches. Play fewer "
+                "weeks.",
                 weeks=self.season.weeks,
                 week=week,
                 highest=_HIGHEST,

@@ -88,7 +88,8 @@ class LeaguePlayers:
         many = np.size(self.rating)
         if many < 2 or np.ndim(self.rating) != 1:
             raise InputError(
-                "{rating} has {many} values; give one for each of two players or more", many=many
+                "{rating} must have one value for each player, two or more; it has {many}",
+                many=many,
             )
         for name in _COLUMNS:
             object.__setattr__(self, name, _column(getattr(self, name), name, many))
@@ -97,7 +98,9 @@ class LeaguePlayers:
             names = tuple(self.names)
             if len(names) != many or len(set(names)) < many:
                 raise InputError(
-                    "{names} is {value!r}; give {many} different names", value=names, many=many
+                    "{names} must be {many} different names; you gave {value!r}",
+                    value=names,
+                    many=many,
                 )
             object.__setattr__(self, "names", names)
 
@@ -172,7 +175,7 @@ def _column(values: Any, name: str, many: int) -> NDArray[Any]:
         whole_numbers(values, name, wanted=wanted)
     if numbers.shape not in ((), (many,)):
         raise InputError(
-            "{name} has the shape {numbers_shape}; give one value for each of {many} players",
+            "{name} must have one value for each of {many} players; its shape is {numbers_shape}",
             name=name,
             numbers_shape=numbers.shape,
             many=many,
@@ -188,8 +191,8 @@ def _refuse_leaving_early(players: LeaguePlayers) -> None:
     if gone.size:
         leaves, joins = players.leaves[gone[0]], players.joins[gone[0]]
         raise InputError(
-            "a player leaves in week {leaves} and joins in week {joins}; give a week not "
-            "before that, or 0 if the player stays",
+            "a player leaves in week {leaves} and joins in week {joins}. Give a week not "
+            "before that, or 0 if the player stays.",
             leaves=leaves,
             joins=joins,
         )

@@ -142,9 +142,12 @@ def reestimate(
     by = scale_of(scale)
     skills = np.asarray(skill, dtype=float)
     if skills.ndim != 1 or len(skills) < 2 or not np.isfinite(skills).all():
-        raise InputError("skill is not a list of two finite numbers or more; give one per player")
+        raise InputError("skill isn't a list of two finite numbers or more. Give one per player.")
     if half_life is not None and not half_life > 0.0:
-        raise InputError("{half_life} is {value!r}; give weeks above 0, or None", value=half_life)
+        raise InputError(
+            "{half_life} must be a number of weeks above 0, or None; you gave {value!r}",
+            value=half_life,
+        )
     plan = _Plan(
         skill=np.append(skills, skills.mean() + by.points_per_doubling * np.array(_NEWCOMERS)),
         begun_with=len(skills),

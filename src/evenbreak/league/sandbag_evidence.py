@@ -124,8 +124,8 @@ class SandbagEvidence:
             top = held.reshape(held.shape[0], -1).max(axis=1)
             if not top.all():
                 raise AccuracyError(
-                    "a result is all but impossible by the ratings; check them, and whether "
-                    "they are on the scale of the system"
+                    "a result is all but impossible by the ratings. Check them, and "
+                    "whether they are on the scale of the system."
                 )
             setattr(self, name, held / top.reshape(-1, *[1] * (held.ndim - 1)))
             self._log[name] += np.log(top)

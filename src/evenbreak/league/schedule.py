@@ -73,7 +73,7 @@ class RoundRobin:
         """Return the rounds of a week (1 is the first); nothing is drawn."""
         if count != self.players:
             raise InputError(
-                "{players} is {value}, but the league has {count}; give RoundRobin({count})",
+                "{players} is {value}, but the league has {count}. Give RoundRobin({count}).",
                 value=self.players,
                 count=count,
             )
@@ -165,8 +165,8 @@ class FixedSchedule:
             object.__setattr__(self, name, _whole_column(column, name, least))
         if not len(self.week) == len(self.a) == len(self.b):
             raise InputError(
-                "week, a and b have {n_week}, {n_a} and {n_b} values; give one of each for "
-                "every match",
+                "week, a and b have {n_week}, {n_a} and {n_b} values. Give one of each "
+                "for every match.",
                 n_week=len(self.week),
                 n_a=len(self.a),
                 n_b=len(self.b),
@@ -174,7 +174,7 @@ class FixedSchedule:
         if (self.a == self.b).any():
             row = int(np.argmax(self.a == self.b))
             raise InputError(
-                "match {row} has player {a} twice; give two players", row=row, a=self.a[row]
+                "match {row} has player {a} twice. Give two players.", row=row, a=self.a[row]
             )
 
     def __len__(self) -> int:
@@ -190,8 +190,8 @@ class FixedSchedule:
         most = int(max(self.a.max(initial=-1), self.b.max(initial=-1)))
         if most >= count:
             raise InputError(
-                "the schedule has a player {most}, but the league has players 0 to {count}; "
-                "leave the matches out, or add the player",
+                "the schedule has a player {most}, but the league has players 0 to "
+                "{count}. Leave the matches out, or add the player.",
                 most=most,
                 count=count - 1,
             )
@@ -245,7 +245,7 @@ def _whole_column(values: ArrayLike, name: str, least: int) -> Ints:
     numbers = whole_numbers(values, name, at_least=least)
     if numbers.ndim != 1:
         raise InputError(
-            "{name} has shape {numbers_shape}; give one whole number for each match",
+            "{name} must have one whole number for each match; its shape is {numbers_shape}",
             name=name,
             numbers_shape=numbers.shape,
         )

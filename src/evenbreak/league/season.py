@@ -71,7 +71,9 @@ class Season:
 
     def __post_init__(self) -> None:
         if not isinstance(self.players, LeaguePlayers):
-            raise InputError("{players} is {value!r}; give LeaguePlayers", value=self.players)
+            raise InputError(
+                "{players} must be LeaguePlayers; you gave {value!r}", value=self.players
+            )
         put = object.__setattr__
         if not isinstance(self.system, StepSystem):
             put(self, "system", steps_of(self.system))
@@ -137,7 +139,7 @@ def _check_schedule(schedule: Any, players: int) -> None:
         schedule.pairs(1, np.random.default_rng(0), players)
     elif not hasattr(schedule, "pairs"):
         raise InputError(
-            "{schedule} is {value!r}; give RoundRobin, RandomPairing or FixedSchedule",
+            "{schedule} must be RoundRobin, RandomPairing or FixedSchedule; you gave {value!r}",
             value=schedule,
         )
 
@@ -236,7 +238,7 @@ class Tally:
         if not isinstance(other, Tally):
             return NotImplemented
         if len(self.matches) != len(other.matches) or self.errors.shape != other.errors.shape:
-            raise InputError("the two tallies are of different seasons; add those of one season")
+            raise InputError("the two tallies are of different seasons. Add those of one season.")
         return Tally(**{field.name: _added(self, other, field.name) for field in fields(Tally)})
 
     @property

@@ -129,7 +129,7 @@ class World:
         for name in ("newcomers", "sandbaggers"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 raise InputError(
-                    "{name} is {value}; give a share from 0 to 1",
+                    "{name} must be a share from 0 to 1; you gave {value}",
                     name=name,
                     value=getattr(self, name),
                 )

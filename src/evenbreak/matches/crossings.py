@@ -192,13 +192,13 @@ def rack_along(p1: Any, *, p2: float | None = None, break_odds: float | None = N
     """
     if p2 is not None:
         if break_odds is not None:
-            raise InputError("p2 and break_odds cannot both stay fixed; leave one out")
+            raise InputError("p2 and break_odds can't both stay fixed. Leave one out.")
         return Rack(p1, number_probability(p2, "p2"))
     if break_odds is None:
         return Rack(p1)
     if not 0.0 < break_odds < np.inf:
         raise InputError(
-            "{break_odds} is {value!r}; give a finite number above 0", value=break_odds
+            "{break_odds} must be a finite number above 0; you gave {value!r}", value=break_odds
         )
     lost = break_odds * (1.0 - np.asarray(p1))
     return Rack(p1, lost / (lost + p1))

@@ -139,7 +139,7 @@ def evening(
     laws = [_chances(length, f"length {k}") for k, length in enumerate(lengths, 1)]
     if not 0 < len(laws) <= _MOST_MATCHES:
         raise InputError(
-            "{lengths} has {n_found:,} matches; give 1 to {most_matches:,}",
+            "{lengths} must have 1 to {most_matches:,} matches; it has {n_found:,}",
             n_found=len(laws),
             most_matches=_MOST_MATCHES,
         )
@@ -159,16 +159,16 @@ def _chances(length: LengthLike, name: str) -> Floats:
     right = games.ndim == 1 and games.shape == probability.shape and games.size > 0
     if not right or games.dtype.kind not in "iu" or probability.dtype.kind not in "iuf":
         raise InputError(
-            "{name} is not a length; give whole numbers of games, with a chance each", name=name
+            "{name} isn't a length. Give whole numbers of games, with a chance each.", name=name
         )
     if games.min() < 0 or games.max() > _LONGEST:
         raise InputError(
-            "{name} has games outside 0 to {longest:,}; give numbers of games",
+            "{name} has games outside 0 to {longest:,}. Give numbers of games.",
             name=name,
             longest=_LONGEST,
         )
     if not (probability >= 0).all() or abs(probability.sum() - 1.0) > 1e-6:
-        raise InputError("{name} has chances that do not sum to 1; give probabilities", name=name)
+        raise InputError("{name} has chances that don't sum to 1. Give probabilities.", name=name)
     counted = np.bincount(games, probability)
     return np.asarray(counted / counted.sum())
 
@@ -179,14 +179,14 @@ def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int)
         return np.arange(2 * matches).reshape(matches, 2)
     if len(players) != matches:
         raise InputError(
-            "{players} has {n_players} pairs for {matches} matches; give one for each",
+            "{players} has {n_players} pairs for {matches} matches. Give one for each.",
             n_players=len(players),
             matches=matches,
         )
     number: dict[Hashable, int] = {}
     for first, second in players:
         if first == second:
-            raise InputError("{players} has {one!r} on both sides; give two players", one=first)
+            raise InputError("{players} has {one!r} on both sides. Give two players.", one=first)
     return np.array(
         [[number.setdefault(player, len(number)) for player in pair] for pair in players]
     )

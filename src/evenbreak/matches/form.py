@@ -224,8 +224,8 @@ def given_score(match: Match, weights: Floats) -> Floats:
         return weights
     if match.break_matters:
         raise InputError(
-            "the games played show the form of the day, but not without who broke them; leave the "
-            "score out, or form"
+            "the games played show the day-to-day form, but not without who broke them. "
+            "Leave the score out, or form."
         )
     unit = unit_of(match)
     if isinstance(unit, Rack):

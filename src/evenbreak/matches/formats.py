@@ -88,7 +88,7 @@ class MatchFormat:
             object.__setattr__(self, name, whole(getattr(self, name), name, at_least=1))
         if self.ahead and self.win_by > 1:
             raise InputError(
-                "{win_by} is {value} in an n-ahead match; leave it out", value=self.win_by
+                "{win_by} is {value} in an n-ahead match. Leave it out.", value=self.win_by
             )
         if self.breaks is not None:
             one_of(self.breaks, "breaks", tuple(BREAK_FORMATS))
@@ -184,7 +184,9 @@ def match_format(text: str) -> MatchFormat:
     >>> match_format("nine games")
     Traceback (most recent call last):
     ...
-    evenbreak.matches.formats.NotAFormatError: 'nine games' is not a match format; write ...
+    evenbreak.matches.formats.NotAFormatError: 'nine games' isn't a match format. Write 9:5, 'race
+        to 7', '7:7 win by 2', 'ahead 5:3', '3:1 of 3:3' or 'best of 9', perhaps followed by 'winner
+        breaks'.
     """
     words = " ".join(str(text).lower().split())
     words = re.sub(rf"(?<=\d) ?{BETWEEN} ?(?=\d)", ":", words)
@@ -192,7 +194,8 @@ def match_format(text: str) -> MatchFormat:
     for most in map(int, _BEST_OF.findall(words)):
         if most % 2 == 0:
             raise InputError(
-                "{text!r}: the best of {most} can end level; give an odd number, or write {most_2}",
+                "{text!r}: the best of {most} can end level. Give an odd number, or "
+                "write {most_2}.",
                 text=text,
                 most=most,
                 most_2=_half(most),
@@ -207,19 +210,19 @@ def match_format(text: str) -> MatchFormat:
         kinds = [] if part is None else [part[kind] for kind in ("race", "ahead", "lead")]
         if part is None or kinds.count(None) < 2 or not (part["n"] or any(kinds)):
             raise NotAFormatError(
-                "{text!r} is not a match format; write {ways}", text=text, ways=_WAYS
+                "{text!r} isn't a match format. Write {ways}.", text=text, ways=_WAYS
             )
         ahead = bool(part["ahead"] or part["lead"])
         m, n, win_by = (int(part[name] or part[spelled] or 1) for name, spelled in _NUMBERS)
         if not 1 <= min(m, n, win_by) <= max(m, n, win_by) <= LONGEST:
             raise InputError(
-                "{text!r} has a number that is not from 1 to {longest}; correct it",
+                "{text!r} has a number that isn't from 1 to {longest}. Correct it.",
                 text=text,
                 longest=LONGEST,
             )
         if ahead and win_by > 1:
             raise InputError(
-                "{text!r}: 'ahead' does not go with 'win by'; leave one out", text=text
+                "{text!r}: 'ahead' doesn't go with 'win by'. Leave one out.", text=text
             )
         innermost = inner is None
         inner = MatchFormat(m, n, ahead, win_by, inner, breaks if innermost else None)

@@ -97,13 +97,13 @@ def match_length(
     way = way_of_limit(via)
     if way == "eigen":
         raise InputError(
-            "via is 'eigen', but a length is not a stochastic limit; give 'kernel' or 'elimination'"
+            "via is 'eigen', but a length isn't a stochastic limit. Give 'kernel' or 'elimination'."
         )
     if form:
         return _with_form(match, score, tail, via, form)
     if not isinstance(match, Match) and isinstance(match, Game):
         if via == "kernel":
-            raise InputError("via is 'kernel', but a game of your own has none; use elimination")
+            raise InputError("via is 'kernel', but a game of your own has none. Use elimination.")
         return game_odds(match, score, tail=tail).length
     match, shape = at_score(match, score)
     if way is not None:
@@ -142,7 +142,7 @@ def _with_form(
 ) -> MatchLength[Any, Any]:
     if via is not None:
         raise InputError(
-            "via is for one chain, but with form the answer is an average over many; leave one out"
+            "via is for one chain, but with form the answer is an average over many. Leave one out."
         )
     match, shape = at_score(match, score)
     many, weights = on_days(match, form_of(form))
@@ -261,8 +261,9 @@ class MatchLength(Generic[ChanceT, MeanT]):
         ends = np.asarray(1.0 - self.p_never_ends)
         if not self.bounded and ((ends >= q) & (q < 1.0) & ~is_reached).any():
             raise AccuracyError(
-                "the {q:g} quantile lies beyond {span} racks, where the distribution is cut "
-                "off; give a smaller tail, or use match_odds for the .5 and .9 quantiles",
+                "the {q:g} quantile lies beyond {span} racks, where the distribution is "
+                "cut off. Give a smaller tail, or use match_odds for the .5 and .9 "
+                "quantiles.",
                 q=q,
                 span=self.span,
             )

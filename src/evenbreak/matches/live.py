@@ -155,8 +155,8 @@ def live_odds(
         one_of(winner, f"winner of rack {i}", (1, 2))
         if state not in values.moves:
             raise InputError(
-                "the match is over after {i} of {n_winners} racks, at {score}:{score_2}; "
-                "leave out the other racks",
+                "the match is over after {i} of {n_winners} racks, at {score}:{score_2}. "
+                "Leave out the other racks.",
                 i=i - 1,
                 n_winners=len(winners),
                 score=scores[0][0],
@@ -233,8 +233,8 @@ def _moves_in_form(match: Match, form: float) -> RackMoves:
 
     if not order_is_free(match):
         raise InputError(
-            "form is given, but the match is not a race of racks in which the break does not "
-            "matter; leave it out"
+            "form is given, but the match isn't a race of racks in which the break "
+            "doesn't matter. Leave it out."
         )
     fresh, weights = on_days(replace(match, score=(0, 0)), form_of(form))
     p = rack_in(fresh).chance(1)
@@ -251,7 +251,7 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     inside, of_set = unit_of(match), Parameter("set_score")
     if isinstance(inside, Rack) or not isinstance(inside.rack, Rack):
         raise InputError(
-            "{set_score} is given, but the match is not one of sets of racks; leave it out",
+            "{set_score} is given, but the match isn't one of sets of racks. Leave it out.",
             set_score=of_set,
         )
     try:
@@ -262,11 +262,11 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     if under_way.decided(*under_way.score) is not None:
         a, b = under_way.score
         raise InputError(
-            "{set_score} is {a}:{b}, where the set is over; count it in the score", a=a, b=b
+            "{set_score} is {a}:{b}, where the set is over. Count it in the score.", a=a, b=b
         )
     if match.decided(*match.score) is not None:
         raise InputError(
-            "{set_score} is given, but the match is over; leave it out", set_score=of_set
+            "{set_score} is given, but the match is over. Leave it out.", set_score=of_set
         )
     return (*match.start[:-1], under_way.start)
 

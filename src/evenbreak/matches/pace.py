@@ -98,7 +98,7 @@ def pace_of(discipline: str) -> Pace:
     """
     if discipline not in PACES:
         raise InputError(
-            "{discipline} is {value!r}; give one of {paces}",
+            "{discipline} must be one of {paces}; you gave {value!r}",
             value=discipline,
             paces=", ".join(PACES),
         )

@@ -31,11 +31,13 @@ def checked_match(match: AnyMatch) -> AnyMatch:
     >>> checked_match(Rack(0.5))  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: match is Rack(p1=0.5, p2=None); give a Race or an Ahead...
+    evenbreak.errors.InputError: match must be a Race or an Ahead; you gave Rack(p1=0.5, p2=None).
+        For a game use game_odds(game).
     """
     if not isinstance(match, Match):
         raise InputError(
-            "match is {match!r}; give a Race or an Ahead, or ask game_odds(game)", match=match
+            "match must be a Race or an Ahead; you gave {match!r}. For a game use game_odds(game).",
+            match=match,
         )
     innermost = match.innermost_rack
     if isinstance(innermost, Rack):
@@ -150,8 +152,8 @@ def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) ->
         final, winner_in = _absorbing(chain), lambda state: game.nodes[state].get("winner")
     else:
         raise InputError(
-            "{game} is {value!r}; give an object with start, moves and winner, or a "
-            "networkx.DiGraph",
+            "{game} must be an object with start, moves and winner, or a "
+            "networkx.DiGraph; you gave {value!r}",
             value=game,
         )
     _check_over(chain, final, winner_in)
@@ -177,13 +179,13 @@ def rack_of_game(game: Game) -> Rack[float]:
     others = ends.by_winner.keys() - {1, 2, None}
     if others:
         raise GameError(
-            "player {str} can win the rack; give a game of two players", str=min(map(str, others))
+            "player {str} can win the rack. Give a game of two players.", str=min(map(str, others))
         )
     p, q = ends.p_win(1), ends.p_win(2)
     if not abs(p + q - 1.0) <= _CERTAIN:
         raise GameError(
-            "the rack has no winner with probability {p:.6g}; give a game that player 1 or "
-            "player 2 wins in the end",
+            "the rack has no winner with probability {p:.6g}. Give a game that player 1 "
+            "or player 2 wins in the end.",
             p=1.0 - p - q,
         )
     return Rack(p / (p + q), q1=q / (p + q))
@@ -202,8 +204,9 @@ def _check_over(
     for state in chain.states:
         if state not in over and (winner := winner_in(state)) is not None:
             raise GameError(
-                "player {winner} has won in {state!r}, but there are moves from it; give no "
-                "moves from a state in which the game is over, and no winner in any other",
+                "player {winner} has won in {state!r}, but there are moves from it. Give "
+                "no moves from a state in which the game is over, and no winner in any "
+                "other.",
                 winner=winner,
                 state=state,
             )
@@ -216,8 +219,8 @@ def _player(winner: Any, state: Hashable) -> int | None:
         return whole(winner, "winner", at_least=1)
     except InputError:
         raise GameError(
-            "the winner in {state!r} is {winner!r}; give the number of a player, 1, 2, ..., "
-            "or None for nobody",
+            "the winner in {state!r} is {winner!r}. Give the number of a player, 1, 2, "
+            "..., or None for no one.",
             state=state,
             winner=winner,
         ) from None

@@ -116,7 +116,7 @@ def race_odds(
     need_1 = whole(m, "m") - whole(score[0], "score of player 1")
     need_2 = whole(n, "n") - whole(score[1], "score of player 2")
     if rack.break_matters and breaks is None:
-        raise InputError("breaks is missing: with p2 the break matters; give winner_breaks, ...")
+        raise InputError("breaks is missing: with p2 the break matters. Give winner_breaks, ...")
     if need_1 <= 0 or need_2 <= 0:
         return _already_won(need_1, need_2)
     steps = next_breaks(rack, breaks)
@@ -175,7 +175,7 @@ def next_breaks(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, flo
 def _already_won(need_1: int, need_2: int) -> RaceOdds:
     if need_1 <= 0 and need_2 <= 0:
         raise InputError(
-            "both players have won at this score; give a score at which at most one has"
+            "both players have won at this score. Give a score at which at most one has."
         )
     won_1 = float(need_1 <= 0)
     return RaceOdds([0], [won_1], [1.0 - won_1], 0.0, won_1, 1.0 - won_1)

@@ -125,7 +125,7 @@ def win_probability(
         if way is not None:
             return odds_by_limit(match, way, score).p_win(player)
         if via == "kernel":
-            raise InputError("via is 'kernel', but a game of your own has none; use elimination")
+            raise InputError("via is 'kernel', but a game of your own has none. Use elimination.")
         ends = ends_of_game(match, score)
         return exact_win_of_game(ends, player) if exact else ends.p_win(player)
     one_of(player, "player", (1, 2))
@@ -198,8 +198,8 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
         won_1, won_2 = needs_1 == 0, needs_2 == 0
         if (won_1 & won_2).any():
             raise InputError(
-                "m and n are both 0 somewhere, but only one player can have won; give 1 or more "
-                "for the other"
+                "m and n are both 0 somewhere, but only one player can have won. Give 1 "
+                "or more for the other."
             )
         chance = np.where(won_1, 1.0, np.where(won_2, 0.0, chance))
     return plain(np.asarray(chance))

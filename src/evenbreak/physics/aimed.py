@@ -125,7 +125,7 @@ def aimed_shot(
     diameter = strike.ball.diameter
     distance = float(np.linalg.norm(standing - start))
     if np.linalg.norm(goal - standing) <= strike.ball.radius:
-        raise InputError("target is within the object ball; give a point farther away")
+        raise InputError("target is within the object ball. Give a point farther away.")
     for name, place in (("cue_ball", start), ("object_ball", standing)):
         on_table(place, name, table, strike.ball.radius)
     travel_for(0.0, distance, diameter)  # refuses balls that overlap
@@ -176,8 +176,8 @@ def _solve(short: Callable[[float], float]) -> float:
     low, high = -_THINNEST, _THINNEST
     if short(low) < 0.0 or short(high) > 0.0:
         raise InputError(
-            "target cannot be reached: the cut would be a right angle or more; give a target "
-            "farther ahead of the cue ball, or move the balls"
+            "target can't be reached: the cut would be a right angle or more. Give a "
+            "target farther ahead of the cue ball, or move the balls."
         )
     for _ in range(50):
         middle = 0.5 * (low + high)

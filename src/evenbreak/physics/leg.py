@@ -250,7 +250,9 @@ def place_of(value: Sequence[float], name: str) -> Floats:
     place = numbers(value, name)
     if place.shape != (2,):
         raise InputError(
-            "{name} has shape {place_shape}; give x and y", name=name, place_shape=place.shape
+            "{name} must have x and y; its shape is {place_shape}",
+            name=name,
+            place_shape=place.shape,
         )
     return place
 
@@ -261,8 +263,8 @@ def on_table(position: Floats, name: str, table: PoolTable, radius: float) -> No
     inside = radius - _SLACK <= x <= table.length - radius + _SLACK
     if not (inside and radius - _SLACK <= y <= table.width - radius + _SLACK):
         raise InputError(
-            "{name} is at ({x:.4g}, {y:.4g}) m; give a place on the table, {radius:.4g} m or "
-            "more inside its {length:.4g} by {width:.4g} m",
+            "{name} is at ({x:.4g}, {y:.4g}) m. Give a place on the table, {radius:.4g} "
+            "m or more inside its {length:.4g} by {width:.4g} m.",
             name=name,
             x=x,
             y=y,

@@ -209,7 +209,7 @@ def shot(
     mu = one_friction(mu)
     cut, direction = number(cut, "cut"), number(direction, "direction")
     if abs(cut) >= 0.5 * math.pi:
-        raise InputError("cut is {cut:.6g}; give an angle between -pi/2 and pi/2", cut=cut)
+        raise InputError("cut must be an angle between -pi/2 and pi/2; you gave {cut:.6g}", cut=cut)
     ball = strike.ball
     travel = travel_for(cut, number(distance, "distance"), ball.diameter)
     if cue_ball is None:
@@ -243,11 +243,11 @@ def shot(
 def sound_strike(strike: Strike) -> None:
     """Raise an error if there is more than one strike, or it is a miscue."""
     if np.ndim(kind_of(strike, "strike", Strike).speed):
-        raise InputError("strike is {speed} strikes; give one", speed=np.size(strike.speed))
+        raise InputError("strike must be one; you gave {speed}", speed=np.size(strike.speed))
     if strike.miscue:
         raise InputError(
             "offset is {off_center:.4g} of the radius in all, a miscue: this tip slips "
-            "beyond {tip_friction:.4g}; give less, or a tip with more friction",
+            "beyond {tip_friction:.4g}. Give less, or a tip with more friction.",
             off_center=strike.off_center,
             tip_friction=miscue_offset(strike.cue.tip_friction),
         )
@@ -268,8 +268,8 @@ def travel_for(cut: float, distance: float, diameter: float) -> float:
     """
     if distance < diameter * (1.0 - _ROUNDING):
         raise InputError(
-            "distance is {distance:.4g} m between the centers; give {diameter:.4g} m (where "
-            "the balls touch) or more",
+            "distance is {distance:.4g} m between the centers. Give {diameter:.4g} m "
+            "(where the balls touch) or more.",
             distance=distance,
             diameter=diameter,
         )

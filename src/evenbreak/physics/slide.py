@@ -291,7 +291,7 @@ def _vectors(value: Any, name: str, size: int) -> Floats:
     array = numbers(value, name)
     if array.ndim == 0 or array.shape[-1] != size:
         raise InputError(
-            "{name} has shape {array_shape}; give (..., {size})",
+            "{name} must have shape (..., {size}); its shape is {array_shape}",
             name=name,
             array_shape=array.shape,
             size=size,
@@ -304,7 +304,9 @@ def _forward(spin: Any, name: str = "spin") -> Floats:
     spin = numbers(spin, name)
     if spin.ndim == 0 or spin.shape[-1] not in (2, 3):
         raise InputError(
-            "{name} has shape {spin_shape}; give (..., 3)", name=name, spin_shape=spin.shape
+            "{name} must have shape (..., 3); its shape is {spin_shape}",
+            name=name,
+            spin_shape=spin.shape,
         )
     return np.stack([spin[..., 1], -spin[..., 0]], axis=-1)
 

@@ -49,7 +49,7 @@ def numbers(value: Any, name: str, *, low: float = -LARGEST, high: float = LARGE
     >>> numbers(-1.0, "speed", low=0.0)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: speed is -1.0; give a number from 0 to 1e+50
+    evenbreak.errors.InputError: speed must be a number from 0 to 1e+50; it is -1.0
     """
     return floats(value, name, low=low, high=high)
 
@@ -60,6 +60,6 @@ def positive(value: Any, name: str) -> Floats:
     >>> positive(0.0, "gravity")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: gravity is 0.0; give a number from 1e-50 to 1e+50
+    evenbreak.errors.InputError: gravity must be a number from 1e-50 to 1e+50; it is 0.0
     """
     return floats(value, name, low=LEAST, high=LARGEST)

@@ -100,11 +100,13 @@ def draw(
     )
     missing = [state for state in graph if state not in places]
     if missing:
-        raise InputError(f"layout has no place for state {missing[0]!r}; give it (x, y)")
+        raise InputError(f"layout has no place for state {missing[0]!r}. Give it (x, y).")
     if layout is not None:
         for state in graph:
             if floats(places[state], f"layout of state {state!r}").shape != (2,):
-                raise InputError(f"layout of state {state!r} is {places[state]!r}; give (x, y)")
+                raise InputError(
+                    f"layout of state {state!r} must be (x, y); you gave {places[state]!r}"
+                )
 
     hook = getattr(game, "label", None)
     written = hook if callable(hook) else partial(_state_label, graph)

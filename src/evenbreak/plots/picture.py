@@ -64,7 +64,8 @@ def in_our_look(draw: Callable[Asked, Drawn]) -> Callable[Asked, Drawn]:
         ax = kwargs.get("ax")
         if ax is not None and (not isinstance(ax, Axes) or ax.name != "rectilinear"):
             raise InputError(
-                f"ax is {ax!r:.60}; give plain axes, such as one of those of figure.subplots()"
+                "ax must be plain axes, such as one of those of figure.subplots(); you "
+                f"gave {ax!r:.60}"
             )
         with our_look() if ax is None else nullcontext():
             return draw(*args, **kwargs)

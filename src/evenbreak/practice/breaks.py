@@ -240,7 +240,7 @@ def compare_break_formats(
     player 2   0.5000 -0.5000
     """
     if not isinstance(rack, Rack):
-        raise InputError("rack is {rack!r}; give a Rack(p) or a Rack(p1, p2)", rack=rack)
+        raise InputError("rack must be a Rack(p) or a Rack(p1, p2); you gave {rack!r}", rack=rack)
     rack.of_numbers()
     way = way_of_limit(via)
     wanted = "the points of a rack, 0 or more"
@@ -297,7 +297,7 @@ class Breakers(NamedTuple):
         rack = Rack(p1, p2)
         checked_format(breaks)
         if p2 is None:
-            raise InputError("p2 is missing; give P(player 2 wins a rack that player 2 breaks)")
+            raise InputError("p2 is missing. Give P(player 2 wins a rack that player 2 breaks).")
         keeps_1, keeps_2 = np.broadcast_arrays(rack.chance(1, 1), rack.chance(2, 2))
         win, lose = (keeps_1, rack.chance(1, 2)), (rack.chance(2, 1), keeps_2)
         passes = (

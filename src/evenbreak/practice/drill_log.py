@@ -59,24 +59,24 @@ class DrillLog:
     def __post_init__(self) -> None:
         level = whole_numbers(self.level, "level", at_least=1)
         if level.ndim != 1 or not level.size:
-            raise InputError("level is empty or not a list; give the level of each attempt")
+            raise InputError("level is empty or not a list. Give the level of each attempt.")
         success = np.asarray(self.success)
         if success.shape != level.shape or not np.isin(success, (0, 1)).all():
-            raise InputError("success does not match level; give True or False for each attempt")
+            raise InputError("success doesn't match level. Give True or False for each attempt.")
         session = np.zeros(len(level)) if self.session is None else np.asarray(self.session)
         if session.shape != level.shape:
-            raise InputError("session does not match level; give a label for each attempt")
+            raise InputError("session doesn't match level. Give a label for each attempt.")
         highest = int(level.max())
         levels = highest if self.levels is None else whole(self.levels, "levels", at_least=1)
         if levels > MOST_LEVELS:
             raise InputError(
-                "the drill has {levels} levels; give {most_levels} at most",
+                "the drill must have at most {most_levels} levels; it has {levels}",
                 levels=levels,
                 most_levels=MOST_LEVELS,
             )
         if highest > levels:
             raise InputError(
-                "levels is {levels}, but the log has level {highest}; give more",
+                "levels is {levels}, but the log has level {highest}. Give more.",
                 levels=levels,
                 highest=highest,
             )

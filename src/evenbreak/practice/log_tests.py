@@ -298,7 +298,8 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
     attempts = int(log.attempts[1:].sum())
     if not attempts:
         raise InputError(
-            "the log has no attempt above level 1, from which p is estimated; log higher levels too"
+            "the log has no attempt above level 1, from which p is estimated. Log higher "
+            "levels too."
         )
     p = float(likeliest_p(successes, failures))
     allowed = float(chi2.ppf(confidence, 1)) / 2.0

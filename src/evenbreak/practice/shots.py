@@ -303,12 +303,14 @@ def compare_shots(
     shots = tuple(shots)
     for shot in shots:
         if not isinstance(shot, ShotChoice):
-            raise InputError("a shot is {shot!r}; give ShotChoice(name, p1, p2)", shot=shot)
+            raise InputError(
+                "a shot must be ShotChoice(name, p1, p2); you gave {shot!r}", shot=shot
+            )
     by_win = [(shot, shot.win(look_ahead, via=via)) for shot in shots]
     by_win.sort(key=lambda by_score: -round(by_score[1], 12))
     ranked = [shot for shot, _ in by_win]
     if not ranked:
-        raise InputError("shots is empty; give at least one ShotChoice")
+        raise InputError("shots must have at least one ShotChoice")
     wins = [win for _, win in by_win]
     best = max(wins)
     rivals = [wins[1] if len(wins) > 1 else None] + [wins[0]] * (len(wins) - 1)

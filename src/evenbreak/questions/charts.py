@@ -22,13 +22,13 @@ from evenbreak.ratings.scale import SCALES
 _MOST = 1_000_000
 _CHART = File("NAME_OR_FILE", chart_names)
 _AVERAGE = Field(
-    Number(-1e6, 1e6, " is not a rating; give a team's average, such as 447"),
+    Number(-1e6, 1e6, " isn't a rating. Give a team's average, such as 447"),
     "A team's average rating.",
     argument=True,
 )
-_POINTS = Number(0.0, 1e6, "; give 0 or more points", metavar="POINTS")
+_POINTS = Number(0.0, 1e6, " isn't 0 or more points", metavar="POINTS")
 _BESIDE = Field(_CHART, "A chart to compare with.", many=True)
-_MEETINGS = Field(Whole(1, 1000), "How many pairs of players meet in a round.", metavar="K")
+_MEETINGS = Field(Whole(1, 1000), "Pairs of players in a round.", metavar="K")
 
 Chart: TypeAlias = Annotated[str, Field(_CHART, "The chart.", argument=True)]
 
@@ -81,7 +81,7 @@ class ChartAudit(Question):
 """
     chart: Chart
     scale: Annotated[
-        ScaleOf, Says(usual="what fits the chart best; npl for a chart by skill level", more="")
+        ScaleOf, Says(usual="best fit to the chart; npl for a chart by skill level", more="")
     ] = None
     beside: Annotated[
         str | None,
@@ -93,7 +93,7 @@ class ChartAudit(Question):
     def check(self) -> None:
         """Refuse a chart for a picture that is not drawn."""
         if self.beside is not None and self.plot is None:
-            self.refuse("{beside} adds a chart to the picture; give {plot} FILE, or leave it out")
+            self.refuse("{beside} adds a chart to the picture. Give {plot} FILE, or leave it out.")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,7 +114,7 @@ class ChartDesign(Question):
         tuple[int, int],
         Field(
             RACE,
-            "The fewest games that the stronger and the weaker player may need.",
+            "The fewest games the stronger and the weaker player may need.",
             metavar="M:N",
         ),
     ] = (2, 2)
@@ -130,12 +130,12 @@ class ChartDesign(Question):
         int, Field(Whole(1, _MOST), "The chart may have at most N rows.", old=("rows",))
     ] = 12
     scale: OnScale = NPL
-    target: Annotated[Target, Says("The chance that the stronger player should have.")] = 0.5
+    target: Annotated[Target, Says("The target chance of the stronger player.")] = 0.5
     tilt: Annotated[
         float,
         Field(
             Number(
-                0.0, 1.0, "; give a number from 0 (the start of a band) to 1 (its end)", metavar="T"
+                0.0, 1.0, " isn't a number from 0 (the start of a band) to 1 (its end)", metavar="T"
             ),
             "Where in its band a race should be on target: 0 at the start (the stronger player is "
             "never the underdog), 0.5 in the middle, 1 at the end.",
@@ -145,7 +145,7 @@ class ChartDesign(Question):
         int | None,
         Field(
             Whole(1, _MOST),
-            "The last difference that counts.",
+            "The largest rating difference that counts.",
             usual="where the last race of each {beside} chart is even, or else the hardest race "
             "allowed",
             metavar="D",
@@ -169,9 +169,7 @@ class ChartTeam(Question):
     average_1: Annotated[float, _AVERAGE, Says(metavar="AVERAGE_1")]
     average_2: Annotated[float, _AVERAGE, Says(metavar="AVERAGE_2")]
     match_ups: Annotated[int, _MEETINGS] = 3
-    single_games: Annotated[
-        int, _MEETINGS, Says("How many games each pair plays in a round.", old=("games",))
-    ] = 2
-    won: Annotated[float, Field(_POINTS, "What the winner of a game scores on average.")] = 13.19
-    lost: Annotated[float, Field(_POINTS, "What the loser of a game scores on average.")] = 3.81
+    single_games: Annotated[int, _MEETINGS, Says("Games per pair in a round.", old=("games",))] = 2
+    won: Annotated[float, Field(_POINTS, "The winner's average score in a game.")] = 13.19
+    lost: Annotated[float, Field(_POINTS, "The loser's average score in a game.")] = 3.81
     scale: OnScale = SCALES["fargo"]

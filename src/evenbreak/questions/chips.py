@@ -27,12 +27,15 @@ def chips_left(text: str) -> dict[str, int]:
     for part in text.split(","):
         match = re.fullmatch(r"\s*(.+?)\s*=\s*(\d{1,3})\s*", part)
         if match is None or not 1 <= int(match[2]) <= MOST_CHIPS:
-            raise InputError(f"{part.strip()!r}; give each player's chips, such as Ann=2,Bo=1")
+            raise InputError(
+                f"{part.strip()!r} isn't a player with chips. Write each "
+                "player's, such as Ann=2,Bo=1."
+            )
         if match[1] in left:
             raise InputError(f"{match[1]!r} is in it twice")
         left[match[1]] = int(match[2])
     if len(left) < 2:
-        raise InputError("it has one player; give two or more")
+        raise InputError("it has one player. Give two or more.")
     return left
 
 
@@ -48,13 +51,16 @@ def bands(text: str) -> list[float]:
     except InputError:
         ratings = []
     if not 1 <= len(ratings) <= MOST_ROWS:
-        raise InputError(f"{text!r}; give the ratings at which the rows begin, such as 350,450,550")
+        raise InputError(
+            f"{text!r} isn't a list of ratings. Give those at which the rows "
+            "start, such as 350,450,550."
+        )
     return sorted(set(ratings))
 
 
 @dataclass(frozen=True, kw_only=True)
 class ChipField(Starters):
-    """Who plays a chip tournament, on how many tables."""
+    """The players of a chip tournament, and its tables."""
 
     tables: Tables = 4
     scale: Annotated[ScaleOf, Says(usual="what the ratings show; without a file, fargo")] = None
@@ -65,7 +71,7 @@ class ChipField(Starters):
 class ChipOdds(ChipField):
     """Find each player's odds of winning a chip tournament.
 
-    The tournament is played out 10,000 times. The ratings are taken as right.
+    The tournament is played out 10,000 times. The ratings are treated as exact.
     """
 
     examples = """\
@@ -86,8 +92,8 @@ class ChipOdds(ChipField):
         dict[str, int] | None,
         Field(
             Named(chips_left, "NAME=CHIPS,..."),
-            "Instead of {chips}: the last players at one table and the chips that they have left, "
-            "in the order of the line; the first stays at the table.",
+            "Instead of {chips}: the last players at one table with the chips they have "
+            "left, in line order; the first stays at the table.",
             more="The second is the challenger. Up to four players are exact.",
         ),
     ] = None
@@ -103,7 +109,7 @@ class ChipAudit(ChipField):
     """Check who a chip chart favors: hoboken, pharaohs, or one in a file.
 
     Over a whole tournament, and between the last two players if both have all their chips. The
-    ratings are taken as right.
+    ratings are treated as exact.
     """
 
     examples = """\
@@ -125,8 +131,8 @@ class ChipAudit(ChipField):
 class ChipDesign(ChipField):
     """Design a chip chart that makes a tournament as even as possible for its players.
 
-    Without ENTRANTS.csv the field is 16 players, spread over four doublings of the odds. Into a
-    file the chart is CSV that chips audit and chips odds read. The ratings are taken as right.
+    Without ENTRANTS.csv, the field is 16 players, spread over four doublings of the odds. Into a
+    file the chart is CSV that chips audit and chips odds read. The ratings are treated as exact.
     """
 
     examples = """\
@@ -136,13 +142,13 @@ class ChipDesign(ChipField):
     entrants: Annotated[
         str | None, Field(File("ENTRANTS.csv"), metavar="[ENTRANTS.csv]", argument=True)
     ] = None
-    fewest: Annotated[Chips, Says("Chips at least. More chips make a longer tournament.")] = 2
-    most: Annotated[Chips, Says("Chips at most.")] = 10
+    fewest: Annotated[Chips, Says("Fewest chips. More chips make a longer tournament.")] = 2
+    most: Annotated[Chips, Says("Most chips.")] = 10
     bands: Annotated[
         list[float] | None,
         Field(
             Named(bands, "RATING,..."),
-            "The ratings at which a row begins.",
+            "The ratings at which the rows start.",
             usual="every half doubling of the odds",
         ),
     ] = None
@@ -151,7 +157,7 @@ class ChipDesign(ChipField):
         """Refuse more chips at least than at most."""
         if self.fewest > self.most:
             self.refuse(
-                "{fewest} is {low} and {most} {high}; give fewer first",
+                "{fewest} ({low}) must not be more than {most} ({high})",
                 low=self.fewest,
                 high=self.most,
             )

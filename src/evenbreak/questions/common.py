@@ -34,24 +34,22 @@ def chip_names() -> list[str]:
 
 CHART = File("NAME|FILE", chart_names)
 CHIPS = File("NAME|FILE.csv", chip_names)
-CHANCE = Number(0.0, 1.0, " is not a probability; give a number from 0 to 1", metavar="P")
+CHANCE = Number(0.0, 1.0, " isn't a probability. Give a number from 0 to 1", metavar="P")
 SHARE = Number(metavar="SHARE")
 RACE = TwoWhole(
-    wanted=f"give a whole number from 1 to {LONGEST}, such as 7, "
-    "or one for each player with a colon between them, such as 7:5",
+    wanted=f"isn't a race. Give 1 to {LONGEST} games, such as 7, or each player's, such as 7:5",
     metavar="N|M:N",
     one=True,
 )
 """The games that each player needs: 7:5, 7-5 or 7/5; 7 alone means 7:7."""
 SCORE = TwoWhole(
     low=0,
-    wanted=f"give two whole numbers from 0 to {LONGEST} with a colon between them, such as 3:0",
+    wanted=f"isn't a score. Give two numbers from 0 to {LONGEST}, such as 3-0",
     metavar="I:J",
 )
 SPAN = TwoWhole(
     r"\.\.",
-    wanted=f"give the least and the most games, from 1 to {LONGEST}, "
-    "with two dots between them, such as 7..13",
+    wanted=f"isn't a range of games. Give the fewest and the most, 1 to {LONGEST}, such as 7..13",
     metavar="LO..HI",
     rising=True,
 )
@@ -59,8 +57,8 @@ _SCALE = Field(
     SCALE,
     "The scale of the ratings: POINTS double the odds of winning a game.",
     usual="what the ratings show",
-    more="Unless given, [the one that the ratings show]"
-    "(../files.md#the-scale-of-a-list), or that the list states in its column `scale`.",
+    more="Default: [the one the ratings show](../files.md#the-scale-of-a-list), or the "
+    "list's column `scale`.",
 )
 ScaleOf: TypeAlias = Annotated[Scale | None, _SCALE]
 OnScale: TypeAlias = Annotated[Scale, _SCALE, Says(usual="", more="")]
@@ -82,11 +80,11 @@ EntrantsFile: TypeAlias = Annotated[
     str | None,
     Field(
         File("FILE"),
-        "Who has entered: a name on each line, or a CSV file with player and rating.",
-        more="[Those who are not on the list](../files.md#entrants) are new players.",
+        "The entrants: one name per line, or a CSV file with player and rating.",
+        more="[Entrants missing from the list](../files.md#entrants) are new players.",
     ),
 ]
-Target: TypeAlias = Annotated[float, Field(CHANCE, "The chance of winning that A should have.")]
+Target: TypeAlias = Annotated[float, Field(CHANCE, "The target chance of winning for A.")]
 ChartName: TypeAlias = Annotated[str | None, Field(CHART, "The chart of the races.")]
 LevelResults: TypeAlias = Annotated[
     str | None,
@@ -103,21 +101,20 @@ HandicappedRace: TypeAlias = Annotated[
     int | None,
     Field(
         _RACE,
-        "Handicapped races instead: the stronger player needs N games, the weaker as many as is "
-        "fairest.",
+        "Handicapped races: the stronger player races to N; the weaker gets the fairest race.",
     ),
 ]
 ChartOfRaces: TypeAlias = Annotated[
     ChartName, Says("Races by this chart of rating differences instead.")
 ]
 Sure: TypeAlias = Annotated[
-    bool, Field(Flag(), "Take the ratings as right, even if they have standard errors.")
+    bool, Field(Flag(), "Treat the ratings as exact, even if they have standard errors.")
 ]
 Jobs: TypeAlias = Annotated[
     int,
     Field(
         Whole(1, MOST_JOBS),
-        "How many processes work at a time; the answer is the same.",
+        "Number of parallel processes; the answer is the same.",
         metavar="J",
     ),
 ]
@@ -144,20 +141,22 @@ def has_levels(chart: str | None) -> bool:
 def refuse_workers(asked: Any) -> None:
     """Refuse two kinds of workers at once, and a cluster without an address."""
     if asked.dask is not None and asked.jobs > 1:
-        asked.refuse("{dask} and {jobs} cannot be combined; the cluster has workers of its own")
+        asked.refuse("{dask} and {jobs} can't be used together; the cluster has workers of its own")
     if asked.dask is not None and not asked.dask.strip():
-        asked.refuse("{dask} is empty; give the scheduler's address, such as tcp://10.0.0.5:8786")
+        asked.refuse(
+            "{dask} must not be empty. Give the scheduler's address, such as tcp://10.0.0.5:8786."
+        )
 
 
 FormOfDay: TypeAlias = Annotated[
     float | None,
     Field(
-        Number(0.0, 3.0, "; give a number from 0 to 3, such as 0.35", metavar="SD"),
-        "Form of the day: how much the log-odds of a game vary from match to match.",
-        usual="what the list of ratings states, else 0",
+        Number(0.0, 3.0, " isn't a number from 0 to 3, such as 0.35", metavar="SD"),
+        "Day-to-day form: how much the log-odds of a game vary from match to match.",
+        usual="the value in the list of ratings, otherwise 0",
         section="Details",
-        more="A standard deviation, as `evenbreak rate` finds it; see [form of the day]"
-        "(../../explanation/ratings.md#day-to-day-form).",
+        more="A standard deviation, as `evenbreak rate` finds it. See [day-to-day "
+        "form](../../explanation/ratings.md#day-to-day-form).",
     ),
 ]
 ByWay: TypeAlias = Annotated[
@@ -181,11 +180,11 @@ def picture(text: str) -> str:
     if PurePath(text).suffix.lower() not in (".png", ".svg"):
         wrong = "name a file that ends in .png or .svg"
     elif not folder.exists():
-        wrong = f"there is no folder {str(folder)!r}; make it first, or name another"
+        wrong = f"folder {str(folder)!r} doesn't exist. Create it or choose another"
     elif not folder.is_dir():
-        wrong = f"{str(folder)!r} is a file, so no picture can be in it; name a folder"
+        wrong = f"{str(folder)!r} is a file, so no picture can be in it. Choose another folder"
     elif Path(text).is_dir():
-        wrong = "that is a folder; name a file in it"
+        wrong = "that's a folder. Name a file in it"
     if wrong:
         raise InputError(f"{text!r}; {wrong}")
     return text
@@ -194,16 +193,16 @@ def picture(text: str) -> str:
 def folder(text: str) -> str:
     """Return the name of a folder that can be written to."""
     if not text.strip():
-        raise InputError("the name is empty; name a folder, or . for this one")
+        raise InputError("the name is empty. Name a folder, or use . for this one.")
     if Path(text).is_file():
-        raise InputError(f"{text!r} is a file; name a folder")
+        raise InputError(f"{text!r} is a file. Name a folder.")
     return text
 
 
 OutFolder: TypeAlias = Annotated[
     str,
     Field(
-        Named(folder, "DIR", offers="files"), "Where the files go; created if it does not exist."
+        Named(folder, "DIR", offers="files"), "Folder for the files; created if it doesn't exist."
     ),
 ]
 
@@ -212,7 +211,7 @@ PlotFile: TypeAlias = Annotated[
     str | None,
     Field(
         Named(picture, "FILE", offers="files"),
-        "Write a picture: PNG or SVG, by the ending of FILE.",
+        "Write a chart to FILE (.png or .svg).",
         section="Details",
     ),
 ]
@@ -224,17 +223,15 @@ USUAL_RACE = 7
 
 @dataclass(frozen=True, kw_only=True)
 class Lengths(Question):
-    """How long the races may be that are looked at."""
+    """The lengths of the races to compare."""
 
     games: Annotated[tuple[int, int] | None, GAMES] = None
-    race_to: Annotated[
-        int | None, RACE_TO, Says(usual=f"{USUAL_RACE}, unless {{games}} is given")
-    ] = None
+    race_to: Annotated[int | None, RACE_TO, Says(usual=f"{USUAL_RACE} without {{games}}")] = None
 
     def check(self) -> None:
         """Refuse two limits."""
         if self.games is not None and self.race_to is not None:
-            self.refuse("{games} and {race_to} cannot be combined; leave one out")
+            self.refuse("{games} and {race_to} can't be used together. Leave one out.")
 
     @property
     def lengths(self) -> dict[str, Any]:
@@ -245,12 +242,12 @@ class Lengths(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class Starters(Question):
-    """How strong a new player is."""
+    """The rating of new players."""
 
     starter: Annotated[
         float | None,
         Field(
-            Number(-1e6, 1e6, " is not a number of rating points; give one such as 80"),
+            Number(-1e6, 1e6, " isn't a rating. Give a number of points, such as 80"),
             "The rating of a new player.",
             usual="the middle of the scale",
             more="80 on the NPL scale, 500 on Fargo's, 1500 on Elo's.",
@@ -262,9 +259,9 @@ class Starters(Question):
     starter_sd: Annotated[
         float | None,
         Field(
-            Number(0.0, 1e6, " is not a spread; give 0 or more points, such as 30"),
-            "How far off that may be (standard deviation).",
-            usual="what doubles the odds",
+            Number(0.0, 1e6, " isn't a spread. Give 0 or more points, such as 30"),
+            "Uncertainty of that rating (standard deviation).",
+            usual="one doubling of the odds",
             metavar="POINTS",
             section="Ratings",
             rare=True,
@@ -280,7 +277,7 @@ def title_in(text: str) -> str:
     title: str = clean_name(text)
     if title and not is_name(title):
         raise InputError(
-            f"it has {len(title):,} letters, or some that cannot be printed; give a line"
+            f"a title must be one line of letters that can be printed; this one has {len(title):,}"
         )
     return title
 
@@ -290,13 +287,13 @@ Title: TypeAlias = Annotated[
 ]
 PaperName: TypeAlias = Annotated[
     str | None,
-    Field(PAPER, "The paper of what is printed.", usual="letter where that is usual, else a4"),
+    Field(PAPER, "Paper size.", usual="letter where that is usual, else a4"),
 ]
 
 
 @dataclass(frozen=True, kw_only=True)
 class OnPaper(Question):
-    """What is drawn of a tournament to be printed."""
+    """What to print of a tournament."""
 
     title: Annotated[
         Title, Says("A title, such as the name of the event.", usual="the name of its file")

@@ -35,7 +35,7 @@ def english_in(text: str) -> tuple[float, str]:
     amount = " ".join(token for token in tokens if token not in (*_SIDES, *_NEEDLESS))
     if len(sides) == 1 and not amount:
         raise InputError(
-            '{value!r} says to which side but not how much; write, for example, "1 tip {side}"',
+            '{value!r} gives the side but not how much. Write, for example, "1 tip {side}".',
             value=text,
             side=sides[0],
         )
@@ -46,19 +46,19 @@ def english_in(text: str) -> tuple[float, str]:
     percent = match is not None and match["unit"] in ("%", "percent")
     if len(sides) != 1 or match is None or (percent and words):
         raise InputError(
-            "{value!r}; write how much and to which side, such as 1 tip outside, 1/2 tip left or "
-            "50% right",
+            "{value!r} isn't english. Write how much and to which side, such as 1 tip "
+            "outside, 1/2 tip left or 50% right.",
             value=text,
         )
     over, _, under = match["many"].replace(",", ".").partition("/")
     if under and not int(under):
-        raise InputError("{value!r} is no part of a tip", value=text)
+        raise InputError("{value!r} isn't a part of a tip", value=text)
     many = math.prod(words) if words else float(over) / float(under or 1.0)
     share = many / (100.0 if percent else TIPS_OF_MOST_ENGLISH)
     if not 0.0 <= share <= 1.0:
         raise InputError(
-            "{value!r} is more than the tip can give: beyond {tips:g} tips (100%) it slips; write "
-            '"{tips:g} tips {side}" or less',
+            "{value!r} is more than the tip can give: beyond {tips:g} tips (100%) it "
+            'slips. Write "{tips:g} tips {side}" or less.',
             value=text,
             tips=TIPS_OF_MOST_ENGLISH,
             side=sides[0],

@@ -23,7 +23,7 @@ def minutes_of_day(text: str) -> int:
     match = re.fullmatch(r"\s*(\d{1,2})[:.h](\d{2})\s*", text)
     hours, minutes = (int(match[1]), int(match[2])) if match else (24, 0)
     if hours > 23 or minutes > 59:
-        raise InputError(f"{text!r}; give a time of day from 0:00 to 23:59, such as 19:30")
+        raise InputError(f"{text!r} isn't a time of day. Give 0:00 to 23:59, such as 19:30.")
     return 60 * hours + minutes
 
 
@@ -57,9 +57,7 @@ class UnderWay(Question):
     """A question about the tournament under way."""
 
     file: EveningFile = None
-    event: Annotated[
-        int, Field(Whole(1, 99), "Which event of the night it is about.", section="File")
-    ] = 1
+    event: Annotated[int, Field(Whole(1, 99), "Number of the event tonight.", section="File")] = 1
 
     @property
     def path(self) -> str:
@@ -76,15 +74,15 @@ class TimedUnderWay(UnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class SecondChance(TimedUnderWay):
-    """Begin a second event on the same tables, for those who are out of an elimination by now.
+    """Start a second event on the same tables for players already knocked out.
 
-    It is a single elimination. Whoever went out last is the first seed. More can enter until its
-    draw is made; the other commands then go by its number, such as {event} 2.
+    It is a single elimination. The last player knocked out is the top seed. More can enter until
+    its draw is made; the other commands then go by its number, such as {event} 2.
     """
 
     race: Annotated[
         int | None,
-        Field(Whole(1, LONGEST_RACE), "What is raced to.", usual="as on the losers' side"),
+        Field(Whole(1, LONGEST_RACE), "Games to win.", usual="same as the losers' side"),
     ] = None
 
 
@@ -92,7 +90,7 @@ class SecondChance(TimedUnderWay):
 class Show(TimedUnderWay, OnPaper):
     """Show the bracket: each match with its players, its score and its table.
 
-    Of a chip tournament it shows the tables, the line and everybody's chips.
+    For a chip tournament, show the tables, the line and everyone's chips.
     """
 
     out: Annotated[
@@ -123,8 +121,8 @@ class Programs(TimedUnderWay):
         str,
         Field(
             Text("scores|table:T|director"),
-            "What it may enter: scores, results and calls; score and result on one table; or all "
-            "that a director can.",
+            "What it may enter: scores, results and calls; the score and result of one "
+            "table; or anything a director can.",
         ),
     ] = "scores"
     revoke: Annotated[bool, Field(Flag(), "Revoke the token of NAME at once.")] = False
@@ -171,27 +169,27 @@ class Export(UnderWay):
         str | None,
         Field(
             File("FILE.csv"),
-            "Write them to this file; .html is the whole night as one page to send on, with "
-            "{story} .svg is a picture.",
+            "Write to this file. .html is the whole night as one page to share; with "
+            "{story}, .svg is a chart.",
         ),
     ] = None
     events: Annotated[
         bool,
-        Field(Flag(), "List all that happened instead, which evenbreak tournament import reads."),
+        Field(Flag(), "List everything that happened, as evenbreak tournament import reads it."),
     ] = False
     story: Annotated[
         bool,
         Field(
             Flag(),
-            "The story of the night instead: each player's title odds after each match, the upset, "
-            "the closest match.",
+            "Tell the story of the night: title odds after each match, the biggest "
+            "upset, the closest match.",
         ),
     ] = False
 
     def check(self) -> None:
         """Refuse two lists at once."""
         if self.events and self.story:
-            self.refuse("{events} and {story} are two lists; give one of them")
+            self.refuse("{events} and {story} print different lists. Use one of them.")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -200,7 +198,7 @@ class Print(UnderWay, OnPaper):
 
     Cards are made for all matches whose players are known and that are not over: one each, with
     boxes to tick, where winner and loser go next, and room to sign. The bracket is on one sheet if
-    it can be read there, else on larger paper. The draw lists everybody by name, with their first
+    it can be read there, else on larger paper. The draw lists everyone by name, with their first
     match.
     """
 
@@ -213,8 +211,8 @@ class Print(UnderWay, OnPaper):
         Literal["cards", "bracket", "draw"],
         Field(Choice(("cards", "bracket", "draw")), argument=True),
     ]
-    match: Annotated[str | None, Field(Text("MATCH"), "The card of this match alone.")] = None
-    per_page: Annotated[int, Field(Choice({"1": 1, "4": 4}), "How many cards are on a page.")] = 4
+    match: Annotated[str | None, Field(Text("MATCH"), "Print only the card of this match.")] = None
+    per_page: Annotated[int, Field(Choice({"1": 1, "4": 4}), "Cards per page.")] = 4
     out: Annotated[
         str | None, Field(File("FILE.pdf"), "The file.", usual="cards.pdf, bracket.pdf or draw.pdf")
     ] = None
@@ -233,16 +231,18 @@ def bid(text: str) -> tuple[str, float]:
     """
     name, _, amount = text.rpartition("=")
     if not NUMBER.fullmatch(amount.strip()) or float(amount) < 0.0:
-        raise InputError(f"{text!r}; give a player and a bid, such as 'Ann Lee=60'")
+        raise InputError(
+            f"{text!r} isn't a bid. Give a player and an amount, such as 'Ann Lee=60'."
+        )
     return name.strip(), float(amount)
 
 
-MONEY = Number(0.0, 1e9, " is not an amount of money; give a number such as 20", metavar="MONEY")
+MONEY = Number(0.0, 1e9, " isn't an amount of money. Give a number, such as 20", metavar="MONEY")
 
 
 @dataclass(frozen=True, kw_only=True)
 class PayOut(TimedUnderWay):
-    """Find what each place is paid, and what each player may expect.
+    """Find what each place pays, and each player's expected prize.
 
     With {calcutta}, find what each player still to be sold is worth: the share of the pot, and the
     bid at which it wins back what it costs.
@@ -253,23 +253,22 @@ class PayOut(TimedUnderWay):
   evenbreak tournament prizes --fee 20 --payout 50,30,20 --house 0.1 --keep
   evenbreak tournament prizes --calcutta --sold "Ann Lee=60" --sold "Bo Diaz=25"
 """
-    fee: Annotated[float, Field(MONEY, "What each player pays to enter.")] = 0.0
+    fee: Annotated[float, Field(MONEY, "Entry fee per player.")] = 0.0
     added: Annotated[float, Field(MONEY, "Money added to the pot.")] = 0.0
     house: Annotated[
         float,
         Field(
             Number(
-                0.0, 0.99, " is not a part; give a number from 0 to 0.99, such as 0.1", metavar="P"
+                0.0, 0.99, " isn't a share. Give a number from 0 to 0.99, such as 0.1", metavar="P"
             ),
-            "The part of the pot that the house keeps.",
+            "The share of the pot kept by the house.",
         ),
     ] = 0.0
     payout: Annotated[
         str | None,
         Field(
             Text("NAME|P,..."),
-            "What the places get: hoboken, 40/30/20/10, 40/30/15, 70/30, or percentages such as "
-            "50,30,20.",
+            "The payout: hoboken, 40/30/20/10, 40/30/15, 70/30, or percentages such as 50,30,20.",
             usual="70/30 for fewer than 8 players, else 40/30/20/10",
         ),
     ] = None
@@ -277,25 +276,24 @@ class PayOut(TimedUnderWay):
         float,
         Field(
             MONEY,
-            "Round prizes down to multiples of this, such as 5; the first place gets what is left.",
+            "Round prizes down to multiples of this, such as 5; first place gets the remainder.",
         ),
     ] = 0.0
     keep: Annotated[
         bool,
         Field(
             Flag(),
-            "Keep them with the tournament: the page shows them, and this command unless it is "
-            "given others.",
+            "Keep them with the tournament: the page and this command show them from then on.",
         ),
     ] = False
     calcutta: Annotated[
-        bool, Field(Flag(), "What each player is worth in the Calcutta.", section="Calcutta")
+        bool, Field(Flag(), "Show what each player is worth in the Calcutta.", section="Calcutta")
     ] = False
     sold: Annotated[
         tuple[tuple[str, float], ...],
         Field(
             Named(bid, "NAME=BID"),
-            "With {calcutta}: a player who has been sold, and for how much.",
+            "With {calcutta}: a player already sold, and the price.",
             many=True,
             section="Calcutta",
         ),
@@ -315,9 +313,9 @@ class PayOut(TimedUnderWay):
 class Import(Question):
     """Import a tournament from a file that CueScore, Challonge or brackets-manager has saved.
 
-    The bracket, the results and the times are those of FILE; go on with the other commands. FILE
-    may also be the CSV of evenbreak tournament export --events. Players without a rating are taken
-    as average ones.
+    The bracket, the results and the times are those of FILE; continue with the other commands. FILE
+    may also be the CSV of evenbreak tournament export --events. Players without a rating are
+    treated as average.
     """
 
     examples = """\
@@ -328,11 +326,11 @@ class Import(Question):
     ratings: Annotated[str | None, Field(File("ENTRANTS.csv"), "The players' ratings.")] = None
     scale: ScaleOf = None
     race: Annotated[
-        int | None, Field(Whole(1, LONGEST_RACE), "What is raced to.", usual="as saved")
+        int | None, Field(Whole(1, LONGEST_RACE), "Games to win.", usual="as saved")
     ] = None
     tables: Annotated[Tables | None, Says(usual="as saved")] = None
     discipline: Annotated[Discipline | None, Says(usual="as saved, else 9-ball")] = None
-    out: Annotated[
-        str, Field(File("FILE.db"), "The file of the tournament, which must not exist yet.")
-    ] = "tonight.db"
+    out: Annotated[str, Field(File("FILE.db"), "File of the tournament; must not exist yet.")] = (
+        "tonight.db"
+    )
     at: At = None

@@ -23,7 +23,7 @@ HIGHEST = 1_000_000
 MOST_SHOTS = 1000
 """The most shots to look ahead."""
 
-_STAKE = Number(0, HIGHEST, f" is not a stake; give a number from 0 to {HIGHEST}")
+_STAKE = Number(0, HIGHEST, f" isn't a stake. Give a number from 0 to {HIGHEST}")
 
 Stake: TypeAlias = Annotated[float, Field(_STAKE)]
 Chance: TypeAlias = Annotated[float | None, Field(CHANCE)]
@@ -41,22 +41,22 @@ Shots: TypeAlias = tuple[float, ...]
 def numbers_in(text: str, least: int, most: int, kind: Number, wanted: str) -> Shots:
     """Return the numbers of a text, with colons between them.
 
-    >>> numbers_in("24:19", 2, 2, Number(0, 100), "give A:B")
+    >>> numbers_in("24:19", 2, 2, Number(0, 100), "isn't A:B")
     (24.0, 19.0)
     """
     numbers = tuple(kind.read(part) for part in text.split(":") if part.strip())
     if not least <= len(numbers) <= most:
-        raise InputError(f"{text!r}; {wanted}")
+        raise InputError(f"{text!r} {wanted}")
     return numbers
 
 
 def _averages(text: str) -> Shots:
-    wanted = f"give the balls an inning of A and of B, from 0 to {MOST_BALLS}, such as 24:19"
+    wanted = f"isn't a pair of averages. Give two from 0 to {MOST_BALLS}, such as 24:19"
     return numbers_in(text, 2, 2, Number(0, MOST_BALLS), wanted)
 
 
 def _shot(text: str) -> Shots:
-    wanted = "give two or more numbers from 0 to 1 with colons between them, such as 0.3:0.3"
+    wanted = "isn't a shot. Give two or more numbers from 0 to 1, such as 0.3:0.3"
     return numbers_in(text, 2, MOST_SHOTS, SHARE, wanted)
 
 
@@ -90,14 +90,14 @@ class Breaks(Question):
     def check(self) -> None:
         """Refuse a question without chances."""
         if self.p1 is None or self.p2 is None:
-            self.refuse("the chances are missing; give {p1} P and {p2} P")
+            self.refuse("missing chances: give {p1} P and {p2} P")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Straight(Question):
     """Give the odds of a match of 14.1 straight pool, and the spot that makes it even.
 
-    Describe the players by the balls that they average an inning, {averages} A:B, or by {p1} and
+    Describe the players by their balls per inning, {averages} A:B, or by {p1} and
     {p2}.
     """
 
@@ -108,13 +108,13 @@ class Straight(Question):
 """
     old_words = ("averages",)
     averages: Annotated[
-        Shots | None, Field(Named(_averages, "A:B"), "The balls that A and B average an inning.")
+        Shots | None, Field(Named(_averages, "A:B"), "Average balls per inning of A and B.")
     ] = None
     p1: Annotated[Chance, Says("Chance that A makes a shot.")] = None
     p2: Annotated[Chance, Says("Chance that B makes a shot.")] = None
     points: Annotated[tuple[int, int], Field(RACE, "The points to win: A needs M, B needs N.")]
     safety: Safety = 1.0
-    first: Annotated[str, Field(Choice(("a", "b")), "Who has the first inning.")] = "a"
+    first: Annotated[str, Field(Choice(("a", "b")), "The player with the first inning.")] = "a"
     plot: Annotated[
         PlotFile, Says(more="A's chance against the points that the weaker player needs.")
     ] = None
@@ -123,9 +123,11 @@ class Straight(Question):
         """Refuse players that are missing, or given twice."""
         by_chance = self.p1 is not None or self.p2 is not None
         if self.averages and by_chance:
-            self.refuse("the players are given twice; give {averages} A:B, or {p1} and {p2}")
+            self.refuse(
+                "the players are given twice. Use {averages} A:B, or {p1} and {p2}, not both."
+            )
         if not self.averages and (self.p1 is None or self.p2 is None):
-            self.refuse("the players are missing; give {averages} A:B, or {p1} and {p2}")
+            self.refuse("missing players: give {averages} A:B, or {p1} and {p2}")
 
 
 LOOK_AHEADS = {"infinite": "infinite", "two": "two shots", "all": "all shots"}
@@ -176,9 +178,9 @@ class OneBall(Question):
     def check(self) -> None:
         """Refuse a question without a shot, and a picture that would need more dimensions."""
         if not self.shots:
-            self.refuse("the shots are missing; give some, such as {shots} 0.4:0.8")
+            self.refuse("missing shots: give some, such as {shots} 0.4:0.8")
         if self.plot is not None and self.ahead == "all shots":
-            self.refuse("{plot} draws two chances a shot; add {look_ahead} infinite or two")
+            self.refuse("{plot} draws two chances a shot. Add {look_ahead} infinite or two.")
 
     @property
     def ahead(self) -> str:
@@ -239,7 +241,7 @@ class Chain(ChainFile):
     steps: Annotated[
         int | None,
         Field(
-            Whole(0, 10**40), "Also give the probabilities after N steps; CSV then has only these."
+            Whole(0, 10**40), "Also show the probabilities after N steps; CSV then has only these."
         ),
     ] = None
     via: ByWay = None
@@ -280,9 +282,9 @@ class Graph(ChainFile):
     def check(self) -> None:
         """Refuse chances that contradict each other."""
         if self.p is not None and (self.p1 is not None or self.p2 is not None):
-            self.refuse("{p} cannot be combined with {p1} and {p2}; leave it out")
+            self.refuse("{p} can't be used with {p1} and {p2}. Leave it out.")
         if (self.p1 is None) != (self.p2 is None):
-            self.refuse("{p1} and {p2} go together; give both")
+            self.refuse("{p1} and {p2} go together. Give both.")
 
     @property
     def chances(self) -> tuple[float, ...]:
@@ -293,4 +295,4 @@ class Graph(ChainFile):
         """Refuse for a game what says how a file is read."""
         for name in ("start_state", "states", "rows"):
             if getattr(self, name) is not None:
-                self.refuse("{part} is for a chain in a file; leave it out", part=Parameter(name))
+                self.refuse("{part} is for a chain in a file. Leave it out.", part=Parameter(name))

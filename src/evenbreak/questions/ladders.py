@@ -21,10 +21,10 @@ MOST_DRIFT = 0.9
 
 _OPPONENTS, _FORM, _SETTLING = "Opponents", "Form and skill", "How a new player settles"
 
-_MONEY = Number(0.0, 1e9, "; give a number from 0 to 1,000,000,000")
+_MONEY = Number(0.0, 1e9, " isn't a number from 0 to 1,000,000,000")
 _START_ERROR = Field(
     Whole(-LARGEST, LARGEST),
-    "How far off the rating is at the start: rating minus skill, in points.",
+    "Rating minus skill at the start, in points.",
     metavar="ERROR",
     old=("from",),
 )
@@ -36,8 +36,8 @@ class LadderErrors(BySystem):
     """Show how far off a league's ratings are in the long run, and how fair its matches.
 
     A rating goes up with each match won and down with each match lost, and the chart turns the
-    difference of two ratings into a race. Opponents are as good as the player and correctly rated,
-    unless an option says otherwise. With a chart of skill levels the levels are followed.
+    difference of two ratings into a race. Opponents are as strong as the player and correctly
+    rated, unless an option says otherwise. With a chart of skill levels the levels are followed.
     """
 
     examples = """\
@@ -67,7 +67,7 @@ class LadderErrors(BySystem):
         int | None,
         Field(
             Whole(0, LARGEST),
-            "How near to the skill a rating counts as settled.",
+            "How close to the skill a rating counts as settled.",
             usual="a sixth of a doubling of the odds",
             metavar="POINTS",
             section=_SETTLING,
@@ -105,7 +105,7 @@ class LadderErrors(BySystem):
         bool,
         Field(
             Flag(),
-            "Opponents are as good as the player, with rating errors like the player's.",
+            "Opponents are as strong as the player, with rating errors like the player's.",
             section=_OPPONENTS,
         ),
     ] = False
@@ -142,15 +142,14 @@ class LadderErrors(BySystem):
         float,
         DAY_SD,
         Says(
-            "How much everyone's form varies from match to match, in addition (standard "
-            "deviation).",
+            "Additional variation of everyone's form from match to match (standard deviation).",
             section=_FORM,
         ),
     ] = 0.0
     drift: Annotated[
         float,
         Field(
-            Number(-MOST_DRIFT, MOST_DRIFT, f"; give a number from {-MOST_DRIFT} to {MOST_DRIFT}"),
+            Number(-MOST_DRIFT, MOST_DRIFT, f" isn't a number from {-MOST_DRIFT} to {MOST_DRIFT}"),
             "How much the player's skill rises with each match on average: by a whole point, with "
             "this chance; below 0 it falls.",
             metavar="POINTS",
@@ -165,24 +164,25 @@ class LadderErrors(BySystem):
         """Refuse what does not go together."""
         for name in self.given:
             if self.compare and name not in _COMPARED:
-                self.refuse("{compare} goes through several systems; leave {" + name + "} out")
+                self.refuse("{compare} goes through several systems. Leave {" + name + "} out")
         if self.chart == self.league == "-":
-            self.refuse("- stands for standard input, which only one file can be; name the other")
+            self.refuse("- means standard input, which only one file can be. Name the other.")
         if self.system is not None and self.step is not None:
             self.refuse(
-                "{step} {k} is a system of its own; leave out {system} or {step}", k=self.step
+                "{step} {k} is a system of its own. Leave out {system} or {step}.", k=self.step
             )
         if self.matches_a_night is not None and not self.day_sd:
             self.refuse(
-                "{matches_a_night} is how long a day's form lasts; give {day_sd}, or leave it out"
+                "{matches_a_night} is how long a day's form lasts. Give {day_sd}, or leave it out."
             )
         meets = [f"{{{name}}}" for name in _MEETS if getattr(self, name)]
         if len(meets) > 1:
             listed = f"{', '.join(meets[:-1])} and {meets[-1]}"
-            self.refuse(f"{listed} cannot be combined; keep one")
+            self.refuse(f"{listed} can't be used together. Keep one.")
         if self.skill is not None and self.league is None:
             self.refuse(
-                "{skill} is the player's own in a league; give {league} ROSTER.csv, or leave it out"
+                "{skill} is the player's own in a league. Give {league} ROSTER.csv, or "
+                "leave it out."
             )
 
 
@@ -194,8 +194,8 @@ _COMPARED = ("compare", "chart", "plot", "skill", *_MEETS)
 class SandbagPay(BySystem):
     """Show what it pays to lose matches on purpose.
 
-    Opponents are as good as the player and correctly rated. The player loses up to D matches on
-    purpose, then plays E in earnest while the rating climbs back. Systems that move ratings or
+    Opponents are as strong as the player and correctly rated. The player loses up to D matches on
+    purpose, then plays E that count while the rating climbs back. Systems that move ratings or
     levels match by match are solved; the others are played many times, and the error is stated.
     """
 
@@ -210,25 +210,23 @@ class SandbagPay(BySystem):
         int,
         Field(
             Whole(1, 100),
-            "The most matches that are lost on purpose.",
+            "The most matches to lose on purpose.",
             metavar="D",
             more="The table has a row for each number up to it.",
         ),
     ] = 12
-    earnest: Annotated[
-        int, Field(Whole(1, 500), "How many matches are then played in earnest.", metavar="E")
-    ] = 20
+    earnest: Annotated[int, Field(Whole(1, 500), "Matches that count afterward.", metavar="E")] = 20
     stake: Annotated[
-        float, Field(_MONEY, "What winning a match in earnest is worth, more than losing it.")
+        float, Field(_MONEY, "The value of winning a match that counts, over losing it.")
     ] = 10.0
     dumped_stake: Annotated[
-        float, Field(_MONEY, "What winning one of the dumped matches would be worth.")
+        float, Field(_MONEY, "The value of winning one of the dumped matches.")
     ] = 1.0
     in_a_row: Annotated[
         int,
         Field(
             Whole(1, 50),
-            "How many matches in a row win a tournament.",
+            "Wins in a row that win a tournament.",
             metavar="K",
             more="The players keep the ratings with which they enter it.",
         ),
@@ -237,8 +235,8 @@ class SandbagPay(BySystem):
         float,
         Field(
             _MONEY,
-            "What the tournament pays.",
-            more="It is played before the matches in earnest and moves no ratings.",
+            "The tournament's prize.",
+            more="It is played before the matches that count and moves no ratings.",
         ),
     ] = 0.0
     start_error: Annotated[int, _START_ERROR, Says(kind=Whole(-100, 100))] = 0
@@ -246,13 +244,13 @@ class SandbagPay(BySystem):
         bool, _COMPARE, Says(more="Each with the number of dumped matches that pays most.")
     ] = False
     plot: Annotated[
-        PlotFile, Says(section="", more="The chance of winning each match in earnest.")
+        PlotFile, Says(section="", more="The chance of winning each match that counts.")
     ] = None
 
     def check(self) -> None:
         """Refuse one chart where all are compared."""
         if self.compare and (self.chart is not None or self.plot is not None):
-            self.refuse("{compare} takes all charts of the system; leave {chart} and {plot} out")
+            self.refuse("{compare} takes all charts of the system. Leave {chart} and {plot} out.")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -290,7 +288,7 @@ class SandbagWatch(BySystem, Reading):
     scale: Annotated[
         ScaleOf,
         Says(
-            usual="what the list states, else what the ratings show",
+            usual="the list's own, otherwise the one the ratings show",
             more="If the results contradict that scale, the command refuses and shows both "
             "readings.",
         ),
@@ -298,8 +296,8 @@ class SandbagWatch(BySystem, Reading):
     alpha: Annotated[
         float,
         Field(
-            Number(1e-9, 0.5, "; give a number from 1e-09 to 0.5", metavar="P"),
-            "The largest chance that an honest player is ever flagged.",
+            Number(1e-9, 0.5, " isn't a number from 1e-09 to 0.5", metavar="P"),
+            "The largest chance of ever flagging an honest player.",
         ),
     ] = 0.01
     honest: Annotated[
@@ -319,7 +317,7 @@ class SandbagWatch(BySystem, Reading):
         float,
         DAY_SD,
         Says(
-            "How much the form of honest players varies from day to day (standard deviation).",
+            "Variation of honest players' form from day to day (standard deviation).",
             more="If their form really varies much, honest players are flagged too often with 0; a "
             "warning then says so, with the value that fits the results.",
         ),

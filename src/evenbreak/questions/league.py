@@ -38,9 +38,11 @@ MOST_WEEKS, MOST_REPLICAS, MOST_MATCHES = 10_000, 10_000_000, 100
 WEEKS = 30
 """The length of a season where neither an option nor a schedule says it."""
 
-_WHO, _LEAGUE, _WORK = "Who plays whom", "The league", "The work"
+_WHO, _LEAGUE, _WORK = "Who plays who", "The league", "The work"
 
-SHARE_OF = Number(0.0, 1.0, " is no share; give a number from 0 to 1, such as 0.2", metavar="SHARE")
+SHARE_OF = Number(
+    0.0, 1.0, " isn't a share. Give a number from 0 to 1, such as 0.2", metavar="SHARE"
+)
 
 
 def _systems(text: str) -> tuple[System, ...]:
@@ -80,51 +82,54 @@ class Matchups(Lengths, Starters, Pace):
     ] = None
     race_to: Annotated[int | None, RACE_TO] = None
     players_file: EntrantsFile = None
-    pairs: Annotated[str | None, Field(File("PAIRS.csv"), "Who meets whom.", usual="all pairs")] = (
+    pairs: Annotated[str | None, Field(File("PAIRS.csv"), "Who plays who.", usual="all pairs")] = (
         None
     )
     results: LevelResults = None
     scale: Annotated[
         ScaleOf,
         Says(
-            usual="the one that the file states, else the chart's, else what the ratings show",
+            usual="the file's own, otherwise the chart's, otherwise the one the ratings show",
             more="See [the scale of a list](../files.md#the-scale-of-a-list).",
         ),
     ] = None
     discipline: Annotated[
-        Discipline | None, Says("Give the lengths in minutes, at the usual pace of this game.")
+        Discipline | None, Says("Show lengths in minutes, at the usual pace of this game.")
     ] = None
     minutes_per_game: Annotated[
-        float | None, MINUTES, Says("Give the lengths in minutes, at this pace on average.")
+        float | None, MINUTES, Says("Show lengths in minutes, at this average pace.")
     ] = None
-    tables: Annotated[Tables | None, Says("Show when the round ends on T tables.")] = None
+    tables: Annotated[Tables | None, Says("Show the finish time of the round on T tables.")] = None
     turnover: Annotated[Turnover, Says(usual="10.8", section="Details")] = None
     form: FormOfDay = None
-    seed: Annotated[Seed, Says("The seed of the evenings that have to be simulated.")] = 0
+    seed: Annotated[Seed, Says("The seed of the simulated evenings.")] = 0
 
     def check(self) -> None:
         """Refuse what lacks something else."""
         if self.chart is None and self.games is None and self.race_to is None:
-            self.refuse("say which races; give {chart} NAME, {games} LO..HI or {race_to} N")
+            self.refuse("missing races: give {chart} NAME, {games} LO..HI or {race_to} N")
         if self.results is not None and not has_levels(self.chart):
-            self.refuse("{results} is for chances by skill levels; give {chart} apa_8ball or such")
+            self.refuse(
+                "{results} is for chances by skill level. Add a chart of levels, "
+                "such as {chart} apa_8ball."
+            )
         paced = self.discipline is not None or self.minutes_per_game is not None
         if self.tables is not None and not paced:
             self.refuse(
-                "{tables} needs to know how long games take; add {discipline}, such as 9-ball, or "
-                "{minutes_per_game}, such as 8"
+                "{tables} needs to know how long games take. Add {discipline}, such as "
+                "9-ball, or {minutes_per_game}, such as 8."
             )
         if self.turnover is not None and self.tables is None:
             self.refuse(
-                "{turnover} is the time between two matches on a table; say how many {tables}"
+                "{turnover} is the time between two matches on a table. Say how many {tables}."
             )
         if [self.roster, self.pairs, self.chart].count("-") > 1:
-            self.refuse("only one list can come from standard input; name a file for the other")
+            self.refuse("only one list can come from standard input. Name a file for the other.")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Simulate(BySystem):
-    """Simulate a season many times: how accurate ratings are, how fair matches are, who gains.
+    """Simulate a season many times: accuracy of ratings, fairness of matches, who gains.
 
     ROSTER.csv has one player per row, with the columns player and rating (or level) and,
     optionally, standard_error, matches, skill, day_sd, drift, joins, leaves, absence and team; -
@@ -159,7 +164,7 @@ class Simulate(BySystem):
     players_file: Annotated[
         EntrantsFile,
         Says(
-            more="[Those who are not on the list](../files.md#entrants) are new players in the "
+            more="[Players missing from the list](../files.md#entrants) are new, in the "
             "middle of the scale."
         ),
     ] = None
@@ -173,13 +178,13 @@ class Simulate(BySystem):
         int | None,
         Field(
             Whole(1, MOST_WEEKS),
-            "How many weeks are played.",
+            "Number of weeks.",
             usual=f"those of the schedule, or {WEEKS}",
             metavar="W",
         ),
     ] = None
     replicas: Annotated[
-        int, Field(Whole(1, MOST_REPLICAS), "How many seasons are simulated.", metavar="R")
+        int, Field(Whole(1, MOST_REPLICAS), "Number of simulated seasons.", metavar="R")
     ] = 1000
     schedule: Annotated[
         str | None,
@@ -192,9 +197,7 @@ class Simulate(BySystem):
     ] = None
     round_robin: Annotated[
         bool,
-        Field(
-            Flag(), "Everyone plays everyone in turn, again and again: the default.", section=_WHO
-        ),
+        Field(Flag(), "Round robins, one after another (the default).", section=_WHO),
     ] = False
     random: Annotated[bool, Field(Flag(), "Draw opponents at random each week.", section=_WHO)] = (
         False
@@ -212,17 +215,15 @@ class Simulate(BySystem):
         float,
         DAY_SD,
         Says(
-            "How much a player's form varies from day to day (standard deviation), where the "
-            "roster does not say.",
+            "Variation of a player's form from day to day (standard deviation) if the "
+            "roster doesn't give it.",
             section=_LEAGUE,
-            kind=Number(0.0, 1000.0, "; give points from 0 to 1,000", metavar="POINTS"),
+            kind=Number(0.0, 1000.0, " isn't 0 to 1,000 points", metavar="POINTS"),
         ),
     ] = 0.0
     seasons: Annotated[
         int,
-        Field(
-            Whole(1, 50), "How many seasons are played in a row, ratings going on.", section=_LEAGUE
-        ),
+        Field(Whole(1, 50), "Seasons played in a row, with ratings carried over.", section=_LEAGUE),
     ] = 1
     newcomers: Annotated[
         float, Field(SHARE_OF, "The share of players who are new in each season.", section=_LEAGUE)
@@ -242,7 +243,7 @@ class Simulate(BySystem):
     cap: Annotated[
         float | None,
         Field(
-            Number(0.0, 1000.0, "; give a sum of levels, such as 23"),
+            Number(0.0, 1000.0, " isn't a sum of levels, such as 23"),
             "The most that the levels of a team's line-up may add up to.",
             section=_LEAGUE,
             metavar="LEVELS",
@@ -252,19 +253,19 @@ class Simulate(BySystem):
         bool,
         Field(
             Flag(),
-            "Captains hand in the best line-up by the published numbers, not anybody who is there.",
+            "Captains field their best line-up by the published numbers, not just anyone present.",
             section=_LEAGUE,
-            more="Much slower: some tenths of a second a season.",
+            more="Much slower: a few tenths of a second per season.",
         ),
     ] = False
     discipline: Annotated[
         Discipline | None,
-        Says("Give lengths in minutes too, at the usual pace of this game.", section=_LEAGUE),
+        Says("Show lengths in minutes too, at the usual pace of this game.", section=_LEAGUE),
     ] = None
     minutes_per_game: Annotated[
         float | None,
         MINUTES,
-        Says("Give lengths in minutes too, at this pace on average.", section=_LEAGUE),
+        Says("Show lengths in minutes too, at this average pace.", section=_LEAGUE),
     ] = None
     rack_by_rack: Annotated[
         bool,
@@ -280,7 +281,7 @@ class Simulate(BySystem):
         bool,
         Field(
             Flag(),
-            "Do not write matches.csv and truth.csv.",
+            "Don't write matches.csv and truth.csv.",
             section=_WORK,
             more="They take long for a large league.",
         ),
@@ -302,13 +303,13 @@ class Simulate(BySystem):
             f"{{{name}}}" for name in ("schedule", "round_robin", "random") if name in self.given
         ]
         if len(ways) > 1:
-            self.refuse(" and ".join(ways) + " cannot be combined; leave all but one out")
+            self.refuse(" and ".join(ways) + " can't be used together. Leave all but one out.")
         if self.schedule is not None and self.matches is not None:
             self.refuse(
-                "{schedule} and {matches} cannot be combined; the schedule sets the matches"
+                "{schedule} and {matches} can't be used together; the schedule sets the matches"
             )
         if self.compare and self.rack_by_rack:
-            self.refuse("{compare} and {rack_by_rack} cannot be combined; leave one out")
+            self.refuse("{compare} and {rack_by_rack} can't be used together. Leave one out.")
         refuse_workers(self)
         if [self.roster, self.schedule, self.chart].count("-") > 1:
             self.refuse(ON_STDIN)

@@ -51,7 +51,7 @@ class Players(Question):
         str | None,
         Field(
             File("RATINGS.csv"),
-            "Take A and B as names on this list of ratings, with its scale and errors.",
+            "Look A and B up by name in this list of ratings, with its scale and errors.",
             option="from",
             more="A [list](../files.md#roster). Everything is averaged over the errors that it "
             "states, as in [matchups](league.md#evenbreak-matchups); JSON has `player_a` and "
@@ -100,26 +100,26 @@ class Players(Question):
     def check(self) -> None:
         """Refuse players that are missing, or given in two ways."""
         remedy = (
-            "give two ratings A B, or two names with {from_file}, or {p}, or {p1} and {p2} with "
-            "{breaks}"
+            "give two ratings (612 521), two names with {from_file} ratings.csv, {p} P, or "
+            "{p1} P and {p2} P with {breaks}"
         )
         self._check_ratings()
         by_break = self.p1 is not None or self.p2 is not None
         ways = bool(self.ratings) + (self.p is not None) + by_break
         if not ways:
-            self.refuse(f"the players are missing; {remedy}")
+            self.refuse(f"missing players: {remedy}")
         if ways > 1:
-            self.refuse(f"the players are given twice; {remedy}")
+            self.refuse(f"the players are given twice. Use only one way: {remedy}")
         if self.from_file is not None and not self.ratings:
-            self.refuse("{from_file} is for two players by name, but none are named; leave it out")
+            self.refuse("{from_file} is for two players by name, but none are named. Leave it out.")
         self._check_chart()
         if self.scale is not None and not self.ratings:
-            self.refuse("{scale} is for ratings, but none are given; leave it out")
+            self.refuse("{scale} is for ratings, but none are given. Leave it out.")
         if by_break and None in (self.p1, self.p2, self.breaks):
-            self.refuse("{p1}, {p2} and {breaks} go together; give all three")
+            self.refuse("{p1}, {p2} and {breaks} go together. Give all three.")
         if not by_break and (self.breaks is not None or self.first_break is not None):
             self.refuse(
-                "the break matters only with {p1} and {p2}; leave {breaks} and {first_break} out"
+                "the break matters only with {p1} and {p2}. Leave {breaks} and {first_break} out."
             )
         if self.from_file is not None and len(self.ratings) != 2:
             self.refuse(
@@ -127,10 +127,10 @@ class Players(Question):
                 n=len(self.ratings),
             )
         if len(self.ratings) == 1:
-            self.refuse("only one rating is given, {rating}; " + remedy, rating=self.ratings[0])
+            self.refuse("only one rating, {rating}: " + remedy, rating=self.ratings[0])
         if len(self.ratings) > 2:
             self.refuse(
-                "{n} ratings are given, {ratings}; " + remedy,
+                "{n} ratings, {ratings}: " + remedy,
                 n=len(self.ratings),
                 ratings=" ".join(self.ratings),
             )
@@ -138,18 +138,21 @@ class Players(Question):
     def _check_chart(self) -> None:
         """Refuse a chart that does not go with the players, and what does not go with it."""
         if self.results is not None and not has_levels(self.chart):
-            self.refuse("{results} is for chances by skill levels; give {chart} apa_8ball or such")
+            self.refuse(
+                "{results} is for chances by skill level. Add a chart of levels, "
+                "such as {chart} apa_8ball."
+            )
         if self.chart is None:
             return
         if not self.ratings:
-            self.refuse("{chart} is for ratings or skill levels, and there are none; leave it out")
+            self.refuse("{chart} is for ratings or skill levels, and there are none. Leave it out.")
         from evenbreak.files.charts import find_chart
         from evenbreak.handicaps.charts.chart import Chart
         from evenbreak.handicaps.charts.level_chart import PointsChart
 
         found = find_chart(self.chart)
         if isinstance(found, Chart | PointsChart) and not isinstance(self, Played):
-            self.refuse("{chart} must be one of games by skill level here; leave it out")
+            self.refuse("{chart} must be one of games by skill level here. Leave it out.")
         if isinstance(found, PointsChart):
             self._refuse_with_points(found.name)
         if not isinstance(found, Chart) and self.from_file is None:
@@ -160,7 +163,7 @@ class Players(Question):
         for part in (*("race", "ahead", "set_", "win_by", "scale", "form"), *_MORE):
             if part in self.given:
                 self.refuse(
-                    "{part} is not for a chart of points such as {name}; leave it out",
+                    "{part} isn't for a chart of points such as {name}. Leave it out.",
                     part=Parameter(part),
                     name=name,
                 )
@@ -170,14 +173,16 @@ class Players(Question):
         for word in self.ratings:
             if not NUMBER.fullmatch(word) or float(word) not in levels:
                 self.refuse(
-                    "{word} is not a skill level of {name}, whose levels are {levels}; for ratings "
-                    "leave {chart} out, or give one of rating differences",
+                    "{word} isn't a skill level of {name}, whose levels are {levels}; "
+                    "for ratings leave {chart} out, or give one of rating differences",
                     word=word,
                     levels=", ".join(map(str, levels)),
                     name=name,
                 )
         if self.scale is not None:
-            self.refuse("{scale} is for ratings, and with {chart} A and B are levels; leave it out")
+            self.refuse(
+                "{scale} is for ratings, and with {chart} A and B are levels. Leave it out."
+            )
 
     def _check_ratings(self) -> None:
         """Refuse words that are no ratings."""
@@ -185,19 +190,19 @@ class Players(Question):
             if self.from_file is not None or NUMBER.fullmatch(word):
                 continue
             wanted = (
-                "give two numbers, such as 612 521, or name the list that it is on with {from_file}"
+                "Give two ratings (612 521), or use {from_file} FILE to look players up by name."
             )
             values: dict[str, Any] = {}
             with suppress(InputError):
                 match = match_format(word)
                 if hasattr(self, "race"):
                     wanted += (
-                        f"; a match goes with {{{'ahead' if match.ahead else 'race'}}} {{m}}:{{n}}"
+                        f" A match goes with {{{'ahead' if match.ahead else 'race'}}} {{m}}:{{n}}"
                     )
                     values = {"m": match.m, "n": match.n}
             wanted += "{hint}"
             hint = meant(word, -math.inf, math.inf)
-            self.refuse("{word} is not a rating; " + wanted, word=repr(word), hint=hint, **values)
+            self.refuse("{word} isn't a rating. " + wanted, word=repr(word), hint=hint, **values)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -234,13 +239,13 @@ class Played(Question):
     def check(self) -> None:
         """Refuse a match that is missing, or two in one."""
         if self.race is not None and self.ahead is not None:
-            self.refuse("{race} and {ahead} cannot be combined; leave one out")
+            self.refuse("{race} and {ahead} can't be used together. Leave one out.")
         if self.win_by is not None and self.ahead:
-            self.refuse("{win_by} cannot be combined with {ahead}; leave it out")
+            self.refuse("{win_by} can't be used with {ahead}. Leave it out.")
         if self.win_by is not None and self.set_:
-            self.refuse("{win_by} cannot be combined with {set_}; leave it out")
+            self.refuse("{win_by} can't be used with {set_}. Leave it out.")
         if self.race is None and self.ahead is None and getattr(self, "chart", None) is None:
-            self.refuse("the match is missing; give {race} M:N or {ahead} M:N, or the {chart}")
+            self.refuse("missing match: give {race} M:N, {ahead} M:N or {chart} NAME")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -263,7 +268,7 @@ class Odds(Players, Played):
         bool,
         Field(
             Flag(),
-            "Also give the chances of winning as fractions; needs {p}, or {p1} and {p2}.",
+            "Also show the chances of winning as fractions; needs {p}, or {p1} and {p2}.",
             section="Details",
         ),
     ] = False
@@ -276,13 +281,13 @@ class Odds(Players, Played):
                 "{exact} needs the chances themselves: give {p}, or {p1} and {p2}, not ratings"
             )
         if self.exact and self.via is not None:
-            self.refuse("{exact} has a way of its own; leave {via} out")
+            self.refuse("{exact} has a way of its own. Leave {via} out.")
         if self.exact and self.form:
-            self.refuse("{exact} has no fractions with {form}; leave one out")
+            self.refuse("{exact} has no fractions with {form}. Leave one out.")
         if self.form and self.breaks is not None and any(self.score or ()):
             self.refuse(
-                "the games played show the form of the day, but not without who broke them; leave "
-                "{score} out, or {form}"
+                "the games played show the day-to-day form, but not without who broke "
+                "them. Leave {score} out, or {form}."
             )
 
 
@@ -307,7 +312,7 @@ class Fair(Players, Lengths):
   evenbreak fair 85 40 --games 7..13 --top 3
 """
     target: Target = 0.5
-    top: Annotated[int, Field(Whole(1, MOST_RACES), "How many races to list.", metavar="K")] = 5
+    top: Annotated[int, Field(Whole(1, MOST_RACES), "Number of races to list.", metavar="K")] = 5
     form: FormOfDay = None
     via: ByWay = None
 
@@ -317,8 +322,8 @@ class Fair(Players, Lengths):
         longest = games[1] if games is not None else 2 * race_to - 1
         if self.via is not None and (longest > MOST_GAMES or self.top > MOST_GRAPHS):
             self.refuse(
-                "{via} builds the graph of each race listed; ask for at most {graphs} races of "
-                "at most {most} games",
+                "{via} builds the graph of each race listed. Ask for at most {graphs} "
+                "races of at most {most} games.",
                 graphs=MOST_GRAPHS,
                 most=MOST_GAMES,
             )
@@ -326,13 +331,13 @@ class Fair(Players, Lengths):
 
 @dataclass(frozen=True, kw_only=True)
 class FairTonight(Fair):
-    """The same on a page that everybody may open.
+    """The same on a page that anyone may open.
 
     Its races are as long as those of a tournament: one to 1,000 takes seconds to work out.
     """
 
     race_to: Annotated[int, Field(Whole(1, LONGEST_RACE))] = USUAL_RACE
-    top: Annotated[int, Field(Whole(1, MOST_RACES), "How many races to list.")] = 3
+    top: Annotated[int, Field(Whole(1, MOST_RACES), "Number of races to list.")] = 3
 
 
 def winners(text: str) -> list[int]:
@@ -344,9 +349,7 @@ def winners(text: str) -> list[int]:
     letters = "".join(text.lower().replace(",", " ").split())
     for letter in letters:
         if letter not in "ab":
-            raise InputError(
-                f"{letter!r} is neither a nor b; write one of them for each rack, such as abbab"
-            )
+            raise InputError(f"{letter!r} isn't a or b. Write one letter per rack, such as abbab.")
     return ["ab".index(letter) + 1 for letter in letters]
 
 
@@ -373,7 +376,7 @@ class Live(Players, Played):
     ] = ()
     comebacks: Annotated[
         bool,
-        Field(Flag(), "Add the comeback table: the odds at each score to come.", old=("table",)),
+        Field(Flag(), "Add the comeback table: the odds at every possible score.", old=("table",)),
     ] = False
     form: FormOfDay = None
     plot: Annotated[PlotFile, Says(more="The match so far; needs `--racks`.")] = None
@@ -381,9 +384,9 @@ class Live(Players, Played):
     def check(self) -> None:
         """Refuse what needs something else."""
         if self.set_score is not None and self.set_ is None:
-            self.refuse("{set_score} is the score of a set, but there is no {set_}; leave it out")
+            self.refuse("{set_score} is the score of a set, but there's no {set_}. Leave it out.")
         if self.plot is not None and not self.racks:
-            self.refuse("{plot} draws the match as it went; give {racks}, such as abbab")
+            self.refuse("{plot} draws the match as it went. Give {racks}, such as abbab.")
 
 
 MOST_FORMATS = 7
@@ -392,7 +395,7 @@ MOST_FORMATS = 7
 
 @dataclass(frozen=True, kw_only=True)
 class Compare(Players):
-    """Compare match formats for two players: which is better for whom.
+    """Compare match formats for two players: which favors who.
 
     A FORMAT is 9:5 (A needs 9 games, B needs 5), "7:7 win by 2", "ahead 5:3" or "3:1 of 3:3"
     (sets), and may end in a break format, such as "winner breaks". Describe the players by two
@@ -439,7 +442,7 @@ class Compare(Players):
             word = ratings[0 if said else 2]
             race = word if word.isdecimal() else "7"
             cls.refuse(
-                "{word} was read as a rating; write {race}:{race} for a race to {race}",
+                "{word} was read as a rating. For a race to {race}, write {race}:{race}.",
                 word=word,
                 race=race,
             )
@@ -449,7 +452,7 @@ class Compare(Players):
     def check(self) -> None:
         """Refuse too few or too many formats."""
         if not self.formats:
-            self.refuse('the formats are missing; give some, such as 9:5 "3:1 of 3:3" "ahead 5:3"')
+            self.refuse('missing formats: give some, such as 9:5 "3:1 of 3:3" "ahead 5:3"')
         if len(self.formats) > MOST_FORMATS:
             self.refuse(
                 "{n} formats are given; compare {most} at most",

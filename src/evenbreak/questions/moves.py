@@ -73,7 +73,7 @@ Result: TypeAlias = Annotated[
 Rating: TypeAlias = Annotated[
     float | None,
     Field(
-        Number(-1e6, 1e6, " is not a number of rating points; give one such as 80", metavar="R"),
+        Number(-1e6, 1e6, " isn't a rating. Give a number of points, such as 80", metavar="R"),
         "Their rating.",
     ),
 ]
@@ -90,22 +90,22 @@ class Entry(TimedUnderWay):
         bool,
         Field(
             Flag(),
-            "Enter it even if a match in play leaves its table, or a result no longer counts.",
+            "Enter it even if that takes a match off its table or voids a result.",
         ),
     ] = False
 
 
 @dataclass(frozen=True, kw_only=True)
 class MakeDraw(Entry):
-    """Make the draw, in the way that {seeding} of evenbreak tournament new said.
+    """Make the draw as {seeding} of evenbreak tournament new set it.
 
-    Later it draws what comes next: the next round of a Swiss once a round is over, or, with
+    Later it draws the next stage: the next round of a Swiss once a round is over, or, with
     {placement} redraw, the losers' side's qualifiers for the knock-out.
     """
 
     seed: Annotated[Lots | None, Says("The seed of a blind draw.")] = None
     here: Annotated[
-        bool, Field(Flag(), "Draw those who have checked in; the others can be let in late.")
+        bool, Field(Flag(), "Draw only players who have checked in; others can enter late.")
     ] = False
 
 
@@ -131,7 +131,7 @@ class Call(TimedUnderWay):
     def check(self) -> None:
         """Refuse a table without a match."""
         if self.match is None and self.table is not None:
-            self.refuse("{table} is for one match; name it, such as 12")
+            self.refuse("{table} is for one match. Name the match, such as 12.")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,7 +153,7 @@ class Ended(TimedUnderWay):
         Literal["time", "conceded"] | None,
         Field(
             Choice(("time", "conceded")),
-            "Why it was not played to the end; with SCORE, and {winner} where it does not show.",
+            "Why it wasn't finished; with SCORE, and {winner} if the score doesn't show it.",
         ),
     ] = None
 
@@ -187,7 +187,7 @@ class EnterResult(Ended):
 class EnterScore(TimedUnderWay):
     """Enter the score of a match in play; the odds and the finish go by it from then on.
 
-    It is not needed: the result alone will do.
+    It's optional: the result alone is enough.
     """
 
     match: Match
@@ -219,14 +219,14 @@ class Correct(Ended, Entry):
         Literal["stop", "keep"] | None,
         Field(
             Choice(("stop", "keep")),
-            "What happens to matches in play that follow: stop them, or keep who plays.",
+            "What to do with later matches in play: stop them, or keep their players.",
         ),
     ] = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class Stand(Entry):
-    """Let a match stand that was played before a correction sent somebody else into it.
+    """Keep the result of a match that was played before a correction sent someone else into it.
 
     The corrected score is kept, but those who have played on stay where they are.
     """
@@ -236,7 +236,7 @@ class Stand(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Change(Entry):
-    """Change the tables, the pace, or the races of the matches that have not begun.
+    """Change the tables, the pace, or the races of matches that haven't started.
 
     A match on a table that is closed goes back to the queue, and keeps its score.
 
@@ -249,12 +249,14 @@ class Change(Entry):
   evenbreak tournament change --losers-race 4
 """
     tables: NamedTables | None = None
-    race: Annotated[int | None, Field(Whole(1, LONGEST_RACE), "What is raced to.")] = None
+    race: Annotated[int | None, Field(Whole(1, LONGEST_RACE), "Games to win.")] = None
     losers_race: Annotated[
-        LosersRace, Says("The same on the losers' side.", usual="", section="")
+        LosersRace, Says("Games to win on the losers' side.", usual="", section="")
     ] = None
-    final_race: Annotated[FinalRace, Says("The same in the final.", usual="", section="")] = None
-    name: Annotated[str | None, Field(Text("NAME"), "What the tournament is called.")] = None
+    final_race: Annotated[FinalRace, Says("Games to win in the final.", usual="", section="")] = (
+        None
+    )
+    name: Annotated[str | None, Field(Text("NAME"), "Name of the tournament.")] = None
     date: Annotated[str | None, Field(Text("DATE"), "Its date.")] = None
     reserved: Annotated[
         tuple[str, ...] | None,
@@ -268,13 +270,13 @@ class Change(Entry):
     ] = None
     slower: Annotated[
         float | None,
-        Field(Number(0.5, 2.0, metavar="X"), "How much longer matches take here than elsewhere."),
+        Field(Number(0.5, 2.0, metavar="X"), "How much longer than usual matches take here."),
     ] = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class Undo(Entry):
-    """Take back the director's last entry; once more takes back the one before that.
+    """Undo the director's last entry; run it again to undo the one before.
 
     Scores that players tap on their phones stay. What is older, or was entered by both players, is
     taken back only if {entry} names it and nothing follows from it.
@@ -292,7 +294,7 @@ class Undo(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class LetIn(TimedUnderWay):
-    """Let PLAYER in: before the draw, or afterwards in place of a bye that is still open.
+    """Enter PLAYER: before the draw, or later in place of an open bye.
 
     In a chip tournament they get chips by the chart and go to the end of the line.
     """
@@ -312,7 +314,7 @@ class Edit(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class Drop(Entry):
-    """Let PLAYER go home: they forfeit all their matches to come.
+    """Withdraw PLAYER: they forfeit all their remaining matches.
 
     In the next rounds of a Swiss they are not paired. In a chip tournament they are out, and the
     next in the line takes their place at the table.
@@ -323,7 +325,7 @@ class Drop(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Forfeit(Entry):
-    """Let PLAYER forfeit the match they are to play; they play on if the format lets them.
+    """Forfeit PLAYER's next match; they play on if the format lets them.
 
     MATCH is needed only if they have several to play, as in a round robin.
     """
@@ -346,16 +348,16 @@ class TieBreak(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class Redo(Entry):
-    """Enter again what was taken back last."""
+    """Redo the last entry that was undone."""
 
     entry: Annotated[
-        int | None, Field(Whole(2, 10**7), "Its number in the history.", usual="the last one")
+        int | None, Field(Whole(2, 10**7), "Its entry number in the history.", usual="the last one")
     ] = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class SwapTables(TimedUnderWay):
-    """Let two matches that have been called trade tables."""
+    """Swap the tables of two called matches."""
 
     one: Annotated[Match, Says(metavar="MATCH")]
     other: Annotated[Match, Says(metavar="MATCH2")]
@@ -363,7 +365,7 @@ class SwapTables(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class Wait(TimedUnderWay):
-    """Let a match wait, off its table; without an option it waits no longer."""
+    """Put a match on hold, off its table; without an option, take it off hold."""
 
     examples = """\
   evenbreak tournament wait 12 --absent ann --until 20:15
@@ -380,7 +382,7 @@ class Wait(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class Rename(TimedUnderWay):
-    """Give PLAYER another name, at any time: their seed and their results stay."""
+    """Rename PLAYER at any time: their seed and results stay."""
 
     player: Player
     to: NewName
@@ -388,7 +390,7 @@ class Rename(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class Substitute(Entry):
-    """Let NAME take the place of PLAYER, who has not played yet."""
+    """Replace PLAYER, who hasn't played yet, with NAME."""
 
     player: Player
     to: NewName
@@ -397,7 +399,7 @@ class Substitute(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Swap(Entry):
-    """Let two players trade places in the draw, before either has played."""
+    """Swap two players in the draw before either has played."""
 
     one: Annotated[Player, Says(metavar="PLAYER")]
     other: Annotated[Player, Says(metavar="PLAYER2")]
@@ -412,22 +414,22 @@ class CheckIn(TimedUnderWay):
 """
     player: Player
     arrived: Annotated[
-        bool | None, Field(YES, "Whether they're here.", usual="yes, if {paid} is not given")
+        bool | None, Field(YES, "Whether they're here.", usual="yes without {paid}")
     ] = None
     paid: Annotated[bool | None, Field(YES, "Whether they have paid.", usual="as before")] = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class Accept(TimedUnderWay):
-    """Let NAME in, who has asked to play or was not here at the draw."""
+    """Accept NAME, who asked to play or wasn't here for the draw."""
 
     name: NewName
-    unrated: Annotated[bool, Field(Flag(), "Without the rating that they state.")] = False
+    unrated: Annotated[bool, Field(Flag(), "Ignore the rating they entered.")] = False
 
 
 @dataclass(frozen=True, kw_only=True)
 class Decline(TimedUnderWay):
-    """Take NAME off the list of those who would like to play."""
+    """Decline NAME's request to play."""
 
     name: NewName
 
@@ -448,10 +450,10 @@ COMMANDS: dict[str, tuple[type[TimedUnderWay], str]] = {
     "late": (LetIn, "Add a late entry."),
     "edit": (Edit, "Correct a name or a rating before the draw."),
     "drop": (Drop, "Withdraw a player."),
-    "forfeit": (Forfeit, "Let a player forfeit a match."),
+    "forfeit": (Forfeit, "Forfeit a match for a player."),
     "rename": (Rename, "Rename a player."),
     "substitute": (Substitute, "Replace a player with a substitute."),
-    "swap": (Swap, "Let two players trade places in the draw."),
+    "swap": (Swap, "Swap two players in the draw."),
     "check-in": (CheckIn, "Note who is here, and who has paid."),
     "accept": (Accept, "Accept a request to play."),
     "decline": (Decline, "Decline a request to play."),

@@ -12,14 +12,12 @@ from evenbreak.tournaments.evening.format import Discipline
 
 MINUTES = Field(
     values.MINUTES,
-    "How long a game takes on average, instead of the usual time of the discipline.",
+    "Average minutes per game, instead of the discipline's usual time.",
     metavar="MINUTES",
 )
 Turnover: TypeAlias = Annotated[
     float | None,
-    Field(
-        values.TURNOVER, "The time between two matches on a table, on average.", metavar="MINUTES"
-    ),
+    Field(values.TURNOVER, "Average minutes between two matches on a table.", metavar="MINUTES"),
 ]
 EarlierNights: TypeAlias = Annotated[
     tuple[str, ...],
@@ -46,4 +44,6 @@ class Pace(Question):
     def check(self) -> None:
         """Refuse two paces."""
         if self.discipline is not None and self.minutes_per_game is not None:
-            self.refuse("{discipline} and {minutes_per_game} cannot be combined; leave one out")
+            self.refuse(
+                "{discipline} and {minutes_per_game} can't be used together. Leave one out."
+            )

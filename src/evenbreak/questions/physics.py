@@ -51,7 +51,9 @@ def squirt_in(text: str) -> float:
 
     if text.strip().lower() in SQUIRTS:
         return SQUIRTS[text.strip().lower()]
-    return Number(0.0, 10.0, "; give regular, low, or degrees such as 2.1").read(text)
+    return Number(
+        0.0, 10.0, " isn't a launch angle. Give regular, low, or degrees such as 2.1"
+    ).read(text)
 
 
 def place(text: str) -> tuple[float, float]:
@@ -65,8 +67,8 @@ def place(text: str) -> tuple[float, float]:
         x, y = (Number(-math.inf, math.inf).read(part) for part in parts)
     except (InputError, ValueError):
         raise InputError(
-            f"{text!r}; give two numbers with a comma between them, such as 25,16: along the table "
-            "from the head cushion, and across it from the right cushion"
+            f"{text!r} isn't a place on the table. Give two numbers, such as 25,16: the "
+            "distance from the head cushion, and from the right cushion."
         ) from None
     return x, y
 
@@ -120,7 +122,7 @@ class Hit(Units, BallFriction):
         tuple[float, str] | None,
         Field(
             Named(english_in, "ENGLISH", spelled=english_words),
-            'Sidespin as players say it, such as "1 tip outside", "1/2 tip left" or "50% right".',
+            'Sidespin in players\' words, such as "1 tip outside", "1/2 tip left" or "50% right".',
             more="1.4 tips are 100%, more than which the tip usually slips.",
         ),
     ] = None
@@ -138,20 +140,20 @@ class Hit(Units, BallFriction):
     def check(self) -> None:
         """Refuse a speed that changes nothing, a friction that needs one, and two englishes."""
         if self.english is not None and self.side:
-            self.refuse("{english} and {side} cannot be combined; leave one out")
+            self.refuse("{english} and {side} can't be used together. Leave one out.")
         if self.english is not None and not self.cut and self.english[1].endswith("side"):
             self.refuse(
-                "a full hit has no inside and outside; say whether {english} is left or right"
+                "a full hit has no inside and outside. Say whether {english} is left or right."
             )
         by_speed = self.mu is not None and not isinstance(self.mu, float)
         if by_speed and self.speed is None:
             self.refuse(
-                "{mu} by-speed needs the speed of the cue ball at the hit; give {speed} too"
+                "{mu} by-speed needs the speed of the cue ball at the hit. Give {speed} too."
             )
         if isinstance(self.mu, float) and self.speed is not None:
             self.refuse(
-                "{speed} {pace:g} changes nothing with {mu} {fixed:g}, which holds at any speed; "
-                "leave one of them out",
+                "{speed} {pace:g} changes nothing with {mu} {fixed:g}, which holds at "
+                "any speed. Leave one of them out.",
                 pace=self.speed,
                 fixed=self.mu,
             )
@@ -194,10 +196,10 @@ class Equipment(Question):
 
 
 SideOffset: TypeAlias = Annotated[
-    float, Field(OFFSET, "How far the tip hits to the right of the center; below 0 to the left.")
+    float, Field(OFFSET, "How far right of center the tip hits; below 0, left.")
 ]
 Offset: TypeAlias = Annotated[
-    float, Field(OFFSET, "How far the tip hits above the center, in ball radii; below 0 for draw.")
+    float, Field(OFFSET, "How far above center the tip hits, in ball radii; below 0 for draw.")
 ]
 
 
@@ -218,7 +220,7 @@ class TableSpeed(Units):
         float,
         Field(
             Number(0.1, 1000.0, example="7.0", metavar="SECONDS"),
-            "How long the ball rolls from the foot cushion to its stop at the head cushion.",
+            "Seconds from the foot cushion to the ball's stop at the head cushion.",
         ),
     ]
     table_length: Annotated[
@@ -319,7 +321,7 @@ class Strike(Units, Equipment):
         """Refuse a distance without a speed, and a tip that misses the ball."""
         if self.distance is not None and self.stick_speed is None:
             self.refuse(
-                "{distance} {far:g} needs the speed of the cue; give {stick_speed}",
+                "{distance} {far:g} needs the speed of the cue. Give {stick_speed}.",
                 far=self.distance,
             )
         if self.off_center >= 1.0:
@@ -386,7 +388,7 @@ class Shot(Units, BallFriction, Equipment):
         tuple[float, float] | None,
         Field(
             Named(place, "X,Y"),
-            "Where it is: X from the head cushion, Y from the right one.",
+            "Position of the object ball: X from the head cushion, Y from the right one.",
             usual="25,25 inches",
         ),
     ] = None
@@ -433,14 +435,14 @@ class Shot(Units, BallFriction, Equipment):
         )
         if angles and places:
             self.refuse(
-                "{angle} and {where} say twice where the balls are; give {cut} and {distance}, or "
-                "{cue_ball}, {object_ball} and {pocket}",
+                "{angle} and {where} both place the balls. Use either {cut} and "
+                "{distance}, or {cue_ball}, {object_ball} and {pocket}.",
                 angle=Parameter(angles[0]),
                 where=Parameter(places[-1]),
             )
         if len(angles or places) != 2:
             self.refuse(
-                "it is not clear where the balls are; give {cut} and {distance}, or {cue_ball}, "
+                "missing positions: give {cut} and {distance}, or {cue_ball}, "
                 "{object_ball} and {pocket}"
             )
         if (self.speed is None) == (self.stick_speed is None):

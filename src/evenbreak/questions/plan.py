@@ -101,11 +101,11 @@ class TournamentPlan(Format, Question):
                     asked=self.form,
                 )
         if self.knockout_size is not None and self.qualifiers is not None:
-            self.refuse("{qualifiers} is for each group, {knockout_size} for all; leave one out")
+            self.refuse("{qualifiers} is for each group, {knockout_size} for all. Leave one out.")
         if self.qualifiers is not None:
             self._check_qualifiers(self.qualifiers)
         elif "placement" in self.given:
-            self.refuse("{placement} is for qualifiers; give {qualifiers} M, or leave it out")
+            self.refuse("{placement} is for qualifiers. Give {qualifiers} M, or leave it out.")
 
     @property
     def planned(self) -> bool:
@@ -119,23 +119,27 @@ class TournamentPlan(Format, Question):
             if races or apart:
                 extra = next(one for one in _RACES if getattr(self, one) is not None)
                 self.refuse(
-                    "a chip tournament is played by the rack; leave out {extra}",
+                    "a chip tournament is played by the rack. Leave out {extra}.",
                     extra=Parameter(extra),
                 )
             if self.chips is None:
-                self.refuse("the chip chart is missing; give it with {chips}, such as hoboken")
+                self.refuse("missing chip chart: add {chips} NAME, such as hoboken")
         elif len(races) != 1:
             if races:
-                self.refuse("the races are given twice; give one of {race}, {race_to} and {chart}")
-            self.refuse("the races are missing; give one of {race}, {race_to} and {chart}")
+                self.refuse(
+                    "the races are given twice. Use only one of {race}, {race_to} and {chart}."
+                )
+            self.refuse("missing races: use one of {race}, {race_to} and {chart}")
         elif self.chart is not None and apart:
-            self.refuse("{chart} sets all races; leave out {losers_race} and {final_race}")
+            self.refuse("{chart} sets all races. Leave out {losers_race} and {final_race}.")
 
     def _check_qualifiers(self, qualifiers: int) -> None:
         if "final" in self.given:
-            self.refuse("{qualifiers} leads to one final; leave out {final}")
+            self.refuse("{qualifiers} leads to one final. Leave out {final}.")
         if self.form == "double" and (qualifiers < 2 or qualifiers & (qualifiers - 1)):
-            self.refuse("{qualifiers} is {m}; give 2, 4, 8 or another power of 2", m=qualifiers)
+            self.refuse(
+                "{qualifiers} must be 2, 4, 8 or another power of 2; you gave {m}", m=qualifiers
+            )
         if self.form == "pods" and qualifiers > 2:
             self.refuse("{qualifiers} is {m}; 1 or 2 go on from a pod", m=qualifiers)
 

@@ -18,7 +18,8 @@ EIGHT_BALL_LEVELS = 7
 """At this level of the 8-ball drill all 15 balls are on the table."""
 
 _SUCCESS = (
-    f"; give up to {MOST_LEVELS} numbers from 0 to 1 with commas between them, such as 0.9,0.8,0.5"
+    f" isn't a list of chances. Give up to {MOST_LEVELS} numbers from 0 to 1, separated "
+    "by commas, such as 0.9,0.8,0.5"
 )
 
 DrillName: TypeAlias = Annotated[
@@ -84,7 +85,7 @@ class DrillPlayed(Question):
         int | None,
         Field(
             Whole(1, MOST_LEVELS),
-            "How many levels there are.",
+            "Number of levels.",
             usual="9 with {p}, 7 in 8-ball, the highest in the log with {log}",
         ),
     ] = None
@@ -106,19 +107,19 @@ class DrillPlayed(Question):
         if sum(which is not None for which in (self.p, self.success, self.log)) != 1:
             self.refuse("give exactly one of {p}, {success} and {log}")
         if self.p is None and self.game is not None:
-            self.refuse("{game} says what {p} is about; leave it out")
+            self.refuse("{game} says what {p} is about. Leave it out.")
         if self.game == "8-ball" and (self.levels or 0) > EIGHT_BALL_LEVELS:
             self.refuse(
                 "{levels} is {n}; in 8-ball all 15 balls are on the table at level 7", n=self.levels
             )
         if self.success is not None and self.levels is not None:
-            self.refuse("{success} already says how many levels there are; leave {levels} out")
+            self.refuse("{success} already says how many levels there are. Leave {levels} out.")
         if self.log is None and self.seed is not None:
-            self.refuse("{seed} is for the tests of {log}; leave it out")
+            self.refuse("{seed} is for the tests of {log}. Leave it out.")
         if self.log is None and self.drill is not None:
-            self.refuse("{drill} names a drill of {log}; leave it out")
+            self.refuse("{drill} names a drill of {log}. Leave it out.")
         if self.log is not None and self.via is not None:
-            self.refuse("{via} is for a drill of known chances; leave it out with {log}")
+            self.refuse("{via} is for a drill of known chances. Leave it out with {log}.")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,9 +141,7 @@ class Scores(Question):
     new: Annotated[
         float | None,
         Field(
-            Number(
-                -LARGEST, LARGEST, " is not a score; give a number, such as 53", metavar="SCORE"
-            ),
+            Number(-LARGEST, LARGEST, " isn't a score. Give a number, such as 53", metavar="SCORE"),
             "Was this one score luck?",
         ),
     ] = None
@@ -155,7 +154,7 @@ class Scores(Question):
             Number(
                 1e-9,
                 1.0 - 1e-9,
-                " is not a confidence level; give a number between 0 and 1, such as 0.95",
+                " isn't a confidence level. Give a number between 0 and 1, such as 0.95",
                 metavar="C",
             ),
             "The confidence of the intervals.",
@@ -168,9 +167,9 @@ class Scores(Question):
     def check(self) -> None:
         """Refuse two questions in one."""
         if self.new is not None and self.versus is not None:
-            self.refuse("{new} and {versus} cannot be combined; leave one out")
+            self.refuse("{new} and {versus} can't be used together. Leave one out.")
         if self.scores == self.versus == "-":
-            self.refuse("only one list can come from standard input; name a file for the other")
+            self.refuse("only one list can come from standard input. Name a file for the other.")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -192,7 +191,7 @@ class Runs(Question):
             Number(
                 0,
                 MOST_BALLS,
-                f"; give a number of balls an inning from 0 to {MOST_BALLS}",
+                f" isn't a number of balls per inning from 0 to {MOST_BALLS}",
                 metavar="BALLS",
             ),
             "The player's average, in balls an inning.",
@@ -205,7 +204,7 @@ class Runs(Question):
         Safety, Says(more="`--mean` is then the average against such an opponent.")
     ] = 1.0
     innings: Annotated[
-        int, Field(Whole(), "Give the score of M innings instead of the run in one.", metavar="M")
+        int, Field(Whole(), "Show the score of M innings instead of the run in one.", metavar="M")
     ] = 1
     at_least: Annotated[int | None, Field(Whole(0, MOST_BALLS), "The chance of N or more.")] = None
     between: Annotated[
@@ -215,8 +214,8 @@ class Runs(Question):
                 r"\.\.",
                 0,
                 MOST_BALLS,
-                f"give the fewest and the most balls, from 0 to {MOST_BALLS}, with two dots "
-                "between them, such as 50..75",
+                "isn't a range of balls. Give the fewest and the most, 0 to "
+                f"{MOST_BALLS}, such as 50..75",
                 metavar="LO..HI",
                 rising=True,
             ),
@@ -229,7 +228,7 @@ class Runs(Question):
             Number(
                 0,
                 MOST_BALLS,
-                f"; give a number of balls from 0 to {MOST_BALLS}, such as 20 or 20.5",
+                f" isn't a number of balls from 0 to {MOST_BALLS}, such as 20 or 20.5",
                 metavar="N",
             ),
             "A bet on more than N, such as 20 or 20.5.",

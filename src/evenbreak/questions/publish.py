@@ -66,7 +66,7 @@ class Publish(Results, Lengths):
         str | None,
         Field(
             File("FIXTURES.csv"),
-            "Who plays whom, as `evenbreak league fixtures` writes it; the site has the matches "
+            "Who plays who, as `evenbreak league fixtures` writes it; the site has the matches "
             "that are still to be played.",
         ),
     ] = None
@@ -110,4 +110,4 @@ class Publish(Results, Lengths):
         super().check()
         ways = [name for name in ("chart", "race", "games", "race_to") if name in self.given]
         if len(ways) > 1:
-            self.refuse(f"{{{ways[0]}}} and {{{ways[1]}}} cannot be combined; leave one out")
+            self.refuse(f"{{{ways[0]}}} and {{{ways[1]}}} can't be used together. Leave one out.")

@@ -41,16 +41,16 @@ _PLAYER = Field(Named(str, "NAME", offers="players"), argument=True)
 
 @dataclass(frozen=True, kw_only=True)
 class Assumed(Question):
-    """What is assumed before the results, and how long they count."""
+    """Assumptions before the results, and how long results count."""
 
     prior: Annotated[
         float | Literal["best"] | None,
         Field(
             NumberOr("best", metavar="POINTS|best"),
-            "How far apart players are assumed to be before any result (standard deviation); best: "
-            "what predicts best, and where newcomers, teams, divisions and handicap races start, "
-            "if that helps.",
-            usual="best, if the dates can show it, else what doubles the odds",
+            "Assumed spread of players before any result (standard deviation); best: "
+            "whatever predicts best, and where newcomers, teams, divisions and handicap "
+            "races start, if that helps.",
+            usual="best if the file has dates, otherwise one doubling of the odds",
             section=_RATING,
             more="See [what the file knows](../../explanation/ratings.md#what-the-file-knows).",
         ),
@@ -64,8 +64,8 @@ class Assumed(Question):
                 wanted="a number of days from 0.01 to 1,000,000, such as 180",
                 metavar="DAYS|none",
             ),
-            "After this many days a match counts half; none: it always counts in full.",
-            usual="what clearly predicts better, unless {prior} gives points",
+            "After this many days a match counts half; none: no fading.",
+            usual="whatever clearly predicts better; none with {prior} POINTS",
             section=_RATING,
         ),
     ] = None
@@ -73,8 +73,8 @@ class Assumed(Question):
         str | None,
         Field(
             File("RATINGS.csv"),
-            "Begin from these ratings: those that `evenbreak rate --save` wrote after last season, "
-            "or any list of rated players.",
+            "Start from these ratings: the file `evenbreak rate --save` wrote last "
+            "season, or any list of rated players.",
             section=_RATING,
             more="See [the file](../files.md#ratings-to-begin-from). Ratings without a standard "
             "error count as far as they help to predict, those from more games more; with "
@@ -136,7 +136,7 @@ class Rate(Results, HowToRate):
         tuple[str, ...],
         Field(
             Text("POINTS|NAME=POINTS"),
-            "The mean rating, or the rating of a named player.",
+            "Mean rating, or the rating of a named player.",
             usual="the middle of the scale",
             many=True,
             more="The component of several named players is shifted to give them these ratings on "
@@ -147,14 +147,14 @@ class Rate(Results, HowToRate):
         str | None,
         Field(
             File("RATINGS.csv"),
-            "Also write the ratings to this file, with which the next season can {begin}.",
+            "Also write the ratings to this file, for next season's {begin}.",
         ),
     ] = None
     pair: Annotated[
         tuple[tuple[str, str], ...],
         Field(
             Text("A B"),
-            "Show how far apart two players are, and how certain that is.",
+            "Show the gap between two players, and how certain it is.",
             many=True,
             words=2,
         ),
@@ -164,8 +164,8 @@ class Rate(Results, HowToRate):
         float | Literal["fit"] | None,
         Field(
             NumberOr("fit", -1e6, metavar="POINTS|fit"),
-            "How many points better the breaker plays; fit: estimate this, where the file says who "
-            "broke.",
+            "Points by which the breaker plays better; fit: estimate it if the file says "
+            "who broke.",
             usual="the break does not matter",
             section=_RATING,
         ),
@@ -207,7 +207,7 @@ class Rate(Results, HowToRate):
         """Refuse options of a fit for a league's own rule, and the other way round."""
         if self.system is None:
             if self.roster is not None:
-                self.refuse("{roster} is for {system}; give {system} npl too, or leave it out")
+                self.refuse("{roster} is for {system}. Give {system} npl too, or leave it out.")
             return
         of_fit = ("anchor", "prior", "half_life", "begin", "save", "as_of", "provisional")
         given = [
@@ -216,12 +216,12 @@ class Rate(Results, HowToRate):
             if name in self.given
         ]
         if given:
-            self.refuse("{system} has its own rule; leave out " + ", ".join(given))
+            self.refuse("{system} has its own rule. Leave out " + ", ".join(given))
         if self.roster is None:
-            self.refuse("{system} needs the ratings before these results; give {roster} LAST.csv")
+            self.refuse("{system} needs the ratings before these results. Give {roster} LAST.csv.")
         if len(self.results) > 1:
             self.refuse(
-                "{system} takes one file of results; leave out {file}", file=self.results[1]
+                "{system} takes one file of results. Leave out {file}.", file=self.results[1]
             )
         if [self.results[0], self.roster, self.chart, self.aliases].count("-") > 1:
             self.refuse(ON_STDIN)
@@ -303,15 +303,12 @@ class Report(Results, HowToRate, Lengths):
 """
     out: Annotated[
         OutFolder,
-        Says(
-            "The folder for ratings.csv, matchups.csv, summary.csv and sheet.pdf; created if "
-            "needed."
-        ),
+        Says("Folder for ratings.csv, matchups.csv, summary.csv and sheet.pdf; created if needed."),
     ]
     scale: ScaleByChart = None
     players: Annotated[
         tuple[str, ...],
-        Field(Text("NAMES"), "The players to pair, separated by commas.", many=True),
+        Field(Text("NAMES"), "Players to pair, separated by commas.", many=True),
     ] = ()
     top: Annotated[
         int | None,
@@ -350,4 +347,4 @@ class Report(Results, HowToRate, Lengths):
         """Refuse two ways to name the players."""
         ways = [f"{{{name}}}" for name in ("players", "top", "players_file") if name in self.given]
         if len(ways) > 1:
-            self.refuse(" and ".join(ways) + " cannot be combined; leave all but one out")
+            self.refuse(" and ".join(ways) + " can't be used together. Leave all but one out.")

@@ -17,7 +17,7 @@ from evenbreak.words import Parameter
 _READING = "Reading the file"
 _DAYS_AHEAD = 366
 
-ON_STDIN = "- stands for standard input, which only one file can be; name the others"
+ON_STDIN = "- means standard input, which only one file can be. Name the others."
 
 RESULTS = Field(File("RESULTS.csv..."), argument=True, many=True)
 ROSTER = Field(File("ROSTER.csv"), "The list of ratings before these results.")
@@ -25,7 +25,7 @@ ROSTER = Field(File("ROSTER.csv"), "The list of ratings before these results.")
 DATES = Field(
     Choice(("mdy", "dmy")),
     "The order in dates such as 9/3/2024: month first or day first.",
-    usual="as other dates of the file show",
+    usual="as the file's other dates show",
     section=_READING,
     more="See [dates](../files.md#dates).",
 )
@@ -51,8 +51,8 @@ def columns_in(text: str) -> dict[str, str]:
         name = file + sign + name.lower().replace(" ", "_")
         if not (part.partition("=")[0].strip() and sign_of and title):
             raise InputError(
-                f"{part.strip()!r}; give the column and the title that it has in the file, such as "
-                "player_a=Home,player_b=Away"
+                f"{part.strip()!r} isn't a column and its title. Write both, such as "
+                "player_a=Home,player_b=Away."
             )
         if name in columns or title.casefold() in map(str.casefold, columns.values()):
             raise InputError(f"{part.strip()!r}; one of them was given before")
@@ -64,7 +64,7 @@ Columns: TypeAlias = Annotated[
     tuple[dict[str, str], ...],
     Field(
         Named(columns_in, "NAME=TITLE,..."),
-        "What the file calls its columns, such as player_a=Home,player_b=Away.",
+        "The file's names for columns, such as player_a=Home,player_b=Away.",
         many=True,
         section=_READING,
         more="With a file's name and a colon before it, such as `autumn.csv:score=Stand`, for "
@@ -86,7 +86,7 @@ class Reading(Question):
         str | None,
         Field(
             File("ALIASES.csv"),
-            "Names that mean the same player: a file with the columns name and means.",
+            "File of names that mean the same player (columns name and means).",
             section=_READING,
             more="See [aliases](../files.md#aliases).",
         ),
@@ -96,8 +96,7 @@ class Reading(Question):
         bool,
         Field(
             Flag(),
-            "Leave out rows that cannot be read and scores that can hardly be games, and list "
-            "them.",
+            "Skip unreadable rows and impossible scores, and list them.",
             usual="refuse the file",
             section=_READING,
             more="See [rows that are left out](../files.md#rows-that-are-left-out).",
@@ -139,13 +138,13 @@ class Reading(Question):
             return None
         day = read_date(text.strip(), self.dates)
         if day is None:
-            remedy = "give a day, such as 2026-01-31, 31.1.2026 or 1/31/2026"
+            remedy = "Give a day such as 2026-01-31, 31.1.2026 or 1/31/2026."
             if is_two_dates(text.strip()):
-                remedy = "say with {dates} mdy or {dates} dmy what comes first, or write 2026-01-31"
-            self.refuse("{part} is {day!r}; " + remedy, part=Parameter(name), day=text)
+                remedy = "Add {dates} mdy or {dates} dmy, or write 2026-01-31."
+            self.refuse("{part} {day!r} isn't clear. " + remedy, part=Parameter(name), day=text)
         if day > np.datetime64("today", "D") + np.timedelta64(_DAYS_AHEAD, "D"):
             self.refuse(
-                "{part} is {day!r}, more than a year from today; give an earlier day",
+                "{part} must be no more than a year from today; you gave {day!r}",
                 part=Parameter(name),
                 day=text,
             )
@@ -159,8 +158,7 @@ class ByChart(Reading):
     chart: Annotated[
         ChartName,
         Says(
-            "The chart that set the races, where the file states skill levels (or ratings) but no "
-            "races.",
+            "Chart that set the races, if the file has skill levels (or ratings) but no races.",
             section=_READING,
             more="See [races that a chart has set](../files.md#races-that-a-chart-has-set).",
         ),

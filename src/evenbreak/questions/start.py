@@ -21,7 +21,8 @@ def _host(text: str) -> str:
     name = text.strip().lower()
     if not re.fullmatch(r"[a-z0-9]([a-z0-9.-]*[a-z0-9])?(:\d{1,5})?", name):
         raise InputError(
-            "host is {value!r}; give a name or an address, such as 192.168.1.20 or pool.example:80",
+            "host must be a name or an address, such as 192.168.1.20 or pool.example:80; "
+            "you gave {value!r}",
             value=text,
         )
     return name
@@ -32,7 +33,7 @@ class Demo(Question):
     """Write made-up files to FOLDER, and show three commands to try on them.
 
     There are a league's results, the players of a tournament, two teams and a player's practice.
-    FOLDER is evenbreak-demo unless given. A file there that is not the demo's is left alone.
+    FOLDER defaults to evenbreak-demo. A file there that is not the demo's is left alone.
     """
 
     examples = """\
@@ -46,7 +47,7 @@ class Demo(Question):
 class LeagueInit(Question):
     """Write the file of a league, league.toml, from what is in its folder.
 
-    FOLDER is the current one unless given. Its files are looked at: results, lists of players,
+    FOLDER defaults to the current one. Its files are looked at: results, lists of players,
     fixtures, a chart. What they do not say is asked, each time with a proposal; in a script, and
     with {yes}, the proposals are taken. Then every command run in the folder takes its defaults
     from the file.
@@ -58,7 +59,7 @@ class LeagueInit(Question):
   evenbreak league init --name "Tuesday 8-Ball" --chart apa_8ball --tables 6
 """
     folder: Annotated[str, Field(Named(folder, "[FOLDER]"), argument=True)] = "."
-    yes: Annotated[bool, Field(Flag(), "Take all proposals, and ask nothing.")] = False
+    yes: Annotated[bool, Field(Flag(), "Accept all suggestions without asking.")] = False
     name: Annotated[
         str | None, Field(LINE, "The name of the league.", usual="the folder's", metavar="TEXT")
     ] = None
@@ -66,17 +67,17 @@ class LeagueInit(Question):
     scale: Annotated[ScaleOf, Says(more="")] = None
     chart: Annotated[
         ChartName,
-        Says("The chart of the races: its name, or a file of the folder.", usual="by the players"),
+        Says("Chart of the races: a name, or a file in the folder.", usual="by the players"),
     ] = None
     race_to: Annotated[
-        int | None, HandicappedRace, Says("In place of a chart: the stronger player needs N games.")
+        int | None, HandicappedRace, Says("Instead of a chart: the stronger player needs N games.")
     ] = None
     tables: Annotated[Tables | None, Says(usual="left open")] = None
 
     def check(self) -> None:
         """Refuse two kinds of races."""
         if self.chart is not None and self.race_to is not None:
-            self.refuse("{chart} and {race_to} cannot be combined; leave one out")
+            self.refuse("{chart} and {race_to} can't be used together. Leave one out.")
 
 
 def origin(text: str) -> str:
@@ -88,8 +89,8 @@ def origin(text: str) -> str:
     found = _ORIGIN.fullmatch(text.strip().lower())
     if found is None or not 1 <= int(found[3] or 1) <= 65535:
         raise InputError(
-            "{value!r}; name a page's scheme, host and port, such as https://league.example "
-            "or http://192.168.1.20:3000",
+            "{value!r} isn't a web address. Give its scheme, host and port, such as "
+            "https://league.example or http://192.168.1.20:3000.",
             value=text,
         )
     usual = {"http": "80", "https": "443"}[found[1]]
@@ -102,7 +103,7 @@ class Serve(Question):
     """Open tonight's tournament or team night as a page, for phones and the screen on the wall.
 
     FILE.db is the tournament's file, as evenbreak tournament new writes it, or that of a team
-    night; tonight.db unless given. If it is not there, the page begins one. The commands of
+    night; default: tonight.db. If it doesn't exist, the page starts one. The commands of
     evenbreak tournament can be used on it at the same time.
     """
 
@@ -119,7 +120,7 @@ class Serve(Question):
         bool,
         Field(
             Flag(),
-            "Open a made-up tournament that is half played.",
+            "Open a sample tournament, half played.",
             more="It has 16 players, results, matches on tables and one to call. Its file, which "
             "is printed, is in a temporary folder of its own.",
         ),
@@ -128,7 +129,7 @@ class Serve(Question):
         bool,
         Field(
             Flag(),
-            "Open the browser on the page, as the director.",
+            "Open the page in the browser, as the director.",
             more="Without FILE.db the tournament is kept in your documents, in the folder "
             "evenbreak: a file for each day. A second start opens the browser on the first. If the "
             "port is taken, the next free one is used.",
@@ -138,7 +139,7 @@ class Serve(Question):
         bool,
         Field(
             Flag(),
-            "Let phones in from the start; prints the address and a QR code.",
+            "Let phones connect; prints the address and a QR code.",
             more="Without it, the director lets them in on the page.",
         ),
     ] = False
@@ -146,8 +147,8 @@ class Serve(Question):
         str | None,
         Field(
             Named(_host, "NAME[:PORT]"),
-            "Where phones find this computer.",
-            usual="the address that it has",
+            "This computer's address for phones.",
+            usual="its own address",
             more="For `--lan` in a container, where the address that it sees is not the one that "
             "phones use. Requests by other names are refused.",
         ),
@@ -156,21 +157,19 @@ class Serve(Question):
         tuple[str, ...],
         Field(
             Named(origin, "ORIGIN"),
-            "A page elsewhere that may use the JSON interface, such as https://league.example.",
+            "Web page elsewhere that may use the JSON interface, such as https://league.example.",
             many=True,
             more="It reads what everyone in the room sees; to enter something it needs a token "
             "besides. Without the option no page elsewhere can use the interface. `*` and `null` "
             "are refused: they would name every page, and every file.",
         ),
     ] = ()
-    port: Annotated[int, Field(Whole(1024, 65535), "Where the page is found on this computer.")] = (
-        8000
-    )
+    port: Annotated[int, Field(Whole(1024, 65535), "Port to listen on.")] = 8000
     color: Annotated[
         str | None,
         Field(
             COLOR,
-            "The color of the house for buttons and chances, such as #7a1f5c.",
+            "House color for buttons and chances, such as #7a1f5c.",
             usual="blue",
             more="Where it could not be read, it is made darker by day and lighter by night.",
         ),
@@ -180,10 +179,10 @@ class Serve(Question):
         """Refuse a file for the demo, which makes its own."""
         if self.demo and self.file is not None:
             self.refuse(
-                "{demo} makes a file of its own; leave out {name} or {demo}", name=self.file
+                "{demo} makes a file of its own. Leave out {name} or {demo}.", name=self.file
             )
         if self.host is not None and not self.lan:
-            self.refuse("{host} is for phones; give {lan} too")
+            self.refuse("{host} is for phones. Give {lan} too.")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -56,8 +56,8 @@ SystemOf: TypeAlias = Annotated[
 """A handicap system; `asked.system or system_of("npl")` is the one that is meant."""
 
 DAY_SD = Field(
-    Number(0.0, 1e9, "; give points, 0 or more", metavar="POINTS"),
-    "How much everyone's form varies from day to day (standard deviation).",
+    Number(0.0, 1e9, " isn't 0 or more points", metavar="POINTS"),
+    "Variation of everyone's form from day to day (standard deviation).",
 )
 
 

@@ -29,7 +29,7 @@ def weekdays_in(text: str) -> tuple[int, ...]:
     words = [word.strip().lower() for word in text.split(",")]
     found = {k for word in words for k, day in enumerate(_WEEKDAYS) if word[:3] == day}
     if not found or len(found) < len(words):
-        raise InputError("{value!r}; name days such as tue or tue,thu", value=text)
+        raise InputError("{value!r} isn't a day. Name days such as tue or tue,thu.", value=text)
     return tuple(sorted(found))
 
 
@@ -52,12 +52,12 @@ def days_in(text: str) -> tuple[date, ...]:
             ends = date.fromisoformat(last) if sign else begins
         except ValueError:
             raise InputError(
-                "{value!r}; give days such as 2026-12-24, or 2026-12-24..2027-01-02",
+                "{value!r} isn't a day. Give days such as 2026-12-24, or 2026-12-24..2027-01-02.",
                 value=part.strip(),
             ) from None
         many = (ends - begins).days + 1
         if not 1 <= many <= _LONGEST_BREAK:
-            raise InputError("{value!r} is not a range of days up to a year", value=part.strip())
+            raise InputError("{value!r} isn't a range of days up to a year", value=part.strip())
         found += [begins + timedelta(days=k) for k in range(many)]
     return tuple(found)
 
@@ -72,7 +72,7 @@ def time_in(text: str) -> daytime:
     try:
         return daytime.fromisoformat(text.strip())
     except ValueError:
-        raise InputError("{value!r}; give a time such as 19:00", value=text) from None
+        raise InputError("{value!r} isn't a time. Give one such as 19:00.", value=text) from None
 
 
 Whose: TypeAlias = Annotated[
@@ -147,7 +147,7 @@ class LeagueTable(Results):
             usual="teams where the results have the columns team_a and team_b",
         ),
     ] = None
-    until: Annotated[Day, Says("The table after this day.")] = None
+    until: Annotated[Day, Says("Show the table as of this day.")] = None
     side: Annotated[
         Literal["both", "home", "away"],
         Field(
@@ -161,7 +161,7 @@ class LeagueTable(Results):
 
 @dataclass(frozen=True, kw_only=True)
 class Fixtures(Reading):
-    """Make the fixtures of a league: who plays whom, at home or away, on which night and table.
+    """Make the fixtures of a league: who plays who, at home or away, on which night and table.
 
     LIST.csv names the players or teams, a name on each line or with the columns of a roster; with
     the column venue, and tables, teams that share a place with too few tables are at home in turn.
@@ -179,17 +179,21 @@ class Fixtures(Reading):
         None
     )
     schedule: Annotated[
-        str | None, Field(File("FIXTURES.csv"), "Fixtures that are made already, in place of LIST.")
+        str | None, Field(File("FIXTURES.csv"), "Existing fixtures, instead of LIST.")
     ] = None
     meetings: Annotated[
-        int, Field(Whole(1, MOST_MEETINGS), "How often every two meet.", metavar="K")
+        int, Field(Whole(1, MOST_MEETINGS), "How often each pair meets.", metavar="K")
     ] = 1
     left: Annotated[
         tuple[str, ...],
-        Field(File("RESULTS.csv"), "List what these results leave to be played.", many=True),
+        Field(
+            File("RESULTS.csv"),
+            "List the matches still to be played after these results.",
+            many=True,
+        ),
     ] = ()
     begins: Annotated[Day, Says("The first night.", section=_WHEN)] = None
-    ends: Annotated[Day, Says("The last day that may be a night.", section=_WHEN)] = None
+    ends: Annotated[Day, Says("The last possible night.", section=_WHEN)] = None
     weekdays: Annotated[
         tuple[int, ...],
         Field(
@@ -207,35 +211,31 @@ class Fixtures(Reading):
             section=_WHEN,
         ),
     ] = ()
-    rounds_a_night: Annotated[
-        int, Field(Whole(1, 20), "How many rounds are played in a night.", section=_WHEN)
-    ] = 1
+    rounds_a_night: Annotated[int, Field(Whole(1, 20), "Rounds per night.", section=_WHEN)] = 1
     time: Annotated[
         daytime | None,
-        Field(Named(time_in, "HH:MM"), "When a night starts, for the calendar.", section=_WHEN),
+        Field(Named(time_in, "HH:MM"), "Start time of a night, for the calendar.", section=_WHEN),
     ] = None
     minutes: Annotated[
-        int, Field(Whole(1, 1440), "How long a match lasts, for the calendar.", section=_WHEN)
+        int, Field(Whole(1, 1440), "Minutes per match, for the calendar.", section=_WHEN)
     ] = 180
     venue: Annotated[
-        str | None, Field(Text("PLACE"), "Where all play, unless the list says.", section=_WHERE)
+        str | None, Field(Text("PLACE"), "Venue, if the list doesn't give one.", section=_WHERE)
     ] = None
     tables: Annotated[
         int | None,
-        Field(Whole(1, 1000), "How many tables there are; each match gets one.", section=_WHERE),
+        Field(Whole(1, 1000), "Number of tables; each match gets one.", section=_WHERE),
     ] = None
-    tables_a_match: Annotated[
-        int, Field(Whole(1, 100), "How many tables a match takes.", section=_WHERE)
-    ] = 1
+    tables_a_match: Annotated[int, Field(Whole(1, 100), "Tables per match.", section=_WHERE)] = 1
     of: Annotated[Whose, Says("Who plays.", usual="teams where LIST has the column team")] = None
     only: Annotated[
-        str | None, Field(Text("NAME"), "List the matches of this team or player alone.")
+        str | None, Field(Text("NAME"), "List only this team's or player's matches.")
     ] = None
     draw: Annotated[
         int | None,
         Field(
             Whole(0, 2**32 - 1),
-            "Draw the numbers with this seed.",
+            "Seed of the draw of numbers.",
             usual="the order of the list",
             metavar="SEED",
         ),
@@ -253,9 +253,9 @@ class Fixtures(Reading):
             self.refuse("give {names}, or fixtures that are made with {schedule}")
         for name in ("ends", "weekdays", "skip"):
             if self.begins is None and name in self.given:
-                self.refuse(f"{{{name}}} needs the first night; add {{begins}} 2026-09-01")
+                self.refuse(f"{{{name}}} needs the first night. Add {{begins}} 2026-09-01.")
         if self.ics is not None and self.schedule is None and self.begins is None:
-            self.refuse("{ics} needs dates; add {begins} 2026-09-01")
+            self.refuse("{ics} needs dates. Add {begins} 2026-09-01.")
 
 
 @dataclass(frozen=True, kw_only=True)

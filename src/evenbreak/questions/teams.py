@@ -1,4 +1,4 @@
-"""Questions about teams: whom to put up, who wins a round, what a cap does, how a season ends."""
+"""Questions about teams: who to put up, who wins a round, what a cap does, how a season ends."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def sets_in(text: str) -> tuple[int, ...]:
     """
     if not re.fullmatch(r"\s*\d{1,3}\s*(,\s*\d{1,3}\s*)*", text, re.ASCII):
         raise InputError(
-            "{value!r} does not name any sets; list their numbers, such as 1,5.", value=text
+            "{value!r} doesn't name any sets. List their numbers, such as 1,5.", value=text
         )
     return tuple(sorted({int(part) for part in text.split(",")}))
 
@@ -70,7 +70,7 @@ def _pair_in(text: str) -> tuple[str, ...]:
 
 
 def set_in_play(text: str) -> InPlay:
-    """Return who plays whom at what score.
+    """Return who plays who at what score.
 
     >>> set_in_play("Ann and Bo v Xi and Yu 3:2")
     (('Ann', 'Bo'), ('Xi', 'Yu'), (3, 2))
@@ -85,7 +85,7 @@ def set_in_play(text: str) -> InPlay:
 
 
 InPlay: TypeAlias = tuple[tuple[str, ...], tuple[str, ...], tuple[int, int]]
-Sets: TypeAlias = Annotated[int | None, Field(SETS, "How many sets are played.")]
+Sets: TypeAlias = Annotated[int | None, Field(SETS, "Number of sets.")]
 Order: TypeAlias = Annotated[
     str,
     Field(
@@ -105,7 +105,7 @@ Count: TypeAlias = Annotated[
         Choice(COUNTS),
         "What decides the match: sets won, all games won, or match points as in APA 8-ball "
         "(3-0 for a shutout, 2-1 hill-hill, else 2-0) and 9-ball (20 shared by points made).",
-        label=say("What decides the night"),
+        label=say("What decides the match"),
         titles={
             "sets": say("Sets won"),
             "games": say("All games won"),
@@ -155,9 +155,9 @@ class OfTeams(Starters):
         stated = [name for name in self.lengths if getattr(self, name) is not None]
         if len(stated) != 1:
             template = (
-                "the races are given twice; give only one of {every}"
+                "the races are given twice. Use only one of {every}."
                 if stated
-                else "the races are missing; give one of {every}"
+                else "missing races: use one of {every}"
             )
             *first, last = (f"{{{name}}}" for name in self.lengths)
             self.refuse(template.replace("{every}", f"{', '.join(first)} and {last}"))
@@ -197,7 +197,7 @@ class Lineup(OfTeams, Capped):
     """Find who to put up in a team match, and what each choice is worth.
 
     Each file has the columns player and rating, or level; caps count the levels. Both captains are
-    taken to choose as well as they can. After each nomination, ask again with {used}, {score} and
+    assumed to choose optimally. After each nomination, ask again with {used}, {score} and
     {named}.
     """
 
@@ -220,14 +220,16 @@ class Lineup(OfTeams, Capped):
     absent: Annotated[
         tuple[str, ...],
         Field(
-            Named(names_in, "NAME,..."), "Who is not there tonight, of both teams.", section=_RULES
+            Named(names_in, "NAME,..."),
+            "Players of either team who are absent tonight.",
+            section=_RULES,
         ),
     ] = ()
     used: Annotated[
         tuple[str, ...],
         Field(
             Named(names_in, "NAME,..."),
-            "Who has played already, of both teams.",
+            "Players of either team who have already played.",
             more="Where both teams have a player of that name, write `ours:Ann` or `theirs:Ann`.",
         ),
     ] = ()
@@ -241,7 +243,7 @@ class Lineup(OfTeams, Capped):
     ] = None
     named: Annotated[
         tuple[str, ...],
-        Field(Named(_pair_in, "NAME"), "Who the team that names first has just named."),
+        Field(Named(_pair_in, "NAME"), "The player just named by the team naming first."),
     ] = ()
     playing: Annotated[
         tuple[InPlay, ...],
@@ -273,7 +275,7 @@ class Lineup(OfTeams, Capped):
         int,
         Field(
             Whole(1, MOST_SETS),
-            "How often a player may be put up.",
+            "How many sets a player may play.",
             label=say("How often a player may be put up"),
             metavar="K",
             section=_RULES,
@@ -372,7 +374,7 @@ class Season(Question):
 
     RESULTS.csv has the columns home, away, home_score and away_score (sets), SCHEDULE.csv home and
     away, and a round if you like. Without a schedule, the matches of RESULTS.csv without a score,
-    or at 0:0, are to come. How strong the teams are comes from the sets they have won.
+    or at 0-0, are still to be played. How strong the teams are comes from the sets they have won.
     """
 
     examples = """\
@@ -388,14 +390,14 @@ class Season(Question):
         int | None,
         Field(
             Whole(1, 10),
-            "Instead of a schedule: every two teams meet K times, and what is not played is to "
-            "come.",
+            "Instead of a schedule: each pair of teams meets K times; what isn't played "
+            "yet is still to be played.",
             metavar="K",
             old=("round-robin",),
         ),
     ] = None
-    up: Annotated[int | None, Field(_TEAMS, "How many teams go up.", metavar="K")] = None
-    down: Annotated[int | None, Field(_TEAMS, "How many teams go down.", metavar="K")] = None
+    up: Annotated[int | None, Field(_TEAMS, "Teams promoted.", metavar="K")] = None
+    down: Annotated[int | None, Field(_TEAMS, "Teams relegated.", metavar="K")] = None
     sets: Annotated[
         int | None,
         Field(
@@ -410,13 +412,13 @@ class Season(Question):
     table_points: Annotated[TablePoints, Says(section=_TABLE)] = USUAL_RULES
     ties: Annotated[Ties, Says(section=_TABLE)] = USUAL_RULES.ties
     sure: Annotated[
-        Sure, Says("Take the strengths as right, instead of averaging over them.", section=_WORK)
+        Sure, Says("Treat the strengths as exact instead of averaging over them.", section=_WORK)
     ] = False
     seasons: Annotated[
         int,
         Field(
             Whole(1000, 10_000_000),
-            "How many seasons to simulate.",
+            "Number of seasons to simulate.",
             section=_WORK,
             more="With `--sure` and few endings the chances are exact instead.",
         ),
@@ -428,11 +430,11 @@ class Season(Question):
         """Refuse two lists of matches to come, two lengths of a match, and points by the set."""
         if self.table_points.split:
             self.refuse(
-                "{table_points} {split} counts the sets of players, which a season of team scores "
-                "does not know; leave it out, or give sets",
+                "{table_points} {split} counts the sets of players, which a season of "
+                "team scores doesn't know. Leave it out, or give sets.",
                 split=self.table_points.split,
             )
         if self.schedule is not None and self.meetings is not None:
-            self.refuse("a schedule and {meetings} cannot be combined; leave one out")
+            self.refuse("a schedule and {meetings} can't be used together. Leave one out.")
         if self.sets is not None and self.race is not None:
-            self.refuse("{sets} and {race} cannot be combined; leave one out")
+            self.refuse("{sets} and {race} can't be used together. Leave one out.")

@@ -41,24 +41,22 @@ class NewTournament(TournamentPlan, Starters):
         str | None,
         Field(
             File("FILE.db"),
-            "The same options as that tournament and, without a list, the same people.",
+            "Use the same options as that tournament and, without a list, the same players.",
             rare=True,
         ),
     ] = None
     tables: NamedTables = _FOUR
-    name: Annotated[str, Field(Text("NAME"), "What the tournament is called.", rare=True)] = ""
+    name: Annotated[str, Field(Text("NAME"), "Name of the tournament.", rare=True)] = ""
     discipline: Discipline = "9-ball"
     pace: EarlierNights = ()
     scale: ScaleOf = None
     seed: Draw = 0
-    out: Annotated[
-        str, Field(File("FILE.db"), "The file of the tournament, which must not exist yet.")
-    ] = "tonight.db"
+    out: Annotated[str, Field(File("FILE.db"), "File of the tournament; must not exist yet.")] = (
+        "tonight.db"
+    )
     beside: Annotated[
         bool,
-        Field(
-            Flag(), "Start it alongside the one under way in {out}, on the same tables.", rare=True
-        ),
+        Field(Flag(), "Run it alongside the tournament in {out}, on the same tables.", rare=True),
     ] = False
     at: At = None
 
@@ -67,12 +65,12 @@ class NewTournament(TournamentPlan, Starters):
         if self.like is not None:
             for one in self.given:
                 if one not in ("like", "entrants", "name", "out", "at"):
-                    self.refuse("{like} says it already; leave out {part}", part=Parameter(one))
+                    self.refuse("{like} says it already. Leave out {part}.", part=Parameter(one))
             return None
         if self.entrants is None and (self.scale is None or self.seeding == "drawn"):
             self.refuse(
-                "the list of entrants is missing; name it, or give {like}, or {scale} if nobody "
-                "has entered yet"
+                "missing list of entrants: name the file, or use {like}, or {scale} if "
+                "no one has entered yet"
             )
         return refuse_lines(self)
 
@@ -105,7 +103,7 @@ class OfEntrants(TournamentPlan, Starters, TimedUnderWay):
             for name in ("file", "at"):
                 if name in self.given:
                     self.refuse(
-                        "{part} is for the tournament under way; leave out {list} or it",
+                        "{part} is for the tournament under way. Leave out {list} or it.",
                         part=Parameter(name),
                         list=self.entrants,
                     )
@@ -118,8 +116,8 @@ class OfEntrants(TournamentPlan, Starters, TimedUnderWay):
         for name in self.given:
             if name not in ("file", "at", *self.under_way):
                 self.refuse(
-                    "{part} is for a list of entrants; name one, or leave the option out to ask "
-                    "about the tournament in {place}",
+                    "{part} is for a list of entrants. Name one, or leave the option out "
+                    "to ask about the tournament in {place}.",
                     part=Parameter(name),
                     place=self.file or "tonight.db",
                 )
@@ -144,9 +142,7 @@ class TournamentOdds(OfEntrants):
     sure: Sure = False
     before_draw: Annotated[
         bool,
-        Field(
-            Flag(), "The odds before a blind draw: every draw is equally likely.", section="Details"
-        ),
+        Field(Flag(), "Odds before a blind draw: every draw is equally likely.", section="Details"),
     ] = False
     fairest: Annotated[
         bool,
@@ -174,7 +170,7 @@ class TournamentOdds(OfEntrants):
             return
         if self.seeded not in ("listed", "blind"):
             self.refuse(
-                "{before_draw} is for a blind draw; leave out {seeding} {order}", order=self.seeded
+                "{before_draw} is for a blind draw. Leave out {seeding} {order}.", order=self.seeded
             )
         if self.form in ("round-robin", "swiss"):
             self.refuse("{before_draw} is for formats with a draw, not {asked}", asked=self.form)
@@ -184,10 +180,10 @@ class TournamentOdds(OfEntrants):
 
 @dataclass(frozen=True, kw_only=True)
 class TournamentTime(OfEntrants, Pace):
-    """Find when the tournament ends, and when each match starts.
+    """Find the finish time of the tournament and the start of each match.
 
-    ENTRANTS.csv has a row for each entrant, with the columns player and rating; a plain list of
-    names is taken as equal players. Without it, the answer is about the tournament under way in
+    ENTRANTS.csv has a row for each entrant, with the columns player and rating; in a plain list
+    of names all are equal. Without it, the answer is about the tournament under way in
     {file}: its results, the matches on its tables and its pace so far. JSON and CSV have minutes
     from the start of the tournament.
     """
@@ -210,7 +206,7 @@ class TournamentTime(OfEntrants, Pace):
     ] = None
     start: Annotated[
         int | None,
-        Field(TIME_OF_DAY, "When the tournament starts: shows times of day.", section="Details"),
+        Field(TIME_OF_DAY, "Start time of the tournament; shows times of day.", section="Details"),
     ] = None
 
     def check(self) -> None:
@@ -218,14 +214,14 @@ class TournamentTime(OfEntrants, Pace):
         if self.entrants is None:
             return
         if self.tables is None:
-            self.refuse("the number of tables is missing; give it with {tables}, such as 4")
+            self.refuse("missing number of tables: add {tables} N, such as 4")
         if self.discipline is None and self.minutes_per_game is None:
             self.refuse(
-                "say how long games take; give {discipline}, such as 9-ball, or "
+                "missing length of games: give {discipline}, such as 9-ball, or "
                 "{minutes_per_game}, such as 8"
             )
         if self.pace and self.minutes_per_game is not None:
             self.refuse(
-                "{pace} corrects the usual pace of a game; give it with {discipline}, not with "
-                "{minutes_per_game}"
+                "{pace} corrects the usual pace of a game. Use it with {discipline}, not "
+                "with {minutes_per_game}."
             )

@@ -125,12 +125,13 @@ class Beginning:
             spread = np.full(many, values) if np.ndim(values) == 0 else values
             object.__setattr__(self, name, column(spread, name, many, "players"))
         if not np.isfinite(self.rating).all() or not np.isfinite(self.prior_mean).all():
-            raise InputError("rating or prior_mean is not a finite number somewhere; give points")
+            raise InputError("rating and prior_mean must be finite points everywhere")
         for name in ("standard_error", "prior_sd"):
             values = getattr(self, name)
             if (values <= 0.0).any() or np.isinf(values).any():
                 raise InputError(
-                    "{name} is not above 0 somewhere; give points, or NaN if unknown", name=name
+                    "{name} must be points, or NaN if unknown; somewhere it isn't above 0",
+                    name=name,
                 )
         object.__setattr__(self, "players", known)
         object.__setattr__(self, "scale", scale_of(scale))

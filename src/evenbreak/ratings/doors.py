@@ -11,12 +11,13 @@ def check_results(results: object) -> None:
     >>> check_results("season.csv")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: this is str 'season.csv', not Results; give ...
+    evenbreak.errors.InputError: this is str 'season.csv', not Results. Give
+        Results.from_frame(frame), or read_results(path).results for a file.
     """
     if not hasattr(results, "won_only"):
         raise InputError(
-            "this is {name} {results!r:.60}, not Results; give Results.from_frame(frame), or "
-            "read_results(path).results for a file",
+            "this is {name} {results!r:.60}, not Results. Give "
+            "Results.from_frame(frame), or read_results(path).results for a file.",
             name=type(results).__name__,
             results=results,
         )

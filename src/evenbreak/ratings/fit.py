@@ -250,7 +250,7 @@ def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float
     for name in anchor:
         if name not in rated:
             raise InputError(
-                "anchor {name!r} is not in the results; give a name that is", name=name
+                "anchor {name!r} isn't in the results. Give a name that is.", name=name
             )
     return scale.center, {
         name: number(points, f"anchor of {name!r}", wanted="a finite number of points")
@@ -314,11 +314,11 @@ def _games_behind(
 
 def _refuse_nonsense(scored: Results, won_only: Results) -> None:
     if (scored.score_a < 0).any() or (scored.score_b < 0).any():
-        raise InputError("results hold a negative score; correct what find_problems lists")
+        raise InputError("results hold a negative score. Correct what find_problems lists.")
     for part in (scored, won_only):
         if (part.player_a == part.player_b).any():
             raise InputError(
-                "results hold a match of one player only; correct what find_problems lists"
+                "results hold a match of one player only. Correct what find_problems lists."
             )
 
 

@@ -425,7 +425,7 @@ class Ratings:
         first, second = self._position(player), self._position(opponent)
         if self.component[first] != self.component[second]:
             raise InputError(
-                "{a!r} and {b!r} are not connected through opponents; add results that do",
+                "{a!r} and {b!r} aren't connected through opponents. Add results that do.",
                 a=player,
                 b=opponent,
             )
@@ -437,5 +437,5 @@ class Ratings:
 
     def _position(self, player: str) -> int:
         if player not in self._place:
-            raise InputError("{name!r} is not rated; write names as the results do", name=player)
+            raise InputError("{name!r} isn't rated. Write names as the results do.", name=player)
         return self._place[player]

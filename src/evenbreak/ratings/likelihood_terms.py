@@ -268,9 +268,9 @@ def race_slopes(difference: ArrayLike, m: ArrayLike, n: ArrayLike) -> RaceSlopes
     """
     d, m, n = (np.asarray(part, dtype=np.float64) for part in (difference, m, n))
     if not np.isfinite(d).all():
-        raise InputError("difference holds a value that is not finite; give finite numbers")
+        raise InputError("difference must hold finite numbers; one value isn't")
     if not ((m >= 1).all() and (n >= 1).all()):
-        raise InputError("m or n is below 1 somewhere; give the games that each player needs")
+        raise InputError("m or n is below 1 somewhere. Give the games that each player needs.")
     d, m, n = np.broadcast_arrays(d, m, n)
     if not d.size:
         return RaceSlopes(d, d, d)

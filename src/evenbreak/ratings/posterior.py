@@ -153,8 +153,8 @@ def find_zero(
             return Mode(point, size, iteration)
         point = point + step()
     raise AccuracyError(
-        "the ratings' gradient is {size:.1e} after {most_steps} Newton steps; give a smaller "
-        "prior_sd",
+        "the ratings' gradient is {size:.1e} after {most_steps} Newton steps. Give a "
+        "smaller prior_sd.",
         size=size,
         most_steps=MOST_STEPS,
     )
@@ -339,8 +339,8 @@ def find_modes(ways: Sequence[WayToRate], start: Floats | None = None) -> tuple[
             length[too_long] *= 0.5
         point, cost = point + length[:, None] * step, new
     raise AccuracyError(
-        "the ratings' gradient is {max:.1e} after {most_steps} Newton steps; give a smaller "
-        "prior_sd",
+        "the ratings' gradient is {max:.1e} after {most_steps} Newton steps. Give a "
+        "smaller prior_sd.",
         max=left.max(),
         most_steps=MOST_STEPS,
     )

@@ -234,7 +234,7 @@ def best_prior(
     """
     check_results(results)
     if not len(widths):
-        raise InputError("widths is empty; give at least one standard deviation")
+        raise InputError("widths must not be empty. Give at least one standard deviation.")
     tried = np.sort(np.asarray(widths, dtype=float))
     known = known_levels(results, beginning)
     races = race_share(results) if "race" in known else None

@@ -153,7 +153,7 @@ class Results:
             values = getattr(self, name)
             if (self.unscored if values is None else self.unscored & (values <= 0)).any():
                 raise InputError(
-                    "{unscored} marks a match without {name}; give it, or the scores", name=name
+                    "{unscored} marks a match without {name}. Give it, or the scores.", name=name
                 )
         if (self.unscored & ((self.score_a != 0) | (self.score_b != 0))).any():
             raise InputError("unscored marks a match with games in its score; unmark it")
@@ -211,7 +211,7 @@ class Results:
         >>> Results.from_frame(frame.assign(score_b=[5, 6.5]))
         Traceback (most recent call last):
         ...
-        evenbreak.errors.DataError: row 1: score_b is 6.5; give a whole number, 0 or more
+        evenbreak.errors.DataError: row 1: score_b must be a whole number, 0 or more; you gave 6.5
         """
         if not all(hasattr(frame, name) for name in ("columns", "index", "iloc")):
             raise InputError("{frame} must be a DataFrame; it is {value!r:.60}", value=frame)
@@ -271,7 +271,7 @@ class Results:
         (array([0, 1]), array([5, 2]), array([7, 0]))
         """
         if self.players != later.players:
-            raise InputError("the results are not between the same players; give one list of names")
+            raise InputError("the results aren't between the same players. Give one list of names.")
         columns: dict[str, Any] = {}
         for name in _TYPES:
             parts = [getattr(self, name), getattr(later, name)]
@@ -351,8 +351,8 @@ def find_problems(results: Results) -> list[Problem]:
     >>> season = Results.from_names(["Ann"], ["Bo"], [4], [5], race_a=[7], race_b=[5], winner=[1])
     >>> for problem in find_problems(season):
     ...     print(problem.row, problem.column, problem.message)
-    0 winner winner is a, but b reached the race (4-5 in a race 7:5); write b, or correct the
-    scores or the race
+    0 winner winner is a, but b reached the race (4-5 in a race 7:5). Write b, or correct the
+    scores or the race.
     """
     check_results(results)
     problems = [
@@ -393,9 +393,9 @@ def _cells(results: Results) -> Iterator[_Finding]:
         values: Ints | None = getattr(results, name)
         if values is not None:
             least = "0, 1, 2, ..." if name.startswith("score") else "1, 2, 3, ..."
-            message = f"{name} is {{cells[{name}]}}, below zero; write {least}"
+            message = f"{name} is {{cells[{name}]}}, below zero. Write {least}."
             yield values < 0, name, message
-    message = "{player} is on both sides of the match; correct one of the names"
+    message = "{player} is on both sides of the match. Correct one of the names."
     yield results.player_a == results.player_b, "player_b", message
 
 
@@ -412,21 +412,21 @@ def _races(results: Results) -> Iterator[_Finding]:
         ("race_b", "race_a", (race_a > 0) & (race_b == 0)),
         ("race_a", "race_b", (race_b > 0) & (race_a == 0)),
     ):
-        yield lone, missing, f"{missing} is empty, but {stated} is not; give both, or neither"
+        yield lone, missing, f"{missing} is empty, but {stated} isn't. Give both, or neither."
     raced = _finished(results) & (race_a > 0) & (race_b > 0)
     over_a, over_b = results.score_a > race_a, results.score_b > race_b
     for name, over in (("score_a", over_a), ("score_b", over_b)):
         message = (
-            " is more than the race ({score}); correct the score or the race, or leave both races "
-            "empty"
+            " is more than the race ({score}). Correct the score or the race, or leave "
+            "both races empty."
         )
         yield raced & over, name, name + message
     reached_a, reached_b = results.score_a >= race_a, results.score_b >= race_b
-    message = "both players reached their race ({score}); correct the scores or the race"
+    message = "both players reached their race ({score}). Correct the scores or the race."
     yield raced & reached_a & reached_b & ~over_a & ~over_b, "score_b", message
     message = (
-        "neither player reached their race ({score}); correct the scores or the race, mark the "
-        "match as a forfeit, or leave both races empty"
+        "neither player reached their race ({score}). Correct the scores or the race, "
+        "mark the match as a forfeit, or leave both races empty."
     )
     yield raced & ~reached_a & ~reached_b, "score_a", message
 
@@ -461,19 +461,19 @@ def _winners(results: Results) -> Iterator[_Finding]:
     race_a, race_b = results.races
     wrong = (stated > 0) & (won > 0) & (stated != won)
     message = (
-        "winner is {winner}, but {other} reached the race ({score}); write {other}, or correct "
-        "the scores or the race"
+        "winner is {winner}, but {other} reached the race ({score}). Write {other}, or "
+        "correct the scores or the race."
     )
     yield wrong & (race_a > 0), "winner", message
     message = (
-        "winner is {winner}, but {other} won more games ({score}); write {other}, or give race_a "
-        "and race_b if it was a handicap race"
+        "winner is {winner}, but {other} won more games ({score}). Write {other}, or "
+        "give race_a and race_b if it was a handicap race."
     )
     yield wrong & (race_a <= 0), "winner", message
     tied = _finished(results) & (results.score_a == results.score_b)
     message = (
-        "winner is {winner}, but the score is tied ({score}); correct the score, or give race_a "
-        "and race_b if it was a handicap race"
+        "winner is {winner}, but the score is tied ({score}). Correct the score, or give "
+        "race_a and race_b if it was a handicap race."
     )
     yield (stated > 0) & tied & (race_a == 0) & (race_b == 0), "winner", message
 
@@ -486,15 +486,15 @@ def _racks(results: Results) -> Iterator[_Finding]:
     a, b, long = counts.reshape(-1, 3).T
     last = np.array([" ab".find(text[-1:] or " ") for text in results.racks], dtype=np.int8)
     strange = a + b < long
-    message = "racks {racks} has letters other than a and b; write an a or a b for each rack"
+    message = "racks {racks} has letters other than a and b. Write an a or a b for each rack."
     yield strange, "racks", message
     adds_up = (a == results.score_a) & (b == results.score_b)
-    message = "racks {racks} is {counted}, but the score is {bare}; correct one of them"
+    message = "racks {racks} is {counted}, but the score is {bare}. Correct one of them."
     yield (long > 0) & ~strange & ~adds_up, "racks", message
     race_a, race_b = results.races
     won = np.where((race_a > 0) & (race_b > 0), who_won(results), 0)
     message = (
-        "racks {racks} goes on after the race was won ({score}); correct the racks, the scores or "
-        "the race"
+        "racks {racks} goes on after the race was won ({score}). Correct the racks, the "
+        "scores or the race."
     )
     yield (long > 0) & ~strange & adds_up & (won > 0) & (won != last), "racks", message

@@ -52,7 +52,7 @@ class FrameReader:
             if name is None:
                 unused.append(str(title))
             elif name in cells_of:
-                self.problems.append(f"two columns mean {name}; drop one")
+                self.problems.append(f"two columns mean {name}. Drop one.")
             else:
                 cells, empty = frame.iloc[:, place], frame.iloc[:, place].isna()
                 cells_of[name] = [
@@ -65,7 +65,7 @@ class FrameReader:
         if missing:
             titles = ", ".join(map(repr, map(str, frame.columns)))
             self.problems.append(
-                f"there is no column {' or '.join(missing)} among {titles}; add it"
+                f"there's no column {' or '.join(missing)} among {titles}. Add it."
             )
         return cells_of
 
@@ -80,7 +80,7 @@ class FrameReader:
         for row, cell in enumerate(self.cells(name)):
             value = empty if cell is None else meaning(cell)
             if value is None:
-                self.add(row, f"{name} is {cell!r}; give {wanted}")
+                self.add(row, f"{name} must be {wanted}; you gave {cell!r}")
             read.append(empty if value is None else value)
         return read
 
@@ -124,7 +124,7 @@ def _names(reader: FrameReader, column: str) -> list[str]:
     names = reader.read(column, _name, "a name", "")
     for row, cell in enumerate(reader.cells(column)):
         if column in reader and cell is None:
-            reader.add(row, f"{column} is empty; give a name")
+            reader.add(row, f"{column} must not be empty. Give a name.")
     return names
 
 
@@ -154,7 +154,9 @@ def _sides(reader: FrameReader, column: str, a: Sequence[str], b: Sequence[str])
         either = {folded(a[row]): 1, folded(b[row]): 2, "a": 1, "b": 2, a[row]: 1, b[row]: 2}
         name = name if name in either else folded(name)
         if name not in either:
-            reader.add(row, f"{column} is {cell!r}; give a, b or the name of one of the players")
+            reader.add(
+                row, f"{column} must be a, b or the name of one of the players; you gave {cell!r}"
+            )
         sides.append(either.get(name, 0))
     return sides
 
@@ -168,7 +170,7 @@ def _unscored(reader: FrameReader, columns: dict[str, Any]) -> list[bool]:
         if not has_winner and not columns["forfeit"][row]:
             for name in empty:
                 if name in reader:
-                    reader.add(row, f"{name} is empty; give the games won")
+                    reader.add(row, f"{name} must not be empty. Give the games won.")
         unscored.append(has_winner and not columns["forfeit"][row])
     return unscored
 

@@ -128,13 +128,18 @@ class Roster:
         few = column(provisional, "provisional", many, "players", np.bool_)
         object.__setattr__(self, "provisional", few)
         if np.isinf(self.rating).any():
-            raise InputError("rating holds infinity; give numbers, NaN for a new player")
+            raise InputError(
+                "rating must hold finite numbers, or NaN for a new player; it holds infinity"
+            )
         if (self.standard_error < 0).any() or np.isinf(self.standard_error).any():
-            raise InputError("standard_error is negative or infinite somewhere; give 0 or more")
+            raise InputError(
+                "standard_error must be 0 or more; somewhere it is negative or infinite"
+            )
         for name in ("games", "matches"):
             if (getattr(self, name) < NOT_STATED).any():
                 raise InputError(
-                    "{name} is negative somewhere; give 0 or more, NOT_STATED if unknown", name=name
+                    "{name} must be 0 or more, NOT_STATED if unknown; somewhere it is negative",
+                    name=name,
                 )
 
     def __len__(self) -> int:
@@ -160,7 +165,7 @@ class Roster:
             return self._places[player]
         except KeyError:
             raise InputError(
-                "player {player!r} is not in the roster; write the name as the roster does",
+                "player {player!r} isn't in the roster. Write the name as the roster does.",
                 player=player,
             ) from None
 
@@ -197,10 +202,12 @@ class Roster:
         (array([92., 80.]), array([ 9.5, 30. ]))
         """
         if not math.isfinite(rating):
-            raise InputError("{rating} is {value!r}; give a finite number of points", value=rating)
+            raise InputError(
+                "{rating} must be a finite number of points; you gave {value!r}", value=rating
+            )
         if not 0.0 <= standard_error < math.inf:
             raise InputError(
-                "{standard_error} is {value!r}; give 0 or more points",
+                "{standard_error} must be 0 or more points; you gave {value!r}",
                 value=standard_error,
             )
         unrated = np.isnan(self.rating)

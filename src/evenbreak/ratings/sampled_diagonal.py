@@ -259,7 +259,9 @@ class _Blocks:
 
 def not_definite() -> AccuracyError:
     """Return the error of a Hessian that rounding has made singular."""
-    return AccuracyError("the posterior's Hessian is singular to rounding; give a smaller prior_sd")
+    return AccuracyError(
+        "the posterior's Hessian is singular to rounding. Give a smaller prior_sd."
+    )
 
 
 def _groups_of(block: Ints) -> list[tuple[Places, Bools]]:
@@ -300,7 +302,7 @@ _ROUNDS = 64
 
 
 def blocks_of(players: int, low: Ints, high: Ints, weight: Floats) -> NDArray[np.int64]:
-    """Return the number of the block of each player, found by who plays whom.
+    """Return the number of the block of each player, found by who plays who.
 
     Blocks grow from single players: in each round those two become one that are, for each of them,
     the closest that are not too large together. How close two blocks are is the mean weight of

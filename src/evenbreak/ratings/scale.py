@@ -69,11 +69,13 @@ class Scale:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.points_per_doubling) and self.points_per_doubling > 0):
             raise InputError(
-                "{points_per_doubling} is {value!r}; give a number above 0",
+                "{points_per_doubling} must be a number above 0; you gave {value!r}",
                 value=self.points_per_doubling,
             )
         if not math.isfinite(self.center):
-            raise InputError("{center} is {value!r}; give a finite number", value=self.center)
+            raise InputError(
+                "{center} must be a finite number; you gave {value!r}", value=self.center
+            )
 
     @property
     def text(self) -> str:
@@ -239,8 +241,8 @@ def scale_of(text_or_number: Any) -> Scale:
     if not _FEWEST_POINTS <= points <= _MOST_POINTS:
         listed = ", ".join(SCALES)
         raise InputError(
-            "scale is {text_or_number!r}; give {listed}, or the points that double the odds, "
-            "from {fewest_points:g} to {most_points:,.0f}",
+            "scale must be {listed}, or the points that double the odds, from "
+            "{fewest_points:g} to {most_points:,.0f}; you gave {text_or_number!r}",
             text_or_number=text_or_number,
             listed=listed,
             fewest_points=_FEWEST_POINTS,
@@ -261,15 +263,17 @@ def _numbers(value: float | Many, name: str) -> float | Floats:
         except (TypeError, ValueError):
             number = math.nan
         if math.isnan(number):
-            raise InputError("{name} is {value!r}; give a number", name=name, value=value)
+            raise InputError("{name} must be a number; you gave {value!r}", name=name, value=value)
         return number
     if isinstance(value, (str, bytes)):
-        raise InputError("{name} is {value!r}; give a number, not text", name=name, value=value)
+        raise InputError(
+            "{name} must be a number, not text; you gave {value!r}", name=name, value=value
+        )
     import numpy as np
 
     array = np.asarray(value, dtype=float)
     if np.isnan(array).any():
-        raise InputError("{name} holds a value that is not a number; give numbers", name=name)
+        raise InputError("{name} must hold finite numbers; one value isn't", name=name)
     return float(array) if array.ndim == 0 else array
 
 
@@ -306,9 +310,9 @@ def unstated_scale(
     >>> unstated_scale([190, 140], ["Ann", "Bo"], "say which")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: the ratings from 140 to 190 do not show their scale: Ann wins a
-    game against Bo 76% of the time by NPL ratings, 59% by Fargo ratings, 57% by Elo ratings; say
-    which
+    evenbreak.errors.InputError: the ratings from 140 to 190 don't show their scale: Ann wins a game
+        against Bo 76% of the time by NPL ratings, 59% by Fargo ratings, 57% by Elo ratings. say
+        which
     """
     rated = [(rating, k) for k, rating in enumerate(ratings) if not math.isnan(rating)]
     if not rated:
@@ -320,14 +324,14 @@ def unstated_scale(
     where = f"{source}: " if source else ""
     if low == high:
         raise InputError(
-            "{where}the rating {high:g} does not show its scale; {remedy}",
+            "{where}the rating {high:g} doesn't show its scale. {remedy}",
             where=where,
             high=high,
             remedy=remedy,
         )
     raise InputError(
-        "{where}the ratings from {low:g} to {high:g} do not show their scale: {best} wins a "
-        "game against {worst} {readings}; {remedy}",
+        "{where}the ratings from {low:g} to {high:g} don't show their scale: {best} wins "
+        "a game against {worst} {readings}. {remedy}",
         where=where,
         low=low,
         high=high,
@@ -364,13 +368,13 @@ def refuse_contradicted(
         with what they would mean on this scale and on those that they look like.
 
     >>> refuse_contradicted(
-    ...     SCALES["npl"], [612, 521], ["Ann", "Bo"], whose="the chart npl_10", remedy="say which"
+    ...     SCALES["npl"], [612, 521], ["Ann", "Bo"], whose="the chart npl_10", remedy="Say which."
     ... )
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: the ratings from 521 to 612 do not look like NPL ratings, the
-    scale of the chart npl_10: Ann wins a game against Bo 89% of the time by NPL ratings, 65% by
-    Fargo ratings; say which
+    evenbreak.errors.InputError: the ratings from 521 to 612 don't look like NPL ratings, the scale
+        of the chart npl_10: Ann wins a game against Bo 89% of the time by NPL ratings, 65% by Fargo
+        ratings. Say which.
     """
     rated = [(rating, k) for k, rating in enumerate(ratings) if not math.isnan(rating)]
     if scale.name not in USUAL or not rated:
@@ -384,8 +388,8 @@ def refuse_contradicted(
     if low == high:
         looks = " or ".join(NAMES[name] for name in like or set(USUAL) - {scale.name})
         raise InputError(
-            "the rating {high:g} does not look like one of {title}, the scale of {whose}, "
-            "but like one of {looks}; {remedy}",
+            "the rating {high:g} doesn't look like one of {title}, the scale of {whose}, "
+            "but like one of {looks}. {remedy}",
             high=high,
             title=title,
             whose=whose,
@@ -393,8 +397,8 @@ def refuse_contradicted(
             remedy=remedy,
         )
     raise InputError(
-        "the ratings from {low:g} to {high:g} do not look like {title} ratings, the scale of "
-        "{whose}: {best} wins a game against {worst} {readings}; {remedy}",
+        "the ratings from {low:g} to {high:g} don't look like {title} ratings, the scale "
+        "of {whose}: {best} wins a game against {worst} {readings}. {remedy}",
         low=low,
         high=high,
         title=title,

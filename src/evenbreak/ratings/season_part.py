@@ -1,7 +1,7 @@
 """A part of a season that is far larger than is needed to choose a prior by: whole clubs that meet.
 
 Matches drawn singly would leave each player with few of them, and the prior would seem to matter
-more than it does. So clubs are drawn, as who plays whom shows them, each with all matches within
+more than it does. So clubs are drawn, as who plays who shows them, each with all matches within
 it and those with the clubs drawn before it.
 """
 

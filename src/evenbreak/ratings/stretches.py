@@ -241,15 +241,15 @@ def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
     undated = _undated(played)
     if undated:
         raise InputError(
-            "{undated:,} of {n_played:,} matches have no date, but a prior is chosen by how "
-            "well it predicts later days; add the dates, or give the prior's width",
+            "{undated:,} of {n_played:,} matches have no date, but a prior is chosen by "
+            "how well it predicts later days. Add the dates, or give the prior's width.",
             undated=undated,
             n_played=len(played),
         )
     if len(played) == 0 or played.date is None or played.date.min() == played.date.max():
         raise InputError(
-            "a prior is chosen by how well it predicts later days, which takes matches on two "
-            "days at least; give the prior's width"
+            "a prior is chosen by how well it predicts later days, which takes matches "
+            "on two days at least. Give the prior's width."
         )
     return played, played.date
 

@@ -42,8 +42,8 @@ def _xlsxwriter() -> Any:
         import xlsxwriter  # type: ignore[import-untyped]
     except ModuleNotFoundError as error:
         raise InputError(
-            "a workbook needs XlsxWriter, which is not installed; install it with: "
-            "pip install XlsxWriter (the extra evenbreak[excel]), or ask for CSV files"
+            "a workbook needs XlsxWriter, which isn't installed. Install it with: pip "
+            "install XlsxWriter (the extra evenbreak[excel]), or ask for CSV files"
         ) from error
     return xlsxwriter
 

@@ -155,8 +155,8 @@ def logo_name(content: bytes, source: str) -> str:
     """
     if len(content) > MOST_LOGO_BYTES:
         raise InputError(
-            "logo {source} has {size:,} bytes, and {most:,} are the most; save it smaller, 400 "
-            "pixels wide",
+            "logo {source} has {size:,} bytes, and {most:,} are the most. Save it "
+            "smaller, 400 pixels wide.",
             source=source,
             size=len(content),
             most=MOST_LOGO_BYTES,
@@ -165,5 +165,5 @@ def logo_name(content: bytes, source: str) -> str:
         if content.startswith(start) and (ending != "webp" or content[8:12] == b"WEBP"):
             return f"logo.{ending}"
     raise InputError(
-        "logo {source} is not a PNG, JPEG or WebP picture; save it as one", source=source
+        "logo {source} isn't a PNG, JPEG or WebP picture. Save it as one.", source=source
     )

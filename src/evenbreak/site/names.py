@@ -90,8 +90,9 @@ class PublicNames:
             place = known.place(means.get(same_name(clean_name(name)), clean_name(name)))
             if place is None:
                 problems.append(
-                    f"{where or 'names'}: {quoted(name)} is not a player of this league"
-                    f"{known.hint(clean_name(name))}; write the name as it is in the results"
+                    f"{where or 'names'}: {quoted(name)} isn't a player of this "
+                    f"league{known.hint(clean_name(name))}. Write the name as it is in "
+                    "the results."
                 )
             else:
                 chosen[order[place]] = way

@@ -307,7 +307,7 @@ def critical_value(coverage: FloatOrArray) -> FloatOrArray:
 
     checked = probability(coverage, "coverage")
     if np.any(np.equal(checked, 1.0)):
-        raise InputError("coverage is 1, which no z reaches; give a number below 1")
+        raise InputError("coverage must be below 1, which no z reaches")
     return plain(math.sqrt(2) * erfinv(checked))
 
 

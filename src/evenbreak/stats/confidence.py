@@ -222,18 +222,23 @@ def checked_scores(scores: Any, name: str) -> Floats:
     >>> checked_scores([48], "scores")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: scores holds 1 score; give two or more, to show a spread
+    evenbreak.errors.InputError: scores must hold two numbers or more, to show a spread; it holds 1
+        score
     """
     wanted = f"a list of finite numbers, {LARGEST:g} at most"
     array = floats(scores, name, low=-LARGEST, high=LARGEST, wanted=wanted)
     if array.ndim != 1:
         raise InputError(
-            "{name} has {ndim} dimensions; give one list of numbers", name=name, ndim=array.ndim
+            "{name} must be one list of numbers; it has {ndim} dimensions",
+            name=name,
+            ndim=array.ndim,
         )
     if array.size < 2:
         count = "1 score" if array.size else "no scores"
         raise InputError(
-            "{name} holds {count}; give two or more, to show a spread", name=name, count=count
+            "{name} must hold two numbers or more, to show a spread; it holds {count}",
+            name=name,
+            count=count,
         )
     return array
 
@@ -257,7 +262,8 @@ def open_share(confidence: float) -> float:
     >>> open_share(1)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: confidence is 1; give a number between 0 and 1, such as 0.95
+    evenbreak.errors.InputError: confidence must be a number between 0 and 1, such as 0.95; you gave
+        1
     """
     wanted = "a number between 0 and 1, such as 0.95"
     return number(confidence, "confidence", above=0.0, below=1.0, wanted=wanted)
@@ -268,7 +274,7 @@ def _differing(scores: Any) -> Floats:
     array = checked_scores(scores, "scores")
     if sd_of(array) == 0.0:
         raise InputError(
-            "scores are all {array:g}; give scores that differ, to show a spread",
+            "scores are all {array:g}. Give scores that differ, to show a spread.",
             array=float(array[0]),
         )
     return array

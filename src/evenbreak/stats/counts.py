@@ -125,7 +125,7 @@ class CountLaw(ABC):
             return 0
         if wanted == 1:
             if most is None:
-                raise InputError("q is 1, and there is no largest count; give a q below 1")
+                raise InputError("q must be below 1; at 1 there's no largest count")
             return most
         low, high = -1, 1
         while not self._reaches(high, wanted):

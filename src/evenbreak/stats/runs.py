@@ -192,13 +192,13 @@ def shot_chance(mean: Any, safety: Any = 1) -> Fraction:
     """
     alpha = exact(safety, "safety")
     if alpha == 0:
-        raise InputError("safety is 0, which makes every run 0; give a number above 0")
+        raise InputError("safety must be greater than 0; at 0 every run is 0")
     try:
         balls = mean if isinstance(mean, Fraction) else Fraction(repr(float(mean)))
     except (TypeError, ValueError, OverflowError):
         balls = Fraction(-1)
     if balls < 0:
-        raise InputError("mean is {mean!r}; give a number of balls, 0 or more", mean=mean)
+        raise InputError("mean must be a number of balls, 0 or more; you gave {mean!r}", mean=mean)
     return balls / (balls + alpha)
 
 
@@ -208,11 +208,11 @@ def checked_shots(p: Any, safety: Any, innings: int = 1) -> tuple[Fraction, Frac
     >>> checked_shots(1, 1)
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: p is 1, and such a run never ends; give a number below 1
+    evenbreak.errors.InputError: p must be below 1; at 1 a run never ends
     """
     chance, alpha = exact(p, "p"), exact(safety, "safety")
     if chance == 1:
-        raise InputError("p is {p}, and such a run never ends; give a number below 1", p=p)
+        raise InputError("p must be below 1; at {p} a run never ends", p=p)
     mean = innings * alpha * chance / (1 - chance)
     if mean > _MOST:
         raise InputError(

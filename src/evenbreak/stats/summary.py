@@ -61,7 +61,7 @@ class Distribution:
     def __post_init__(self) -> None:
         values = _numbers(self.values, "values")
         if any(second <= first for first, second in pairwise(values)):
-            raise InputError("values do not increase; sort them, or use Distribution.of")
+            raise InputError("values don't increase. Sort them, or use Distribution.of.")
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "probability", _probabilities(self.probability, len(values)))
 
@@ -95,7 +95,7 @@ class Distribution:
             if weight > 0:
                 total[value] = total.get(value, 0) + weight
         if not total:
-            raise InputError("weights are all 0; give at least one value a weight")
+            raise InputError("weights are all 0. Give at least one value a weight.")
         ordered = sorted(total.items())
         everything = sum(weight for _, weight in ordered)
         if everything == math.inf:
@@ -189,7 +189,7 @@ class Distribution:
         """
         if math.isnan(low) or math.isnan(high):
             raise InputError(
-                "the ends are {low!r} and {high!r}; give two numbers", low=low, high=high
+                "the ends are {low!r} and {high!r}. Give two numbers.", low=low, high=high
             )
         pairs = zip(self.values, self.probability, strict=True)
         inside = [probability for value, probability in pairs if low <= value <= high]
@@ -257,7 +257,7 @@ def merge(parts: Iterable[Moments]) -> Moments:
     """
     parts = list(parts)
     if not parts:
-        raise InputError("parts is empty; give one Moments or more")
+        raise InputError("parts must not be empty. Give at least one Moments.")
     n = sum(part.n for part in parts)
     mean = math.fsum(part.n * part.mean for part in parts) / n
     # hypot adds squares that alone would exceed the range of a float.
@@ -273,14 +273,16 @@ def _numbers(
     Probabilities and weights, for `many` values, are from 0 to `high`.
     """
     if not hasattr(values, "__iter__") or isinstance(values, str):
-        raise InputError("{name} is {values!r}; give a list of numbers", name=name, values=values)
+        raise InputError(
+            "{name} must be a list of numbers; you gave {values!r}", name=name, values=values
+        )
     low = -math.inf if many is None else 0.0
     listed = tuple(_plain(value, f"{name}[{i}]", low, high) for i, value in enumerate(values))
     if not listed:
-        raise InputError("{name} is empty; give one number or more", name=name)
+        raise InputError("{name} must not be empty. Give at least one number.", name=name)
     if many not in (None, len(listed)):
         raise InputError(
-            "{name} has {n_listed} entries for {many} values; give one each",
+            "{name} has {n_listed} entries for {many} values. Give one each.",
             name=name,
             n_listed=len(listed),
             many=many,
@@ -313,7 +315,7 @@ def _probabilities(probability: Iterable[Any], many: int) -> tuple[Number, ...]:
     rational = all(isinstance(p, int | Fraction) for p in listed)
     if sum(listed) != 1 if rational else abs(math.fsum(listed) - 1) > _SUM:
         raise InputError(
-            "probability sums to {listed!r}; make it sum to 1", listed=math.fsum(listed)
+            "probability sums to {listed!r}. Make it sum to 1.", listed=math.fsum(listed)
         )
     if rational:
         return tuple(Fraction(p) for p in listed)

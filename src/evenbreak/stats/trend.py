@@ -84,22 +84,22 @@ def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:
     when, points = checked_scores(times, "times"), checked_scores(scores, "scores")
     if points.size < 3:
         raise InputError(
-            "scores holds {points_size} scores; give three or more for a trend",
+            "scores holds {points_size} scores. Give three or more for a trend.",
             points_size=points.size,
         )
     if when.size != points.size:
         raise InputError(
-            "times holds {when_size} numbers, but scores {points_size}; give as many",
+            "times holds {when_size} numbers, but scores {points_size}. Give as many.",
             when_size=when.size,
             points_size=points.size,
         )
     if sd_of(when) == 0.0:
         raise InputError(
-            "times are all {when:g}; give two or more for a trend", when=float(when[0])
+            "times are all {when:g}. Give two or more for a trend.", when=float(when[0])
         )
     if sd_of(points) == 0.0:
         raise InputError(
-            "scores are all {point:g}; give scores that differ", point=float(points[0])
+            "scores are all {point:g}. Give scores that differ.", point=float(points[0])
         )
     line = linregress(when, points)
     half = -float(stdtrit(points.size - 2, (1.0 - share) / 2.0)) * float(line.stderr)

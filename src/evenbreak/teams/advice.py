@@ -131,7 +131,7 @@ def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
     night = solution.night
     k, a, b = _states(night, point)
     if k == night.sets:
-        raise InputError("all {k} sets have been named; there is nobody left to put up", k=k)
+        raise InputError("all {k} sets have been named; there's no one left to put up", k=k)
     games, letter = _games(solution, point, k, a, b)
     mine, others = night.our_line_ups, night.their_line_ups
     rows = np.flatnonzero(mine.after[k][a] >= 0)
@@ -185,7 +185,7 @@ def _mixed(
     point: Point,
 ) -> Advice:
     if point.named:
-        raise InputError("named is given, but both teams name at once in this set; leave it out")
+        raise InputError("named is given, but both teams name at once in this set. Leave it out.")
     solution = matrix_game(games)
     worth = games @ solution.columns
     options = [
@@ -212,7 +212,7 @@ def _turns(
         found = [i for i, names in enumerate(first) if tuple(sorted(names)) == wanted]
         if not found:
             raise InputError(
-                "{named} cannot be named now: used up, kept out by a cap, or not in the "
+                "{named} can't be named now: used up, kept out by a cap, or not in the "
                 "squad that names first",
                 named=" and ".join(named),
             )
@@ -244,14 +244,14 @@ def _states(night: TeamNight, point: Point) -> tuple[int, int, int]:
     for used in (point.used_ours, point.used_theirs):
         if len(used) not in played:
             raise InputError(
-                "{used} cannot be the players used so far: they do not fill whole sets",
+                "{used} can't be the players used so far: they don't fill whole sets",
                 used=", ".join(used),
             )
     k = played.index(len(point.used_ours))
     if len(point.used_theirs) != len(point.used_ours):
         raise InputError(
-            "players used: {n_used_ours} of ours and {n_used_theirs} of theirs; give both "
-            "sides of every set played",
+            "players used: {n_used_ours} of ours and {n_used_theirs} of theirs. Give "
+            "both sides of every set played.",
             n_used_ours=len(point.used_ours),
             n_used_theirs=len(point.used_theirs),
         )
@@ -265,7 +265,7 @@ def _states(night: TeamNight, point: Point) -> tuple[int, int, int]:
     whole(abs(point.lead), "lead")
     if point.lead not in night.leads_after(over):
         raise InputError(
-            "a lead of {lead} is not possible with {over} set{what} over, as the players used say",
+            "a lead of {lead} isn't possible with {over} set{what} over, as the players used say",
             lead=point.lead,
             over=over,
             what="s" * (over != 1),
@@ -286,8 +286,8 @@ def _state(squad: Squad, line_ups: LineUps, k: int, used: Sequence[str]) -> int:
         return line_ups.used[k].index(wanted)
     except ValueError:
         raise InputError(
-            "{used} cannot be the players used so far: one plays too often, or the line-up "
-            "can no longer keep its caps",
+            "{used} can't be the players used so far: one plays too often, or the "
+            "line-up can no longer keep its caps",
             used=", ".join(used),
         ) from None
 
@@ -313,7 +313,7 @@ def _games(solution: SolvedNight, point: Point, k: int, a: int, b: int) -> tuple
 def _last_won(point: Point, letter: str) -> bool:
     if point.last_won is None:
         who = "winner" if letter == WINNER else "loser"
-        raise InputError("the {who} of the last set names first; say who won it", who=who)
+        raise InputError("the {who} of the last set names first. Say who won it.", who=who)
     return point.last_won
 
 

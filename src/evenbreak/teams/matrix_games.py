@@ -62,7 +62,7 @@ def matrix_game(payoff: ArrayLike) -> MatrixGame:
     given = floats(payoff, "payoff")
     if given.ndim < 2 or 0 in given.shape[-2:]:
         raise InputError(
-            "{payoff} has shape {given_shape}; give a row and a column for each choice",
+            "{payoff} must have a row and a column for each choice; its shape is {given_shape}",
             given_shape=given.shape,
         )
     games = given.reshape(-1, *given.shape[-2:])
@@ -94,7 +94,7 @@ def _solved(games: Floats) -> tuple[Floats, Floats, Floats]:
             rows[k], columns[k] = _by_programs(games[k])
         value[mixed] = np.einsum("gi,gij,gj->g", rows[mixed], games[mixed], columns[mixed])
         if (_gap(games[mixed], rows[mixed], columns[mixed]) > _NARROW).any():
-            raise AccuracyError("a matrix game was not solved to ten digits; round its payoffs")
+            raise AccuracyError("a matrix game wasn't solved to ten digits; round its payoffs")
     return value, rows, columns
 
 

@@ -79,7 +79,7 @@ class TeamNight:
         each = tuple(sizes) if not isinstance(sizes, int) else (sizes,) * len(given)
         if len(each) != len(given):
             raise InputError(
-                "{sizes} has {n_each} sets and laws {n_given}; give one each",
+                "{sizes} has {n_each} sets and laws {n_given}. Give one each.",
                 n_each=len(each),
                 n_given=len(given),
             )
@@ -147,7 +147,8 @@ def _law(given: ArrayLike, ours: int, theirs: int) -> Floats:
     law = floats(given, "laws", low=0.0, high=1.0)
     if law.ndim != 4 or law.shape[2] != 2 or not law.shape[3] % 2:
         raise InputError(
-            "a law has shape {law_shape}; give (our picks, their picks, 2, an odd number)",
+            "a law must have shape (our picks, their picks, 2, an odd number); its shape "
+            "is {law_shape}",
             law_shape=law.shape,
         )
     if law.shape[:2] != (ours, theirs):
@@ -208,17 +209,20 @@ def order_of(text: str, sets: int) -> str:
     whole(sets, "sets", at_least=1)
     pattern = NAMED.get(text.strip().lower(), "")[:sets] or text.strip().upper()
     wanted = say(
-        "write who names first in each set: A (you), B (they), = (both at once, unseen), W or L "
-        "(who won or lost the last set); or a name: {names}",
+        "Write who names first in each set: A (you), B (they), = (both at once, unseen), W or L "
+        "(who won or lost the last set); or a name: {names}.",
         names=", ".join(NAMED),
     )
     if not pattern or set(pattern) - {OURS, THEIRS, BOTH, WINNER, LOSER}:
         raise InputError(
-            "{order} is {text!r}; {wanted}", order=Parameter("order"), text=text, wanted=wanted
+            "{order} {text!r} isn't an order. {wanted}",
+            order=Parameter("order"),
+            text=text,
+            wanted=wanted,
         )
     if len(pattern) > sets:
         raise InputError(
-            "{order} is {text!r}, {letters} letters for {sets} sets; {wanted}",
+            "{order} is {text!r}, {letters} letters for {sets} sets. {wanted}",
             order=Parameter("order"),
             text=text,
             letters=len(pattern),
@@ -229,7 +233,7 @@ def order_of(text: str, sets: int) -> str:
     found = (pattern + repeated * sets)[:sets]
     if found[0] in (WINNER, LOSER):
         raise InputError(
-            "{order} is {text!r}, but nobody has won before the first set; {wanted}",
+            "{order} is {text!r}, but no one has won before the first set. {wanted}",
             order=Parameter("order"),
             text=text,
             wanted=wanted,

@@ -152,10 +152,10 @@ def _refuse_without(roster: Roster, values: Floats, column: str) -> None:
         name = roster.players[int(np.isnan(values).argmax())]
         if column == "rating":
             raise InputError(
-                "{player!r} has no rating; add one, or leave the player out", player=name
+                "{player!r} has no rating. Add one, or leave the player out.", player=name
             )
         raise InputError(
-            "{player!r} has no skill level; add one, or leave the player out", player=name
+            "{player!r} has no skill level. Add one, or leave the player out.", player=name
         )
 
 

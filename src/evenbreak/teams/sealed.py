@@ -92,7 +92,7 @@ def sealed(night: TeamNight) -> SealedNight:
         )
     ours, theirs = night.our_line_ups.used[-1], night.their_line_ups.used[-1]
     if len(ours) * len(theirs) > MOST_PAIRS:
-        raise InputError("there are too many line-ups; leave out those who won't play tonight")
+        raise InputError("there are too many line-ups. Leave out those who won't play tonight.")
     games = _mean_over_pairings(night, ours, theirs)
     solution = matrix_game(games)
     return SealedNight(

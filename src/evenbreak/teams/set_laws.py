@@ -91,7 +91,7 @@ def count_by(text: str, race: SetRace) -> Count:
     own = points_chart("apa_9ball")
     if (race.levels, race.points) != (own.levels, own.points):
         raise InputError(
-            "how match points are shared is only known for apa_9ball; count sets with {chart}",
+            "how match points are shared is only known for apa_9ball. Count sets with {chart}.",
             chart=race.name,
         )
     return Shares()
@@ -283,7 +283,7 @@ def law_in_play(
     a, b = (whole(games, "score") for games in score)
     if a >= m or b >= n:
         raise InputError(
-            "{a}:{b} ends a race {m}:{n}; enter the score of a match in play", a=a, b=b, m=m, n=n
+            "{a}:{b} ends a race {m}:{n}. Enter the score of a match in play.", a=a, b=b, m=m, n=n
         )
     if isinstance(race, PointsChart):
         ends = _points_endings(race, (m, n), (a, b))
@@ -368,13 +368,13 @@ def _check_count(count: Count, race: SetRace) -> None:
     """Refuse what does not count a set of this kind."""
     if isinstance(count, Points | Shares):
         if isinstance(count, Shares) != isinstance(race, PointsChart):
-            raise InputError("these match points are not those of the chart; see `count_by`")
+            raise InputError("these match points aren't those of the chart. See `count_by`")
         return
     one_of(count, "count", ("sets", "games"))
     if count == "games" and isinstance(race, PointsChart):
         raise InputError(
-            "by the chart {chart} players make points, not games; use {count} sets or {count} "
-            "points",
+            "by the chart {chart} players make points, not games. Use {count} sets or "
+            "{count} points.",
             chart=race.name,
             count=Parameter("count"),
         )

@@ -208,8 +208,8 @@ def refuse_large(night: TeamNight) -> None:
     """
     if steps_of(night) > MOST_STEPS:
         raise InputError(
-            "squads of {ours} and {theirs} players allow too many line-ups of {sets} sets; "
-            "leave out those who won't play tonight, or play fewer sets",
+            "squads of {ours} and {theirs} players allow too many line-ups of {sets} "
+            "sets. Leave out those who won't play tonight, or play fewer sets.",
             ours=len(night.ours.names),
             theirs=len(night.theirs.names),
             sets=night.sets,
@@ -259,7 +259,7 @@ def league_nights(
     """
     count = len(squads)
     if count < 2:
-        raise InputError("{count} teams; give at least two", count=count)
+        raise InputError("there must be at least two teams; you gave {count}", count=count)
     found = np.full((count, count), np.nan)
     for i in range(count):
         for j in range(count):

@@ -134,7 +134,7 @@ class Squad:
             return self.names.index(name)
         except ValueError:
             raise InputError(
-                "{player!r} is not in the squad; its players are {squad}",
+                "{player!r} isn't in the squad; its players are {squad}",
                 player=name,
                 squad=", ".join(self.names),
             ) from None
@@ -181,14 +181,14 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
         used.append(list(dict.fromkeys(filter(None, each))))
         if len(used[-1]) > MOST_STATES:
             raise InputError(
-                "{players} players allow too many line-ups of {sets} sets; leave out those "
-                "who won't play tonight",
+                "{players} players allow too many line-ups of {sets} sets. Leave out "
+                "those who won't play tonight.",
                 players=count,
                 sets=len(sizes),
             )
     if not used[-1]:
         raise InputError(
-            "{players} can't fill {sets} sets; add players, or let them play more than once",
+            "{players} can't fill {sets} sets. Add players, or let them play more than once.",
             players=", ".join(squad.names),
             sets=len(sizes),
         )
@@ -197,8 +197,8 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
     ]
     if not used[-1]:
         raise InputError(
-            "no line-up of {players} for {sets} sets keeps {caps}; raise the limit, or add "
-            "players who count for less",
+            "no line-up of {players} for {sets} sets keeps {caps}. Raise the limit, or "
+            "add players who count for less.",
             players=", ".join(squad.names),
             sets=len(sizes),
             caps=_asked(squad),

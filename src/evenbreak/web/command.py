@@ -71,8 +71,7 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
         renew_views(path)
     elif not path.parent.is_dir():
         asked.refuse(
-            "{path}: there is no folder {folder}; make it, or name another",
-            path=path,
+            "folder {folder} doesn't exist. Create it or choose another.",
             folder=path.parent,
         )
     site = Site(path, rules=league, color=asked.color, origins=frozenset(asked.allow_origin))
@@ -173,7 +172,7 @@ def _room(asked: Serve, port: int) -> list[str]:
         return []
     there = addresses()
     if not there:
-        raise click.ClickException("this computer is in no network; join one, or leave --lan out")
+        raise click.ClickException("this computer is in no network. Join one, or leave --lan out.")
     if all(why := [_taken(one, port) for one in there]):
         _refuse(asked, why[0])
     return there
@@ -181,7 +180,7 @@ def _room(asked: Serve, port: int) -> list[str]:
 
 def _refuse(asked: Serve, why: str) -> None:
     asked.refuse(
-        "{port} {n}: {why}; give another one, such as {free}",
+        "{port} {n}: {why}. Use another one, such as {free}.",
         n=asked.port,
         why=why,
         free=asked.port + 1,

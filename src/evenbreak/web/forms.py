@@ -45,7 +45,7 @@ RACES = {
 Fields: TypeAlias = ImmutableMultiDict[str, str | bytes]
 """The fields of a form by name: a text, or what is in a file."""
 
-CHOOSE_IT = say("choose the rating scale")
+CHOOSE_IT = say("Choose the rating scale.")
 """What to do about ratings that do not show their scale."""
 
 
@@ -64,7 +64,7 @@ class Form:
         """Return a text without the blanks around it; '' if it was left empty."""
         value = self.fields.get(name, "")
         if not isinstance(value, str):
-            raise RefusalError("{field} is not text.", field=Parameter(name))
+            raise RefusalError("{field} isn't text.", field=Parameter(name))
         if len(value) > longest:
             raise RefusalError(
                 "{field} must not be longer than {longest} characters.",
@@ -143,7 +143,7 @@ def whole(name: str, text: str, low: int, high: int) -> int:
     """
     if not text:
         raise RefusalError(
-            "{field} is blank; enter a whole number from {low} to {high}.",
+            "{field} is blank. Enter a whole number from {low} to {high}.",
             field=Parameter(name),
             low=low,
             high=high,
@@ -320,10 +320,10 @@ def entered_rating(form: Form) -> float | None:
         rating = float(stated)
     except ValueError:
         raise RefusalError(
-            "{value!r} is not a rating. Enter a number, such as 520.", value=stated
+            "{value!r} isn't a rating. Enter a number, such as 520.", value=stated
         ) from None
     if not abs(rating) <= LARGEST:
-        raise RefusalError("{value!r} is not a rating. Enter a number, such as 520.", value=stated)
+        raise RefusalError("{value!r} isn't a rating. Enter a number, such as 520.", value=stated)
     return rating
 
 

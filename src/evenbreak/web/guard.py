@@ -94,7 +94,7 @@ class Guard:
         length = given.get(b"content-length", b"0")
         if not length.isdigit() or int(length) > MOST_BYTES:
             await turn_away(
-                scope, send, 413, f"More than {MOST_BYTES >> 20} MB was sent; send less."
+                scope, send, 413, f"More than {MOST_BYTES >> 20} MB was sent. Send less."
             )
             return
         started = False

@@ -359,7 +359,7 @@ async def drawn_state(request: Request) -> Evening:
     """Return the state of the event that a request is about; refuse it if there is no draw."""
     state = await asyncio.to_thread(begun(night_of(request)).state)
     if not state.drawn:
-        raise RefusalError("The draw has not been made yet.", status=404)
+        raise RefusalError("The draw hasn't been made yet.", status=404)
     return state
 
 

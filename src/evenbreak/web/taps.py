@@ -183,7 +183,7 @@ def _check_pair(state: Evening, match: str, pair: tuple[str, str]) -> None:
     """Refuse a form of a match that is over, or that others play now."""
     if not state.drawn or match not in state.standing.to_play:
         words: Sentence | str = state.match_words(match) if state.drawn else match
-        raise MovedOnError("{match} is not being played now.", status=409, match=words)
+        raise MovedOnError("{match} isn't being played now.", status=409, match=words)
     if state.pair(match) != pair:
         raise MovedOnError(
             "Other players are in {match} now. What was played is kept.",

@@ -120,7 +120,7 @@ def plan_of(
         filled = one.file.roster.with_starters(scale.center, scale.points_per_doubling, scale)
         warnings += filter(None, [starters_words(one.file.roster, filled)])
     rated = np.concatenate([one.file.roster.rating for one in lists])
-    doubts = [] if by_level else league_doubts(scale, rated, say("is it the right scale?"))
+    doubts = [] if by_level else league_doubts(scale, rated, say("Is it the right scale?"))
     return plan, [*dict.fromkeys(warnings), *doubts, *filter(None, [rests_on])]
 
 

@@ -106,7 +106,8 @@ class Sentence(str):
 
 def _ended(template: str, text: str) -> str:
     """Return a text with one period at its end where the last value, such as 'Jr.', has one too."""
-    twice = template.endswith("}.") and text.endswith("..") and not text.endswith("...")
+    dots = len(text) - len(text.rstrip("."))
+    twice = template.endswith("}.") and dots in (2, 4)  # "Jr..", and "1, 2, ...."
     return text[:-1] if twice else text
 
 

@@ -52,7 +52,7 @@ def test_players_who_are_too_alike_are_not_told_apart(play_season):
         np.where(turned, a, b), date=results.date,
     )  # fmt: skip
     assert "too equal" in said(results)
-    assert "leave prior out" in said(results, prior_sd=0.3)
+    assert "Leave prior out" in said(results, prior_sd=0.3)
 
 
 def test_few_matches_are_too_few(play_season):

@@ -99,7 +99,7 @@ def test_form_of_the_day_in_the_results_suggests_a_day_sd():
     names = [f"Player {k:02d}" for k in range(20)]
     season = Results(names, a, b, won, 15 - won)
     (doubt,) = day_sd_doubts(season, "npl")
-    points = int(re.search(r"give day_sd (\d+)", doubt).group(1))
+    points = int(re.search(r"Give day_sd (\d+)", doubt).group(1))
     assert points == pytest.approx(0.6 * 30.0 / math.log(2.0) / math.sqrt(2.0), abs=3.0)
     steady = rng.binomial(15, expit(strength[a] - strength[b]))
     assert day_sd_doubts(Results(names, a, b, steady, 15 - steady), "npl") == []

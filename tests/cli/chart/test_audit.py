@@ -56,7 +56,7 @@ def test_gaps_overlaps_and_easier_rows_of_a_file(run, ask, ours):
     assert (answer["gaps"], answer["overlaps"]) == ([[5, 5]], [[12, 14]])
     assert [row["monotone"] for row in answer["rows"]] == [True, True, True, False]
     assert len(answer["warnings"]) == 2
-    assert f"Warning: {ours}:3: row 2 begins at 6" in run("chart", "audit", ours).stderr
+    assert f"Warning: {ours}:3: row 2 starts at 6" in run("chart", "audit", ours).stderr
 
 
 def test_skill_levels(run, ask):
@@ -117,7 +117,10 @@ def test_a_chart_of_points(run, ask, tmp_path):
     path.write_text(run("chart", "show", "apa_9ball").stdout, encoding="utf-8")
     assert ask(str(path))["levels"] == ask("apa_9ball")["levels"]
     path.write_text("level,points\n1,14\n2,9\n", encoding="utf-8")
-    assert "points 9 comes after 14" in run("chart", "audit", str(path)).stderr
+    assert (
+        "points0/nine.csv: isn't a chart of points: points must increase; 9 comes after 14"
+        in run("chart", "audit", str(path)).stderr
+    )
     for words in (["--scale", "npl"], ["--plot", "x.png"]):
         assert run("chart", "audit", "apa_9ball", *words).exit_code == 2
     beside = ["--plot", str(tmp_path / "x.png"), "--beside", "apa_9ball"]

@@ -102,10 +102,10 @@ def test_a_chart_beside_with_the_same_races_has_no_others(run, ask, tmp_path):
         ("--games 7..9 --scale odd", "'odd'"),
         ("--games 7..9 --tilt 2", "'2'"),
         ("--games 7..9 --games-p90 3", "--games-p90 is 3"),
-        ("--games 900..1000", "narrow --games, raise --least, or lower --up-to"),
+        ("--games 900..1000", "Narrow --games, raise --least, or lower --up-to"),
         (
             "--games 97..99 --most-rows 99 --up-to 3000",
-            "narrow --games, lower --most-rows or --up-to",
+            "Narrow --games, lower --most-rows or --up-to",
         ),
         ("--games 1..2 --least 5:5", "--games is 1..2"),
     ],

@@ -28,8 +28,8 @@ def test_a_file_that_is_not_a_chart_is_refused_with_all_its_problems(run, tmp_pa
     path.write_text("from,to,stronger,weaker\n0,4,5,5\n6,14,5,4\n12,20,6,4\n21,,5,4\n")
     result = run("chart", "show", str(path))
     assert (result.exit_code, result.stdout) == (3, "")
-    assert f"{path}:3: row 2 begins at 6" in result.stderr
-    assert f"{path}:4: row 3 begins at 12" in result.stderr
+    assert f"{path}:3: row 2 starts at 6" in result.stderr
+    assert f"{path}:4: row 3 starts at 12" in result.stderr
 
 
 def test_one_chart_at_a_time(run):

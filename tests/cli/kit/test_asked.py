@@ -141,5 +141,5 @@ def test_an_option_that_takes_one_value_is_refused_twice(name: str) -> None:
     for param in command.params:
         if isinstance(param, click.Option) and not (param.is_flag or param.multiple):
             words = [param.opts[-1], *["1"] * param.nargs] * 2
-            with pytest.raises(click.UsageError, match="is given twice; give it once: --"):
+            with pytest.raises(click.UsageError, match=r"is given twice\. Give it once: --"):
                 command.make_context(name, words)

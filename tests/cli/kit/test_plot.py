@@ -6,9 +6,9 @@ import pytest
 @pytest.mark.parametrize(
     ("name", "problem"),
     [
-        ("new/dir/x.png", "make it first"),
+        ("new/dir/x.png", "Create it or choose"),
         ("file/x.png", "is a file"),
-        ("folder.png", "that is a folder"),
+        ("folder.png", "that's a folder"),
         ("x.pdf", "ends in .png or .svg"),
     ],
 )

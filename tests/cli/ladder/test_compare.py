@@ -95,7 +95,7 @@ def test_refitted_ratings_are_simulated_beside_the_ladders(compared):
 def test_what_a_comparison_cannot_take_is_refused(run, words):
     result = run("ladder", "--compare", *words)
     assert (result.exit_code, result.stdout) == (2, "")
-    assert f"leave {words[0]} out" in " ".join(result.stderr.split())
+    assert f"Leave {words[0]} out" in " ".join(result.stderr.split())
 
 
 @pytest.mark.slow

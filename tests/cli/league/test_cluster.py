@@ -39,7 +39,7 @@ def test_a_cluster_is_found_by_its_address(small):
 
 def test_what_the_work_raises_is_said_with_the_address(small):
     with (
-        pytest.raises(WorkerError, match=r"tcp://\S+ did not finish.*ZeroDivisionError"),
+        pytest.raises(WorkerError, match=r"tcp://\S+ didn't finish.*ZeroDivisionError"),
         cluster_at(small.scheduler_address) as client,
     ):
         list(in_order(operator.truediv, 1, [1, 0], executor=client))
@@ -110,7 +110,7 @@ def test_a_cluster_that_is_gone(tmp_path, capfd):
     ) as doomed:
         assert doomed.stdout is not None
         address = doomed.stdout.readline().strip()
-        with pytest.raises(WorkerError, match="did not finish"):
+        with pytest.raises(WorkerError, match="didn't finish"):
             work_until_killed(address, doomed.pid)
     assert "Traceback" not in capfd.readouterr().err
 

@@ -42,14 +42,14 @@ def test_a_file_that_is_there_is_not_written_over(run, folder):
     for words in ([], ["--yes"]):
         result = run("league", "init", *words)
         assert result.exit_code == 2
-        assert "is there already; edit it, or remove it first" in result.stderr
+        assert "league.toml already exists. Edit it, or remove it first" in result.stderr
     assert read_league(folder).tables == 3
 
 
 def test_what_cannot_be_is_refused_and_nothing_is_written(run, folder):
     result = run("league", "init", "--chart", "npl_99")
     assert result.exit_code == 3
-    assert "no chart has this name" in result.stderr
+    assert "no chart or file with this name" in result.stderr
     assert not (folder / "league.toml").exists()
     assert run("league", "init", "nowhere").exit_code == 2
 

@@ -112,8 +112,8 @@ def test_ratings_that_look_like_another_scale_than_the_charts_are_refused(run, r
     result = run("matchups", path, "--chart", "fargo_r6_hot")
     assert (result.exit_code, result.stdout) == (2, "")
     assert (
-        "the scale of the chart fargo_r6_hot: Ann wins a game against Bo 54% of the time by Fargo "
-        "ratings, 62% by NPL ratings; say which with --scale"
+        "the scale of the chart fargo_r6_hot: Ann wins a game against Bo 54% of the "
+        "time by Fargo ratings, 62% by NPL ratings. Add --scale"
     ) in result.stderr
     assert run("matchups", path, "--chart", "fargo_r6_hot", "--scale", "fargo").exit_code == 0
 
@@ -224,7 +224,7 @@ def test_own_results_are_for_levels(run, roster):
     for words in (("--race-to", "5"), ("--chart", "npl_10")):
         result = run("matchups", roster(LEVELS), *words, "--results", "season.csv")
         assert result.exit_code == 2
-        assert "give --chart apa_8ball" in result.stderr
+        assert "such as --chart apa_8ball" in result.stderr
 
 
 def test_the_evening_is_in_every_face(run, roster):
@@ -324,7 +324,7 @@ def test_stdin(run):
     ("words", "remedy"),
     [
         ((), "--race-to N"),
-        (("--race-to", "7", "--games", "5..9"), "leave one out"),
+        (("--race-to", "7", "--games", "5..9"), "Leave one out"),
         (("--race-to", "7", "--tables", "2"), "--minutes-per-game"),
         (("--race-to", "7", "--tables", "0", "--minutes-per-game", "8"), "from 1 to 1000"),
         (("--race-to", "7", "--minutes-per-game", "0"), "'0'"),

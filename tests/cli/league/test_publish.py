@@ -122,7 +122,7 @@ def test_a_match_that_was_not_played_on_its_day_is_postponed(run, folder: Path) 
 def test_a_manifest_of_another_kind_is_no_reason_to_replace(run, folder: Path, manifest) -> None:
     (folder / "site/data").mkdir(parents=True)
     (folder / "site/data/manifest.json").write_text(manifest)
-    assert "was not made by an earlier run" in " ".join(run("publish").stderr.split())
+    assert "wasn't made by an earlier run" in " ".join(run("publish").stderr.split())
 
 
 def test_a_page_of_somebody_elses_is_not_replaced(run, folder: Path) -> None:
@@ -130,7 +130,7 @@ def test_a_page_of_somebody_elses_is_not_replaced(run, folder: Path) -> None:
     (folder / "site" / "index.html").write_text("my own")
     done = run("publish")
     assert done.exit_code == 2
-    assert "was not made by an earlier run" in " ".join(done.stderr.split())
+    assert "wasn't made by an earlier run" in " ".join(done.stderr.split())
     assert content_of(folder / "site") == {"index.html": b"my own"}
 
 
@@ -181,9 +181,9 @@ def test_finished_tournaments_have_their_brackets(run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("--chart", "npl_10", "--race-to", "7"), "cannot be combined"),
-        (("--logo", "fall.csv"), "save it as one"),
-        (("--color", "red"), "is not a color"),
+        (("--chart", "npl_10", "--race-to", "7"), "can't be used together."),
+        (("--logo", "fall.csv"), "Save it as one"),
+        (("--color", "red"), "'red' isn't a color"),
         (("--chart", "house.csv"), "--scale is missing"),
         (("--chart", "apa_8ball"), "no skill levels"),
     ],

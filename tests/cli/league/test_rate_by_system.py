@@ -79,10 +79,10 @@ def test_a_class_of_ones_own(run):
         ("our_league:Blank", "returned nan for player 1"),
         ("our_league:Half", r"class Half\(System\)"),
         ("our_league:Other", "our_league has no Other"),
-        ("their_league:Wins", "start in the folder of their_league.py"),
-        ("apa-like", "use level-review"),
-        ("level-review window=0", "window is 0"),
-        ("chess", "give npl, step"),
+        ("their_league:Wins", "Start in the folder of their_league.py"),
+        ("apa-like", "Use level-review"),
+        ("level-review window=0", "window must be a whole number from 1 to 200; you gave 0"),
+        ("chess", "system must be npl, step"),
     ],
 )
 def test_what_cannot_be_used_is_refused(run, system, named):
@@ -95,7 +95,7 @@ def test_what_cannot_be_used_is_refused(run, system, named):
 def test_a_list_without_levels_is_refused_by_a_system_of_levels(run, tmp_path):
     (tmp_path / "list.csv").write_text("player,rating\nAnn,640\nBo,520\nCy,560\nDi,500\n")
     found = run("rate", "nights.csv", "--system", "tap-like", "--roster", "list.csv")
-    assert "add a column level" in found.stderr
+    assert "Add a column level" in found.stderr
 
 
 @pytest.mark.usefixtures("league")

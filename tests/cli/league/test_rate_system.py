@@ -132,8 +132,8 @@ def test_a_system_that_moves_by_the_score_asks_for_it(rate, tmp_path):
     )
     result = rate("night.csv", "--system", "elo 16")
     assert result.exit_code == 3
-    assert "night.csv:2: the score is not stated, and the system elo 16 moves" in result.stderr
-    assert "night.csv:3: the score is not stated" in result.stderr
+    assert "night.csv:2: the score isn't stated, and the system elo 16 moves" in result.stderr
+    assert "night.csv:3: the score isn't stated" in result.stderr
 
 
 def test_a_system_that_moves_by_the_race_asks_for_it(rate, tmp_path):
@@ -148,24 +148,24 @@ def test_a_system_that_moves_by_the_race_asks_for_it(rate, tmp_path):
     result = rate("night.csv", "--system", "margin")
     assert result.exit_code == 3
     assert (
-        "night.csv:2: the race is not stated, and the system margin 2 moves ratings by it; give "
-        "the chart that was used (npl_8, npl_10, npl_12 or npl_20), or the columns race_a "
-        "and race_b"
+        "night.csv:2: the race is not stated, and the system margin 2 moves ratings "
+        "by it. Add the chart that was used (npl_8, npl_10, npl_12 or npl_20), or "
+        "the columns race_a and race_b"
     ) in result.stderr
 
 
 def test_the_chart_of_a_fixed_length_system_is_taken_by_itself(rate):
     result = rate("night.csv", "--system", "fixed 9")
     assert result.exit_code == 3  # 5-3 and 6-2 are the ends of no races of nine games at once
-    assert "give the chart that was used, or the columns race_a and race_b" in result.stderr
+    assert "5-3). Add the chart that was used, or the columns race_a and race_b" in result.stderr
 
 
 @pytest.mark.parametrize(
     ("system", "message"),
     [
-        ("fide", "system is 'fide'; give npl, step UP [DOWN], margin [MOST]"),
-        ("step", "system is 'step'; write it as step UP [DOWN], in whole numbers"),
-        ("elo 0", "system is 'elo 0': k is 0"),
+        ("fide", "system must be npl, step UP [DOWN], margin [MOST]"),
+        ("step", "system is 'step'. Write it as step UP [DOWN], in whole numbers"),
+        ("elo 0", "system is 'elo 0': k must"),
         ("fixed 8", "system is 'fixed 8': games is 8"),
     ],
 )
@@ -196,17 +196,25 @@ def test_without_a_chart_the_only_one_that_fits_is_used_and_named(rate):
     ("words", "code", "remedy"),
     [
         (["open.csv"], 3, "--chart NAME settles them all"),
-        (["night.csv", "--chart", "npl_8"], 3, "5-3 does not finish the race 4:3"),
-        (["night.csv", "--chart", "npl_9"], 3, "no chart has this name"),
-        (["night.csv", "--chart", "apa_8ball"], 2, "give one of rating differences"),
-        (["none.csv", "--chart", "npl_10"], 3, "there is no such file"),
-        (["night.csv", "--roster", "none.csv"], 3, "there is no such file"),
-        (["night.csv", "--system", "fide"], 2, "system is 'fide'; give npl"),
+        (["night.csv", "--chart", "npl_8"], 3, "5-3 doesn't finish the race 4:3"),
+        (["night.csv", "--chart", "npl_9"], 3, "no chart or file with this name"),
+        (["night.csv", "--chart", "apa_8ball"], 2, "Give one of rating differences"),
+        (["none.csv", "--chart", "npl_10"], 3, "there's no such file"),
+        (["night.csv", "--roster", "none.csv"], 3, "there's no such file"),
+        (
+            ["night.csv", "--system", "fide"],
+            2,
+            (
+                "system must be npl, step UP [DOWN], margin [MOST], elo [K], fixed [GAMES], "
+                "none [GAMES], fargo-like, level-review, apa-like, tap-like, level-steps "
+                "[STEPS], averages, win-percent or napa-like; you gave 'fide'"
+            ),
+        ),
         (["-", "--roster", "-"], 2, "which only one file can be"),
-        (["night.csv", "--roster", "night.csv"], 3, "there is no column 'player'"),
-        (["night.csv", "--aliases", "last.csv"], 3, "there is no column 'name'"),
+        (["night.csv", "--roster", "night.csv"], 3, "there's no column 'player'"),
+        (["night.csv", "--aliases", "last.csv"], 3, "there's no column 'name'"),
         (["-", "--chart", "-"], 2, "which only one file can be"),
-        (["night.csv", "--half-life", "30"], 2, "leave out --half-life"),
+        (["night.csv", "--half-life", "30"], 2, "Leave out --half-life"),
     ],
 )
 def test_wrong_use_says_how_to_correct_it(rate, words, code, remedy):
@@ -222,7 +230,7 @@ def test_warnings_stand_beside_what_they_explain(rate, tmp_path):
     first, *_, error = result.stderr.splitlines()
     assert first.startswith("Warning: night.csv")
     assert "'Annie' as 'Ann'" in first
-    assert error.startswith("Error: night.csv:2: 'Diaz, Bo' is not on the list")
+    assert error.startswith("Error: night.csv:2: 'Diaz, Bo' isn't on the list")
     assert "if 'Diaz Bo' is meant" in error
 
 
@@ -247,7 +255,7 @@ def test_ratings_that_look_like_another_scale_than_the_systems_are_refused(rate,
     )
     refused = rate("raced.csv", "--system", "elo 16")
     assert (refused.exit_code, refused.stdout) == (2, "")
-    assert "do not look like Elo ratings, the scale of the system elo 16" in refused.stderr
+    assert "92 don't look like Elo ratings, the scale of the system elo 16" in refused.stderr
     assert "by NPL ratings" in refused.stderr
     (tmp_path / "last.csv").write_text(ELO)
     assert rate("raced.csv", "--system", "elo 16").exit_code == 0

@@ -63,11 +63,11 @@ def test_ctrl_c_ends_with_130_writes_nothing_and_nobody_outlives_it(roster, tmp_
 
 @pytest.mark.slow
 def test_a_wrong_address_is_one_line_and_nothing_is_written(roster, tmp_path):
-    pytest.importorskip("distributed", reason="the extra evenbreak[dask] is not there")
+    pytest.importorskip("distributed", reason="the extra evenbreak[dask] isn't there")
     out = tmp_path / "out"
     play = started(roster, "--dask", "localhost", "--out", str(out))
     _, told = play.communicate(timeout=60)
     assert play.returncode == 1
-    assert told.splitlines()[-1].startswith("Error: no dask scheduler answers at 'localhost'; give")
+    assert told.splitlines()[-1].startswith("Error: no dask scheduler answers at 'localhost'. Give")
     assert "Traceback" not in told
     assert not out.exists()

@@ -75,7 +75,13 @@ def test_a_league_of_skill_levels_needs_its_file_alone(ask, tmp_path, monkeypatc
     "words, message",
     [
         ((TEAMS, "--table-points", "apa_8ball"), "36 of 36 matches state no race"),
-        ((TEAMS, "--ties", "lots"), "give 'difference'"),
+        (
+            (TEAMS, "--ties", "lots"),
+            (
+                "Error: Invalid value for '--ties': ties must be 'difference', 'scored', "
+                "'wins', 'head-to-head', 'win-share', 'forfeits' or 'points'; you gave 'lots'"
+            ),
+        ),
         ((TEAMS, "--table-points", "3"), "or sets, or apa_8ball"),
         (("--table-points", "0,1,2", TEAMS), "no more for a loss"),
     ],

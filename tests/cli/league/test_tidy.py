@@ -37,7 +37,7 @@ def test_the_same_list_is_written_from_the_leagues_file_and_from_files_that_are_
     run("league", "tidy", "a.csv", "b.csv", "--out", "again.csv")
     assert (office / "again.csv").read_bytes() == first
     assert [one["kind"] for one in asked["changes"]] == ["left out", "left out", "double"]
-    assert asked["changes"][1]["text"].startswith("score 'x' is not a score")
+    assert asked["changes"][1]["text"].startswith("score 'x' isn't a score")
     assert len(asked["name_doubts"]) == 2
     merged = read_results(office / "tidy.csv").results
     assert len(merged) == 4

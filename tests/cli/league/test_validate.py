@@ -68,7 +68,7 @@ def test_a_picture_is_written(run, tmp_path):
     ("text", "words"),
     [
         ("player_a,player_b,score_a,score_b\nA,B,7,5\n", "no dates"),
-        ("date,player_a,player_b,score_a,score_b\n2024-09-03,A,B,7,5\n", "1 date;"),
+        ("date,player_a,player_b,score_a,score_b\n2024-09-03,A,B,7,5\n", "1 date"),
     ],
 )
 def test_a_file_without_an_order_in_time_is_refused(run, tmp_path, text, words):
@@ -90,8 +90,8 @@ def test_numbers_out_of_range_are_refused(run, option, value):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--jobs", "2", "--dask", "tcp://x:1"), "--dask and --jobs cannot be combined"),
-        (("--dask", " "), "--dask is empty"),
+        (("--jobs", "2", "--dask", "tcp://x:1"), "--dask and --jobs can't be used together;"),
+        (("--dask", " "), "--dask must not be empty"),
         (("--jobs", "0"), "'0'"),
     ],
 )

@@ -165,8 +165,8 @@ def test_cp1252_is_read_with_a_warning(run):
         (b"\x00\x01", ["stdin:1: holds a NUL"]),
         (HEADER, ["stdin: has no arcs"]),
         ("a,b\n1,2\n", ["'source', 'target' and 'probability'"]),
-        (HEADER + "S,W,x\n", ["stdin:2: probability 'x' is not a number"]),
-        (HEADER + "S,W,nan\n", ["stdin:2: probability 'nan' is not a number"]),
+        (HEADER + "S,W,x\n", ["stdin:2: probability 'x' isn't a number"]),
+        (HEADER + "S,W,nan\n", ["stdin:2: probability 'nan' isn't a number"]),
         (
             HEADER + "S,W,1.5\nS,L,-0.5\n",
             ["stdin:2: probability '1.5'", "stdin:3: probability '-0.5'"],
@@ -201,7 +201,7 @@ def test_a_thousand_problems_are_shown_as_twenty(run):
 def test_a_missing_file_ends_with_3(run):
     result = run("chain", "nowhere.csv")
     assert result.exit_code == 3
-    assert result.stderr.startswith("Error: nowhere.csv: there is no such file")
+    assert result.stderr.startswith("Error: nowhere.csv: there's no such file")
 
 
 def test_an_unknown_start_ends_with_3(run):

@@ -93,7 +93,7 @@ def test_csv_into_a_pipe_with_the_scale_beside_it(run, fair):
         ("612 521 --race-to 0", "from 1 to 1000"),
         ("612 521 --games 7..9 --target 2", "'2'"),
         ("612 521 --games 7..9 --top 0", "from 1 to 300"),
-        ("--games 7..9", "A B"),
+        ("--games 7..9", "missing players: give two ratings"),
         ("612 521 --gmaes 7..9", "--games"),
     ],
 )

@@ -160,14 +160,14 @@ def test_plot_of_nearly_nothing(run, tmp_path, text):
         ("", 2, "SCORES.csv"),
         ("- --new 53 --versus -", 2, "--new and --versus"),
         ("- --versus -", 2, "standard input"),
-        ("- --new much", 2, "'much' is not a score"),
+        ("- --new much", 2, "'much' isn't a score"),
         ("- --new 48,5", 2, "48.5"),
-        ("- --new nan", 2, "'nan' is not a score"),
-        ("- --new 1e99", 2, "'1e99' is not a score"),
-        ("- --confidence 1", 2, "'1' is not a confidence"),
-        ("- --confidence 95", 2, "'95' is not a confidence"),
+        ("- --new nan", 2, "'nan' isn't a score"),
+        ("- --new 1e99", 2, "'1e99' isn't a score"),
+        ("- --confidence 1", 2, "'1' isn't a confidence"),
+        ("- --confidence 95", 2, "'95' isn't a confidence"),
         ("- --plot scores.pdf", 2, "scores.pdf"),
-        ("no.csv", 3, "no.csv: there is no such file"),
+        ("no.csv", 3, "no.csv: there's no such file"),
         ("- --new 5", 3, "stdin: --new needs"),
         (f"- --versus {BEFORE}", 3, "stdin: has 1 score"),
         (f"{BEFORE} --versus -", 3, "--new"),
@@ -282,7 +282,7 @@ def test_a_row_a_try_is_read_as_counts(practice, title, made, missed):
 
 def test_numbers_beside_a_word_are_scores(run):
     refused = run("practice", "-", stdin="date,score\n2025-01-03,48\n2025-01-04,miss")
-    assert "write a score such as 48" in refused.stderr
+    assert "Write a score such as 48" in refused.stderr
 
 
 @pytest.mark.parametrize(
@@ -295,7 +295,7 @@ def test_numbers_beside_a_word_are_scores(run):
         ("date,shot,result" + "\n2025-01-01,cut,good" * 20, (), "columns shot, made and tried"),
         ("date,shot,result\n2025-01-01,cut,", (), "score is empty"),
         ("shot,made,tried\ncut,1,2", ("--new", "5"), "--new is for scores"),
-        ("shot,made,tried\ncut,1,2", ("--drill", "x"), "leave --drill out"),
+        ("shot,made,tried\ncut,1,2", ("--drill", "x"), "Leave --drill out"),
     ],
 )
 def test_a_wrong_log_of_shots_is_refused(run, rows, more, words):

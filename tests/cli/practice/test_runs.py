@@ -119,8 +119,8 @@ def test_plot(run, tmp_path, line, name):
         ("--mean 5 --plot runs.pdf", "runs.pdf"),
         ("--mean 5 --at-lest 3", "--at-lest"),
         ("--mean 5 3", "(3)"),
-        ("--p 1", "p is 1"),
-        ("--mean 24 --safety 0", "safety is 0"),
+        ("--p 1", "p must be below 1"),
+        ("--mean 24 --safety 0", "safety must be greater than 0; at 0 every run is 0"),
         ("--mean 1000 --innings 1000", "100,000"),
     ],
 )

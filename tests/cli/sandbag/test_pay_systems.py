@@ -40,4 +40,4 @@ def test_other_systems_are_played_with_a_stated_error(run, system):
 def test_what_only_points_by_match_have_is_refused(run, option):
     found = run("sandbag", "pay", "--system", "fargo-like", option)
     assert found.exit_code == 2
-    assert "leave it out" in found.stderr
+    assert "Leave it out" in found.stderr

@@ -71,7 +71,9 @@ def test_varying_form_weakens_the_evidence(watch, run):
     assert float(varied["Vito Drago"]["e_any"]) < float(plain["Vito Drago"]["e_any"]) / 10.0
     refused = run("sandbag", "watch", *SEASON, "--day-sd", "500")
     assert refused.exit_code == 2
-    assert "--day-sd is 500; give points from 0 to 120" in refused.stderr
+    assert (
+        "Error: --day-sd must be points from 0 to 120, which double the odds 4 times; you gave 500"
+    ) in refused.stderr
 
 
 def test_a_roster_of_mixed_scales_is_refused_or_a_warning(run, tmp_path):
@@ -84,7 +86,7 @@ def test_a_roster_of_mixed_scales_is_refused_or_a_warning(run, tmp_path):
         rows[number] = ",".join(cells)
     roster.write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
     asked = ("sandbag", "watch", SEASON[0], "--roster", str(roster), "--json")
-    assert "do not show their scale" in run(*asked).stderr
+    assert "570 don't show their scale" in run(*asked).stderr
     result = run(*asked, "--scale", "npl")
     (warning,) = json.loads(result.stdout)["warnings"]
     assert f"3 of {len(rows)} ratings" in warning

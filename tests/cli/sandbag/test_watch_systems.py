@@ -59,4 +59,4 @@ def test_a_system_whose_numbers_say_nothing_of_strength_is_refused(run, tmp_path
     scaled = run(
         "sandbag", "watch", str(tmp_path / "season.csv"), *words, "tap-like", "--scale", "30"
     )
-    assert "leave it out" in scaled.stderr
+    assert "Leave it out" in scaled.stderr

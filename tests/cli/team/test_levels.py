@@ -65,7 +65,7 @@ def test_nine_ball_counts_points_and_its_twenty_shares(ask, run, lists):
     used = ("--used", "Ann,Uli", "--score", "12:8")
     assert ask(*asked, "--count", "points", *used)["set"] == 2
     wrong = run(*asked, "--count", "points", "--used", "Ann,Uli", "--score", "11:9")
-    assert "11:9 cannot be" in wrong.stderr
+    assert "11:9 can't be" in wrong.stderr
     assert "points, not games" in run(*asked, "--count", "games").stderr
 
 
@@ -158,7 +158,7 @@ def test_own_charts_of_levels_and_ones_own_results(ask, run, lists, tmp_path):
     )
     assert mine == named
     said = run("lineup", *lists, "--chart", "npl_8", "--results", own).stderr
-    assert "--results is for chances by skill levels" in said
+    assert "--results is for chances by skill level" in said
     said = run("lineup", *lists, "--chart", "apa_8ball", "--scale", "3").stderr
     assert "--scale is for ratings" in said
 

@@ -66,7 +66,7 @@ def test_sealed_and_blind_are_worth_the_same(ask):
 @each_of(
     "options, what",
     [
-        ("", "races are missing"),
+        ("", "Error: missing"),
         ("--race 5 --order XYZ", "XYZ"),
         ("--race 5 --cap 10", "sum of the levels to 10"),
         ("--race 5 --at-most two", "'two'"),
@@ -114,11 +114,11 @@ def test_scores_that_can_be_go_on(ask, words):
 @pytest.mark.parametrize(
     ("words", "what"),
     [
-        (("--score", "2:0"), "2:0 cannot be"),
+        (("--score", "2:0"), "2:0 can't be"),
         (("--score", "1:1"), "1 set is over"),
-        (("--count", "games", "--score", "3:0"), "3:0 cannot be"),
-        (("--count", "games", "--score", "5:5"), "5:5 cannot be"),
-        (("--count", "points", "--score", "1:1"), "1:1 cannot be"),
+        (("--count", "games", "--score", "3:0"), "3:0 can't be"),
+        (("--count", "games", "--score", "5:5"), "5:5 can't be"),
+        (("--count", "points", "--score", "1:1"), "1:1 can't be"),
         (("--score", "1:0", "--order", "AL", "--last", "lost"), "--last lost contradicts"),
         (("--score", "1:0", "--named", "nobody"), "neither team"),
     ],

@@ -105,7 +105,7 @@ def test_teams_of_a_list_are_the_only_ones(run, tmp_path):
     teams.write_text("team,points\nKiss Shots,-2\nRack Pack,\n")
     result = run("season", RESULTS, SCHEDULE, "--teams", str(teams))
     assert result.exit_code == 3
-    assert "'Cue Tips' is not in the list of teams" in result.stderr
+    assert "'Cue Tips' isn't in the list of teams" in result.stderr
 
 
 def test_what_may_have_been_entered_twice_is_named(run, tmp_path):

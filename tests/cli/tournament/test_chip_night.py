@@ -118,7 +118,7 @@ def test_a_wrong_winner_long_ago_sets_racks_aside(night):
 
 def test_what_a_chip_night_has_not_is_refused_in_one_line(begun):
     for words, said in (
-        (("result", "1", "Cy"), "Cy is not in rack 1"),
+        (("result", "1", "Cy"), "Cy isn't in rack 1"),
         (("result", "7", "Ann"), "'7'"),
         (("correct", "R1", "Ann"), "no result"),
         (("call",), "tournament next"),
@@ -137,7 +137,7 @@ def test_wrong_options_are_one_line(night, run):
         (("--format", "chips", "--tables", "2"), "--chips"),
         (
             ("--format", "chips", "--chips", "pharaohs", "--race", "5", "--tables", "2"),
-            "leave out --race",
+            "Leave out --race",
         ),
         (("--format", "single", "--chips", "pharaohs", "--race", "5", "--tables", "2"), "--chips"),
     ):

@@ -93,7 +93,7 @@ def test_a_player_who_drops_out_forfeits(night):
     [
         (["result", "X1", "3:1"], 2, "X1"),
         (["result", "W1.2", "2:1"], 2, "2-1"),
-        (["result", "W2.1", "3:1"], 2, "not ready"),
+        (["result", "W2.1", "3:1"], 2, "'t ready"),
         (["correct", "W1.2", "3:1"], 2, "no result"),
         (["drop", "Nobody"], 2, "Nobody"),
         (["late", "player 01"], 2, "Player 01"),
@@ -116,7 +116,7 @@ def test_the_file_must_be_a_tournament(night, tmp_path):
 
 def test_moves_before_the_draw_are_refused(night):
     result = night.run("tournament", "result", "W1.1", "3:1", "--file", night.file)
-    assert (result.exit_code, "draw has not been made" in result.stderr) == (2, True)
+    assert (result.exit_code, "draw hasn't been made" in result.stderr) == (2, True)
 
 
 def test_the_file_may_be_named_without_its_option(run, tmp_path, monkeypatch):

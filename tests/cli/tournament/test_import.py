@@ -51,7 +51,7 @@ def test_a_number_that_cannot_be_true_is_refused_with_its_place(tmp_path: Path) 
     cup.write_text(json.dumps(data))
     said = run("import", cup, "--race", 5, "--out", out)
     assert said.exit_code == 3
-    assert "cup.json: W1.1: score 1 is 10001; give a whole number up to 10000" in said.stderr
+    assert "cup.json: W1.1: score 1 must be a whole number up to 10000; it is 1" in said.stderr
     assert [one.name for one in tmp_path.iterdir()] == ["cup.json"]
 
 
@@ -87,7 +87,10 @@ def test_a_list_of_events_is_refused_with_line_and_field(tmp_path: Path) -> None
         csv.writer(file).writerows(rows)
     said = run("import", events, "--out", second)
     assert (said.exit_code, second.exists()) == (3, False)
-    assert "events.csv:4: is not an event of a tournament: score 1 is 1000000" in said.stderr
+    assert (
+        "events.csv:4: isn't an event of a tournament: score 1 must be a whole "
+        "number up to 10000; it is 1000000"
+    ) in said.stderr
 
 
 @pytest.mark.slow

@@ -41,8 +41,8 @@ def test_the_next_edition_has_the_same_people_and_options(said) -> None:
     said("new others.txt --like tonight.db --out third.db")
     third = read_tournament("third.db")
     assert [one.rating for one in third.entrants.values()] == [612, 480, third.plan.starter]
-    assert "leave out --race" in said("new --like tonight.db --out x.db --race 5", code=2)
-    assert "the list of entrants is missing" in said("new --race 5", code=2)
+    assert "Leave out --race" in said("new --like tonight.db --out x.db --race 5", code=2)
+    assert "list of entrants: name the file," in said("new --race 5", code=2)
     said("new --race 5 --scale fargo --out empty.db")
     assert not read_tournament("empty.db").entrants
 
@@ -51,7 +51,7 @@ def test_a_doubtful_line_is_refused_with_its_remedy(said) -> None:
     Path("list.txt").write_text("Ann Lee 612\nBo Diaz 540 paid\nAnn Lee\n", encoding="utf-8")
     refused = said("new list.txt --race 5 --out x.db", code=3)
     assert "list.txt:2: 'Bo Diaz 540 paid': this may be more than a name" in refused
-    assert "write: Bo Diaz, 540" in refused
+    assert "Write: Bo Diaz, 540" in refused
     assert "list.txt:3: player 'Ann Lee' is already in line 1" in refused
     assert not Path("x.db").exists()
 

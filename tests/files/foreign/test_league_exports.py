@@ -53,7 +53,7 @@ def test_records_of_a_division_with_each_match_from_both_sides(tmp_path):
     records = [record(*match, "Racks") for match in TRUTH]
     forfeit = record("Ann Lee", "Di Roy", 0, 0, "Racks") | {"forfeit": True}
     text = json.dumps([*records, forfeit])
-    with pytest.raises(DataError, match="'January 29th' is not a date"):
+    with pytest.raises(DataError, match="'January 29th' isn't a date"):
         read(tmp_path, text)
     file = read(tmp_path, text, columns={"date": "-"})
     assert as_played(file.results)[:4] == TRUTH

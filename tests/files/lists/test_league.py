@@ -66,21 +66,21 @@ Flo,80,,,,-2,x,,
         read_season_players(club(tmp_path, text))
     told = "\n".join(caught.value.problems)
     for line, words in (
-        (2, "rating 'six' is not a number"),
+        (2, "rating 'six' isn't a number"),
         (3, "player 'Ann' is already in line 2"),
-        (3, "skill 'strong' is not a number"),
-        (5, "skill '20000' is not a number from -10,000 to 10,000"),
-        (5, "day_sd '-1' is not a number from 0 to 1,000"),
-        (5, "drift '2000' is not a number from -1,000 to 1,000"),
+        (3, "skill 'strong' isn't a number"),
+        (5, "skill '20000' isn't a number from -10,000 to 10,000"),
+        (5, "day_sd '-1' isn't a number from 0 to 1,000"),
+        (5, "drift '2000' isn't a number from -1,000 to 1,000"),
         (
             5,
-            "absence '1.5' is not a number from 0 to 1; write the chance to be absent, such as 0.1",
+            "absence '1.5' isn't a number from 0 to 1. Write the chance to be absent, such as 0.1",
         ),
-        (5, "standard_error '-3' is not a number from"),
-        (6, "rating '20000' is not a number from -10,000 to 10,000"),
-        (6, "leaves in week 3, before week 9; correct one of them"),
-        (7, "joins '-2' is not a whole number"),
-        (7, "leaves 'x' is not a whole number"),
+        (5, "standard_error '-3' isn't a number from"),
+        (6, "rating '20000' isn't a number from -10,000 to 10,000"),
+        (6, "leaves in week 3, before week 9. Correct one of them"),
+        (7, "joins '-2' isn't a whole number"),
+        (7, "leaves 'x' isn't a whole number"),
     ):
         assert f"club.csv:{line}: {words}" in told
     assert len(caught.value.problems) == 12
@@ -102,7 +102,7 @@ def test_a_player_without_a_rating_is_a_newcomer_at_the_median(tmp_path: Path) -
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("player,skill\nAnn,80\nBo,70\n", "there is no column 'rating'"),
+        ("player,skill\nAnn,80\nBo,70\n", "there's no column 'rating'"),
         ("player,rating\n", "has no players below its header"),
         ("player,rating\nAnn,80\n", "club.csv: has 1 player"),
     ],

@@ -41,7 +41,7 @@ def test_all_problems_at_once(read):
     ("text", "problem"),
     [
         ("player_a,player_b\n", "has no pairs below its header"),
-        ("player_a\nAnn\n", "there is no column 'player_b'"),
+        ("player_a\nAnn\n", "there's no column 'player_b'"),
     ],
 )
 def test_nothing_to_read(read, text, problem):

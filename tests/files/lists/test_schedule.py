@@ -37,11 +37,11 @@ def test_all_problems_are_told_at_once(tmp_path: Path) -> None:
         read_schedule(path, CLUB)
     told = "\n".join(caught.value.problems)
     for line, words in (
-        (2, "week '0' is not a whole number from 1 to 10,000; write 1 for the first week"),
-        (3, "week 'soon' is not a whole number"),
-        (4, "player_a 'Anne Lee' is not in the roster (did you mean 'Ann Lee'?)"),
+        (2, "week '0' isn't a whole number from 1 to 10,000. Write 1 for the first week"),
+        (3, "week 'soon' isn't a whole number"),
+        (4, "player_a 'Anne Lee' isn't in the roster (did you mean 'Ann Lee'?)"),
         (5, "'Bo' is on both sides"),
-        (6, "week is empty; write 1 for the first week"),
+        (6, "week is empty. Write 1 for the first week"),
         (6, "player_b is empty"),
     ):
         assert f"fixtures.csv:{line}: {words}" in told
@@ -51,7 +51,7 @@ def test_all_problems_are_told_at_once(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("player_a,player_b\nBo,Zoë\n", "there is no column 'week'"),
+        ("player_a,player_b\nBo,Zoë\n", "there's no column 'week'"),
         ("week,player_a,player_b\n", "has no matches below its header"),
     ],
 )

@@ -290,7 +290,7 @@ def test_lists_as_they_are_pasted(tmp_path, text, players, ratings):
     ("text", "said"),
     [
         ("Players:\nAnn\nBo\n", "'Players:' is left out as a heading"),
-        ("Ann Lee,0\nBo,612\n", "'Ann Lee' has the rating 0; leave it out if it means none"),
+        ("Ann Lee,0\nBo,612\n", "'Ann Lee' has the rating 0. Leave it out if it means none"),
         ("Ann Lee,-30\nBo,612\n", "'Ann Lee' has the rating -30"),
         ("3) Ann\n5) Bo\n", "the number 3 in front of 'Ann' is left out"),
     ],
@@ -327,7 +327,7 @@ def test_a_message_shows_a_tab_as_a_blank(tmp_path: Path) -> None:
 def test_a_line_without_end_is_refused_at_once(tmp_path: Path, sign: str) -> None:
     path, began = tmp_path / "list.txt", time.monotonic()
     path.write_text(f"Ann Lee 612\n{sign * 40_000}\n", encoding="utf-8")
-    with pytest.raises(DataError, match="letters, which is no name") as caught:
+    with pytest.raises(DataError, match="letters, which isn't a name") as caught:
         read_entrants(path)
     assert len(caught.value.problems) == 1
     assert time.monotonic() - began < 5.0

@@ -40,10 +40,14 @@ def test_the_same_line_twice_does_no_harm(read):
 def test_all_that_is_wrong_is_told_at_once(read):
     told = problems(read, "name,means\nBob,Rob\n,Rob\nBob,Robert\nCy,\nRob,Robin\n")
     assert [text.partition(";")[0] for text in told] == [
-        ":2: 'Bob' means 'Rob', which means 'Robin' in line 6",
-        ":3: name is empty",
-        ":4: 'Bob' means 'Robert' here, but 'Rob' in line 2",
-        ":5: means is empty",
+        (
+            ":2: 'Bob' means 'Rob', which means 'Robin' in line 6. Write the player's "
+            "real name in both lines, and keep only one of two names that mean each "
+            "other."
+        ),
+        ":3: name is empty. Write a name, or delete the line.",
+        ":4: 'Bob' means 'Robert' here, but 'Rob' in line 2. Keep one of the two.",
+        ":5: means is empty. Write a name, or delete the line.",
     ]
 
 
@@ -52,7 +56,7 @@ def test_names_that_mean_each_other_are_refused(read):
 
 
 def test_missing_columns_and_rows(read):
-    assert problems(read, "name\nBob\n")[0].startswith(":1: there is no column 'means'")
+    assert problems(read, "name\nBob\n")[0].startswith(":1: there's no column 'means'")
     assert problems(read, "name,means\n")[0].startswith(": has no names")
 
 

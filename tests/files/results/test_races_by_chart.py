@@ -26,8 +26,10 @@ def test_levels_set_the_race_and_so_the_winner(read):
     texts = [text.partition("night.csv")[2] for text in file.warnings]
     assert texts == [
         ": the races of 2 matches are those of apa_8ball for the levels stated",
-        ":4: the score 1-1 does not end the race 2-3 of the levels stated, nor do those of 1 more "
-        "matches theirs; check them",
+        (
+            ":4: the score 1-1 doesn't end the race 2-3 of the levels stated, nor do "
+            "those of 1 more matches theirs. Check them."
+        ),
     ]
     assert len(file.ties) == 1
 

@@ -82,14 +82,14 @@ def test_a_date_is_not_needed(read):
 def test_each_needed_column_is_asked_for_and_the_rest_still_looked_at(read, column):
     header = HEADER.replace(column, "other")
     told = problems(read, f"{header}\nsoon,Ann,Bo,7,5\n")
-    assert told[0].startswith(f":1: there is no column {column!r}")
-    assert told[1].startswith(":2: date 'soon' is not a date")
+    assert told[0].startswith(f":1: there's no column {column!r}")
+    assert told[1].startswith(":2: date 'soon' isn't a date")
     assert len(told) == 2
 
 
 def test_a_header_without_matches_is_told(read):
     assert problems(read, f"{HEADER}\n") == [
-        ": has no matches below its header; write one line for each"
+        ": has no matches below its header. Write one line for each."
     ]
 
 
@@ -105,18 +105,33 @@ def test_all_problems_are_told_at_once_with_line_column_and_remedy(read):
         "2024-09-03,Ann\n",
     )
     assert [text.partition("; ")[0] for text in told] == [
-        ":2: score_a 'x' is not a whole number from 0 to 1,000,000",
-        ":2: score_b '-1' is not a whole number from 0 to 1,000,000",
-        ":2: date '2024-13-03' is not a date",
-        ":2: 'Ann' is on both sides of the match",
-        ":4: player_a is empty",
-        ":4: score_b 'NaN' is not a whole number from 0 to 1,000,000",
-        ":4: race_a '0' is not a whole number from 1 to 1,000,000",
-        ":5: winner 'Cy' is neither of the two players",
-        ":7: winner is a, but b reached the race (6-5 in a race 7:5)",
-        ":8: has 2 cells, but the header has 8",
+        ":2: score_a 'x' isn't a whole number from 0 to 1,000,000. Write 0, 1, 2, ...",
+        ":2: score_b '-1' isn't a whole number from 0 to 1,000,000. Write 0, 1, 2, ...",
+        (
+            ":2: date '2024-13-03' isn't a date. Write 2024-09-03, 3.9.2024 or 9/3/2024, "
+            "or leave it empty."
+        ),
+        ":2: 'Ann' is on both sides of the match. Correct one of the names.",
+        ":4: player_a is empty. Write the player's name.",
+        ":4: score_b 'NaN' isn't a whole number from 0 to 1,000,000. Write 0, 1, 2, ...",
+        (
+            ":4: race_a '0' isn't a whole number from 1 to 1,000,000. Write 1, 2, 3, "
+            "..., or leave both races empty."
+        ),
+        (
+            ":5: winner 'Cy' is neither of the two players. Write a, b or one of the two "
+            "names, or leave it empty."
+        ),
+        (
+            ":7: winner is a, but b reached the race (6-5 in a race 7:5). Write b, or "
+            "correct the scores or the race."
+        ),
+        (
+            ":8: has 2 cells, but the header has 8. Add what is missing, or quote cells "
+            "that hold the separator."
+        ),
     ]
-    assert all("; " in text for text in told)
+    assert all(". " in text for text in told)
 
 
 def test_names_that_differ_in_case_or_spaces_are_one_player_and_both_spellings_are_named(read):
@@ -198,7 +213,7 @@ def test_two_names_of_one_player_do_not_play_each_other(tmp_path, aliases):
 
 
 def test_what_is_wrong_with_the_aliases_is_told(tmp_path):
-    with pytest.raises(DataError, match="there is no such file"):
+    with pytest.raises(DataError, match="there's no such file"):
         read_results(tmp_path / "r.csv", aliases=tmp_path / "none.csv")
 
 

@@ -106,7 +106,7 @@ def test_cells_that_mean_nothing_or_contradict_are_one_problem(read_row, column,
         read_row(**{column: text})
     (problem,) = caught.value.problems
     assert ":2: " in problem
-    assert "; " in problem
+    assert ". " in problem
 
 
 def test_a_name_as_written_means_the_player_before_a_letter_does(read_row):
@@ -180,7 +180,7 @@ def test_some_matches_may_be_known_by_their_winner_alone(read):
     ["Ann,Bo,,,7,5,", "Ann,Bo,,,7,,a", "Ann,Bo,,,,,a", "Ann,Bo,7,,7,5,a", "Ann,Bo,,5,7,5,b"],
 )
 def test_an_empty_score_that_nothing_stands_in_for_is_told(read, row):
-    with pytest.raises(DataError, match=r":2: score_[ab] is empty; .*race_a, race_b and winner"):
+    with pytest.raises(DataError, match=r":2: score_[ab] is empty\. .*race_a, race_b and winner"):
         read(f"player_a,player_b,score_a,score_b,race_a,race_b,winner\n{row}\n")
 
 
@@ -195,9 +195,18 @@ def test_without_score_columns_one_line_says_what_a_row_lacks(read):
         read("player_a,player_b,race_a,race_b,winner\nAnn,Bo,7,5,\nCy,Bo,x,5,a\nCy,Bo,7,5,Di\n")
     told = [problem.rpartition("r.csv")[2].partition(";")[0] for problem in caught.value.problems]
     assert told == [
-        ":2: nothing says who won",
-        ":3: race_a 'x' is not a whole number from 1 to 1,000,000",
-        ":4: winner 'Di' is neither of the two players",
+        (
+            ":2: nothing says who won. Write race_a, race_b and winner, or racks, or "
+            "mark a forfeit, or leave out a match that wasn't played."
+        ),
+        (
+            ":3: race_a 'x' isn't a whole number from 1 to 1,000,000. Write 1, 2, 3, "
+            "..., or leave both races empty."
+        ),
+        (
+            ":4: winner 'Di' is neither of the two players. Write a, b or one of the two "
+            "names, or leave it empty."
+        ),
     ]
 
 

@@ -128,12 +128,12 @@ def test_a_copy_that_cannot_be_made_keeps_the_file_as_it_was(
 @pytest.mark.parametrize(
     ("name", "value", "truth"),
     [
-        ("user_version", 4, "newer version of evenbreak, in format 4, .* update evenbreak"),
+        ("user_version", 4, "newer version of evenbreak, in format 4, .* Update evenbreak"),
         ("user_version", 2**31 - 1, "newer version of evenbreak"),
         ("user_version", 0, "damaged .no version of evenbreak has written a format 0.*backup"),
         ("user_version", -7, "damaged .no version of evenbreak has written a format -7"),
-        ("application_id", 0, "is not the file of a tournament"),
-        ("application_id", 252006674, "is not the file of a tournament"),
+        ("application_id", 0, "isn't the file of a tournament"),
+        ("application_id", 252006674, "isn't the file of a tournament"),
     ],
 )
 def test_other_formats_are_refused_with_the_truth(

@@ -83,10 +83,13 @@ def test_a_bracket_of_another_program_is_kept(tmp_path: Path) -> None:
     [
         ("1,x,opened,{}\n", "events.csv:2"),
         ("1,x,opened\n", "events.csv:2"),
-        ('1,late,dropped,"{""name"": ""Bo""}"\n', "events.csv:2: .* at is 'late'"),
+        (
+            '1,late,dropped,"{""name"": ""Bo""}"\n',
+            "events.csv:2: .* at must be a time such as .*; you gave 'late'",
+        ),
         ("1,x,opened,{},Ann,Bo\n", "events.csv:2"),
         (f"1,{AT},undone,{{}}\n", "nothing to undo"),
-        ("", "does not start"),
+        ("", "doesn't start"),
     ],
 )
 def test_other_rows_are_one_problem(tmp_path: Path, rows: str, said: str) -> None:

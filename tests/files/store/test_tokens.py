@@ -70,7 +70,7 @@ def test_a_token_is_gone_once_it_is_revoked_and_an_undo_does_not_bring_it_again(
 
 @pytest.mark.parametrize("name", ["", " ", "\u202e", "x" * 41, "a\x00b"])
 def test_a_program_has_a_name_that_can_be_shown(path: Path, name: str) -> None:
-    with pytest.raises(InputError, match="is not a name"):
+    with pytest.raises(InputError, match="isn't a name"):
         tokens.create_token(path, name, tokens.SCORES, AT.format(1))
 
 
@@ -93,7 +93,7 @@ def test_a_damaged_token_is_named(path: Path, scope: object) -> None:
         base.execute("DROP TABLE token")
         base.execute("CREATE TABLE token (name, scope, hash, created)")
         base.execute("INSERT INTO token VALUES ('board', ?, 'x', '')", (scope,))
-    with pytest.raises(DataError, match="tokens cannot be read"):
+    with pytest.raises(DataError, match="tokens can't be read"):
         tokens.kept_tokens(path)
 
 

@@ -93,12 +93,12 @@ def test_what_was_acknowledged_survives_a_kill(tonight: Path, wait: float) -> No
 
 def test_a_file_that_is_there_is_not_overwritten(tonight: Path) -> None:
     opened = read_events(tonight)
-    with pytest.raises(DataError, match=r"tonight\.db is there"):
+    with pytest.raises(DataError, match=r"tonight\.db already exists\. Give the new"):
         new_tournament(tonight, opened)
 
 
 def test_other_files_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(DataError, match=r"none\.db does not exist"):
+    with pytest.raises(DataError, match=r"none\.db doesn't exist"):
         read_tournament(tmp_path / "none.db")
     text = tmp_path / "e.csv"
     text.write_text("player\nAnn\n", encoding="utf-8")
@@ -108,5 +108,5 @@ def test_other_files_are_refused(tmp_path: Path) -> None:
     other.commit()
     other.close()
     for file in (text, base):
-        with pytest.raises(DataError, match=f"{file.name} is not the file of a tournament"):
+        with pytest.raises(DataError, match=f"{file.name} isn't the file of a tournament"):
             read_tournament(file)

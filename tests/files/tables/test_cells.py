@@ -66,7 +66,7 @@ def test_what_is_no_whole_number_is_told(text):
     assert read.values.tolist() == [5, 0, 5]
     (problem,) = told(table)
     assert problem.startswith("t.csv:3: x ")
-    assert problem.endswith("; write 0, 1, 2, ...")
+    assert problem.endswith(". Write 0, 1, 2, ...")
     assert len(problem) < 150
 
 
@@ -74,14 +74,14 @@ def test_the_least_whole_number_can_be_raised():
     table = table_of("0", "1")
     assert Whole(least=1, filled=True).read(table, "x").good.tolist() == [False, True]
     assert told(table) == [
-        "t.csv:2: x '0' is not a whole number from 1 to 1,000,000; write 1, 2, 3, ..."
+        "t.csv:2: x '0' isn't a whole number from 1 to 1,000,000. Write 1, 2, 3, ..."
     ]
 
 
 def test_the_greatest_whole_number_can_be_lowered():
     table = table_of("7", "8")
     assert Whole(most=7, filled=True).read(table, "x").good.tolist() == [True, False]
-    assert told(table) == ["t.csv:3: x '8' is not a whole number from 0 to 7; write 0, 1, 2, ..."]
+    assert told(table) == ["t.csv:3: x '8' isn't a whole number from 0 to 7. Write 0, 1, 2, ..."]
 
 
 def test_empty_cells_may_be_allowed():
@@ -156,4 +156,4 @@ def test_what_is_no_number_is_told(text):
     assert math.isnan(NUMBER.read(table, "x").values[0])
     (problem,) = told(table)
     assert problem.startswith("t.csv:2: x ")
-    assert problem.endswith("; write 0.5")
+    assert problem.endswith(". Write 0.5.")

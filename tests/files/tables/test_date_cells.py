@@ -76,7 +76,7 @@ def test_an_open_file_is_one_problem_that_names_the_option(read):
         read("2024-01-02", "9/3/2024", "9/4/2024", "10/5/2024")
     (problem,) = caught.value.problems
     assert "d.csv:3:" in problem
-    assert "add dates mdy" in problem
+    assert "Add dates mdy" in problem
 
 
 def test_the_option_settles_it(read):
@@ -93,7 +93,7 @@ def test_a_file_of_both_orders_is_one_problem(read):
 
 
 def test_a_date_that_the_option_does_not_allow_is_a_problem_in_its_line(read):
-    with pytest.raises(DataError, match=r"d.csv:3: date '9/13/2024' is not a date"):
+    with pytest.raises(DataError, match=r"d\.csv:3: date '9/13/2024' isn't a date"):
         read("9/3/2024", "9/13/2024", order="dmy")
 
 

@@ -30,10 +30,10 @@ def test_a_closed_standard_input_is_told(monkeypatch):
 @pytest.mark.parametrize(
     ("name", "told"),
     [
-        ("nowhere.csv", "there is no such file"),
+        ("nowhere.csv", "there's no such file"),
         ("", "is a folder"),
-        ("r.csv/more", "cannot be read"),
-        (os.fsdecode(b"\xff.csv"), "there is no such file"),
+        ("r.csv/more", "can't be read"),
+        (os.fsdecode(b"\xff.csv"), "there's no such file"),
     ],
 )
 def test_a_file_that_cannot_be_read_is_one_problem(tmp_path, name, told):
@@ -65,7 +65,7 @@ def test_encodings(content, encoding):
 
 def test_the_warning_says_where_the_file_stops_being_utf8():
     *_, warnings = text_of("Zoë\nBo\n".encode() + "Émile".encode("cp1252"), "r.csv")
-    assert warnings[0].startswith("r.csv:3: is not UTF-8; read as Windows-1252")
+    assert warnings[0].startswith("r.csv:3: isn't UTF-8. Read as Windows-1252")
 
 
 @each_of(
@@ -92,14 +92,14 @@ def test_what_is_no_text_is_refused_with_a_remedy(content, told):
         text_of(content, "r.csv")
     (problem,) = caught.value.problems
     assert problem.startswith(told)
-    assert "save" in problem or "write" in problem
+    assert "Save" in problem or "Write" in problem
 
 
 def test_a_name_of_a_file_stays_on_one_line(tmp_path):
     with pytest.raises(DataError) as caught:
         content_of(tmp_path / "no\nsuch\x1b[31m\udcff.csv")
     (problem,) = caught.value.problems
-    assert problem.endswith("no\\nsuch\\x1b[31m\\udcff.csv: there is no such file; check its name")
+    assert problem.endswith("no\\nsuch\\x1b[31m\\udcff.csv: there's no such file. Check its name.")
 
 
 @posix

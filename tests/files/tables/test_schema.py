@@ -72,15 +72,19 @@ def test_all_problems_come_at_once_each_with_its_line_and_remedy(written):
     with pytest.raises(DataError) as caught:
         CUES.read(path).problems.raise_any()
     assert [problem.removeprefix(f"{path}:") for problem in caught.value.problems] == [
-        "2: owner is empty; write a name",
-        "2: weight 'x' is not a number from 10 to 30; write ounces such as 19, or leave it empty "
-        "for a house cue",
-        "2: pieces '9' is not a whole number from 1 to 4; write 1, 2, 3, ...",
-        "2: wrap 'silk' is not linen or none; write linen or none, or leave it empty",
-        "2: tip 'hard' is not a tip; write soft, or leave it empty",
-        "3: weight '31' is not a number from 10 to 30; write ounces such as 19, or leave it empty "
-        "for a house cue",
-        "3: pieces is empty; write 1, 2, 3, ...",
+        "2: owner is empty. Write a name.",
+        (
+            "2: weight 'x' isn't a number from 10 to 30. Write ounces such as 19, or "
+            "leave it empty for a house cue."
+        ),
+        "2: pieces '9' isn't a whole number from 1 to 4. Write 1, 2, 3, ...",
+        "2: wrap 'silk' isn't linen or none. Write linen or none, or leave it empty.",
+        "2: tip 'hard' isn't a tip. Write soft, or leave it empty.",
+        (
+            "3: weight '31' isn't a number from 10 to 30. Write ounces such as 19, or "
+            "leave it empty for a house cue."
+        ),
+        "3: pieces is empty. Write 1, 2, 3, ...",
     ]
 
 
@@ -93,7 +97,7 @@ def test_a_missing_column_is_named_with_its_other_names(written):
 def test_a_schema_can_be_changed_joined_and_cut(written):
     strict = CUES.but(weight={"filled": True, "most": 20}).only("weight")
     assert list(strict.columns) == ["weight"]
-    assert strict["weight"].remedy == "write ounces such as 19"
+    assert strict["weight"].remedy == "Write ounces such as 19."
     assert CUES["weight"].most == 30
     more = strict | Schema(weight=Text(), color=Text())
     assert list(more.columns) == ["weight", "color"]

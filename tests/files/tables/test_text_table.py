@@ -109,7 +109,7 @@ def test_unknown_columns_are_told(read):
 def test_missing_and_doubled_columns_are_told_together(read):
     told = problems(read("name,player,points\nBo,Bo,5\n"))
     assert told[0].startswith(":1: columns 'name' and 'player' both mean name")
-    assert told[1].startswith(":1: there is no column 'score' among 'name', 'player', 'points'")
+    assert told[1].startswith(":1: there's no column 'score' among 'name', 'player', 'points'")
     assert "'games won'" in told[1]
 
 
@@ -117,21 +117,27 @@ def test_rows_of_the_wrong_width_are_told_and_the_rest_kept(read):
     table = read("name,score\nBo\nCy,5,,\nDi,6,7\nEd,8\n")
     assert table.cells("name") == ["Cy", "Ed"]
     assert [text.split(";")[0] for text in problems(table)] == [
-        ":2: has 1 cell, but the header has 2",
-        ":4: has 3 cells, but the header has 2",
+        (
+            ":2: has 1 cell, but the header has 2. Add what is missing, or quote cells "
+            "that hold the separator."
+        ),
+        (
+            ":4: has 3 cells, but the header has 2. Add what is missing, or quote cells "
+            "that hold the separator."
+        ),
     ]
 
 
 @pytest.mark.parametrize("rest", ['"Bo,5\nCy,6\n', f'"{"x" * 200_000}\nCy,6\n'])
 def test_a_quote_that_is_never_closed_is_told_where_it_opens(read, rest):
     told = problems(read(f"name,score\nAl,1\n{rest}"))
-    assert told[0].startswith(":3: cannot be split into cells")
+    assert told[0].startswith(":3: can't be split into cells")
 
 
 def test_text_after_a_closing_quote_is_told_and_the_rest_kept(read):
     table = read('name,score\n"Bo"x,5\nCy,6\n')
     assert table.cells("name") == ["Cy"]
-    assert problems(table)[0].startswith(":2: cannot be split")
+    assert problems(table)[0].startswith(":2: can't be split")
 
 
 def test_a_header_alone_is_a_table_without_rows(read):

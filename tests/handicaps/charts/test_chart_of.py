@@ -56,7 +56,7 @@ def test_every_function_that_takes_a_chart_takes_its_name(call):
 @each_of("call", CALLS.values())
 @each_of("wrong", ["nobody", "apa_8ball", "apa_9ball", 12, level_chart("apa_8ball")])
 def test_what_is_no_chart_by_difference_is_refused_with_those_that_are(call, wrong):
-    with pytest.raises(InputError, match=r"chart is .*npl_10"):
+    with pytest.raises(InputError, match=r"chart must be .*npl_10"):
         call(wrong)
 
 
@@ -68,5 +68,5 @@ def test_levels_are_audited_by_name():
     "wrong", ["nobody", "npl_8", None, chart("npl_8"), points_chart("apa_9ball")]
 )
 def test_what_is_no_chart_by_level_is_refused(wrong):
-    with pytest.raises(InputError, match=r"chart is .*apa_8ball"):
+    with pytest.raises(InputError, match=r"chart must be .*apa_8ball"):
         audit_levels(wrong)

@@ -198,11 +198,17 @@ def test_a_limit_on_the_90_per_cent_length_holds_at_every_difference():
 @pytest.mark.parametrize(
     ("wrong", "remedy"),
     [
-        ({"scale": "nlp"}, "give npl, fargo, elo"),
-        ({"target": 2}, "target is 2"),
-        ({"tilt": -1}, "tilt is -1"),
-        ({"up_to": 0}, "up_to is 0"),
-        ({"rows": 0}, "rows is 0"),
+        (
+            {"scale": "nlp"},
+            (
+                r"scale must be npl, fargo, elo, or the points that double the odds, from "
+                r"0\.01 to 1,000,000; you gave 'nlp'"
+            ),
+        ),
+        ({"target": 2}, "target must"),
+        ({"tilt": -1}, "tilt must be a number from 0 to 1; you gave -1"),
+        ({"up_to": 0}, "up_to must"),
+        ({"rows": 0}, "rows must"),
         (
             {"limits": RaceLimits((1, 99)), "rows": 60, "up_to": 400},
             "rows is 60",

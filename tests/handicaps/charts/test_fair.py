@@ -124,12 +124,12 @@ def test_a_sure_winner_wins_every_race_and_the_shortest_is_first(p, sure):
         ("games is None and race_to is None", {}),
         ("games is .* and race_to is", {"games": (1, 2), "race_to": 3}),
         ("smaller number first", {"games": (5, 3)}),
-        ("give the pair", {"games": (5,)}),
-        ("games is 0", {"games": (0, 3)}),
-        ("race_to is 0", {"race_to": 0}),
-        ("target is 2", {"race_to": 3, "target": 2}),
-        ("top is 0", {"race_to": 3, "top": 0}),
-        ("first_breaker is 3", {"race_to": 3, "first_breaker": 3}),
+        ("Give the pair", {"games": (5,)}),
+        ("games must", {"games": (0, 3)}),
+        ("race_to must", {"race_to": 0}),
+        ("target must", {"race_to": 3, "target": 2}),
+        ("top must", {"race_to": 3, "top": 0}),
+        ("first_breaker must", {"race_to": 3, "first_breaker": 3}),
     ],
 )
 def test_wrong_parameters_are_named(words, options):

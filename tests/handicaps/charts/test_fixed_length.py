@@ -36,7 +36,11 @@ def test_the_chart_ends_where_the_weaker_needs_one_game():
 
 @pytest.mark.parametrize(
     ("games", "message"),
-    [(8, "no even race"), (0, "games is 0"), (1001, "1001; give")],
+    [
+        (8, "no even race"),
+        (0, "games must"),
+        (1001, "games must be a whole number from 1 to 999; you gave 1001"),
+    ],
 )
 def test_a_length_without_an_even_race_is_refused(games, message):
     with pytest.raises(InputError, match=message):

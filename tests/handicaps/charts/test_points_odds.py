@@ -51,7 +51,7 @@ def test_a_loser_gets_eight_at_most_one_point_short():
         assert limits == sorted(limits)
         assert limits[-1] == needs - 1
         assert loser_share(level, needs - 1) == 8
-        with pytest.raises(InputError, match=f"give 0 to {needs - 1}"):
+        with pytest.raises(InputError, match=f"points must be 0 to {needs - 1}"):
             loser_share(level, needs)
 
 

@@ -15,13 +15,31 @@ def test_all_faults_are_told_with_the_place_of_their_row():
         ChartRow(9, 12, 5, 4),
     ]
     assert [(place, fault.partition(";")[0]) for place, fault in row_faults(rows)] == [
-        (0, "row 1 begins at 1"),
-        (0, "row 1 is a race 5:4"),
-        (1, "difference_to of row 2 is 3"),
-        (1, "stronger_needs of row 2 is 4"),
-        (1, "row 2 begins at 6, but row 1 ends at 4"),
-        (2, "row 3 is open-ended but not the last row"),
-        (3, "the last row ends at 12"),
+        (0, "row 1 must start at 0; it starts at 1"),
+        (
+            0,
+            (
+                "row 1 is a race 5:4. Give an even race, since at a difference of 0 neither "
+                "player is the stronger."
+            ),
+        ),
+        (1, "difference_to of row 2 must be 6 or more"),
+        (
+            1,
+            (
+                "stronger_needs of row 2 must be 5 or more, since the stronger player never "
+                "needs fewer games"
+            ),
+        ),
+        (1, "row 2 starts at 6, but row 1 ends at 4. Start it at 5."),
+        (2, "row 3 is open-ended but not the last row. Give its end."),
+        (
+            3,
+            (
+                "the last row ends at 12. Leave its end out, since a chart covers all larger "
+                "differences too."
+            ),
+        ),
     ]
 
 

@@ -69,10 +69,22 @@ def test_a_pair_whose_sum_changes_has_a_difference_only():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"start": 61}, "start is 61; give a rating difference"),
-        ({"start": 0.5}, "start is 0.5"),
+        (
+            {"start": 61},
+            (
+                "start must be a rating difference in whole points from -60 to 60, or a "
+                "larger widest; you gave 61"
+            ),
+        ),
+        (
+            {"start": 0.5},
+            (
+                r"start must be a rating difference in whole points from -60 to 60, or a "
+                r"larger widest; you gave 0\.5"
+            ),
+        ),
         ({"skill_difference": float("nan")}, "finite number of points"),
-        ({"widest": 0}, "widest is 0"),
+        ({"widest": 0}, "widest must"),
     ],
 )
 def test_a_pair_refuses(options, message):
@@ -109,7 +121,7 @@ def test_in_step_law_of_longer_steps_is_on_their_multiples():
 
 @pytest.mark.parametrize("system", [step_system(2, 1), "margin"])
 def test_players_who_do_not_stay_in_step_are_refused(system):
-    with pytest.raises(InputError, match="do not stay in step"):
+    with pytest.raises(InputError, match="players don't stay in step"):
         in_step_law(system)
 
 
@@ -150,5 +162,5 @@ def test_a_simulated_closed_league_is_in_step_or_not():
 
 @pytest.mark.parametrize("state", [-61, 61])
 def test_a_pair_has_no_state_beyond_the_ends(state):
-    with pytest.raises(InputError, match=f"state is {state}; give a rating difference from -60"):
+    with pytest.raises(InputError, match="state must be a rating difference from -60"):
         ClosedPair("npl").moves(state)

@@ -104,10 +104,10 @@ def test_a_walk_that_stands_still_has_no_law():
 @pytest.mark.parametrize(
     ("wins", "message"),
     [
-        ([0.5], "wins has 1 chances"),
+        ([0.5], "wins must have one chance"),
         ([0.5, 0.5], "an odd number, three or more"),
-        ([0.5, 1.5, 0.5], "win chance 2 is 1.5"),
-        (0.5, "wins is 0.5; give a list"),
+        ([0.5, 1.5, 0.5], r"win chance 2 must be a number from 0 to 1; you gave 1\.5"),
+        (0.5, r"wins must be a list of numbers from 0 to 1; you gave 0\.5"),
     ],
 )
 def test_wins_that_make_no_ladder_are_refused(wins, message):
@@ -117,5 +117,5 @@ def test_wins_that_make_no_ladder_are_refused(wins, message):
 
 @pytest.mark.parametrize("state", [-2, 2, 1000])
 def test_beyond_the_ends_there_is_no_state(state):
-    with pytest.raises(InputError, match=f"state is {state}; give a rating error from -1 to 1"):
+    with pytest.raises(InputError, match="state must be a rating error from -1 to 1"):
         RatingLadder([0.75, 0.5, 0.25]).moves(state)

@@ -162,17 +162,33 @@ def test_equal_ladders_are_equal_and_copies_too():
 @each_of(
     "change, message",
     [
-        ({"widest": 0}, "widest is 0; give a whole number, 1 or more"),
-        ({"widest": 2.5}, "widest is 2.5; give a whole number"),
-        ({"day_sd": -1}, "day_sd is -1; give a number from 0 to 120"),
-        ({"match_sd": "x"}, "match_sd is 'x'; give a number"),
-        ({"day_sd": float("nan")}, "day_sd is nan"),
-        ({"matches_a_night": 0}, "matches_a_night is 0; give a whole number, 1 or more"),
-        ({"drift": 2}, "drift is 2; give a number from -1 to 1"),
-        ({"opponents": "natural"}, "opponents is 'natural'; give Opponents, such as NATURAL"),
+        ({"widest": 0}, "widest must be a whole number, 1 or more; you gave 0"),
+        ({"widest": 2.5}, r"widest must be a whole number, 1 or more; you gave 2\.5"),
+        ({"day_sd": -1}, "day_sd must be a number from 0 to 120; you gave -1"),
+        ({"match_sd": "x"}, "match_sd must be a number from 0 to 120; you gave 'x'"),
+        ({"day_sd": float("nan")}, "day_sd must be a number from 0 to 120; you gave nan"),
+        ({"matches_a_night": 0}, "matches_a_night must be a whole number, 1 or more; you gave 0"),
+        ({"drift": 2}, "drift must be a number from -1 to 1; you gave 2"),
+        (
+            {"opponents": "natural"},
+            "opponents must be Opponents, such as NATURAL; you gave 'natural'",
+        ),
         ({"opponents": Opponents(Distribution((0, 900), (0.5, 0.5)))}, "goes to 900 points"),
-        ({"chart": "nobody"}, "chart is 'nobody'"),
-        ({"system": "chess"}, "system is 'chess'; give"),
+        (
+            {"chart": "nobody"},
+            (
+                "chart must be a chart by rating difference: fargo_r6_hot, npl_8, npl_10, "
+                "npl_12, npl_20, or a Chart of your own; you gave 'nobody'"
+            ),
+        ),
+        (
+            {"system": "chess"},
+            (
+                r"system must be npl, step UP \[DOWN\], margin \[MOST\], elo \[K\], fixed "
+                r"\[GAMES\], none \[GAMES\], fargo-like, level-review, apa-like, tap-like, "
+                r"level-steps \[STEPS\], averages, win-percent or napa-like; you gave 'chess'"
+            ),
+        ),
     ],
 )
 def test_what_makes_no_ladder_is_refused(change, message):
@@ -198,12 +214,12 @@ def test_a_ladder_is_wide_enough_for_form_that_varies_much(system, day_sd):
 
 
 def test_errors_that_lie_on_the_ends_are_refused():
-    with pytest.raises(AccuracyError, match="not keep up"):
+    with pytest.raises(AccuracyError, match="don't keep up"):
         Ladder("step 1 0", widest=60).law()
     far = opponents_of([500, 550, 600], 80)
     with pytest.raises(AccuracyError, match="opponents nearer the player's skill, or a widest"):
         Ladder("npl", opponents=far, widest=60).law()
-    with pytest.raises(AccuracyError, match="give a skill nearer to theirs"):
+    with pytest.raises(AccuracyError, match="Give a skill nearer to theirs"):
         Ladder("npl", opponents=far)
 
 

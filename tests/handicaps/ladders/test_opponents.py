@@ -50,10 +50,13 @@ def test_meeting_only_better_rated_players_shifts_the_players_error_alone():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"given": "class"}, "given is 'class'; give 'skill' or 'rating'"),
-        ({"spread": (0, 1)}, "spread is .*; give a Distribution of whole points"),
-        ({"spread": Distribution((0.5,), (1.0,))}, "spread holds 0.5; give whole points"),
-        ({"error": Distribution((0, 1.25), (0.5, 0.5))}, "error holds 1.25; give whole points"),
+        ({"given": "class"}, "given must be 'skill' or 'rating'; you gave 'class'"),
+        ({"spread": (0, 1)}, "spread must be a Distribution of whole points"),
+        ({"spread": Distribution((0.5,), (1.0,))}, r"spread must be whole points; it holds 0\.5"),
+        (
+            {"error": Distribution((0, 1.25), (0.5, 0.5))},
+            r"error must be whole points; it holds 1\.25",
+        ),
     ],
 )
 def test_what_makes_no_opponents_is_refused(change, message):
@@ -64,9 +67,9 @@ def test_what_makes_no_opponents_is_refused(change, message):
 @pytest.mark.parametrize(
     ("ratings", "message"),
     [
-        ([], "ratings is empty"),
-        ([80, float("nan")], "ratings holds nan"),
-        (["x"], "ratings is "),
+        ([], "ratings must not be empty"),
+        ([80, float("nan")], "ratings must be finite numbers; it holds nan"),
+        (["x"], "ratings must be a finite number; it is"),
     ],
 )
 def test_ratings_that_are_none_are_refused(ratings, message):

@@ -114,10 +114,31 @@ def test_drift_of_the_skill_is_not_multiplied_by_the_newcomers_factor():
 @pytest.mark.parametrize(
     ("arguments", "options", "message"),
     [
-        ((61,), {}, "start is 61; give a rating error in whole points from -60 to 60"),
-        ((0.5,), {}, "start is 0.5"),
-        (("x",), {}, "start is 'x'"),
-        ((30, -1), {}, "within is -1"),
+        (
+            (61,),
+            {},
+            (
+                "start must be a rating error in whole points from -60 to 60, or a larger "
+                "widest; you gave 61"
+            ),
+        ),
+        (
+            (0.5,),
+            {},
+            (
+                r"start must be a rating error in whole points from -60 to 60, or a larger "
+                r"widest; you gave 0\.5"
+            ),
+        ),
+        (
+            ("x",),
+            {},
+            (
+                "start must be a rating error in whole points from -60 to 60, or a larger "
+                "widest; you gave 'x'"
+            ),
+        ),
+        ((30, -1), {}, "within must be a whole number, 0 or more; you gave -1"),
     ],
 )
 def test_nonsense_is_refused(arguments, options, message):

@@ -32,20 +32,27 @@ def test_a_system_is_its_own_name():
 @each_of(
     "written, message",
     [
-        ("fide", "system is 'fide'; give npl, step UP .DOWN., .*fixed"),
-        ("", "system is ''; give npl"),
-        (None, "system is None; give npl"),
-        ("npl 3", "write it as npl$"),
-        ("step", r"write it as step UP \[DOWN\], in whole numbers"),
-        ("step 1 2 3", "write it as step"),
-        ("step -2", "write it as step"),
-        ("step 1.5", "write it as step"),
-        ("step ²", "write it as step"),
-        ("elo 0", "system is 'elo 0': k is 0"),
+        ("fide", "system must be npl, step UP .DOWN., .*fixed"),
+        ("", "system must be npl"),
+        (
+            None,
+            (
+                r"system must be npl, step UP \[DOWN\], margin \[MOST\], elo \[K\], fixed "
+                r"\[GAMES\], none \[GAMES\], fargo-like, level-review, apa-like, tap-like, "
+                r"level-steps \[STEPS\], averages, win-percent or napa-like; you gave None"
+            ),
+        ),
+        ("npl 3", "Write it as npl"),
+        ("step", r"Write it as step UP \[DOWN\], in whole numbers"),
+        ("step 1 2 3", "Write it as step"),
+        ("step -2", "Write it as step"),
+        ("step 1.5", "Write it as step"),
+        ("step ²", "Write it as step"),
+        ("elo 0", "system is 'elo 0': k must"),
         ("fixed 8", "system is 'fixed 8': games is 8"),
-        ("level-review lowest=-3", "lowest is -3"),
-        ("fargo-like starter=nan", "starter is nan"),
-        ("napa-like newcomer=inf", "newcomer is inf"),
+        ("level-review lowest=-3", "lowest must be a whole number, 0 or more; you gave -3"),
+        ("fargo-like starter=nan", "starter must be a number from -10000 to 10000; you gave nan"),
+        ("napa-like newcomer=inf", "newcomer must be a number from 0 to 10000; you gave inf"),
     ],
 )
 def test_what_names_no_system_is_told_with_what_does(written, message):
@@ -56,12 +63,18 @@ def test_what_names_no_system_is_told_with_what_does(written, message):
 @each_of(
     "written, message",
     [
-        ("level-review windw=3", "windw is no parameter of it; give window, kept"),
-        ("level-review window=many", "window is 'many'; give a number"),
+        ("level-review windw=3", "windw isn't one of its parameters: window, kept"),
+        (
+            "level-review window=many",
+            "system is 'level-review window=many': window must be a number; you gave 'many'",
+        ),
         ("level-review trim=10", "leaves no score of 20"),
-        ("npl k=3", "leave k= out"),
-        ("fargo-like 3", "write it as fargo-like"),
-        ("averages games=8", "give an odd number"),
+        ("npl k=3", "Leave k= out"),
+        ("fargo-like 3", "Write it as fargo-like"),
+        (
+            "averages games=8",
+            "system is 'averages games=8': games must be an odd number; you gave 8",
+        ),
     ],
 )
 def test_parameters_that_a_system_cannot_have_are_refused(written, message):

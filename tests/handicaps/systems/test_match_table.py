@@ -56,8 +56,14 @@ def test_nobody_writes_into_a_table():
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        (("npl",), "system is 'npl'; give a StepSystem"),
-        ((NPL, "nobody"), "chart is 'nobody'"),
+        (("npl",), r"system must be a StepSystem, such as system_of\('npl'\); you gave 'npl'"),
+        (
+            (NPL, "nobody"),
+            (
+                "chart must be a chart by rating difference: fargo_r6_hot, npl_8, npl_10, "
+                "npl_12, npl_20, or a Chart of your own; you gave 'nobody'"
+            ),
+        ),
     ],
 )
 def test_what_is_no_system_or_chart_is_refused(given, message):
@@ -66,7 +72,7 @@ def test_what_is_no_system_or_chart_is_refused(given, message):
 
 
 def test_the_widest_difference_is_a_whole_number():
-    with pytest.raises(InputError, match="widest is 0"):
+    with pytest.raises(InputError, match="widest must"):
         match_table(NPL, widest=0)
 
 

@@ -70,7 +70,7 @@ def test_each_player_without_a_rating_is_a_problem_once():
     )
     told = night_problems(NPL, club, results)
     assert [(p.row, p.column) for p in told] == [(0, "player_a"), (2, "player_a")]
-    assert "'Zed' is not on the list" in told[0].message
+    assert "'Zed' isn't on the list" in told[0].message
     assert "'New' has no rating on the list" in told[1].message
 
 

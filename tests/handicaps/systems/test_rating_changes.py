@@ -95,7 +95,7 @@ def test_a_chart_is_looked_up_with_whole_points():
 
 
 def test_results_that_cannot_be_used_are_refused():
-    with pytest.raises(InputError, match="row 0 of the results: 'Zed' is not on the list"):
+    with pytest.raises(InputError, match="row 0 of the results: 'Zed' isn't on the list"):
         apply_results(NPL, CLUB, night(("Ann", "Zed", 5, 3), race_a=[5], race_b=[5]))
 
 

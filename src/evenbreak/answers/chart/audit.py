@@ -405,7 +405,7 @@ def audit(asked: questions.ChartAudit) -> Answer:
     warnings = (*file.warnings, *file.problems)
     if isinstance(file.found, handicaps.LevelChart):
         if asked.plot is not None:
-            asked.refuse("a chart by skill level has no rating differences; leave {plot} out")
+            asked.refuse("a chart by skill level has no rating differences. Leave {plot} out.")
         levels = handicaps.audit_levels(file.found, scale=asked.scale or "npl")
         return level_audit_answer(
             levels, skills=handicaps.level_skills(file.found), warnings=warnings
@@ -413,7 +413,7 @@ def audit(asked: questions.ChartAudit) -> Answer:
     if isinstance(file.found, handicaps.PointsChart):
         if asked.plot is not None or asked.scale is not None:
             asked.refuse(
-                "a chart of points has no rating differences; leave {scale} and {plot} out"
+                "a chart of points has no rating differences. Leave {scale} and {plot} out."
             )
         return points_audit_answer(file.found, warnings=warnings)
     report = handicaps.audit(file.found, scale=asked.scale)

@@ -157,7 +157,7 @@ def moves(minutes: float) -> str:
 
 
 def pair(names: Sequence[str]) -> str:
-    """Return who plays whom in a table.
+    """Return who plays who in a table.
 
     >>> pair(["Ann", "Bo"])
     'Ann - Bo'

@@ -274,8 +274,9 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
         return []
     return [
         say(
-            "new players start at {start:g}, the middle of the {scale} scale, but the other "
-            "ratings go from {least:g} to {most:g}; set the rating of a new player with {starter}",
+            "new players start at {start:g}, the middle of the {scale} scale, but the "
+            "other ratings go from {least:g} to {most:g}. Set the rating of a new player "
+            "with {starter}.",
             start=scale.center,
             scale=NAMES.get(scale.name, scale.name),
             least=least,
@@ -300,8 +301,9 @@ def chart_doubts(chart: Any, scale: Scale) -> list[str]:
         return []
     return [
         say(
-            "the races of {chart} fit a scale on which about {points:.0f} points double the odds, "
-            "but here {own:.4g} do; make sure that it is the chart for these ratings",
+            "the races of {chart} fit a scale on which about {points:.0f} points double "
+            "the odds, but here {own:.4g} do. Make sure that it's the chart for these "
+            "ratings.",
             chart=chart.name,
             points=best.points_per_doubling,
             own=own,

@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from evenbreak.ratings.roster import Roster
 
 
-SAY_WHICH = worded("say which with {scale} npl, {scale} fargo or {scale} elo")
+SAY_WHICH = worded("Add {scale} npl, {scale} fargo or {scale} elo.")
 """What to do about ratings that do not show their scale."""
 
-LEAVE_OUT = worded("leave {scale} out, or correct the file")
+LEAVE_OUT = worded("Leave {scale} out, or correct the file.")
 """What to do about a stated scale that contradicts a file."""
 
-LEVELS_DOUBLE = worded("say with {scale} how many levels double the odds")
+LEVELS_DOUBLE = worded("Add {scale} N, the number of levels that double the odds.")
 """What to do about skill levels where ratings in points are needed."""
 
 
@@ -41,7 +41,7 @@ def on_scale(system: handicaps.StepSystem, scale: Scale | None) -> handicaps.Ste
             points=scale.points_per_doubling,
         )
     if system.scale.name != "npl" and scale != system.scale:
-        refuse("the system {name} has a scale of its own; leave {scale} out", name=system.name)
+        refuse("the system {name} has a scale of its own. Leave {scale} out.", name=system.name)
     return replace(system, scale=scale)
 
 
@@ -55,8 +55,8 @@ def refuse_too_varying(asked: Question, system: handicaps.StepSystem, *names: st
     for name in names:
         if getattr(asked, name) > most:
             asked.refuse(
-                "{part} is {points:g}; give points from 0 to {most:.0f}, which double the odds "
-                "{times:g} times",
+                "{part} must be points from 0 to {most:.0f}, which double the odds "
+                "{times:g} times; you gave {points:g}",
                 part=Parameter(name),
                 points=getattr(asked, name),
                 most=most,
@@ -82,7 +82,7 @@ def refuse_other_scale(
 
     if file.scale is not None and not file.scale.same_points(scale):
         refuse(
-            "{file} states that its ratings are {its}, but {whose} is {other}; {remedy}",
+            "{file} states that its ratings are {its}, but {whose} is {other}. {remedy}",
             file=file.source,
             its=scale_words(file.scale),
             whose=whose,
@@ -90,7 +90,7 @@ def refuse_other_scale(
             remedy=remedy,
         )
     if file.scale is None and not stated:
-        needs = say("{whose} needs ratings in points; {remedy}", whose=whose, remedy=remedy)
+        needs = say("{whose} needs ratings in points. {remedy}", whose=whose, remedy=remedy)
         refuse_levels(file, needs)
         refuse_to_read(file, scale, whose, remedy)
 
@@ -103,7 +103,7 @@ def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
     if system.publishes == "levels":
         if np.isnan(file.roster.level).all():
             refuse(
-                "{file} states no skill level, which {whose} moves; add a column level",
+                "{file} states no skill level, which {whose} moves. Add a column level.",
                 file=file.source,
                 whose=whose,
             )
@@ -112,8 +112,8 @@ def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
         refuse_levels(
             file,
             worded(
-                "{whose} needs ratings in points; use a system of levels, such as {system} "
-                "level-steps",
+                "{whose} needs ratings in points. Use a system of levels, such as "
+                "{system} level-steps.",
                 whose=whose,
             ),
         )
@@ -127,8 +127,8 @@ def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
 
 
 SAY_LEVELS = worded(
-    "use a chart by skill level, such as {chart} apa_8ball, or say with {scale} how many levels "
-    "double the odds"
+    "Use a chart by skill level, such as {chart} apa_8ball, or add {scale} N, the number of "
+    "levels that double the odds."
 )
 
 
@@ -136,7 +136,7 @@ def refuse_levels(file: files.RosterFile | files.SeasonPlayers, remedy: str = SA
     """Refuse a list of skill levels where ratings in points are needed."""
     if file.levels:
         refuse(
-            "the ratings of {file} are skill levels, and not points of a scale; {remedy}",
+            "the ratings of {file} are skill levels, and not points of a scale. {remedy}",
             file=file.source,
             remedy=remedy,
         )
@@ -156,7 +156,7 @@ def chart_by_difference(name: str, parameter: str = "chart") -> handicaps.Chart:
     found = files.find_chart(name)
     if not isinstance(found, handicaps.Chart):
         refuse(
-            "{parameter} {name!r} is a chart of skill levels; give one of rating differences",
+            "{parameter} {name!r} is a chart of skill levels. Give one of rating differences.",
             parameter=Parameter(parameter),
             name=name,
         )
@@ -190,8 +190,9 @@ def chart_for(system: handicaps.StepSystem, name: str | None) -> tuple[handicaps
         chart, warnings = file.chart, list(file.warnings)
     if not isinstance(chart, handicaps.Chart):
         refuse(
-            "{chart} {name!r} is a chart of skill levels, which no single match moves by points; "
-            "give a chart of rating differences, such as npl_10, or {system} level-steps",
+            "{chart} {name!r} is a chart of skill levels, which no single match moves by "
+            "points. Give a chart of rating differences, such as npl_10, or {system} "
+            "level-steps.",
             name=name,
         )
     return chart, [*warnings, *chart_doubts(chart, system.scale)]
@@ -207,14 +208,14 @@ def with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float
     if unrated.any() and starter is None and scale.name not in SCALES:
         name = roster.players[int(unrated.argmax())]
         refuse(
-            "{name!r} has no rating; give the rating of a new player with {starter} RATING",
+            "{name!r} has no rating. Give the rating of a new player with {starter} RATING.",
             name=name,
         )
     spread = scale.points_per_doubling if sd is None else sd
     most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
     if spread > most:
         refuse(
-            "{starter_sd} is {spread:g}, which says nothing about a player; give {most:g} at most",
+            "{starter_sd} is {spread:g}, which says nothing about a player. Give {most:g} at most.",
             spread=spread,
             most=most,
         )
@@ -226,5 +227,5 @@ def stated_pace(discipline: str | None, minutes_per_game: float | None) -> Pace 
     from evenbreak.matches.pace import own_pace
 
     if discipline is not None and minutes_per_game is not None:
-        refuse("{discipline} and {minutes_per_game} cannot be combined; leave one out")
+        refuse("{discipline} and {minutes_per_game} can't be used together. Leave one out.")
     return discipline if minutes_per_game is None else own_pace(minutes_per_game)

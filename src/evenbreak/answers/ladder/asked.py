@@ -35,7 +35,7 @@ MANY_POINTS = 500.0
 MOST_APART = 20.0
 """Doublings of the odds that an opponent may be from the player: a game in a million."""
 
-SAY_OTHERWISE = worded("{compare} is for NPL ratings; leave it out and give {scale} for others")
+SAY_OTHERWISE = worded("{compare} is for NPL ratings. Leave it out and give {scale} for others.")
 
 
 def ladder(asked: LadderErrors) -> Answer:
@@ -94,7 +94,7 @@ def _of_levels(asked: LadderErrors, system: handicaps.MarkovSystem) -> Answer:
 
     for name in asked.given:
         if name not in ("system", "chart", "league", "equal_skill"):
-            asked.refuse("{" + name + "} is for ratings in points; leave it out with skill levels")
+            asked.refuse("{" + name + "} is for ratings in points. Leave it out with skill levels.")
     weights, warnings = None, []
     if asked.league is not None:
         chart: Any = system.chart
@@ -133,15 +133,15 @@ def _question(ladder: handicaps.Ladder, asked: LadderErrors, opponents: str) -> 
     within = round(NEAR * doubling) if asked.within is None else asked.within
     if abs(start) > ladder.widest:
         asked.refuse(
-            "{start_error} is {start}; give an error from -{widest} to {widest} points, where this "
-            "ladder ends",
+            "{start_error} must be an error from -{widest} to {widest} points, where "
+            "this ladder ends; you gave {start}",
             start=start,
             widest=ladder.widest,
         )
     if asked.newcomer and not ladder.system.newcomer_steps:
         asked.refuse(
-            "in the system {name} newcomers move like everyone else; leave {newcomer} out, or use "
-            "{system} npl",
+            "in the system {name} newcomers move like everyone else. Leave {newcomer} "
+            "out, or use {system} npl.",
             name=ladder.system.name,
         )
     return LadderQuestion(start, within, asked.newcomer, opponents, asked.via)
@@ -194,7 +194,7 @@ def _of_league(
     refuse_other_scale(file, scale, "the ladder", remedy, stated=asked.scale is not None)
     ratings = file.roster.rating[~np.isnan(file.roster.rating)]
     if not len(ratings):
-        raise DataError([f"{file.source}: no player has a rating; write one for each player"])
+        raise DataError([f"{file.source}: no player has a rating. Write one for each player."])
     warnings = [*file.warnings, *league_doubts(scale, ratings, remedy)]
     about = round(float(np.median(ratings))) if asked.skill is None else asked.skill
     low, high = float(ratings.min()), float(ratings.max())

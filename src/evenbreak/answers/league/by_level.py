@@ -35,8 +35,8 @@ def by_level(
         stated = roster.rating[~np.isnan(roster.rating)]
         if file.scale is not None or not np.isin(stated, chart.levels).all():
             raise InputError(
-                "the chart {chart} needs skill levels, and {list} has ratings alone; add a column "
-                "{level} with {levels}, or give a chart of rating differences",
+                "the chart {chart} needs skill levels, and {list} has ratings alone. Add "
+                "a column {level} with {levels}, or give a chart of rating differences.",
                 chart=chart.name,
                 list=FilePath(file.source),
                 level="level",
@@ -143,6 +143,6 @@ def with_known_level(
 
 
 SCALE_OF_LEVELS = say(
-    "{scale} is for ratings, and here the chances come from skill levels; leave it out",
+    "{scale} is for ratings, and here the chances come from skill levels. Leave it out.",
     scale=Parameter("scale"),
 )

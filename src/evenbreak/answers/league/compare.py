@@ -195,7 +195,7 @@ def _verdict(comparison: Comparison) -> Iterator[Sentence]:
         "of_own": float(even.value[0]),
     }
     if math.isnan(half):
-        yield say("One season cannot show which is fairer; simulate more.")
+        yield say("One season can't show which is fairer. Simulate more.")
     elif by_luck[best - 1]:
         one, other = (best, 0) if sign > 0 else (0, best)
         worth = comparison.measures["p_doubling_wins"].value

@@ -1,4 +1,4 @@
-"""Fixtures of a league: who plays whom, where and when, or what is still to be played."""
+"""Fixtures of a league: who plays who, where and when, or what is still to be played."""
 
 from __future__ import annotations
 

@@ -71,8 +71,8 @@ def rating_changes_answer(
         parts.insert(
             1,
             say(
-                "The races come from {chart}, the system's only chart that fits all scores; "
-                "use {chart_option} for another one.",
+                "The races come from {chart}, the system's only chart that fits all "
+                "scores. Use {chart_option} for another one.",
                 chart=chart.name,
                 chart_option=Parameter("chart"),
             ),

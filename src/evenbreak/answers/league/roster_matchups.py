@@ -53,7 +53,7 @@ class OfferedRaces:
     def __post_init__(self) -> None:
         if (self.games is None) == (self.race_to is None):
             raise InputError(
-                "games is {games!r} and race_to is {race_to!r}; give exactly one of them",
+                "games is {games!r} and race_to is {race_to!r}. Give exactly one of them.",
                 games=self.games,
                 race_to=self.race_to,
             )
@@ -135,8 +135,8 @@ def check_roster(
         file.lines,
         np.flatnonzero(plays & (roster.standard_error > most)),
         lambda place: say(
-            "{column} {error:g} says nothing about a player; write {most:g} points at most, or "
-            "check {scale}",
+            "{column} {error:g} says nothing about a player. Write {most:g} points at "
+            "most, or check {scale}.",
             column="quasi_error" if place in file.by_quasi else "standard_error",
             error=roster.standard_error[place],
             most=most,
@@ -249,9 +249,9 @@ def roster_matchups(
     offered, a player has no rating, or the chart lacks a level.
     """
     if chart is None and offered is None:
-        raise InputError("chart and offered are missing; give one of them at least")
+        raise InputError("chart and offered are missing. Give one of them at least.")
     if levels is None and np.isnan(roster.rating).any():
-        raise InputError("roster has players without a rating; fill them in by with_starters")
+        raise InputError("roster has players without a rating. Fill them in with with_starters.")
     a, b = pairs[:, 0], pairs[:, 1]
     linked = _linked(roster, a, b)
     a, b = a[linked], b[linked]

@@ -175,7 +175,7 @@ def _who_gains(standings: pd.DataFrame, batches: int) -> str:
 def _luck(data: Mapping[str, Any]) -> str:
     between, luck = data["points_sd_between_players"], data["points_sd_by_luck"]
     if math.isnan(luck):
-        return "How much of the table is luck? One season cannot show that; simulate more."
+        return "How much of the table is luck? One season can't show that. Simulate more."
     share = luck**2 / (between**2 + luck**2) if between or luck else 1.0
     return (
         f"How much of the table is luck? About {100 * share:.0f}% of the differences in one "

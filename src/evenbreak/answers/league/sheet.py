@@ -78,7 +78,7 @@ def find_players(
             found[place] = None
     if unknown:
         raise InputError(
-            "{said}: not in {where}: {names}; write names as they are there",
+            "{said}: not in {where}: {names}. Write names as they are there.",
             said=said,
             where=FilePath(where),
             names=joined(unknown, ", "),

@@ -70,8 +70,8 @@ def tidy_answer(
         text = f"{count_of(many, 'forfeit')} among them, which count in no rating"
         if unknown:
             text += (
-                f". The winner of {count_of(unknown, 'forfeit')} is not stated, which the table "
-                "leaves out; add a column winner to the file"
+                f". The winner of {count_of(unknown, 'forfeit')} isn't stated, which the "
+                "table leaves out. Add a column winner to the file."
             )
         parts.append(text + ".")
     if changes["doubt"]:

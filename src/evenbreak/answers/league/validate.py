@@ -203,8 +203,8 @@ def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
     plenty = games_each >= PLENTY and found.skill.low <= 0.0 and not turned
     if plenty and found.choice is None:
         return say(
-            "With a prior of {points} points the ratings predict no better than a coin; leave "
-            "{prior} out to find the best.",
+            "With a prior of {points} points the ratings predict no better than a coin. "
+            "Leave {prior} out to find the best.",
             points=points_text(found.prior_sd, scale),
         )
     if plenty:

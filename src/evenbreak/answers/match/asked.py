@@ -80,7 +80,7 @@ def live(asked: Live) -> Answer:
     if players.form and not order_is_free(match):
         if asked.form is not None:
             refuse(
-                "{form} is for races of games in which the break does not matter; leave it out here"
+                "{form} is for races of games in which the break doesn't matter. Leave it out here."
             )
         players = replace(players, form=0.0)
     odds = live_odds(match, asked.racks, set_score=asked.set_score, form=players.form)
@@ -181,8 +181,8 @@ def refuse_giants(match: Match, most: int = MOST_SCORES) -> None:
     scores *= getattr(match.rack, "m", 1) * getattr(match.rack, "n", 1)
     if scores > most:
         refuse(
-            "{match} can still come to about {scores:,} scores; ask for a match with at most "
-            "{most:,}",
+            "{match} can still come to about {scores:,} scores. Ask for a match with at "
+            "most {most:,}.",
             match=match_words(match),
             scores=scores,
             most=most,
@@ -209,7 +209,7 @@ def players_of(asked: Players, form: float | None = None) -> TwoPlayers:
 
     a, b = (float(text) + 0.0 for text in asked.ratings)  # -0 is 0
     if not math.isfinite(a - b):
-        refuse("the ratings are too far apart to calculate with; give smaller numbers")
+        refuse("the ratings are too far apart to calculate with. Give smaller numbers.")
     scale = asked.scale or _scale_of_chart(chart) or unstated_scale([a, b], ["A", "B"], SAY_WHICH)
     if asked.scale is None and chart is not None:
         refuse_contradicted(
@@ -263,7 +263,7 @@ def _places(asked: Players, file: RosterFile) -> list[int]:
     )
     if len(places) < 2:
         one, other = asked.ratings
-        refuse("{one!r} and {other!r} are one player; name two", one=one, other=other)
+        refuse("{one!r} and {other!r} are one player. Name two.", one=one, other=other)
     return places
 
 
@@ -292,15 +292,14 @@ def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
     for place in places:
         if math.isnan(file.roster.rating[place]):
             refuse(
-                "{player!r} has no rating in {file}; give two ratings",
+                "{player!r} has no rating in {file}. Give two ratings.",
                 player=roster.players[place],
                 file=file.source,
             )
     a, b = places
     if cannot_be_compared(roster, a, b):
         refuse(
-            "no chain of opponents links {one!r} and {other!r}, so their ratings cannot be "
-            "compared",
+            "no chain of opponents links {one!r} and {other!r}, so their ratings can't be compared",
             one=roster.players[a],
             other=roster.players[b],
         )
@@ -324,13 +323,13 @@ def refuse_uncertain(players: TwoPlayers) -> None:
     """Refuse --via where chances are averaged over the errors of ratings: they are no limit."""
     if players.form:
         refuse(
-            "{via} is for one chain, but with {form} the answer is an average over many; leave one "
-            "out"
+            "{via} is for one chain, but with {form} the answer is an average over many. "
+            "Leave one out."
         )
     if players.error:
         refuse(
-            "{via} is for one chain, but with {from_file} the answer is an average over how far "
-            "the ratings may be off; give the two ratings as numbers"
+            "{via} is for one chain, but with {from_file} the answer is an average over "
+            "how far the ratings may be off. Give the two ratings as numbers."
         )
 
 
@@ -378,7 +377,7 @@ def _formats(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
             kinds.append(kinds[-1].set_)
         if kinds[-1].breaks is not None and not players.rack.break_matters:
             refuse(
-                "{format!r} says who breaks, which matters only with {p1} and {p2}; leave it out",
+                "{format!r} says who breaks, which matters only with {p1} and {p2}. Leave it out.",
                 format=str(played),
             )
         for kind in kinds:
@@ -389,8 +388,8 @@ def _formats(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
             scores = kind.scores // (kind.set_.scores if kind.set_ else 1)
             if scores > most:
                 refuse(
-                    "{format!r} has a part with about {scores:,} scores, and {most:,} are the most "
-                    "that can be compared here; use {odds} for such a match",
+                    "{format!r} has a part with about {scores:,} scores, and {most:,} "
+                    "are the most that can be compared here. Use {odds} for such a match.",
                     format=str(played),
                     scores=scores,
                     most=most,
@@ -404,11 +403,11 @@ def _line(players: TwoPlayers, hold: str | None) -> dict[str, Any]:
     p1, p2 = players.rack.p1, players.rack.p2
     if p2 is None:
         if hold is not None:
-            refuse("{hold} goes with {p1} and {p2}, which are not given; leave it out")
+            refuse("{hold} goes with {p1} and {p2}, which aren't given. Leave it out.")
         return {}
     line: dict[str, Any] = {"breaks": players.break_format, "first_breaker": players.first_breaker}
     if hold != "break":
         return line | {"p2": p2}
     if not (0.0 < p1 < 1.0 and 0.0 < p2 < 1.0):
-        refuse("{hold} break needs {p1} and {p2} above 0 and below 1; use {hold} p2")
+        refuse("{hold} break needs {p1} and {p2} above 0 and below 1. Use {hold} p2.")
     return line | {"break_odds": p1 / (1.0 - p1) * p2 / (1.0 - p2)}

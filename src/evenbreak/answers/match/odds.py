@@ -376,9 +376,11 @@ def races_for(players: TwoPlayers, asked: Fair) -> list[FairRace]:
 def _refuse_without_odds(players: TwoPlayers, asked: Fair) -> None:
     """Refuse chances that form of the day cannot change, or about which it says nothing."""
     if players.p_game_a is None:
-        asked.refuse("{form} knows nothing of the break here; give {p}, or two ratings")
+        asked.refuse("{form} knows nothing of the break here. Give {p}, or two ratings.")
     if players.p_game_a in (0.0, 1.0):
-        asked.refuse("{form} changes nothing where {p} is {chance:g}; leave it out", chance=asked.p)
+        asked.refuse(
+            "{form} changes nothing where {p} is {chance:g}. Leave it out.", chance=asked.p
+        )
 
 
 def fair_answer(

@@ -247,7 +247,7 @@ def straight(asked: Straight) -> Answer:
         else [asked.p1 or 0.0, asked.p2 or 0.0]
     )
     if asked.plot is not None and (not any(shots) or not safety):
-        asked.refuse("nobody ever makes a ball, so there is nothing to draw; leave {plot} out")
+        asked.refuse("no one ever makes a ball, so there's nothing to draw. Leave {plot} out.")
     match = StraightPool(
         *asked.points, *shots, safety_1=safety, safety_2=safety, first="ab".index(asked.first) + 1
     )

@@ -56,8 +56,8 @@ def speed(asked: questions.TableSpeed) -> Answer:
     ball = physics.Ball().diameter if diameter is None else diameter * unit.size
     if meters <= ball:
         asked.refuse(
-            "{table_length} {long:g} leaves no room for a ball of {wide:g} {words}; give both in "
-            "{words}",
+            "{table_length} {long:g} leaves no room for a ball of {wide:g} {words}. Give "
+            "both in {words}.",
             long=meters / unit.size,
             wide=ball / unit.size,
             words=unit.words,
@@ -83,8 +83,8 @@ def aim(asked: questions.Aim) -> Answer:
         answer = aim_answer(hit, asked.distance * units.length.size, units, squirt=asked.squirt)
     except InputError:
         asked.refuse(
-            "{cut} {angle:g} cannot be reached: friction throws every hit fuller than that; give a "
-            "smaller cut angle, or another {topspin} or {english}",
+            "{cut} {angle:g} can't be reached: friction throws every hit fuller than "
+            "that. Give a smaller cut angle, or another {topspin} or {english}.",
             angle=asked.cut,
         )
     return replace(answer, warnings=measures.unit_doubts(units, speed=asked.speed))
@@ -157,8 +157,8 @@ def _struck(asked: questions.Shot, units: measures.Units) -> physics.Strike:
     most = physics.miscue_offset(asked.tip_mu)
     if math.hypot(up, right) > most:
         asked.refuse(
-            "{offset} {up:g} with {side_offset} {right:g} is a miscue: the tip slips beyond "
-            "{most:.3g} of the radius; give less, or a higher {tip_mu}",
+            "{offset} {up:g} with {side_offset} {right:g} is a miscue: the tip slips "
+            "beyond {most:.3g} of the radius. Give less, or a higher {tip_mu}.",
             up=up,
             right=right,
             most=most,

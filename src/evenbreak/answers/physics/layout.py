@@ -55,7 +55,7 @@ def layout_of(asked: Shot, units: Units) -> Layout:
         names = physics.POCKET_NAMES
         if asked.pocket not in names:
             asked.refuse(
-                "{pocket} {name!r}; give one of {names}", name=asked.pocket, names=", ".join(names)
+                "{pocket} {name!r}. Give one of {names}.", name=asked.pocket, names=", ".join(names)
             )
         goal = physics.pockets(table)[names.index(asked.pocket)]
     return Layout(units, table, asked.cut, asked.distance, asked.cue_ball, asked.object_ball, goal)
@@ -84,8 +84,8 @@ def traced_shot(
     standing = layout.meters(layout.object_ball)
     if math.dist(standing, (pocket.x, pocket.y)) <= strike.ball.radius:
         refuse(
-            "{object_ball} hangs in the {name} pocket, where any hit will do; move it away from "
-            "the pocket, or give {cut} and {distance}",
+            "{object_ball} hangs in the {name} pocket, where any hit will do. Move it "
+            "away from the pocket, or give {cut} and {distance}.",
             name=pocket.name,
         )
     try:
@@ -95,9 +95,10 @@ def traced_shot(
     if found.shot.collision is None and found.shot.approach.ending != "rest":
         x, y = layout.object_ball
         refuse(
-            "{object_ball} {x:g},{y:g} is so near a cushion that the cue ball would have to be in "
-            "it to send the ball into {pocket} {name}; move it away from the cushion, name another "
-            "pocket, or give outside english ({side_offset}), which reduces throw",
+            "{object_ball} {x:g},{y:g} is so near a cushion that the cue ball would have "
+            "to be in it to send the ball into {pocket} {name}. Move it away from the "
+            "cushion, name another pocket, or give outside english ({side_offset}), "
+            "which reduces throw.",
             x=x,
             y=y,
             name=pocket.name,
@@ -117,8 +118,8 @@ def _check_places(layout: Layout, radius: float) -> None:
         ):
             room = " by ".join(f"{most / unit.size:g}" for most in size)
             refuse(
-                "{ball} {x:g},{y:g} is not on the table, which is {room} {units}; a ball's center "
-                "is at least {least:.4g} from each cushion",
+                "{ball} {x:g},{y:g} isn't on the table, which is {room} {units}; a "
+                "ball's center is at least {least:.4g} from each cushion",
                 ball=Parameter(name),
                 x=place[0],
                 y=place[1],
@@ -133,14 +134,14 @@ def _refuse_distance(layout: Layout, diameter: float) -> NoReturn:
     unit, distance = layout.units.length, layout.distance or 0.0
     if distance * unit.size < diameter:
         refuse(
-            "{distance} {far:g} is measured between the centers; give {least:.4g} {units}, where "
-            "the balls touch, or more",
+            "{distance} {far:g} is measured between the centers. Give {least:.4g} "
+            "{units}, where the balls touch, or more.",
             far=distance,
             least=diameter / unit.size,
             units=unit.words,
         )
     refuse(
-        "{distance} {far:g} puts the object ball off the table; give less, or another {cue_ball}",
+        "{distance} {far:g} puts the object ball off the table. Give less, or another {cue_ball}.",
         far=distance,
     )
 
@@ -151,18 +152,19 @@ def _refuse_places(layout: Layout, apart: float, diameter: float) -> NoReturn:
     touching = f"{diameter / unit.size:.4g} {unit.words}"
     if apart < diameter * (1.0 - 1e-9):
         refuse(
-            "{cue_ball} and {object_ball} overlap; put them more than {touching} apart",
+            "{cue_ball} and {object_ball} overlap. Put them more than {touching} apart.",
             touching=touching,
         )
     if apart < diameter * (1.0 + 1e-9):
         refuse(
-            "{cue_ball} and {object_ball} touch: apart from throw the object ball goes along the "
-            "line through them wherever you aim; put them more than {touching} apart",
+            "{cue_ball} and {object_ball} touch: apart from throw the object ball goes "
+            "along the line through them wherever you aim. Put them more than {touching} "
+            "apart.",
             touching=touching,
         )
     name = layout.pocket.name if layout.pocket else ""
     refuse(
-        "{pocket} {name} cannot be reached from here: the cut would be 90 degrees or more; name "
-        "another pocket",
+        "{pocket} {name} can't be reached from here: the cut would be 90 degrees or "
+        "more. Choose another pocket.",
         name=name,
     )

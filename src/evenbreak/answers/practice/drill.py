@@ -197,12 +197,12 @@ def _practice(analysis: LogAnalysis) -> str:
 def _nothing_to_practice(*, levels: int, missed: bool) -> str:
     if levels == 1:
         return (
-            "With only one level there is nothing to climb; give the number of levels of the drill."
+            "With only one level there's nothing to climb. Give the number of levels of the drill."
         )
     if not missed:
         return (
-            "You never missed, so the log cannot show what to practice; log more attempts, if "
-            "possible at higher levels."
+            "You never missed, so the log can't show what to practice. Log more "
+            "attempts, if possible at higher levels."
         )
     return "No level that you missed would raise your average level."
 

@@ -121,8 +121,8 @@ def _doubts(found: Comparison) -> Iterator[str]:
     fewest = min(before.n, after.n)
     if fewest < FEW:
         yield (
-            f"one list has only {fewest} scores, so a single unusual score can change the answer; "
-            f"gather {FEW} or more of each"
+            f"one list has only {fewest} scores, so a single unusual score can change the "
+            f"answer. Gather {FEW} or more of each."
         )
     for name, side, other in (("before", before, after), ("after", after, before)):
         if side.sd == 0.0 < other.sd:

@@ -148,7 +148,7 @@ def _shots(asked: Scores, file: ShotsFile) -> Answer:
     for name in ("new", "versus"):
         if getattr(asked, name) is not None:
             asked.refuse(
-                "{part} is for scores, and {source} is a log of single shots; leave it out",
+                "{part} is for scores, and {source} is a log of single shots. Leave it out.",
                 part=Parameter(name),
                 source=file.source,
             )
@@ -163,7 +163,7 @@ def _one_list(asked: Scores, file: ScoresFile) -> Answer:
         raise DataError(
             [
                 worded(
-                    "{file}: {new} needs at least two different scores; add some", file=file.source
+                    "{file}: {new} needs at least two different scores. Add some.", file=file.source
                 )
             ]
         )

@@ -70,7 +70,7 @@ def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -
     if not most:
         raise InputError(
             "with the system {name} one match lost takes the rating more than {widest} "
-            "points below the skill; use smaller steps, or a higher rating at the start",
+            "points below the skill. Use smaller steps, or a higher rating at the start.",
             name=ladder.system.name,
             widest=ladder.widest,
         )

@@ -138,7 +138,7 @@ def _pay_by_play(asked: SandbagPay, system: handicaps.System, question: PayQuest
     """Return what dumping pays in a system without points by match: solved or played."""
     for name in ("start_error", "compare", "plot"):
         if name in asked.given:
-            asked.refuse("{" + name + "} is for systems that move points by match; leave it out")
+            asked.refuse("{" + name + "} is for systems that move points by match. Leave it out.")
     if isinstance(system, handicaps.MarkovSystem):
         chart: Any = system.chart
         many, middle = len(chart.levels), len(chart.levels) // 2

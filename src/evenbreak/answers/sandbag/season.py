@@ -56,7 +56,7 @@ def events_marked(results: Results, events: Sequence[str]) -> NDArray[np.bool_]:
     for event in events:
         if event not in known:
             names = ", ".join(known[:10]) or "none: the file has no column event"
-            raise InputError(f"the results have no event {event!r}; give one of these: {names}")
+            raise InputError(f"the results have no event {event!r}. Give one of these: {names}.")
     return np.isin(np.asarray(column, dtype=str), list(events))
 
 

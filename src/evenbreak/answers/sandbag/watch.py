@@ -127,9 +127,10 @@ def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
     points = scale_of(scale).points(form) / math.sqrt(2.0)
     return [
         say(
-            "honest players are taken to play at the same strength every day, but in these results "
-            "their form varies by about {points:.0f} points from match to match; give {day_sd} "
-            "{points:.0f}, or players may be flagged for a good or bad day",
+            "honest players are taken to play at the same strength every day, but in "
+            "these results their form varies by about {points:.0f} points from match to "
+            "match. Give {day_sd} {points:.0f}, or players may be flagged for a good or "
+            "bad day.",
             points=points,
         )
     ]
@@ -228,10 +229,11 @@ def _tried(one: Watched) -> Iterator[str]:
     events = _events(one)
     if events:
         yield say(
-            "Each of the {events} ({names}) was tried as the only one in which matches are dumped, "
-            "besides dumps in any event. The evidence is the average of these {tried} e-values, "
-            "which is an e-value too, so honest players are flagged no more often. With {dumps_in} "
-            "only the event that you name is tried; choose it before you look at the results.",
+            "Each of the {events} ({names}) was tried as the only one in which matches "
+            "are dumped, besides dumps in any event. The evidence is the average of "
+            "these {tried} e-values, which is an e-value too, so honest players are "
+            "flagged no more often. With {dumps_in} only the event that you name is "
+            "tried. Choose it before you look at the results.",
             events=count_of(len(events), "event"),
             names=some_of(events, NAMED),
             tried=len(one.tried),

@@ -184,8 +184,8 @@ def _in_words(found: Advice, named: Sequence[str]) -> Sentence:
             p=p,
         )
     return say(
-        "They name first. Their best pick is {pick}; answer with {reply}, and you win the night "
-        "{p} of the time.",
+        "They name first. Their best pick is {pick}. Answer with {reply}, and you win "
+        "the night {p} of the time.",
         pick=_name(best),
         reply=names_words(best.answer),
         p=p,

@@ -74,7 +74,7 @@ def fairer_races(tournament: Tournament) -> list[Part]:
     """
     bracket, races = tournament.bracket, tournament.races
     if isinstance(races.race, int):
-        raise InputError("even races have no handicap to make fairer; give the handicapped ones")
+        raise InputError("even races have no handicap to make fairer. Give the handicapped ones.")
     if tournament.to_draw or exact_plan(bracket) is None:
         raise InputError("fairer races are found for brackets with exact odds that are drawn")
     asked: Any = {"scale": tournament.scale, "form": tournament.file.form}

@@ -75,8 +75,8 @@ def _draw(state: Evening, asked: MakeDraw, _: str) -> Sequence[What]:
 def _call(state: Evening, asked: Call, at: str) -> Sequence[What]:
     if state.plan.form == "chips":
         raise InputError(
-            "a chip tournament needs no calls: each result brings the next in the line to the "
-            "table; see {next}",
+            "a chip tournament needs no calls: each result brings the next in the line "
+            "to the table. See {next}",
             next=Command("tournament next"),
         )
     if asked.match is not None:
@@ -111,7 +111,7 @@ def _score(state: Evening, asked: Ended) -> tuple[int, int] | str:
     if match not in {*state.standing.to_play, *state.counted}:
         return 0, 0  # it has no result, and that is what is refused
     if asked.games is None:
-        raise InputError("{games} is missing; enter how many games the loser won", games=_GAMES)
+        raise InputError("{games} is missing. Enter how many games the loser won.", games=_GAMES)
     return moves.taps(state, asked.match, asked.winner, asked.games)
 
 
@@ -192,7 +192,7 @@ def name_in(text: str) -> str:
     """Return a name as lists are read; refuse what cannot be printed."""
     name = clean_name(text)
     if not is_name(name):
-        raise InputError("{name!r} is not {what}", name=text, what=NAME)
+        raise InputError("{name!r} isn't {what}", name=text, what=NAME)
     return name
 
 

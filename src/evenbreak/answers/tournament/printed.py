@@ -90,7 +90,7 @@ def score_cards(state: Evening, match: str | None = None) -> list[Card]:
     found = known_match(state, match) if match is not None else None
     if found is not None and found not in state.standing.to_play:
         raise InputError(
-            "{match} cannot be played now; its card can be printed when it can",
+            "{match} can't be played now; its card can be printed when it can",
             match=state.match_words(found),
         )
     names = [found] if found is not None else list(state.standing.to_play)
@@ -122,7 +122,7 @@ def paper_words(state: Evening, live: str = "") -> tuple[str, str, str | None]:
     form = str(state.bracket.format)
     many = f"{len(state.order)} players, {form}. {races_words(state.races)}"
     played = f"After {len(state.counted)} matches." if state.counted else ""
-    pen = "A small /4 is the games that player needs; write the score over it."
+    pen = "A small /4 is the games that player needs. Write the score over it."
     finals = [m for m in state.bracket.matches if m.side in ("final", "second final")]
     over = not state.standing.to_play and finals
     won = [state.counted[m.name].winner for m in finals if over and m.name in state.counted]

@@ -34,7 +34,7 @@ def scope_in(text: str, plan: Plan) -> str:
         return at_table(plan.table_number(table))
     if text.strip() not in (SCORES, DIRECTOR):
         raise InputError(
-            "{may} {value!r} is not scores, table:4 or director", may=Parameter("may"), value=text
+            "{may} {value!r} isn't scores, table:4 or director", may=Parameter("may"), value=text
         )
     return text.strip()
 

@@ -177,7 +177,7 @@ def met_words(bracket: Bracket, slot: Slot, numbers: Numbers) -> str:
 
 
 def against(pair: Sequence[str]) -> Sentence:
-    """Return who plays whom.
+    """Return who plays who.
 
     >>> against(["Ann", "Bo"])
     'Ann against Bo'

@@ -186,7 +186,7 @@ class AskedCommand(click.Command):
             if once and order.count(param) > 1:
                 name = max(param.opts, key=len)
                 raise click.UsageError(
-                    f"{name} is given twice; give it once: {name} {param.make_metavar(ctx)}",
+                    f"{name} is given twice. Give it once: {name} {param.make_metavar(ctx)}",
                     ctx=ctx,
                 )
 

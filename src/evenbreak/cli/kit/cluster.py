@@ -36,8 +36,8 @@ def cluster_at(address: str | None) -> Iterator[distributed.Client | None]:
         from distributed import Client
     except ImportError:
         raise InputError(
-            "a dask cluster needs distributed, which is not installed; install it with: "
-            "pip install distributed (the extra evenbreak[dask]), or use --jobs"
+            "a dask cluster needs distributed, which isn't installed. Install it with: "
+            "pip install distributed (the extra evenbreak[dask]), or use --jobs."
         ) from None
     # What goes wrong is raised; its log would only repeat it.
     for name in ("distributed", "tornado.application"):
@@ -57,16 +57,16 @@ def cluster_at(address: str | None) -> Iterator[distributed.Client | None]:
         client = answered.result(_PATIENCE + 1.0)
     except Exception:
         raise WorkerError(
-            f"no dask scheduler answers at {address!r}; give the address that `dask scheduler` "
-            "prints, such as tcp://10.0.0.5:8786"
+            f"no dask scheduler answers at {address!r}. Give the address that `dask "
+            "scheduler` prints, such as tcp://10.0.0.5:8786."
         ) from None
     with client:
         try:
             client.wait_for_workers(1, timeout=_PATIENCE)
         except TimeoutError:
             raise WorkerError(
-                f"the dask cluster at {address} has no worker; start one or more with "
-                "`dask worker ADDRESS`"
+                f"the dask cluster at {address} has no worker. Start one or more with "
+                "`dask worker ADDRESS`."
             ) from None
         try:
             yield client
@@ -74,7 +74,7 @@ def cluster_at(address: str | None) -> Iterator[distributed.Client | None]:
             raise
         except Exception as error:
             raise WorkerError(
-                f"the dask cluster at {address} did not finish the work: {error} "
-                f"({type(error).__name__}); it needs the same versions of evenbreak and numpy as "
-                "this computer, and enough memory"
+                f"the dask cluster at {address} didn't finish the work: {error} "
+                f"({type(error).__name__}); it needs the same versions of evenbreak and "
+                "numpy as this computer, and enough memory"
             ) from error

@@ -93,7 +93,9 @@ def _options(*, page: bool) -> list[Callable[[Any], Any]]:
 def page_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
     """Return the name of the page, or refuse a name that does not end in .html."""
     if value is not None and PurePath(value).suffix.lower() not in (".html", ".htm"):
-        raise click.BadParameter(f"{value!r}; name a file that ends in .html", ctx=ctx, param=param)
+        raise click.BadParameter(
+            f"{value!r} isn't an HTML file. Choose a name that ends in .html.", ctx=ctx, param=param
+        )
     return value
 
 

@@ -32,8 +32,7 @@ def league_option() -> click.Option:
         is_eager=True,
         expose_value=False,
         callback=_point_at,
-        help="Take what is not given from the league.toml of this folder.  "
-        "[default: the current folder]",
+        help="Take defaults from the league.toml in this folder.  [default: the current folder]",
     )
 
 
@@ -49,7 +48,7 @@ def point_at(ctx: click.Context, folder: str) -> LeagueFile:
     place = Path(folder)
     if find_league(place) is None and not (place.suffix == ".toml" and place.is_file()):
         raise click.BadParameter(
-            f"{folder!r} has no {LEAGUE_TOML}; write one with `evenbreak league init {folder}`",
+            f"{folder!r} has no {LEAGUE_TOML}. Write one with `evenbreak league init {folder}`.",
             ctx=ctx,
             param_hint=LEAGUE,
         )

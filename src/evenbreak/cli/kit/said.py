@@ -109,8 +109,8 @@ def report_error(error: BaseException) -> int:
             pass
         case UnicodeDecodeError() if _in_matplotlib(error):
             error = InputError(
-                f"matplotlib cannot read its settings ({error}); mend or remove the file "
-                "matplotlibrc in this folder"
+                f"matplotlib can't read its settings ({error}). Fix or remove the file "
+                "matplotlibrc in this folder."
             )
         case _:
             raise error
@@ -158,7 +158,7 @@ def _lines(error: BaseException) -> Iterator[str]:
         case OSError():
             yield f"{error.filename}: {error.strerror}"
         case MemoryError():
-            yield "there is not enough memory to answer this; ask for less"
+            yield "there isn't enough memory to answer this. Ask for less."
         case OverflowError():
             yield "the answer is larger than the largest number a computer can hold"
         case EvenbreakError():

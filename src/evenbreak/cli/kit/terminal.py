@@ -44,7 +44,7 @@ def write_file(path: str, content: bytes) -> None:
     place = Path(path)
     # The option itself is one that names it.
     if len(list(_named_by(place))) > 1:
-        refuse(f"{path} is read by this command and would be overwritten; name another file")
+        refuse(f"{path} is read by this command and would be overwritten. Choose another file.")
     raise_if_interrupted()
     write_files(str(place.parent), {place.name: content})
     say(f"Wrote {path}")
@@ -57,8 +57,8 @@ def write_folder(out: str, files: Mapping[str, bytes | None]) -> None:
     for name in files:
         for given in _named_by(Path(out, name)):
             refuse(
-                f"{given} is read by this command and would be overwritten by the {name} that it "
-                "writes; name another folder with --out"
+                f"{given} is read by this command and would be overwritten by the {name} "
+                "that it writes. Choose another folder with --out."
             )
     raise_if_interrupted()
     write_files(out, files)

@@ -86,13 +86,13 @@ def _refuse_without_teams(asked: Simulate, file: files.SeasonPlayers) -> None:
     of_teams = [name for name in ("sets", "cap", "best_line_ups") if name in asked.given]
     if file.teams is None and of_teams:
         asked.refuse(
-            "{part} is for teams; give {file} a column team", part=Parameter(of_teams[0]),
+            "{part} is for teams. Give {file} a column team.", part=Parameter(of_teams[0]),
             file=file.source,
         )  # fmt: skip
     if file.teams is not None and asked.random:
         asked.refuse("{random} is for single players; teams meet in turn, or by {schedule}")
     if file.teams is not None and asked.players_file is not None:
-        asked.refuse("{players_file} cannot be used with teams; list everyone with their team")
+        asked.refuse("{players_file} can't be used with teams. List everyone with their team.")
 
 
 def _files(comparison: Any) -> dict[str, bytes]:
@@ -121,8 +121,8 @@ def _systems(
     chart = None if asked.chart is None else files.find_chart(asked.chart)
     if isinstance(chart, handicaps.PointsChart):
         refuse(
-            f"--chart {asked.chart} counts points, not games, and its matches are not simulated "
-            "yet; give a chart of races, such as apa_8ball"
+            f"--chart {asked.chart} counts points, not games, and its matches aren't "
+            "simulated yet. Give a chart of races, such as apa_8ball."
         )
     every = list(asked.compared)
     if not every or (asked.system is None and len(every) == 1):
@@ -136,8 +136,8 @@ def _systems(
     ]
     if not fitting[0]:
         refuse(
-            f"the system {every[0].name} cannot be played by the chart {chart.name}; give the "
-            "league's own system first, or leave --chart out"
+            f"the system {every[0].name} can't be played by the chart {chart.name}. Give "
+            "the league's own system first, or leave --chart out."
         )
     others = [
         system.name
@@ -169,7 +169,7 @@ def schedule_of(
     if weeks is not None and weeks < last:
         warnings.append(f"{fixtures.source}: matches after week {weeks} are not played")
     if weeks is not None and weeks > last:
-        warnings.append(f"{fixtures.source}: ends with week {last}; nobody plays after it")
+        warnings.append(f"{fixtures.source}: ends with week {last}; no one plays after it")
     return fixtures.schedule, weeks or last, warnings
 
 
@@ -232,8 +232,9 @@ def _strengths(
     chart: Any = own.chart
     if not isinstance(chart, handicaps.LevelChart):
         refuse(
-            f"{file.source} has skill levels, which the system {own.name} does not know; give the "
-            "league's own first, such as --chart apa_8ball --system level-review"
+            f"{file.source} has skill levels, which the system {own.name} doesn't know. "
+            "Give the league's own first, such as --chart apa_8ball --system "
+            "level-review."
         )
     skills = handicaps.level_skills(chart)
     scale = SCALES["fargo"]

@@ -39,7 +39,9 @@ def command(asked: LeagueInit) -> Answer:
 
     folder = Path(asked.folder)
     if not folder.is_dir():
-        asked.refuse("there is no folder {folder}; make it, or name another", folder=asked.folder)
+        asked.refuse(
+            "folder {folder} doesn't exist. Create it or choose another.", folder=asked.folder
+        )
     check_folder(folder)
     asks = not asked.yes and can_ask()
     _keep_old(asked, asks)
@@ -72,8 +74,8 @@ def _keep_old(asked: LeagueInit, asks: bool) -> None:
     if old is None:
         return
     if not asks:
-        asked.refuse("{old} is there already; edit it, or remove it first", old=str(old))
-    click.confirm(f"{old} is there already. Replace it?", abort=True, err=True)
+        asked.refuse("{old} already exists. Edit it, or remove it first.", old=str(old))
+    click.confirm(f"{old} already exists. Replace it?", abort=True, err=True)
 
 
 def _answered(asked: LeagueInit, league: NewLeague, asks: bool) -> NewLeague:

@@ -67,7 +67,7 @@ def command(asked: Matchups, face: str, page_file: str | None) -> Answer:
         file = files.roster_of_entrants(file, files.read_entrants(asked.players_file))
     if isinstance(of_league, handicaps.PointsChart):
         if page_file is not None:
-            refuse(f"--html has no page of points yet; leave it out with the chart {asked.chart}")
+            refuse(f"--html has no page of points yet. Leave it out with the chart {asked.chart}.")
         return _by_points(asked, file, of_league, face, warnings)
     file, players, points, levels, doubts = _rated(asked, file, of_league)
     warnings += doubts
@@ -119,7 +119,7 @@ def _rated(
     if asked.scale is None and file.scale is not None:
         doubts += _other_chart(file.scale, of_league)
     elif asked.scale is None:
-        remedy = "if they are on another scale, name it with --scale"
+        remedy = "If they are on another scale, name it with --scale."
         doubts += league_doubts(points, file.roster.rating, remedy)
     if asked.starter is None:
         doubts += starter_doubts(points, file.roster.rating)
@@ -197,7 +197,7 @@ def _pairs(
     chart: AnyChart | handicaps.PointsChart | None,
     scale: Scale,
 ) -> tuple[NDArray[Any], tuple[str, ...]]:
-    """Return who meets whom, and the warnings of the list; refuse too many.
+    """Return who plays who, and the warnings of the list; refuse too many.
 
     What the list says of those who do not play may be unfit: a player away may lack a level.
     """
@@ -272,4 +272,4 @@ def _refuse_too_many(pairs: str, many: int, tables: int | None, face: str) -> No
     if many > MOST_PAIRS:
         refuse(f"{pairs}, and {MOST_PAIRS:,} are the most; {meet}")
     if many > MOST_SHOWN and face != "csv":
-        refuse(f"{pairs}, too many for {face}; write them with --csv > pairs.csv, or {meet}")
+        refuse(f"{pairs}, too many for {face}. Write them with --csv > pairs.csv, or {meet}.")

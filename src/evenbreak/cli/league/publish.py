@@ -71,7 +71,7 @@ def command(asked: Publish) -> Answer:
     with Progress("steps") as progress:
         ratings, _ = usual_ratings(results, scale=scale, progress=progress)
     if not ratings.matches:
-        raise DataError([f"{file.source}: no match in it was played; add matches with games"])
+        raise DataError([f"{file.source}: no match in it was played. Add matches with games."])
     league = PublishedLeague(
         asked.title,
         results,
@@ -91,8 +91,8 @@ def command(asked: Publish) -> Answer:
     foreign = [name for name in made if name not in earlier and Path(asked.out, name).exists()]
     if foreign:
         asked.refuse(
-            "{file} was not made by an earlier run and would be replaced; name another folder with "
-            "{out}, or move it away",
+            "{file} wasn't made by an earlier run and would be replaced. Choose another "
+            "folder with {out}, or move it away.",
             file=FilePath(Path(asked.out, foreign[0])),
         )
     write_folder(asked.out, {**made, **dict.fromkeys(earlier - {*made})})
@@ -116,14 +116,15 @@ def _scale(asked: Publish, chart: Any, listed: files.RosterFile | None) -> Scale
     stated = None if listed is None else listed.scale
     if asked.scale is not None and stated is not None and not stated.same_points(asked.scale):
         asked.refuse(
-            "{roster} has ratings on the scale {stated}, and {scale} is another; leave {scale} out",
+            "{roster} has ratings on the scale {stated}, and {scale} is another. Leave "
+            "{scale} out.",
             stated=stated.text,
         )
     if (scale := asked.scale or stated) is not None:
         return scale
     scale = SCALES[DEFAULT_SCALE] if chart is None else scale_of_chart(chart)
     if scale is None:
-        asked.refuse("{scale} is missing; name the scale of the differences in {chart}")
+        asked.refuse("{scale} is missing. Name the scale of the differences in {chart}.")
     return scale
 
 
@@ -133,7 +134,7 @@ def _answer(
     pages = sum(name.endswith(".html") for name in made)
     ways = [*league.names.ways.values()]
     said: list[Part] = [
-        f"The site is in {asked.out}; open {Path(asked.out, 'index.html')} to see it.",
+        f"The site is in {asked.out}. Open {Path(asked.out, 'index.html')} to see it.",
         Quantities(
             quantities_of({"players": len(ways), "matches": league.ratings.matches, "pages": pages})
         ),
@@ -222,8 +223,8 @@ def _last_levels(results: Results, chart: LevelChart | PointsChart) -> Roster:
     if not len(known):
         raise DataError(
             [
-                f"--chart {chart.name}: the results state no skill levels; add the columns level_a "
-                "and level_b, or give a list with --roster"
+                f"--chart {chart.name}: the results state no skill levels. Add the "
+                "columns level_a and level_b, or give a list with --roster."
             ]
         )
     return Roster([results.players[k] for k in known], levels[known])

@@ -59,8 +59,8 @@ def rate(asked: Rate) -> Answer:
     warnings = []
     if asked.break_advantage is not None and ratings.break_advantage is None:
         warnings.append(
-            f"{file.source}: does not say who broke in any game, so --break-advantage changes "
-            "nothing; add break_format and first_break, with races or racks"
+            f"{file.source}: doesn't say who broke in any game, so --break-advantage "
+            "changes nothing. Add break_format and first_break, with races or racks."
         )
     pairs = [_pair(ratings, pair) for pair in asked.pair]
     if asked.save is not None:
@@ -84,7 +84,7 @@ def _anchor(file: files.ResultsFile, texts: Sequence[str]) -> float | dict[str, 
     for text in texts:
         name, _, number = text.rpartition("=")
         if not NUMBER.fullmatch(number.strip()) or not math.isfinite(float(number)):
-            refuse(f"--anchor is {text!r}; give points, such as 80, or NAME=POINTS")
+            refuse(f"--anchor must be points, such as 80, or NAME=POINTS; you gave {text!r}")
         if name.strip():
             (place,) = answers.find_players(file.results, [name], said="--anchor")
             named[file.results.players[place]] = number_of(number)
@@ -98,7 +98,7 @@ def _anchor(file: files.ResultsFile, texts: Sequence[str]) -> float | dict[str, 
 def _pair(ratings: Ratings, names: tuple[str, str]) -> tuple[int, int]:
     places = answers.find_players(ratings, names, said="--pair")
     if len(places) < 2:
-        refuse(f"--pair names the same player twice, {names[0]!r}; name two players")
+        refuse(f"--pair names the same player twice, {names[0]!r}. Name two players.")
     return places[0], places[1]
 
 
@@ -132,7 +132,7 @@ def _by_system(asked: Rate, system: handicaps.System, roster: str) -> Answer:
     )
     if last.scale is not None:
         return answer
-    remedy = f"the system {system.name} takes them as they are"
+    remedy = f"The system {system.name} takes them as they are."
     doubts = league_doubts(system.scale, last.roster.rating, remedy)
     return replace(answer, warnings=[*answer.warnings, *doubts])
 
@@ -154,8 +154,9 @@ def _by_all_results(asked: Rate, system: handicaps.System, roster: str) -> Answe
         return answer
     first = int(other[0])
     doubt = (
-        f"{last.source}: {len(other)} of the ratings cannot be numbers of the system "
-        f"{system.name}, such as {stated[first]:g}; these players start at {begun[first]:g}"
+        f"{last.source}: {len(other)} of the ratings can't be numbers of the system "
+        f"{system.name}, such as {stated[first]:g}; these players start at "
+        f"{begun[first]:g}"
     )
     return replace(answer, warnings=[*answer.warnings, doubt])
 
@@ -178,7 +179,7 @@ def why(asked: Why) -> Answer:
     names = (asked.player_a, asked.player_b)
     pair = answers.find_players(file.results, names, said="why", where=file.source)
     if len(pair) < 2:
-        refuse(f"{names[0]!r} and {names[1]!r} are one player; name two")
+        refuse(f"{names[0]!r} and {names[1]!r} are one player. Name two.")
     ratings, choice = rated(asked, file, scale_by_chart(asked))
     played = int(ratings.games[pair].sum())
     if played * len(file.results) > MANY:
@@ -275,9 +276,9 @@ def rated(
             **more,
         )
     if not ratings.matches:
-        why_none = "was played; add matches with games"
+        why_none = "was played. Add matches with games."
         if ratings.later:
-            why_none = f"was played by {day}; give a later day to --as-of"
+            why_none = f"was played by {day}. Give a later day to --as-of."
         raise DataError([f"{file.source}: no match in it {why_none}"])
     return ratings, choice
 
@@ -316,10 +317,10 @@ def _beginning(asked: Assumed, file: files.ResultsFile, scale: Scale) -> Beginni
         return None
     saved = read_saved(path, scale, file.results.players)
     if not saved.found:
-        refuse(f"--begin {path}: none of its players is in {file.source}; check the names")
+        refuse(f"--begin {path}: none of its players is in {file.source}. Check the names.")
     beginning, day = saved.beginning, saved.beginning.as_of
     if not saved.scale_stated:
-        remedy = "name the scale with --scale, or state it in a column scale"
+        remedy = "Name the scale with --scale, or add a column scale."
         listed = beginning.rating.tolist(), beginning.players
         try:
             refuse_contradicted(scale, *listed, whose="the new ratings", remedy=remedy)
@@ -331,8 +332,8 @@ def _beginning(asked: Assumed, file: files.ResultsFile, scale: Scale) -> Beginni
         earlier = int((file.results.date[file.results.counted] <= day).sum())
         if earlier:
             refuse(
-                f"--begin {path}: its ratings are as of {day}, and {earlier:,} of the matches in "
-                f"{file.source} are of that day or earlier, so they would count twice; give the "
-                "later matches alone"
+                f"--begin {path}: its ratings are as of {day}, and {earlier:,} of the "
+                f"matches in {file.source} are of that day or earlier, so they would "
+                "count twice. Give the later matches alone."
             )
     return beginning

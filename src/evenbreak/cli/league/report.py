@@ -53,7 +53,7 @@ def command(asked: Report) -> Answer:
         chosen = answers.most_active(ratings, MOST_ON_SHEET if asked.top is None else asked.top)
     if len(chosen) < 2:
         way = "{players}" if asked.players else "{players_file}"
-        asked.refuse(way + " names one player; name two or more")
+        asked.refuse(way + " names one player. Name two or more.")
     _say_pairs(asked, len(chosen), len(ratings.players))
     offered = answers.OfferedRaces(**asked.lengths)
     sheet = answers.Sheet.of(file, ratings, offered, chosen, choice, asked.title)
@@ -68,8 +68,8 @@ def _refuse_names(asked: Report) -> None:
         for name in asked.results if getattr(asked, option) else ():
             if name.lower().endswith(suffix) and not Path(name).exists():
                 asked.refuse(
-                    f"{{{option}}} takes no name: it writes sheet{suffix} to the folder of "
-                    "{out}; leave {name} out",
+                    f"{{{option}}} takes no name: it writes sheet{suffix} to the folder "
+                    "of {{out}}. Leave {{name}} out.",
                     name=name,
                 )
 

@@ -1,4 +1,4 @@
-"""`evenbreak league table` and `league fixtures`: who is ahead of whom, and who plays whom."""
+"""`evenbreak league table` and `league fixtures`: who is ahead, and who plays who."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _left_out(matches: league.TableMatches) -> list[str]:
     found = []
     if matches.undecided:
         many = count_of(matches.undecided, "forfeit")
-        found.append(f"{many} left out: the results do not say who won; add the column winner")
+        found.append(f"{many} left out: the results don't say who won. Add the column winner.")
     if matches.unscored:
         many = count_of(matches.unscored, "match has", "matches have")
         found.append(f"{many} a winner but no score, which counts as 0-0 in games")
@@ -97,7 +97,7 @@ def _with_teams(
     where = np.array([place[same_name(name)] for name in matches.names], dtype=np.int64)
     pairs = where[matches.pairs].reshape(-1, 2)
     start = np.append(points, np.zeros(len(names) - len(points)))
-    more = [f"{path}: {name!r} is not in it" for name in names[len(points) :]]
+    more = [f"{path}: {name!r} isn't in it" for name in names[len(points) :]]
     return replace(matches, names=tuple(names), pairs=pairs), start, [*warnings, *more]
 
 
@@ -117,7 +117,7 @@ def fixtures(asked: Fixtures) -> Answer:
         names = (name for one in listed for name in (one.home, one.away))
         only = next((name for name in names if same_name(name) == wanted), "")
         if not only:
-            template = "{only} {name} has no match; write the name as the list does"
+            template = "{only} {name} has no match. Write the name as the list does."
             asked.refuse(template, name=asked.only)
         listed = [one for one in listed if only in (one.home, one.away)]
     if asked.ics is not None:

@@ -65,7 +65,7 @@ def command(asked: Graph) -> Answer:
     check_folder(out)
     if _is_file(name):
         if chances:
-            asked.refuse("a chain in a file has chances of its own; leave {p}, {p1} and {p2} out")
+            asked.refuse("a chain in a file has chances of its own. Leave {p}, {p1} and {p2} out.")
         file = files.read_chain(name, states=asked.states, rows=asked.rows)
         _check_size(file)
         title = f"The chain in {file.source if name == '-' else Path(name).name}"
@@ -79,7 +79,7 @@ def command(asked: Graph) -> Answer:
         road = road_of(played)
         written, doubts = _files(played, road, title)
     doubts += [
-        f"{Path(out, name)} is from an earlier run and of another game; remove it"
+        f"{Path(out, name)} is from an earlier run and of another game. Remove it."
         for name in FILES
         if name not in written and Path(out, name).exists()
     ]
@@ -122,7 +122,7 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
     ours = found or name.strip().lower() in CATALOG
     if catalog_name(name) in CHARTS or Path(name).is_file() or (not ours and _adds_chart(name)):
         if chances:
-            refuse("the ladder of a chart has no chances of its own; leave --p, --p1 and --p2 out")
+            refuse("the ladder of a chart has no chances of its own. Leave --p, --p1 and --p2 out.")
         return _ladder(name)
     if found and (chances or name not in CATALOG):
         return _match(found, chances)
@@ -130,7 +130,7 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
         title, played = game_of_catalog(name, *chances)
     except InputError as error:
         if meant := _meant(name):
-            refuse(f"{name!r} is not a game; did you mean {meant!r}?")
+            refuse(f"{name!r} isn't a game; did you mean {meant!r}?")
         charts = "" if chances else f"; or a chart: {', '.join(CHARTS)}"
         refuse(f"{error}; or a match, such as 7:5 or race to 7{charts}")
     shown = chances or (_example_chances(played) if title in CATALOG else ())
@@ -211,16 +211,16 @@ def _match(played: MatchFormat, chances: tuple[float, ...]) -> tuple[str, Game]:
     from evenbreak.games.rack import Rack
 
     if not chances:
-        refuse(f"the chances for {played} are missing; give --p, or --p1 and --p2")
+        refuse(f"the chances for {played} are missing. Give --p, or --p1 and --p2.")
     if played.scores > MOST_STATES:
         refuse(
-            f"{played} has about {played.scores:,} scores; give a match of up to {MOST_STATES:,}"
+            f"{played} has about {played.scores:,} scores. Give a match of up to {MOST_STATES:,}."
         )
     kind = "" if played.ahead or played.set_ else "Race "
     if len(chances) == 2 and not played.breaks:
         refuse(
-            f"with --p1 and --p2 the break of {played} matters; add winner breaks, loser breaks or "
-            "alternate breaks, or give --p alone"
+            f"with --p1 and --p2 the break of {played} matters. Add winner breaks, loser "
+            "breaks or alternate breaks, or give --p alone."
         )
     return f"{kind}{played}{_with(chances)}".capitalize(), played.match(Rack(*chances))
 

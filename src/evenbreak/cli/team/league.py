@@ -51,15 +51,15 @@ def round_(asked: Round) -> Answer:
     rosters, warnings = found.rosters, found.warnings
     if not asked.everybody and len(rosters[0]) != len(rosters[1]):
         asked.refuse(
-            "{first} has {m} players and {second} {n}; leave out those who do not play, or give "
-            "{everybody}",
+            "{first} has {m} players and {second} {n}. Leave out those who don't play, "
+            "or give {everybody}.",
             first=asked.ours,
             m=len(rosters[0]),
             second=asked.theirs,
             n=len(rosters[1]),
         )
     if (pairs := len(rosters[0]) * len(rosters[1])) > MOST_PAIRS:
-        refuse(f"the files have {pairs:,} pairs of players; name the players of one round only")
+        refuse(f"the files have {pairs:,} pairs of players. Name the players of one round only.")
     law = teams.round_law(
         *rosters,
         games=games,
@@ -96,7 +96,7 @@ def caps(asked: Caps) -> Answer:
 
     lists = files.read_squads(asked.roster)
     if len(lists) > MOST_TEAMS:
-        refuse(f"{asked.roster} has {len(lists)} teams; ask about at most {MOST_TEAMS}")
+        refuse(f"{asked.roster} has {len(lists)} teams. Ask about at most {MOST_TEAMS}.")
     race = race_of(asked)
     found = strengths_of(asked, list(lists.values()), race)
     rosters, warnings = dict(zip(lists, found.rosters, strict=True)), found.warnings
@@ -134,14 +134,14 @@ def season(asked: Season) -> Answer:
     for option, many in (("up", asked.up), ("down", asked.down)):
         if many is not None and many >= count:
             asked.refuse(
-                "{part} is {many}, but there are {count} teams; give fewer",
+                "{part} must be fewer than the {count} teams; you gave {many}",
                 part=Parameter(option),
                 many=many,
                 count=count,
             )
     if (asked.up or 0) + (asked.down or 0) > count:
         asked.refuse(
-            "{up} {m} and {down} {n} are more than the {count} teams; give fewer",
+            "{up} {m} and {down} {n} are more than the {count} teams. Give fewer.",
             m=asked.up,
             n=asked.down,
             count=count,
@@ -197,8 +197,8 @@ def _matches(asked: Season) -> tuple[Any, Any, Any, tuple[Any, tuple[str, ...]],
         to_come = league.still_to_play(known.names, asked.meetings, played.pairs), ()
     elif not len(ahead.pairs):
         asked.refuse(
-            "say which matches are to come: give a schedule, or {meetings} K, or list them in "
-            "RESULTS.csv without a score"
+            "say which matches are still to be played: give a schedule, or {meetings} K, "
+            "or list them in RESULTS.csv without a score"
         )
     return known.names, start, played, to_come, warnings
 
@@ -212,7 +212,7 @@ def _length(asked: Season, scores: Any) -> dict[str, int]:
         if (sizes != stated).any():
             a, b = scores[int((sizes != stated).argmax())].tolist()
             asked.refuse(
-                "{part} {stated} does not fit the score {a}:{b} in the results",
+                "{part} {stated} doesn't fit the score {a}:{b} in the results",
                 part=Parameter(name),
                 stated=stated,
                 a=a,
@@ -224,8 +224,8 @@ def _length(asked: Season, scores: Any) -> dict[str, int]:
     if len(set(most.tolist())) == 1:
         return {"race": int(most[0])}
     return asked.refuse(
-        "the results have matches of different lengths; say with {sets} or {race} how long the "
-        "matches to come are, and leave out what was not played to the end"
+        "the results have matches of different lengths. Set that of the matches still to "
+        "be played with {sets} or {race}, and leave out what wasn't played to the end."
     )
 
 
@@ -334,7 +334,10 @@ def strengths_of(asked: OfTeams, lists: Sequence[TeamList], race: Any) -> Streng
             asked.results,
         )
     elif asked.results is not None:
-        asked.refuse("{results} is for chances by skill levels; give {chart} apa_8ball or such")
+        asked.refuse(
+            "{results} is for chances by skill level. Add a chart of levels, "
+            "such as {chart} apa_8ball."
+        )
     if levels is not None or isinstance(race, handicaps.PointsChart):
         if asked.scale is not None:
             raise InputError(SCALE_OF_LEVELS)
@@ -363,7 +366,7 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
     scales = [each.file.scale for each in lists if each.file.scale is not None]
     if any(not scales[0].same_points(other) for other in scales[1:]):
         sources = " and ".join(dict.fromkeys(each.file.source for each in lists))
-        refuse(f"{sources}: different scales are stated; put all ratings on one")
+        refuse(f"{sources}: different scales are stated. Put all ratings on one.")
     rated = np.concatenate([each.file.roster.rating for each in lists])
     names = [name for each in lists for name in each.file.roster.players]
     scale = stated or next(iter(scales), None)
@@ -374,7 +377,7 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
             refuse_to_read(each.file, scale, "the other team's list", SAY_WHICH)
     warnings = list(dict.fromkeys(line for each in lists for line in each.file.warnings))
     if not scales:
-        warnings += league_doubts(scale, rated, "is it the right scale?")
+        warnings += league_doubts(scale, rated, "Is it the right scale?")
     return scale, warnings
 
 
@@ -395,7 +398,5 @@ def weights_of(asked: Lineup | Caps, team: TeamList) -> list[float]:
     if (asked.cap is not None or asked.at_most is not None) and np.isnan(weights).any():
         new = " (new players can get one with --starter)" if team.file.levels else ""
         name = team.without_weight
-        refuse(
-            f"{team.file.source} has no level for {name!r}; the caps need one for everybody{new}"
-        )
+        refuse(f"{team.file.source} has no level for {name!r}; the caps need one for everyone{new}")
     return [float(weight) for weight in weights]

@@ -52,7 +52,7 @@ def command(asked: Lineup) -> Answer:
 def _point(asked: Lineup, meeting: Meeting) -> teams.Point:
     """Return the point in the match that is described, or refuse what cannot be."""
     if meeting.order == SEALED:
-        asked.refuse("{order} sealed is asked before the match; leave out what has happened since")
+        asked.refuse("{order} sealed is asked before the match. Leave out what has happened since.")
     both: tuple[list[str], list[str]] = ([], [])
     for text in asked.used:
         side, name = _player(asked, meeting, text, "used")
@@ -64,7 +64,9 @@ def _point(asked: Lineup, meeting: Meeting) -> teams.Point:
         for side in (0, 1):
             both[side].extend(names[side])
     if asked.score is None and len(both[0]) > len(laws):
-        asked.refuse("{used} names players whose sets are over; give the score so far with {score}")
+        asked.refuse(
+            "{used} names players whose sets are over. Give the score so far with {score}."
+        )
     letters = order_of(meeting.order, len(meeting.sizes))
     if asked.last is not None and not set(letters) & {WINNER, LOSER}:
         asked.refuse(
@@ -111,7 +113,7 @@ def _player(
             and KnownNames(players[1 - sides[0]]).place(wanted) is not None
         ):
             asked.refuse(
-                "{part}: {name!r} is in the other team; write your player, then theirs",
+                "{part}: {name!r} is in the other team. Write your player, then theirs.",
                 part=part,
                 name=wanted,
             )
@@ -119,7 +121,7 @@ def _player(
         asked.refuse("{part}: {name!r} is in neither team{hint}", part=part, name=wanted, hint=hint)
     if len(named) > 1 and not any_side:
         asked.refuse(
-            "{part}: both teams have a {name!r}; write ours:{name} or theirs:{name}",
+            "{part}: both teams have a {name!r}. Write ours:{name} or theirs:{name}.",
             part=part,
             name=wanted,
         )
@@ -153,9 +155,9 @@ def _check_score(asked: Lineup, meeting: Meeting, score: tuple[int, int], over: 
         possible = {(a + x, b + y) for a, b in possible for x, y in each}
     if score not in possible:
         asked.refuse(
-            "{score} {a}:{b} cannot be: by the players used {sets}, and {counted} count"
+            "{score} {a}:{b} can't be: by the players used {sets}, and {counted} count"
             + (
-                "; name those who have played with {used}"
+                ". List those who have played with {used}."
                 if asked.count == "sets" and not over
                 else ""
             ),

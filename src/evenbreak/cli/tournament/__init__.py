@@ -9,10 +9,10 @@ from evenbreak.cli.kit.said import works_on
 from evenbreak.questions.moves import COMMANDS as MOVES
 
 COMMANDS = {
-    "new": Entry("Begin a tournament that is run here.", "tournament.new"),
-    "import": Entry("Go on with a tournament from another program.", "tournament.new:import_"),
+    "new": Entry("Start a tournament that you run here.", "tournament.new"),
+    "import": Entry("Import a tournament from another program.", "tournament.new:import_"),
     "second-chance": Entry(
-        "Begin another event for those who are out.", "tournament.new:second_chance"
+        "Start another event for players knocked out.", "tournament.new:second_chance"
     ),
     **{name: Entry(line, f"tournament.moves:{name}") for name, (_, line) in MOVES.items()},
     "show": Entry("Show the bracket.", "tournament.paper:show"),
@@ -23,11 +23,12 @@ COMMANDS = {
     "print": Entry("Write score cards or the bracket to print.", "tournament.paper:print_paper"),
     "token": Entry("Let other programs enter scores, or everything.", "tournament.paper:token"),
     "prizes": Entry(
-        "What each place is paid, and what players may expect.", "tournament.odds:prizes"
+        "What each place pays, and each player's expected prize.", "tournament.odds:prizes"
     ),
     "odds": Entry("Find each player's odds of winning the tournament.", "tournament.odds"),
     "time": Entry(
-        "Find when the tournament ends, and when each match starts.", "tournament.odds:time"
+        "Find the finish time of the tournament and the start of each match.",
+        "tournament.odds:time",
     ),
 }
 """Each command, in the module of its name, with its line of help."""
@@ -61,7 +62,7 @@ def _apart(word: str, option: str) -> list[str]:
 
 @click.command("tournament", cls=_OfFile, table=COMMANDS)
 def command() -> None:
-    """Run tonight's tournament; find its odds, and when it ends.
+    """Run tonight's tournament; find its odds, and finish time.
 
     Its file is tonight.db unless another is named, as in evenbreak tournament show saturday.db.
     """

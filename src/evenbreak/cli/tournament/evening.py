@@ -92,8 +92,8 @@ def outlook_of(file: str, at: str, event: int = 1) -> Outlook:
 
     if not Path(file).exists():
         refuse(
-            f"name a list of entrants, such as entrants.csv; there is no tournament under way in "
-            f"{file}"
+            "name a list of entrants, such as entrants.csv; there's no tournament under "
+            f"way in {file}"
         )
     outlook = Outlook(read_tournament(file, event), at)
     _ = outlook.state.bracket

@@ -103,7 +103,7 @@ def _like(asked: NewTournament, path: str) -> Answer:
 
 
 def _beside_words(number: int) -> str:
-    return f"It is event {number} of the night: give --event {number} to the other commands."
+    return f"It is event {number} of the night: use --event {number} with the other commands."
 
 
 @command_of(SecondChance, "second-chance")
@@ -138,7 +138,7 @@ def _unrated(entered: Entered, state: Evening) -> list[str]:
 
 @command_of(Import, "import")
 def import_(asked: Import) -> Answer:
-    """Go on with a tournament from another program."""
+    """Import a tournament from another program."""
     from dataclasses import replace
 
     import numpy as np
@@ -189,7 +189,7 @@ def import_(asked: Import) -> Answer:
     said = [f"{count_of(players, 'player')} and {count_of(played, 'result')} are imported."]
     if played and (starts := sum(one.race is not None for one in state.counted.values())):
         had = f"{count_of(starts, 'match', 'matches')} had a head start"
-        to_come = "; the matches to come have none" if state.standing.to_play else ""
+        to_come = "; the remaining matches have none" if state.standing.to_play else ""
         said.append(f"{had}, which is taken out of the score{to_come}.")
     unrated = [
         one.name

@@ -33,9 +33,9 @@ def command(asked: TournamentOdds) -> Answer:
         return _odds_under_way(asked)
     tournament, warnings = tournament_of(asked, before_draw=asked.before_draw)
     if np.isnan(tournament.file.roster.rating).all():
-        refuse(f"{tournament.file.source} has no ratings, so everybody's odds are the same")
+        refuse(f"{tournament.file.source} has no ratings, so everyone's odds are the same")
     if asked.fairest and isinstance(tournament.races.race, int):
-        refuse("--fairest is for handicapped races; give --race-to N or --chart NAME, not --race")
+        refuse("--fairest is for handicapped races. Give --race-to N or --chart NAME, not --race.")
     return tournament_odds_answer(
         tournament,
         sure=asked.sure,
@@ -121,7 +121,7 @@ def prizes(asked: PayOut) -> Answer:
             unit=asked.unit or kept.unit,
         )
     if not money.pot(state.payers):
-        asked.refuse("there is no prize money; give {fee} or {added}")
+        asked.refuse("there's no prize money. Add {fee} or {added}.")
     now = outlook_of(file, moment(asked.at, file), asked.event).odds if state.drawn else None
     answer = tournament_prizes_answer(state, money, now, source=name)
     if asked.keep:
@@ -147,7 +147,7 @@ def _bids(asked: PayOut, players: tuple[str, ...]) -> dict[str, float]:
         place = names.place(name)
         if place is None:
             asked.refuse(
-                "{sold} {name!r} is not in the tournament{hint}", name=name, hint=names.hint(name)
+                "{sold} {name!r} isn't in the tournament{hint}", name=name, hint=names.hint(name)
             )
         bids[players[place]] = amount
     return bids
@@ -157,11 +157,13 @@ def paid_places(text: str | None, players: int) -> tuple[float, ...]:
     """Return the money for each place that --prizes states."""
     if text is None:
         return ()
-    wanted = "give an amount for each paid place, such as 500,300,150"
     try:
         amounts = tuple(Number(0.0, 1e12).read(part) for part in text.split(","))
     except InputError:
-        refuse(f"--prizes is {text!r}; {wanted}")
+        refuse(
+            "--prizes must be an amount for each paid place, such as 500,300,150; you gave "
+            f"{text!r}"
+        )
     if len(amounts) > players:
-        refuse(f"--prizes has {len(amounts)} places for {players} players; give fewer")
+        refuse(f"--prizes has {len(amounts)} places for {players} players. Give fewer.")
     return amounts

@@ -103,8 +103,8 @@ def earlier_in(asked: NewTournament | TournamentTime) -> tuple[EarlierNight, ...
     for place in asked.pace:
         if not Path(place).exists():
             asked.refuse(
-                "{pace} is {file}, which does not exist; name the file of an earlier tournament, "
-                "or a folder of them",
+                "{pace} is {file}, which doesn't exist. Name the file of an earlier "
+                "tournament, or a folder of them.",
                 file=place,
             )
     return earlier_nights(asked.pace)
@@ -151,7 +151,7 @@ def _scale(
     scale = scale_of_list(file, stated, LEVELS_DOUBLE)
     warnings = []
     if file.scale is None:
-        remedy = "if they are on another scale, name it with --scale"
+        remedy = "If they are on another scale, name it with --scale."
         warnings += league_doubts(scale, file.roster.rating, remedy)
     else:
         warnings += far_doubts(scale, file.roster.rating)
@@ -175,8 +175,8 @@ def drawn_up(
         lines = [order.index(k) if k in order else None for k in places]
         if len(lines) & (len(lines) - 1):
             refuse(
-                f"--seeding drawn takes 2, 4, 8, 16 ... rows, and the file has {len(lines)}; add "
-                "rows named bye 1, bye 2 ... where the byes are"
+                "--seeding drawn takes 2, 4, 8, 16 ... rows, and the file has "
+                f"{len(lines)}. Add rows named bye 1, bye 2 ... where the byes are."
             )
         words = "drawn in that order"
     elif seeding == "rating":

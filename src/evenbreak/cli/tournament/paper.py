@@ -35,7 +35,9 @@ def show(asked: Show) -> Answer:
             asked.refuse("{out} draws a bracket, and a chip tournament has none")
         if kind not in KINDS:
             asked.refuse(
-                "{out} {name!r}; name a file that ends in {kinds}", name=out, kinds=", ".join(KINDS)
+                "{out} must be a file name that ends in {kinds}; you gave {name!r}",
+                name=out,
+                kinds=", ".join(KINDS),
             )
         write_file(out, _drawing(state, asked, kind))
     answer = answer_of(asked, state)
@@ -157,7 +159,7 @@ def print_paper(asked: Print) -> Answer:
         refuse("a chip tournament has neither score cards nor a bracket to print")
     place = asked.out or f"{asked.what}.pdf"
     if PurePath(place).suffix.lower() != ".pdf":
-        asked.refuse("{out} {name!r}; name a file that ends in .pdf", name=place)
+        asked.refuse("{out} must be a file name that ends in .pdf; you gave {name!r}", name=place)
     if asked.what == "draw":
         write_file(place, _draw_list(state, asked))
         return printed_answer(
@@ -168,7 +170,7 @@ def print_paper(asked: Print) -> Answer:
         return printed_answer(state, say("The bracket is in {file}.", file=FilePath(place)))
     cards = score_cards(state, asked.match)
     if not cards:
-        refuse("no match is waiting to be played, so there is no card to print")
+        refuse("no match is waiting to be played, so there's no card to print")
     paper = asked.paper or usual_paper()
     write_file(
         place, score_cards_pdf(cards, _title(state, asked), per_page=asked.per_page, paper=paper)

@@ -85,7 +85,7 @@ def _placed(
     """Return the tournament with its bracket: its rounds say who comes from where."""
     stages: list[Any] = _rows(data, "stage") or []
     if len(stages) != 1:
-        raise ExportError("has {n} stages; give a tournament of one stage", n=len(stages))
+        raise ExportError("has {n} stages. Give a tournament of one stage.", n=len(stages))
     group_of, round_of = (
         {row["id"]: int(row["number"]) for row in _rows(data, name) or ()}
         for name in ("group", "round")
@@ -102,7 +102,7 @@ def _placed(
     kind = stages[0].get("type")
     double = kind == "double_elimination"
     if double and not any(group == 3 for group, _, _ in spots):
-        raise ExportError("has no grand final, so nobody wins it; add one in brackets-manager")
+        raise ExportError("has no grand final, so no one wins it. Add one in brackets-manager.")
     bracket = _Bracket(spots, names, double=double)
     matches = []
     for spot, (before, match) in spots.items():

@@ -34,11 +34,11 @@ def tournament(data: Any) -> SavedTournament:
     """Return the tournament."""
     if isinstance(data, list) or not data["tournament"].get("participants"):
         raise ExportError(
-            "holds no participants; save the tournament with its participants and matches"
+            "holds no participants. Save the tournament with its participants and matches."
         )
     inside = data["tournament"]
     if "matches" not in inside:
-        raise ExportError("holds no matches; save the tournament with its matches")
+        raise ExportError("holds no matches. Save the tournament with its matches.")
     people = [one.get("participant", one) for one in inside["participants"]]
     # In groups players have other numbers.
     names = {
@@ -75,7 +75,7 @@ def _played(
     sets = [_SET.fullmatch(part.strip()) for part in text.split(",")] if text.strip() else []
     if None in sets:
         raise ExportError(
-            "({a}, {b}) has the score {score!r}, which cannot be read", a=a, b=b, score=text
+            "({a}, {b}) has the score {score!r}, which can't be read", a=a, b=b, score=text
         )
     scores = [
         (int(score_of_set[1]), int(score_of_set[2]))
@@ -109,7 +109,7 @@ def _placed(
 ) -> SavedTournament:
     """Return the tournament with its bracket: each match names those that come before it."""
     if any(match.get("group_id") for match in raw):
-        raise ExportError("has groups before its bracket, which cannot be imported")
+        raise ExportError("has groups before its bracket, which can't be imported")
     names = {
         person["id"]: _name(person)
         for person in sorted(people, key=lambda person: person.get("seed") or 0)

@@ -66,7 +66,7 @@ def _json_in(content: bytes, source: str) -> tuple[Any, list[str]] | None:
     try:
         return json.loads(text.read()), text.warnings
     except (ValueError, RecursionError) as error:
-        damage = say("is damaged JSON from here on; save it again in the other program")
+        damage = say("is damaged JSON from here on. Save it again in the other program.")
         raise refusal(source, damage, getattr(error, "lineno", 1)) from None
 
 

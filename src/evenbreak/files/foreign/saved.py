@@ -38,8 +38,8 @@ class Remark(Enum):
         "matches read without their winners, who won fewer games",
     )
     NO_DATE = (
-        "match whose time cannot be read as a date",
-        "matches whose times cannot be read as dates",
+        "match whose time can't be read as a date",
+        "matches whose times can't be read as dates",
     )
     SETS = "set of a longer match counted as a match", "sets of longer matches counted as matches"
 
@@ -213,7 +213,7 @@ class SavedTournament(NamedTuple):
 
 def misshapen() -> str:
     """Return what to say of a file that is not built as its program builds it."""
-    return say("is not built as expected; save it again in the other program")
+    return say("isn't built as expected. Save it again in the other program.")
 
 
 def match_of(key: Any, read: Callable[[], tuple[Played, ...] | Remark], *times: Any) -> SavedMatch:
@@ -257,7 +257,7 @@ def name_of(player: Any, what: str) -> str:
         raise ExportError("has no name for {player}", player=what)
     text = " ".join((name or "").split())
     if any(unicodedata.category(letter) in ("Cc", "Cs") for letter in text):
-        raise ExportError("has a name for {player} that cannot be printed", player=what)
+        raise ExportError("has a name for {player} that can't be printed", player=what)
     return "" if _NOBODY.fullmatch(text) else text
 
 
@@ -281,7 +281,7 @@ def count_of(value: Any, what: str) -> int | None:
     if number and 0 <= value <= _MOST and value == int(value):
         return int(value)
     raise ExportError(
-        "has {what} {value}, which is not a whole number from 0 to {most:,}",
+        "has {what} {value}, which isn't a whole number from 0 to {most:,}",
         what=what,
         value=reprlib.repr(value),
         most=_MOST,

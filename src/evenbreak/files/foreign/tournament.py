@@ -69,7 +69,7 @@ def read_saved_tournament(
     source, content = content_of(path)
     parsed = saved_in(content, source)
     if parsed is None:
-        raise refusal(source, "is not a tournament saved from {programs}", programs=PROGRAMS)
+        raise refusal(source, "isn't a tournament saved from {programs}", programs=PROGRAMS)
     saved, _ = parsed
     wrong = (
         match_problem(number, match.problem)
@@ -197,7 +197,7 @@ def _with_races(plan: Plan, saved: SavedTournament, names: Mapping[Any, str]) ->
     if plan.race:
         return plan
     if not stated:
-        raise InputError("does not say what is raced to; give {race}", race=Parameter("race"))
+        raise InputError("doesn't say what is raced to. Give {race}.", race=Parameter("race"))
     usual = Counter(stated.values()).most_common(1)[0][0]
     inside = bracket_of(replace(plan, race=usual), saved.players, None).by_name
     others = {name: race for name, race in stated.items() if race != usual and name in inside}
@@ -293,7 +293,7 @@ def _check(events: Sequence[Event]) -> None:
         seats = state.standing.seats.get(aside.result.match)
         if seats is None:
             raise InputError("{match} is a bye, but has a result", match=aside.result.match)
-        now = [say("nobody yet") if k is None else state.order[k] for k in seats]
+        now = [say("no one yet") if k is None else state.order[k] for k in seats]
         raise InputError(
             "{players} played {match}, but the matches before it send {others} there",
             players=listed(aside.result.players),

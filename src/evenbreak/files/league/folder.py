@@ -213,8 +213,8 @@ def _results_by(path: Path, columns: Mapping[str, str]) -> SeenFile:
         file = read_results(path, columns=columns)
     except DataError as error:
         about = say_count(
-            "results of matches, with {n} line to mend: see `evenbreak rate {name}`",
-            "results of matches, with {n} lines to mend: see `evenbreak rate {name}`",
+            "results of matches, with {n} line to fix: see `evenbreak rate {name}`",
+            "results of matches, with {n} lines to fix: see `evenbreak rate {name}`",
             len(error.problems),
             name=path.name,
         )
@@ -263,7 +263,7 @@ def _fixtures(path: Path) -> SeenFile | None:
     return SeenFile(
         name=path.name,
         what="fixtures",
-        about=say("who plays whom"),
+        about=say("who plays who"),
         players=names,
         warnings=tuple(filter(source_of_form, table.warnings)),
     )

@@ -40,7 +40,7 @@ class LeagueFiles:
     roster: Annotated[
         str | None, Field(values.FILE, "The players: rating, skill level or both, and team.")
     ] = None
-    fixtures: Annotated[str | None, Field(values.FILE, "Who plays whom, and when.")] = None
+    fixtures: Annotated[str | None, Field(values.FILE, "Who plays who, and when.")] = None
     teams: Annotated[
         str | None, Field(values.FILE, "All teams, with points they have besides.")
     ] = None
@@ -250,13 +250,13 @@ def league_of(content: bytes, path: Path, *, quickly: bool = False) -> LeagueFil
         text = content.decode("utf-8-sig")
         table = tomllib.loads(text)
     except UnicodeDecodeError:
-        problems.add(None, "is not UTF-8; save it as UTF-8 in a text editor")
+        problems.add(None, "isn't UTF-8. Save it as UTF-8 in a text editor.")
     except tomllib.TOMLDecodeError as error:
         what, _, place_of = str(error).partition(" (at ")
         line = re.match(r"line (\d+)", place_of)
         problems.add(
             int(line[1]) if line else text.count("\n") + 1,
-            'cannot be read: {what}; write a key, = and a value, and text in quotes: name = "Ann"',
+            'can\'t be read: {what}. Write a key, = and a value, and text in quotes: name = "Ann".',
             what=what,
         )
     problems.raise_any()
@@ -296,7 +296,7 @@ class _Reader:
             elif not isinstance(value, Mapping):
                 self.note(
                     keys,
-                    "{key} is a table; write its keys below a line [{path}]",
+                    "{key} is a table. Write its keys below a line [{path}].",
                     key=quoted(key),
                     path=_dotted(keys),
                 )
@@ -306,7 +306,7 @@ class _Reader:
                 read[key] = self.section(SECTIONS[key], value, keys)
         missing = [name for name, one in fields.items() if one.required and name not in table]
         for name in missing:
-            self.note(at, '{key} is missing; add {key} = "..."', key=name)
+            self.note(at, '{key} is missing. Add {key} = "...".', key=name)
         if missing:
             return None
         league: Any = of(**read)
@@ -317,12 +317,12 @@ class _Reader:
     def whole(self, league: LeagueFile) -> None:
         """Note what does not go together."""
         if league.begins and league.ends and league.ends < league.begins:
-            self.note(("ends",), "ends before it begins; correct one of the two dates")
+            self.note(("ends",), "ends before it starts. Correct one of the two dates.")
         races = [name for name in ("chart", "race", "race_to") if getattr(league, name) is not None]
         if len(races) > 1:
             self.note(
                 (races[1],),
-                "{key} and {other} each say how long races are; keep one",
+                "{key} and {other} each say how long races are. Keep one.",
                 key=races[1],
                 other=races[0],
             )
@@ -331,7 +331,7 @@ class _Reader:
         """Return a value as its kind reads it; None if it is refused."""
         text = _text_of(value)
         if text is None:
-            self.note(keys, "{key} takes a single value; write {key} = ...", key=_dotted(keys))
+            self.note(keys, "{key} takes a single value. Write {key} = ...", key=_dotted(keys))
             return None
         if one.kind is values.FILE:
             return self.file(one.name, text, keys)
@@ -365,7 +365,7 @@ class _Reader:
         near = get_close_matches(name, [one.name for one in self.folder.iterdir()], n=1)
         self.note(
             keys,
-            "there is no file {name} in the folder; correct the name{near}, or delete the line",
+            "there's no file {name} in the folder. Correct the name{near}, or delete the line.",
             name=quoted(name),
             near=say(" (there is {near})", near=quoted(near[0])) if near else "",
         )
@@ -380,7 +380,9 @@ class _Reader:
         names = [one.get("file") for one in value]
         for k, name in enumerate(names):
             if name is not None and name in names[:k]:
-                self.note((*keys, k, "file"), "{file} is listed twice; keep one", file=quoted(name))
+                self.note(
+                    (*keys, k, "file"), "{file} is listed twice. Keep one.", file=quoted(name)
+                )
         return tuple(filter(None, every))
 
     def names(self, table: Mapping[str, Any], keys: Keys) -> Iterator[tuple[str, str]]:
@@ -418,8 +420,8 @@ class _Reader:
             if means.get(meant, meant) != meant:
                 self.note(
                     (*keys, name),
-                    "{name} means {meant}, which means {other}; write the player's real name in "
-                    "both lines",
+                    "{name} means {meant}, which means {other}. Write the player's real "
+                    "name in both lines.",
                     name=quoted(name),
                     meant=quoted(meant),
                     other=quoted(means[meant]),
@@ -430,11 +432,11 @@ class _Reader:
         """Note a key that there is not, with where it may belong or the nearest one."""
         if section := _belongs(key, keys[:-1]):
             self.note(
-                keys, "{key} does not belong here; move it {place}", key=quoted(key), place=section
+                keys, "{key} doesn't belong here. Move it {place}.", key=quoted(key), place=section
             )
         elif near := get_close_matches(key, known, n=1):
             self.note(
-                keys, "there is no key {key}; write {near}", key=quoted(key), near=quoted(near[0])
+                keys, "there's no key {key}. Write {near}.", key=quoted(key), near=quoted(near[0])
             )
         else:
             self.note(

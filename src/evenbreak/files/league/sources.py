@@ -164,7 +164,7 @@ def league_results(
     """
     if not league.results:
         raise refusal(
-            str(league.path), 'names no results; add a line [[results]], and below it file = "..."'
+            str(league.path), 'names no results. Add a line [[results]], and below it file = "...".'
         )
     if aliases is None:
         aliases = AliasesFile(dict(league.aliases), str(league.path), ())
@@ -195,8 +195,7 @@ def league_results(
             league.place(names[k]),
             None,
             say_count(
-                "{n} match that is there already, with the same players, score and day, counts "
-                "once",
+                "{n} match that already exists, with the same players, score and day, counts once",
                 "{n:,} matches that are there already, with the same players, score and day, "
                 "count once",
                 n,

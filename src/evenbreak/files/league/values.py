@@ -46,8 +46,8 @@ def _system_name(text: str) -> str:
 SYSTEM_NAME = Named(_system_name)
 """The name of one."""
 
-MINUTES = Number(0.001, 1440.0, " is not a number of minutes; give one such as 8 or 7.5")
-TURNOVER = Number(0.0, 1440.0, " is not a number of minutes; give one such as 5, or 0")
+MINUTES = Number(0.001, 1440.0, " isn't a number of minutes. Give one such as 8 or 7.5")
+TURNOVER = Number(0.0, 1440.0, " isn't a number of minutes. Give one such as 5, or 0")
 
 
 def strong_in(text: str) -> tuple[int, float]:
@@ -67,7 +67,7 @@ def strong_in(text: str) -> tuple[int, float]:
 
 
 STRONG = Named(strong_in, "K:LEVEL", spelled=lambda limit: f"{limit[0]}:{limit[1]:g}")
-CAP = Number(0.001, 1e6, "; give a number above 0, such as 23", metavar="TOTAL")
+CAP = Number(0.001, 1e6, " isn't a number above 0, such as 23", metavar="TOTAL")
 MOST_SETS = 25
 SETS = Whole(1, MOST_SETS, metavar="K")
 
@@ -92,8 +92,9 @@ def points_in(text: str) -> TableRules:
             raise InputError("too few")
     except (InputError, ValueError):
         message = (
-            f"{text!r}; give the points of a win, a draw and a loss, such as 2,1,0 (and of each "
-            f"game or set won, such as 1,0,0,1), or sets, or {' or '.join(SPLITS)}"
+            f"{text!r} isn't a rule for points. Give those of a win, a draw and a loss, "
+            "such as 2,1,0 (and of each game or set won, such as 1,0,0,1), or sets, or "
+            f"{' or '.join(SPLITS)}."
         )
         raise InputError(message) from None
     return TableRules(win, draw, loss, a_set, shutout=shutout)
@@ -148,7 +149,7 @@ def _day(text: str) -> date:
 
     day = read_date(text.strip(), None)
     if day is None:
-        raise InputError("{value!r} is not a date; write it as 2026-09-01", value=text)
+        raise InputError("{value!r} isn't a date. Write it as 2026-09-01.", value=text)
     return date.fromisoformat(str(day))
 
 
@@ -175,7 +176,7 @@ HOURS = Named(_hours, spelled=lambda hours: ",".join(f"{one:%H:%M}" for one in h
 
 def _color(text: str) -> str:
     if not re.fullmatch(r"#[0-9A-Fa-f]{6}", text.strip()):
-        raise InputError('{value!r} is not a color; write one such as "#1b6e53"', value=text)
+        raise InputError('{value!r} isn\'t a color. Write one such as "#1b6e53".', value=text)
     return text.strip().lower()
 
 
@@ -185,12 +186,12 @@ Shown = Literal["full", "initials", "hidden"]
 """How a site names a player, from the most to the least that is shown."""
 
 NAMES = Choice(get_args(Shown))
-MONEY = Number(0.0, 1e6, "; give an amount of money, such as 10")
+MONEY = Number(0.0, 1e6, " isn't an amount of money, such as 10")
 
 
 def _currency(text: str) -> str:
     if not 1 <= len(text.strip()) <= 5 or not text.isprintable():
-        raise InputError('{value!r} is no sign of a currency; write one such as "$"', value=text)
+        raise InputError('{value!r} is no sign of a currency. Write one such as "$".', value=text)
     return text.strip()
 
 

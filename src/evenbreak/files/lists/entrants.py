@@ -52,7 +52,7 @@ def read_entrants(path: str | Path) -> RosterFile:
     ('Ann Lee', 'Bo Diaz')
     """
     if str(path) == "-":
-        raise DataError([say("the entrants cannot come from standard input; name a file")])
+        raise DataError([say("the entrants can't come from standard input. Name a file.")])
     return roster_of(ENTRANTS.of(read_players(path, ENTRANTS)), rated=False)
 
 
@@ -106,7 +106,7 @@ def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered
     >>> found.names, found.places
     (('Ann Lee', 'Bo Dias'), (0, -1))
     >>> found.warnings
-    ("e:2: 'Bo Dias' is not in r.csv (did you mean 'Bo Diaz'?) and is taken as a new player",)
+    ("e:2: 'Bo Dias' isn't in r.csv (did you mean 'Bo Diaz'?) and is treated as a new player",)
     """
     listed_players = KnownNames(players)
     names, places, warnings = [], [], []
@@ -116,7 +116,7 @@ def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered
         places.append(-1 if place is None else place)
         if place is None:
             new = say(
-                "{name} is not in {whose}{hint} and is taken as a new player",
+                "{name} isn't in {whose}{hint} and is treated as a new player",
                 name=quoted(name),
                 whose=whose,
                 hint=listed_players.hint(name),
@@ -208,7 +208,7 @@ def check_one_scale(league: RatedList, entrants: RosterFile) -> None:
         return None
     raise refusal(
         entrants.source,
-        "its scale {theirs} differs from {ours} in {list}; put all ratings on one scale",
+        "its scale {theirs} differs from {ours} in {list}. Put all ratings on one scale.",
         theirs=theirs,
         ours=ours,
         list=league.source,

@@ -87,7 +87,7 @@ def read_sides(path: str | Path, *, of: str | None = None) -> Sides:
     column = "team" if teams else "player"
     if column not in table:
         table.problems.add(
-            None, "has no column {column}; add it, or ask for the other table", column=column
+            None, "has no column {column}. Add it, or ask for the other table.", column=column
         )
         table.problems.raise_any()
     names: dict[str, str] = {}
@@ -99,11 +99,11 @@ def read_sides(path: str | Path, *, of: str | None = None) -> Sides:
             continue
         known = same_name(name)
         if known in names and not teams:
-            table.problems.add(line, "{name} is listed twice; delete one", name=quoted(name))
+            table.problems.add(line, "{name} is listed twice. Delete one.", name=quoted(name))
         names.setdefault(known, " ".join(name.split()))
         venues[known] = venues.get(known) or venue.strip()
     if len(names) < 2:
-        table.problems.add(None, "names fewer than two; list everyone who takes part")
+        table.problems.add(None, "names fewer than two. List everyone who takes part.")
     table.problems.raise_any()
     tables = {
         venue.strip(): int(many)
@@ -133,7 +133,7 @@ def read_fixture_list(path: str | Path) -> tuple[list[Fixture], tuple[str, ...]]
     table = FIXTURE_LIST.read(path)
     for row, (home, away) in enumerate(zip(table["home"], table["away"], strict=True)):
         if home and same_name(home) == same_name(away):
-            table.note(row, "{name} meets itself; correct one of the names", name=quoted(home))
+            table.note(row, "{name} meets itself. Correct one of the names.", name=quoted(home))
     table.problems.raise_any()
     days = [None if np.isnat(day) else day.astype(object) for day in table["date"]]
     columns = (

@@ -420,8 +420,8 @@ def _without_doubles(read: Sequence[Reading]) -> list[Reading]:
             )
             other = (player._replace(name=f"{player.name} {many}"),)
             twice = say(
-                "player {name} is already in line {line}; delete one of the two, or give two "
-                "players of the same name different names, such as {other}",
+                "player {name} is already in line {line}. Delete one of the two, or give "
+                "two players of the same name different names, such as {other}.",
                 name=quoted(player.name),
                 line=first,
                 other=quoted(other[0].name),

@@ -107,8 +107,8 @@ ROSTER = Schema(
     ),
     races_lost=_COUNT.called("", "the same for matches lost"),
     match_form=Number(
-        about="[day-to-day form](../explanation/ratings.md#day-to-day-form): how much the log-odds "
-        "of a game vary from match to match; the same in each row",
+        about="[day-to-day form](../explanation/ratings.md#day-to-day-form): how much "
+        "the log-odds of a game vary from match to match; the same in each row",
         least=0,
         most=3,
         write=say("the standard deviation of log-odds from 0 to 3, such as 0.35"),
@@ -351,7 +351,7 @@ def roster_of(table: TextTable, *, rated: bool = True) -> RosterFile:
     if own in table:
         table.note(
             np.isnan(rating) & ratings.good & (games > 0),
-            "{column} is empty after {games} games; fill it in, or write 0 games",
+            "{column} is empty after {games} games. Fill it in, or write 0 games.",
             column=own,
             games=games,
         )
@@ -368,7 +368,7 @@ def roster_of(table: TextTable, *, rated: bool = True) -> RosterFile:
         level=table["level"],
     )
     similar = similar_name_warnings(
-        similar_names(names), table.source, say("if so, keep one of them")
+        similar_names(names), table.source, say("If so, keep one of them.")
     )
     by_quasi = frozenset(np.flatnonzero(~np.isnan(quasi)).tolist())
     hidden = hidden_letter_warnings(table, ["player"])
@@ -390,8 +390,9 @@ def _refuse_twice(table: TextTable, names: list[str]) -> None:
             spelt = "" if spelling == name else say(" as {name}", name=quoted(spelling))
             table.problems.add(
                 line,
-                "player {name} is already in line {line}{spelt}; delete one of the two, or give "
-                "two players of the same name different names, such as 'Ann Lee 2'",
+                "player {name} is already in line {line}{spelt}. Delete one of the two, "
+                "or give two players of the same name different names, such as 'Ann Lee "
+                "2'.",
                 name=quoted(name),
                 line=earlier,
                 spelt=spelt,
@@ -415,7 +416,7 @@ def _scale(table: TextTable) -> Scale | None:
     if named is not None and not first.same_points(SCALES[named]):
         table.note(
             rows[0],
-            "scale {scale!r} differs from the title {title}; correct one of them",
+            "scale {scale!r} differs from the title {title}. Correct one of them.",
             scale=first.text,
             title=quoted(table.titles["rating"]),
         )
@@ -423,8 +424,8 @@ def _scale(table: TextTable) -> Scale | None:
         if not first.same_points(scales[row]):
             table.note(
                 row,
-                "scale {scale!r} differs from {first!r} in line {line}; put all ratings on one "
-                "scale",
+                "scale {scale!r} differs from {first!r} in line {line}. Put all ratings "
+                "on one scale.",
                 scale=scales[row].text,
                 first=first.text,
                 line=table.lines[rows[0]],

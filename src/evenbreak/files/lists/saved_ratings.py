@@ -149,8 +149,8 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
         raise DataError(
             [
                 say(
-                    "{source} states that its ratings are {stated}, but the results are rated on "
-                    "{asked}; give {scale} {stated}",
+                    "{source} states that its ratings are {stated}, but the results are "
+                    "rated on {asked}. Give {scale} {stated}.",
                     source=FilePath(file.source),
                     stated=file.scale.text,
                     asked=scale.text,
@@ -160,7 +160,7 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
         )
     if file.levels and file.scale is None:
         raise refusal(
-            file.source, "its ratings are skill levels; give ratings in points to begin from"
+            file.source, "its ratings are skill levels. Give ratings in points to begin from."
         )
     roster = file.roster
     rated = np.flatnonzero(~np.isnan(roster.rating))

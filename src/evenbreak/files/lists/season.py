@@ -1,4 +1,4 @@
-"""A season: the roster of its players and what a simulation needs of them, and who plays whom."""
+"""A season: the roster of its players and what a simulation needs of them, and who plays who."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
     skill, days, joins, leaves = (table[name] for name in ("skill", "day_sd", "joins", "leaves"))
     table.note(
         (leaves > 0) & (leaves < joins),
-        "leaves in week {leaves}, before week {joins}; correct one of them",
+        "leaves in week {leaves}, before week {joins}. Correct one of them.",
         leaves=leaves,
         joins=joins,
     )
@@ -119,7 +119,7 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
         table.problems.add(None, "has 1 player; a league needs two or more")
     in_teams = "team" in table.found
     if in_teams:
-        table.note(table["team"] == "", "team is empty; name the team of each player")
+        table.note(table["team"] == "", "team is empty. Name the team of each player.")
     file = roster_of(table)
     roster, newcomers = _with_newcomers(file)
     sd = np.where(np.isnan(skill), roster.standard_error, 0.0)
@@ -175,7 +175,7 @@ def _with_newcomers(file: RosterFile) -> tuple[Roster, list[str]]:
     if not new.any():
         return roster, []
     if not len(stated):
-        raise refusal(file.source, "has no rating at all; fill in those that are known")
+        raise refusal(file.source, "has no rating at all. Fill in those that are known.")
     middle, spread = float(np.median(stated)), float(stated.std())
     error = np.where(new & np.isnan(roster.standard_error), spread, roster.standard_error)
     started = replace(
@@ -277,7 +277,7 @@ class _OfRoster(Name):
         if not name:
             return super().fault("")
         return say(
-            "{name} is not in the roster{hint}; write names as the roster does",
+            "{name} isn't in the roster{hint}. Write names as the roster does.",
             name=quoted(name),
             hint=self.players.hint(name),
         )
@@ -288,7 +288,7 @@ PAIRS = Schema(
     player_a=_OfRoster(RESULTS["player_a"].also, "one of the two players", needed=True),
     player_b=_OfRoster(RESULTS["player_b"].also, "the other", needed=True),
 )
-"""A list of who plays whom."""
+"""A list of who plays who."""
 
 SCHEDULE = Schema(
     "matches",
@@ -305,7 +305,7 @@ SCHEDULE = Schema(
     **ROUND.only("date").columns,
     **PLACE.columns,
 )
-"""A list of who plays whom in which week."""
+"""A list of who plays who in which week."""
 
 MOST_LISTED = 5
 """How many repeated matches are listed; the rest are counted."""
@@ -313,7 +313,7 @@ MOST_LISTED = 5
 
 @dataclass(frozen=True, eq=False)
 class PairsFile:
-    """Who plays whom.
+    """Who plays who.
 
     Parameters
     ----------
@@ -357,7 +357,7 @@ def _read(schema: Schema, path: str | Path, roster: Roster) -> tuple[TextTable, 
     a, b = table["player_a"], table["player_b"]
     for row in np.flatnonzero((a == b) & (a >= 0)):
         name = quoted(roster.players[a[row]])
-        table.note(row, "{name} is on both sides; write two different players", name=name)
+        table.note(row, "{name} is on both sides. Write two different players.", name=name)
     table.problems.raise_any()
     return table, np.column_stack([a, b])
 

@@ -276,7 +276,7 @@ def read_teams(path: str | Path) -> tuple[TeamNames, Floats, tuple[str, ...]]:
         before = len(teams.names)
         if name and teams.place(name) != before:
             table.problems.add(
-                line, "team {name} is listed twice; delete one of the two", name=quoted(name)
+                line, "team {name} is listed twice. Delete one of the two.", name=quoted(name)
             )
     table.problems.raise_any()
     points = np.nan_to_num(table["points"])
@@ -318,17 +318,17 @@ def read_team_results(
     home, away = table.read["home_score"], table.read["away_score"]
     table.note(
         table["forfeit"] & (home.values + away.values == 0),
-        "is a forfeit without a score; write the sets that it counts, such as 3 and 0",
+        "is a forfeit without a score. Write the sets that it counts, such as 3 and 0.",
     )
     table.note(
         (home.stated != away.stated) & home.good & away.good,
-        "one score is empty; write both, or neither where the match was not played",
+        "one score is empty. Write both, or neither where the match wasn't played.",
     )
     scores = np.stack([home.values, away.values], axis=1)
     unplayed = (scores.sum(axis=1) == 0) & home.good & away.good
     every = _matches(table, teams, scores)
     if unplayed.all():
-        raise refusal(table.source, "no match in it has been played; fill in the scores")
+        raise refusal(table.source, "no match in it has been played. Fill in the scores.")
     to_come = replace(every.among(unplayed), scores=np.zeros((unplayed.sum(), 0), dtype=np.int64))
     return every.among(~unplayed), replace(to_come, warnings=())
 
@@ -354,7 +354,7 @@ def _matches(table: TextTable, teams: TeamNames, scores: Ints) -> TeamMatches:
             if place is None:
                 table.problems.add(
                     line,
-                    "{column} {name} is not in the list of teams; write the team's name",
+                    "{column} {name} isn't in the list of teams. Write the team's name.",
                     column=column,
                     name=quoted(name),
                 )
@@ -362,7 +362,7 @@ def _matches(table: TextTable, teams: TeamNames, scores: Ints) -> TeamMatches:
                 pairs[row, side] = place
         if both[0] and same_name(both[0]) == same_name(both[1]):
             table.problems.add(
-                line, "{name} meets itself; correct one of the teams", name=quoted(both[0])
+                line, "{name} meets itself. Correct one of the teams.", name=quoted(both[0])
             )
     table.problems.raise_any()
     rounds = tuple(table.cells("round" if "round" in table else "date"))
@@ -370,7 +370,10 @@ def _matches(table: TextTable, teams: TeamNames, scores: Ints) -> TeamMatches:
     similar: Sequence[str] = ()
     if not teams.fixed:
         similar = similar_name_warnings(
-            similar_names(teams.names), table.source, say("if so, write both alike"), of=say("team")
+            similar_names(teams.names),
+            table.source,
+            say("If so, write both the same way."),
+            of=say("team"),
         )
     return TeamMatches(pairs, scores, rounds, (*table.warnings, *similar, *twice))
 

@@ -19,7 +19,7 @@ _LONGEST_LINE = 1000
 """Letters of a line: far more than a name and its numbers have."""
 
 _WRITE_IT = say(
-    "write a player on each line, such as Ann Lee,612, or make player,rating the first line"
+    "Write one player per line, such as Ann Lee,612, or make player,rating the first line."
 )
 
 
@@ -67,7 +67,7 @@ def read_players(
         if len(line) > _LONGEST_LINE:
             problems.add(
                 number,
-                "{line} has {n:,} letters, which is no name; {remedy}",
+                "{line} has {n:,} letters, which isn't a name. {remedy}",
                 line=quoted(line),
                 n=len(line),
                 remedy=_WRITE_IT,
@@ -78,7 +78,7 @@ def read_players(
             problems.add(one.number, doubt_words(one))
     rows = [(one.number, player) for one in read for player in one.players]
     if not rows and not len(problems):
-        problems.add(None, "names nobody; write one player on each line")
+        problems.add(None, "names no one. Write one player on each line.")
     columns = {name: Texts.of([""] * len(rows)) for name in schema.columns}
     columns["player"] = Texts.of([player.name for _, player in rows])
     for k, name in enumerate(numbers):
@@ -124,13 +124,13 @@ def doubt_words(one: Reading) -> str:
     """Return why a line is doubted, and how to write what it may mean.
 
     >>> doubt_words(readings(["Ann Lee 612 Downtown", "Bo"])[0])
-    "'Ann Lee 612 Downtown': this may be more than a name and a rating; write: Ann Lee, 612"
+    "'Ann Lee 612 Downtown': this may be more than a name and a rating. Write: Ann Lee, 612."
     """
     clear = [choice_words(choice) for choice in one.choices if choice]
     if not clear or not one.players:
         return one.doubt
     text, doubt = quoted(one.text), one.doubt
-    return say("{text}: {doubt}; write: {clear}", text=text, doubt=doubt, clear=clear[0])
+    return say("{text}: {doubt}. Write: {clear}.", text=text, doubt=doubt, clear=clear[0])
 
 
 def _left_out(read: Sequence[Reading], source: str) -> list[str]:
@@ -141,7 +141,7 @@ def _left_out(read: Sequence[Reading], source: str) -> list[str]:
             rating = player.cells[0] if player.cells else ""
             if rating and float(rating.replace(",", ".")) <= 0:
                 low = say(
-                    "{name} has the rating {rating}; leave it out if it means none",
+                    "{name} has the rating {rating}. Leave it out if it means none.",
                     name=quoted(player.name),
                     rating=rating,
                 )

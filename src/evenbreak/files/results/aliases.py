@@ -84,7 +84,7 @@ def read_aliases(path: str | Path) -> AliasesFile:
         if means.setdefault(name, meant) != meant:
             table.problems.add(
                 line,
-                "{name} means {meant} here, but {earlier} in line {line}; keep one of the two",
+                "{name} means {meant} here, but {earlier} in line {line}. Keep one of the two.",
                 name=quoted(name),
                 meant=quoted(meant),
                 earlier=quoted(means[name]),
@@ -95,8 +95,9 @@ def read_aliases(path: str | Path) -> AliasesFile:
         if name != meant and means.get(meant, meant) != meant:
             table.problems.add(
                 line_of[name],
-                "{name} means {meant}, which means {other} in line {line}; write the player's "
-                "real name in both lines, and keep only one of two names that mean each other",
+                "{name} means {meant}, which means {other} in line {line}. Write the "
+                "player's real name in both lines, and keep only one of two names that "
+                "mean each other.",
                 name=quoted(name),
                 meant=quoted(meant),
                 other=quoted(means[meant]),

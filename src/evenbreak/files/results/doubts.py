@@ -27,8 +27,8 @@ def doubtful_score_warnings(results: Results, lines: NDArray[np.int64], source: 
     if not texts:
         return []
     verdict = say_count(
-        "such a score counts as games won; correct it, or leave it out with {skip_bad}",
-        "such scores count as games won; correct them, or leave them out with {skip_bad}",
+        "such a score counts as games won. Correct it, or leave it out with {skip_bad}.",
+        "such scores count as games won. Correct them, or leave them out with {skip_bad}.",
         len(texts),
         skip_bad=_SKIP_BAD,
     )
@@ -141,7 +141,7 @@ def date_warnings(
 
     >>> days = np.array(["2024-09-03", "2204-09-10", "2024-09-17"], dtype="datetime64[D]")
     >>> date_warnings(days, np.array([2, 3, 4]), "r.csv")
-    ['r.csv:3: date 2204-09-10 is in the future; correct it if it was mistyped']
+    ['r.csv:3: date 2204-09-10 is in the future. Correct it if it was mistyped.']
     """
     today = np.datetime64("today", "D") if today is None else today
     future = dates > today + np.timedelta64(1, "D")
@@ -150,7 +150,7 @@ def date_warnings(
         warning(
             source,
             lines[row],
-            "date {date} is {why}; correct it if it was mistyped",
+            "date {date} is {why}. Correct it if it was mistyped.",
             date=str(dates[row]),
             why=say("in the future") if future[row] else others,
         )

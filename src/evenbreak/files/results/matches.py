@@ -114,7 +114,7 @@ def _score(text: str) -> Pair | str:
     """Return the two numbers of a score, or why it is none.
 
     >>> _score("7 – 5"), _score("'7/5"), _score("w/o"), _score("7")
-    (('7', '5'), ('7', '5'), ('', ''), 'is not a score; write 7-5')
+    (('7', '5'), ('7', '5'), ('', ''), "isn't a score. Write 7-5.")
     """
     text = text.removeprefix("'").strip()
     if not text or key_of(text) in FORFEIT | BYE:
@@ -128,22 +128,22 @@ def _score(text: str) -> Pair | str:
     if score is not None:
         return str(int(score[1])), str(int(score[2]))
     if len(_SCORE_CELL.findall(text)) > 1:
-        return say("is more than one score; write a row for each set")
-    return say("is not a score; write 7-5")
+        return say("is more than one score. Write a row for each set.")
+    return say("isn't a score. Write 7-5.")
 
 
 def _race(text: str) -> Pair | str:
     """Return what the two players need, or why a text is no race.
 
     >>> _race("7"), _race("7:5"), _race("Race to 9"), _race("long")
-    (('7', '7'), ('7', '5'), ('9', '9'), 'is not a race; write 7, or 7-5')
+    (('7', '7'), ('7', '5'), ('9', '9'), "isn't a race. Write 7, or 7-5.")
     """
     text = " ".join(text.removeprefix("'").lower().split())
     if not text:
         return "", ""
     race = None if _is_date(text) else _RACE_CELL.fullmatch(text)
     if race is None:
-        return say("is not a race; write 7, or 7-5")
+        return say("isn't a race. Write 7, or 7-5.")
     return str(int(race[1])), str(int(race[2] or race[1]))
 
 
@@ -177,22 +177,22 @@ def _not_won(won: int, lost: int, needed: int, other: int) -> str:
     if needed and other:
         if won < needed and lost >= other:
             return say(
-                "the loser reached the race ({won}-{lost} in a race {needed}:{other}); write the "
-                "winner's number first, in the score and the race",
+                "the loser reached the race ({won}-{lost} in a race {needed}:{other}). "
+                "Write the winner's number first, in the score and the race.",
                 needed=needed,
                 other=other,
                 **score,
             )
     elif 0 < won == lost:
         return say(
-            "the score is tied ({won}-{lost}), so there is no winner; correct it, or give the race "
-            "if it was a handicap race",
+            "the score is tied ({won}-{lost}), so there's no winner. Correct it, or give "
+            "the race if it was a handicap race.",
             **score,
         )
     elif won < lost:
         return say(
-            "the loser won more games ({won}-{lost}); write the winner's games first, or give the "
-            "race if it was a handicap race",
+            "the loser won more games ({won}-{lost}). Write the winner's games first, or "
+            "give the race if it was a handicap race.",
             **score,
         )
     return ""
@@ -292,12 +292,12 @@ def _unknown(column: str) -> Sentence:
     """Return what to say of a row without a score, in the column of a score if there is one."""
     if not column:
         return say(
-            "nothing says who won; write race_a, race_b and winner, or racks, or mark a forfeit, "
-            "or leave out a match that was not played"
+            "nothing says who won. Write race_a, race_b and winner, or racks, or mark a "
+            "forfeit, or leave out a match that wasn't played."
         )
     return say(
-        "{column} is empty; write the games won, or race_a, race_b and winner if no more is known, "
-        "or mark a forfeit, or leave out a match that was not played",
+        "{column} is empty. Write the games won, or race_a, race_b and winner if no more "
+        "is known, or mark a forfeit, or leave out a match that wasn't played.",
         column=column,
     )
 

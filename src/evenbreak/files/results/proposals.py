@@ -83,7 +83,7 @@ def columns_hint(
         what the columns are called that have other names than in results of players.
 
     >>> print(columns_hint({}, ["Sp H", "Sp G", "S"], [["Ann", "Bo", "7-5"]]))
-    if it has them by other names, add columns "player_a=Sp H,player_b=Sp G,score=S"
+    If they have other names, add columns "player_a=Sp H,player_b=Sp G,score=S"
     """
     called = called or {}
     names = {name: own for own, name in called.items()}
@@ -92,18 +92,20 @@ def columns_hint(
         {called.get(name, name): title for name, title in reading.items()}
         for reading in readings_of(known, titles, rows)
     ]
+    if not places and not readings:
+        return say("Is it the right file? Results have a match per row: player_a,player_b,score.")
     if not 0 < len(readings) <= _MOST_READINGS:
-        return say("add them; one column score, with 7-5 in a cell, takes the place of two")
+        return say("Add them. One column score, with 7-5 in a cell, can replace the two.")
     options = [_option(reading) for reading in readings]
     if len(options) == 1:
         return say(
-            "if it has them by other names, add {columns} {titles}",
+            "If they have other names, add {columns} {titles}",
             columns=Parameter("columns"),
             titles=options[0],
         )
     return say(
-        "they can be read in {n} ways; look at a match that you know, and add {columns} with one "
-        "of {titles}",
+        "They can be read in {n} ways. Look at a match that you know, and add {columns} "
+        "with one of {titles}.",
         n=len(options),
         columns=Parameter("columns"),
         titles=joined(options, " "),

@@ -103,9 +103,9 @@ def races_by_chart(
     if (unfit := unset & known & ~ends).any():
         row = int(unfit.argmax())
         text = say_count(
-            "the score {a}-{b} does not end the race {m}-{n} of the levels stated; check it",
-            "the score {a}-{b} does not end the race {m}-{n} of the levels stated, nor do those of "
-            "{more:,} more matches theirs; check them",
+            "the score {a}-{b} doesn't end the race {m}-{n} of the levels stated. Check it.",
+            "the score {a}-{b} doesn't end the race {m}-{n} of the levels stated, nor do "
+            "those of {more:,} more matches theirs. Check them.",
             int(unfit.sum()),
             a=int(score_a[row]),
             b=int(score_b[row]),

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-_SAME_NAME = say("if so, use the same name throughout")
+_SAME_NAME = say("If so, use the same name throughout.")
 MOST_RENAMED = 20
 """How many names are listed that aliases changed; the rest are counted."""
 
@@ -241,14 +241,14 @@ def refuse_unfound(
         file, _, name = key.rpartition(":")
         if file and not any(file in (str(path), Path(path).name) for path in paths):
             raise InputError(
-                "{columns} has titles for {file}, which is none of the files; correct its name",
+                "{columns} has titles for {file}, which is none of the files. Correct its name.",
                 columns=Parameter("columns"),
                 file=quoted(file),
             )
         found = {key_of(one.titles[name]) for one in files if name in one.titles}
         if not file and title != UNREAD and key_of(title) not in found:
             raise InputError(
-                "{columns} has {title}, which is a column of none of the files; correct it",
+                "{columns} has {title}, which is a column of none of the files. Correct it.",
                 columns=Parameter("columns"),
                 title=quoted(title),
             )
@@ -259,7 +259,7 @@ def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
     for name in columns:
         if name.rpartition(":")[2] not in RESULTS_FILE.columns:
             raise InputError(
-                "{columns} has {name!r}, which is not a column of results; give {names}",
+                "{columns} has {name!r}, which isn't a column of results. Give {names}.",
                 columns=Parameter("columns"),
                 name=name,
                 names=", ".join(RESULTS_FILE.columns),
@@ -361,7 +361,7 @@ def in_a_row(files: Sequence[ResultsFile], *, doubles: bool = False) -> ResultsF
     for k, file in enumerate(files):
         if file.sha256 in prints[:k]:
             raise InputError(
-                "{first} and {second} hold the same results; give each once",
+                "{first} and {second} hold the same results. Give each once.",
                 first=FilePath(files[prints.index(file.sha256)].source),
                 second=FilePath(file.source),
             )
@@ -405,10 +405,11 @@ def _in_two_files(files: Sequence[ResultsFile], results: Results) -> Iterator[st
                 file.source,
                 None,
                 say_count(
-                    "{n} match is in an earlier file too, with the same players, score and day; "
-                    "leave it out of one of the files, or it counts twice",
-                    "{n:,} matches are in an earlier file too, with the same players, score and "
-                    "day; leave them out of one of the files, or they count twice",
+                    "{n} match is in an earlier file too, with the same players, score "
+                    "and day. Leave it out of one of the files, or it counts twice.",
+                    "{n:,} matches are in an earlier file too, with the same players, "
+                    "score and day. Leave them out of one of the files, or they count "
+                    "twice.",
                     again,
                 ),
             )

@@ -97,8 +97,8 @@ def _unknown(table: TextTable, said: Mapping[str, Sequence[str]]) -> list[str]:
     if not words:
         return []
     text = say(
-        "statuses that are not known count as played: {words}; write forfeit, bye or postponed "
-        "where it was not",
+        "statuses that aren't known count as played: {words}. Write forfeit, bye or "
+        "postponed where it wasn't.",
         words=quoted_list(list(words)),
     )
     return [warning(table.source, None, text)]

@@ -47,7 +47,7 @@ def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
         except DataError:
             pass
     if not all(isinstance(value, str) for value in kept.values()):
-        raise damaged(path, say("its PIN cannot be read"))
+        raise damaged(path, say("its PIN can't be read"))
     return {**first, **kept}
 
 

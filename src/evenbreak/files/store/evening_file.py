@@ -28,20 +28,20 @@ _LOG = logging.getLogger(__name__)
 _MARK = 0x45564252  # application_id: an evening of this program
 _WAIT = 30.0  # seconds for another program to finish its move
 WHY = {  # by the code of SQLite's error
-    sqlite3.SQLITE_NOTADB: say("{name} is not the file of a tournament"),
+    sqlite3.SQLITE_NOTADB: say("{name} isn't the file of a tournament"),
     sqlite3.SQLITE_FULL: say(
-        "there is no room on the disk of {name}, so nothing was changed; make room and try again"
+        "there's no room on the disk of {name}, so nothing was changed. Make room and try again."
     ),
     sqlite3.SQLITE_IOERR: say(
-        "the disk of {name} reports an error, so nothing was changed ({error}); check whether "
-        "there is room on it"
+        "the disk of {name} reports an error, so nothing was changed ({error}). Check "
+        "whether there's room on it."
     ),
     sqlite3.SQLITE_READONLY: say(
-        "{name} can only be read, so nothing was changed; allow writing to it and to its folder"
+        "{name} can only be read, so nothing was changed. Allow writing to it and to its folder."
     ),
-    sqlite3.SQLITE_BUSY: say("{name} is in use by another program; try again"),
+    sqlite3.SQLITE_BUSY: say("{name} is in use by another program. Try again."),
     sqlite3.SQLITE_CANTOPEN: say(
-        "{name} cannot be opened; check who may read and write it and its folder"
+        "{name} can't be opened. Check who may read and write it and its folder."
     ),
 }
 DAMAGED = say(
@@ -160,7 +160,7 @@ def _checked(place: Path, *, reading: bool) -> Iterator[sqlite3.Connection]:
     if not place.exists():
         raise refused(
             place,
-            "{name} does not exist; start a tournament with {command}",
+            "{name} doesn't exist. Start a tournament with {command}.",
             command=Command("tournament new"),
         )
     with _connected(place, reading=reading) as base:
@@ -174,7 +174,7 @@ def _connected(
 ) -> Iterator[sqlite3.Connection]:
     """Connect to a file, or to the part that takes its place later; errors name the file."""
     if place.is_dir():
-        raise refused(place, "{name} is a folder; name the file of a tournament")
+        raise refused(place, "{name} is a folder. Name the file of a tournament.")
     try:
         with closing(_connection(part or place, "rwc" if part else "rw", reading)) as base:
             yield base
@@ -228,12 +228,12 @@ def _check(base: sqlite3.Connection, place: Path) -> None:
     """Refuse a database that is not the file of an evening, or not in a known format."""
     mark, version = _number(base, "application_id"), _version(base)
     if mark != _MARK:
-        raise refused(place, "{name} is not the file of a tournament")
+        raise refused(place, "{name} isn't the file of a tournament")
     if version > FORMAT:
         raise refused(
             place,
-            "{name} was written by a newer version of evenbreak, in format {version}, and this one "
-            "knows formats up to {newest}; update evenbreak",
+            "{name} was written by a newer version of evenbreak, in format {version}, "
+            "and this one knows formats up to {newest}. Update evenbreak.",
             version=version,
             newest=FORMAT,
         )
@@ -304,7 +304,7 @@ def _placed(part: Path, place: Path) -> bool:
         try:
             part.rename(place)
         except OSError as error:
-            why = "{name} cannot be written ({error})"
+            why = "{name} can't be written ({error})"
             raise refused(place, why, error=str(error.strerror)) from error
     sync(place.parent)
     return True
@@ -355,5 +355,5 @@ def named(path: str | Path, what: str) -> Iterator[None]:
             what=what,
             why=error.sentence
             if isinstance(error, InputError)
-            else say("does not fit the entries before it"),
+            else say("doesn't fit the entries before it"),
         ) from error

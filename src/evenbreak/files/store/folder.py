@@ -117,13 +117,13 @@ def _when_alone(folder: Path, write: Callable[[Path], None]) -> None:
     try:
         if folder.is_symlink() and not folder.exists():
             raise NotADirectoryError(
-                errno.ENOTDIR, "a link to something that does not exist; name another"
+                errno.ENOTDIR, "a link to something that doesn't exist. Choose another."
             )
         end = time.monotonic() + PATIENCE
         while not _written(folder, write):
             if time.monotonic() > end:
                 raise OSError(
-                    errno.EBUSY, "another run is writing into it; try again when it is done"
+                    errno.EBUSY, "another run is writing into it. Try again when it is done."
                 )
             time.sleep(_PAUSE)
     except OSError as error:
@@ -160,7 +160,7 @@ def _nearest(folder: Path) -> Path:
     if not above.is_dir():
         what = "that" if above == folder else str(above)
         raise NotADirectoryError(
-            errno.ENOTDIR, f"{what} is a file, so no folder can be in it; name another"
+            errno.ENOTDIR, f"{what} is a file, so no folder can be in it. Choose another."
         )
     return above
 
@@ -354,7 +354,7 @@ def recover(folder: Path) -> None:
         with contextlib.suppress(OSError):
             work.rmdir()
     if os.path.lexists(work):
-        raise OSError(errno.EEXIST, f"{WORK} in it was not made by this program; move it away")
+        raise OSError(errno.EEXIST, f"{WORK} in it wasn't made by this program. Move it away.")
 
 
 def _keep_old(folder: Path, entries: Tree) -> list[_Change]:
@@ -364,7 +364,7 @@ def _keep_old(folder: Path, entries: Tree) -> list[_Change]:
     for number, (name, content) in enumerate(entries.items()):
         place = folder / name
         if place.is_dir() and not place.is_symlink():
-            raise IsADirectoryError(errno.EISDIR, f"{name} in it is a folder")
+            raise IsADirectoryError(errno.EISDIR, f"{name} in it's a folder")
         place.parent.mkdir(parents=True, exist_ok=True)
         existed = os.path.lexists(place)
         if existed:

@@ -109,13 +109,15 @@ def _what(kinds: Kinds[Any], at: Any, kind: Any, what: Any, author: Any) -> Any:
     """Return what happened; a page reads all entries again after each new one."""
     for name, column in (("at", at), ("kind", kind), ("what", what), ("author", author)):
         if not isinstance(column, str):
-            raise InputError("{column} is not text", column=name)
+            raise InputError("{column} isn't text", column=name)
     try:
         moment = datetime.fromisoformat(at)
     except ValueError:
         moment = datetime.max
     if moment.tzinfo or not 1970 <= moment.year < 3000:
-        raise InputError("at is {time!r}; give a time such as 2025-03-01T19:30:00", time=at[:40])
+        raise InputError(
+            "at must be a time such as 2025-03-01T19:30:00; you gave {time!r}", time=at[:40]
+        )
     return kinds.read(kind, what)
 
 

@@ -104,18 +104,18 @@ def create_token(path: str | Path, name: str, scope: str, at: str) -> str:
     called = clean_name(name)
     if not is_name(called) or len(called) > _LONGEST:
         what = say("a name of up to {most} letters that can be printed", most=_LONGEST)
-        raise InputError("{name!r} is not {what}", name=name[:_LONGEST], what=what)
+        raise InputError("{name!r} isn't {what}", name=name[:_LONGEST], what=what)
     token = _BEGINS + base64.b32encode(secrets.token_bytes(_BYTES)).decode().lower()
     with changing(path) as base:
         base.execute(_TABLE)
         there = _tokens(base, path)
         if any(one.name.casefold() == called.casefold() for one in there.values()):
             raise InputError(
-                "{name} already has a token; revoke it first, or choose another name",
+                "{name} already has a token. Revoke it first, or choose another name.",
                 name=called,
             )
         if len(there) >= _MOST:
-            raise InputError("there are already {n} tokens; revoke some first", n=_MOST)
+            raise InputError("there are already {n} tokens. Revoke some first.", n=_MOST)
         row = called, scope, _hash(token), at
         base.execute("INSERT INTO token VALUES (?, ?, ?, ?)", row)
     return token
@@ -173,7 +173,7 @@ def _tokens(base: sqlite3.Connection, path: str | Path) -> dict[str, Token]:
     ).fetchall():
         name, scope, hashed, created = row
         if not all(isinstance(one, str) for one in row) or not _SCOPE.fullmatch(scope):
-            raise damaged(path, say("its tokens cannot be read"))
+            raise damaged(path, say("its tokens can't be read"))
         found[hashed] = Token(name, scope, created)
     return found
 

@@ -69,7 +69,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
 
     def write(base: sqlite3.Connection) -> None:
         if len(entries(base, path, TOURNAMENT, _RULES)) != in_place_of:
-            raise refused(path, "{name} is there already; give the new tournament another name")
+            raise refused(path, "{name} already exists. Give the new tournament another name.")
         _clear(base)
         add(base, TOURNAMENT, _RULES, events)
         renew(base, path, {1: state})
@@ -342,7 +342,7 @@ def _refuse_tables(added: Sequence[Event], event: int) -> None:
     tables = ("tables", "labels", "reserved", "streamed", "slower")
     for one in added if event > 1 else ():
         if isinstance(one.what, Changed) and any(getattr(one.what, k) is not None for k in tables):
-            raise InputError("the tables are those of the first event; change them there")
+            raise InputError("the tables are those of the first event. Change them there.")
 
 
 def _strands(base: sqlite3.Connection, path: str | Path, event: int = 1) -> dict[int, list[Event]]:
@@ -354,8 +354,8 @@ def _strands(base: sqlite3.Connection, path: str | Path, event: int = 1) -> dict
         raise refused(path, "{name} has no event {event}", event=event)
     raise refused(
         path,
-        "{name} holds a team night and no tournament; open it with {serve}, or start a "
-        "tournament in it with {new}",
+        "{name} holds a team night and no tournament. Open it with {serve}, or start a "
+        "tournament in it with {new}.",
         serve=Command("serve"),
         new=Command("tournament new"),
     )
@@ -399,7 +399,7 @@ def read_event_list(path: str | Path) -> list[Event]:
             events.append(_RULES.read(at, kind, what, by))
         except (InputError, ValueError) as error:
             why = error.sentence if isinstance(error, InputError) else str(error)
-            problem = say("is not an event of a tournament: {why}", why=why)
+            problem = say("isn't an event of a tournament: {why}", why=why)
             raise refusal(str(path), problem, line) from None
     try:
         state = evening(events)

@@ -201,7 +201,7 @@ class Header:
             elif name in places:
                 problems.add(
                     line,
-                    "columns {title} and {other} both mean {column}; leave one out",
+                    "columns {title} and {other} both mean {column}. Leave one out.",
                     title=quoted(titles[places[name]]),
                     other=quoted(title),
                     column=name,
@@ -211,7 +211,8 @@ class Header:
         if not places and any(_NUMBER.fullmatch(title.strip()) for title in titles):
             problems.add(
                 line,
-                "{titles} are not names of columns; write a header line above, such as {header}",
+                "the first line, {titles}, doesn't name columns. It must have {header} in a file "
+                "of this kind.",
                 titles=quoted_list(titles),
                 header=",".join(self.required),
             )
@@ -221,7 +222,7 @@ class Header:
             if name not in places and not self._maybe:
                 problems.add(
                     line,
-                    "there is no column {title} among {titles}; correct {columns}",
+                    "there's no column {title} among {titles}. Correct {columns}.",
                     title=quoted(called),
                     titles=among,
                     columns=Parameter("columns"),
@@ -230,10 +231,10 @@ class Header:
         if len(missing) == 1 and self._hint is None:
             problems.add(line, missing_column(missing[0], self.required[missing[0]], among))
         elif missing:
-            remedy = say("add them") if self._hint is None else self._hint(places, titles, sample)
+            remedy = say("Add them.") if self._hint is None else self._hint(places, titles, sample)
             problem = say_count(
-                "there is no column {missing} among {titles}; {remedy}",
-                "there are no columns {missing} among {titles}; {remedy}",
+                "there's no column {missing} among {titles}. {remedy}",
+                "there are no columns {missing} among {titles}. {remedy}",
                 len(missing),
                 missing=listed(list(map(repr, missing))),
                 titles=among,
@@ -270,12 +271,12 @@ def missing_column(name: str, aliases: Sequence[str], titles: str = "") -> Sente
     """Return what to say of a missing column, and what else it may be called.
 
     >>> missing_column("rating", ["points"], "'name', 'club'")
-    "there is no column 'rating' among 'name', 'club'; add it (it may also be called 'points')"
+    "there's no column 'rating' among 'name', 'club'. Add it (it may also be called 'points')."
     """
-    lacks = say("there is no column {column!r}", column=name)
+    lacks = say("there's no column {column!r}", column=name)
     if titles:
         lacks = say("{lacks} among {titles}", lacks=lacks, titles=titles)
     if not aliases:
-        return say("{lacks}; add it", lacks=lacks)
+        return say("{lacks}. Add it.", lacks=lacks)
     also = listed(list(map(quoted, aliases[:3])), "or")
-    return say("{lacks}; add it (it may also be called {also})", lacks=lacks, also=also)
+    return say("{lacks}. Add it (it may also be called {also}).", lacks=lacks, also=also)

@@ -83,8 +83,8 @@ class Name(Column):
         if len(name) <= LONGEST_NAME:
             return super().fault(text)
         return say(
-            "{name} has {n:,} letters; write a name of up to {most}, and look for a missing "
-            "quotation mark",
+            "{name} has {n:,} letters. Write a name of up to {most}, and look for a "
+            "missing quotation mark.",
             name=quoted(name),
             n=len(name),
             most=LONGEST_NAME,
@@ -113,7 +113,7 @@ def hidden_letter_warnings(table: TextTable, columns: Sequence[str]) -> list[str
         warning(
             table.source,
             None,
-            "{text} has letters that cannot be seen; it is read as {name}",
+            "{text} has letters that can't be seen; it's read as {name}",
             text=quoted(text),
             name=quoted(clean_name(text)),
         )
@@ -208,8 +208,8 @@ class PlayerNames:
         for row in np.flatnonzero(wrong):
             table.note(
                 row,
-                "{column} {cell} is neither of the two players; write a, b or one of the two "
-                "names, or leave it empty",
+                "{column} {cell} is neither of the two players. Write a, b or one of the "
+                "two names, or leave it empty.",
                 column=name,
                 cell=quoted(distinct[codes[row]]),
             )

@@ -34,8 +34,12 @@ from evenbreak.files.tables.problems import (
 from evenbreak.words import say_count
 
 MAGIC = {
-    b"\xd0\xcf\x11\xe0": "an old or locked Excel workbook; save it as .xlsx without a password",
-    b"%PDF": "a PDF document; save it as CSV, in UTF-8",
+    b"\xd0\xcf\x11\xe0": "an old or locked Excel workbook. Save it as .xlsx without a password.",
+    b"%PDF": "a PDF document. Save the table as CSV or .xlsx.",
+    b"\x89PNG": "a picture. Save the table as CSV or .xlsx.",
+    b"\xff\xd8\xff": "a picture. Save the table as CSV or .xlsx.",
+    b"<!DOCTYPE": "a web page. Save the table as CSV or .xlsx.",
+    b"<html": "a web page. Save the table as CSV or .xlsx.",
 }
 
 
@@ -90,7 +94,7 @@ def table_content(path: str | Path) -> tuple[str, Content]:
     """Return the same of a file that may be larger than what is held in memory."""
     if str(path) == "-":
         if sys.stdin is None:
-            raise refusal("stdin", "is closed; name a file, or pipe one into the command")
+            raise refusal("stdin", "is closed. Name a file, or pipe one into the command.")
         return "stdin", _no_larger(sys.stdin.buffer.read(MOST_BYTES + 1), "stdin")
     source = printable(str(path))
     try:
@@ -101,12 +105,12 @@ def table_content(path: str | Path) -> tuple[str, Content]:
                 return source, Path(path)
             content = file.read(MOST_BYTES + 1)
     except FileNotFoundError:
-        raise refusal(source, "there is no such file; check its name") from None
+        raise refusal(source, "there's no such file. Check its name.") from None
     except IsADirectoryError:
-        raise refusal(source, "is a folder; name a file in it") from None
+        raise refusal(source, "is a folder. Name a file in it.") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise refusal(source, "cannot be read ({reason}); check the file", reason=reason) from None
+        raise refusal(source, "can't be read ({reason}). Check the file.", reason=reason) from None
     return source, _no_larger(content, source)
 
 
@@ -119,7 +123,7 @@ def _no_larger(content: bytes, source: str) -> bytes:
 def _too_large(source: str) -> DataError:
     return refusal(
         source,
-        "is larger than {most} MB; name a table saved as CSV, which may be larger, or split it up",
+        "is larger than {most} MB. Name a table saved as CSV, which may be larger, or split it up.",
         most=MOST_BYTES >> 20,
     )
 
@@ -173,24 +177,24 @@ def text_of(content: Content, source: str) -> Text:
         encoding = "utf-16"
         wrong, nul, blank = _looked_through(content, encoding)
         if wrong:
-            raise refusal(source, "is damaged UTF-16 text; save the file again, in UTF-8")
+            raise refusal(source, "is damaged UTF-16 text. Save the file again, in UTF-8.")
     else:
         encoding = "utf-8-sig"
         wrong, nul, blank = _looked_through(content, encoding)
     if nul:
-        raise refusal(source, "holds a NUL byte; save the file as CSV, in UTF-8", nul)
+        raise refusal(source, "holds a NUL byte. Save the file as CSV, in UTF-8.", nul)
     warnings: list[str] = []
     if wrong:
         # After the mark of UTF-8 a byte that is not UTF-8 is damage, not another encoding.
         encoding = "ascii" if head.startswith(codecs.BOM_UTF8) else "cp1252"
         also, _, blank = _looked_through(content, encoding)
         if also:
-            raise refusal(source, "is neither UTF-8 nor Windows-1252 text; save it as UTF-8", also)
+            raise refusal(source, "is neither UTF-8 nor Windows-1252 text. Save it as UTF-8.", also)
         warnings = [
-            form_warning(source, wrong, "is not UTF-8; read as Windows-1252, so check the accents")
+            form_warning(source, wrong, "isn't UTF-8. Read as Windows-1252, so check the accents.")
         ]
     if blank:
-        raise refusal(source, "is empty; write a header line, then one line for each row")
+        raise refusal(source, "is empty. Write a header line, then one line for each row.")
     return Text(content, encoding, warnings)
 
 
@@ -330,12 +334,12 @@ def sheets_of(content: bytes, source: str) -> list[Sheet]:
     except (subprocess.SubprocessError, MemoryError):
         answer = {"problem": workbook.TOO_MUCH}
     except OSError as error:
-        answer = {"problem": f"cannot be read now ({error.strerror}); try again"}
+        answer = {"problem": f"can't be read now ({error.strerror}). Try again."}
     if "problem" in answer:
         raise refusal(source, answer["problem"])
     sheets = [Sheet(*sheet) for sheet in answer["sheets"] if sheet[2]]
     if not sheets:
-        raise refusal(source, "has no sheet with anything in it; write a header and rows")
+        raise refusal(source, "has no sheet with anything in it. Write a header and rows.")
     return sheets
 
 

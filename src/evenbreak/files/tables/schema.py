@@ -94,10 +94,10 @@ class Column:
         """How to correct a cell."""
         it = self.write or self.usual
         if self.filled or self.empty is None:
-            return say("write {it}", it=it)
+            return say("Write {it}.", it=it)
         if not self.empty:
-            return say("write {it}, or leave it empty", it=it)
-        return say("write {it}, or leave it empty {meaning}", it=it, meaning=self.empty)
+            return say("Write {it}, or leave it empty.", it=it)
+        return say("Write {it}, or leave it empty {meaning}.", it=it, meaning=self.empty)
 
     def called(self, also: str, about: str = "", **changes: Any) -> Self:
         """Return a column whose cells mean the same, with other names."""
@@ -110,9 +110,9 @@ class Column:
     def fault(self, text: str) -> str:
         """Return what is wrong with a cell that has no meaning, and what to do."""
         if not text:
-            return say("is empty; {remedy}", remedy=self.remedy)
+            return say("is empty. {remedy}", remedy=self.remedy)
         return say(
-            "{cell} is not {wanted}; {remedy}",
+            "{cell} isn't {wanted}. {remedy}",
             cell=quoted(text),
             wanted=self.wanted,
             remedy=self.remedy,
@@ -133,8 +133,8 @@ class Column:
         >>> table.problems.raise_any()
         Traceback (most recent call last):
         ...
-        evenbreak.errors.DataError: r.csv:3: score 'seven' is not a whole number from 0 to
-        1,000,000; write 0, 1, 2, ...
+        evenbreak.errors.DataError: r.csv:3: score 'seven' isn't a whole number from 0 to 1,000,000.
+            Write 0, 1, 2, ....
         """
         distinct, codes = table.columns[name]
         stated = np.array([bool(text) for text in distinct], dtype=bool)
@@ -234,7 +234,7 @@ class Number(Column):
             number = float(text.replace(",", "."))
             table.note(
                 row,
-                "{column} {cell} may mean {thousands:.0f} or {number:g}; write the one you mean",
+                "{column} {cell} may mean {thousands:.0f} or {number:g}. Write the one you mean.",
                 column=name,
                 cell=quoted(text),
                 thousands=1000 * number,

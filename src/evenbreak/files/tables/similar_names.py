@@ -90,14 +90,14 @@ def similar_name_warnings(
 ) -> list[str]:
     """Return a warning for each group of names in a file that may mean one player, or team.
 
-    >>> similar_name_warnings([("CY", "Cy")], "r.csv", "if so, keep one of them")
-    ["r.csv: 'CY' and 'Cy' may be one player; if so, keep one of them"]
+    >>> similar_name_warnings([("CY", "Cy")], "r.csv", "If so, keep one of them.")
+    ["r.csv: 'CY' and 'Cy' may be one player. If so, keep one of them."]
     """
     warnings = [
         warning(
             source,
             None,
-            "{names} may be one {kind}; {remedy}",
+            "{names} may be one {kind}. {remedy}",
             names=listed(list(map(quoted, group))),
             kind=of,
             remedy=remedy,

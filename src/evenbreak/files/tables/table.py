@@ -225,7 +225,7 @@ def read_table(
     titles, line, body, unreadable, warnings, sample = table_rows(content, source, header, exported)
     if not titles:
         _add_unreadable(unreadable, problems)
-        problems.add(None, "has no rows; write a header line, then one line for each row")
+        problems.add(None, "has no rows. Write a header line, then one line for each row.")
         problems.raise_any()
     places, unused = header.places(titles, line, problems, sample)
     if unused:
@@ -235,8 +235,8 @@ def read_table(
     row_lines, columns = _columns(body, len(titles), places, misfits)
     if len(misfits) >= ENOUGH_ROWS and not len(row_lines):
         problem = say(
-            "none of the {n:,} rows below has the {width} cells of this header; correct it, or "
-            "quote cells that hold the separator",
+            "none of the {n:,} rows below has the {width} cells of this header. Correct "
+            "it, or quote cells that hold the separator.",
             n=len(misfits),
             width=len(titles),
         )
@@ -245,7 +245,7 @@ def read_table(
         problems.include(misfits)
     _add_unreadable(unreadable, problems)
     if rows and not len(row_lines) and not len(problems):
-        problems.add(None, "has no {rows} below its header; write one line for each", rows=rows)
+        problems.add(None, "has no {rows} below its header. Write one line for each.", rows=rows)
     absent = Texts([""], np.zeros(len(row_lines), dtype=np.int64))
     return TextTable(
         source,
@@ -263,7 +263,7 @@ def read_table(
 def _add_unreadable(lines: list[int], problems: Problems) -> None:
     for line in lines:
         problems.add(
-            line, 'cannot be split into cells; close every " and write "" for one in a cell'
+            line, 'can\'t be split into cells. Close every " and write "" for one in a cell.'
         )
 
 
@@ -296,10 +296,10 @@ def _fits(line: int, row: list[str], width: int, problems: Problems) -> bool:
         return True
     if "".join(row).strip():
         problem = say_count(
-            "has {n} cell, but the header has {width}; add what is missing, or quote cells that "
-            "hold the separator",
-            "has {n} cells, but the header has {width}; add what is missing, or quote cells that "
-            "hold the separator",
+            "has {n} cell, but the header has {width}. Add what is missing, or quote "
+            "cells that hold the separator.",
+            "has {n} cells, but the header has {width}. Add what is missing, or quote "
+            "cells that hold the separator.",
             len(row),
             width=width,
         )

@@ -37,9 +37,9 @@ _CELL = re.compile(r"([A-Za-z]{1,3})([0-9]{1,7})", re.ASCII)
 _NUMBER = re.compile(r"[0-9]{1,7}", re.ASCII)
 _DAMAGE = (zipfile.BadZipFile, zlib.error, EOFError, ValueError, RuntimeError, OSError)
 
-UNREADABLE = "cannot be read as a workbook; save it again as .xlsx or .ods, or as CSV"
-TOO_MUCH = "needs too much memory or time to be read; save the table as CSV"
-_FAR = "has cells far away from the others; delete them"
+UNREADABLE = "can't be read as a workbook. Save it again as .xlsx or .ods, or as CSV."
+TOO_MUCH = "needs too much memory or time to be read. Save the table as CSV."
+_FAR = "has cells far away from the others. Delete them."
 
 
 class UnreadableError(Exception):
@@ -81,12 +81,12 @@ def _look_through(content: bytes) -> None:
             names, size = {part.filename for part in parts}, sum(part.file_size for part in parts)
             if "content.xml" not in names and "[Content_Types].xml" not in names:
                 raise UnreadableError(
-                    "is a zip archive, but no .xlsx or .ods workbook; save it as CSV"
+                    "is a zip archive, but no .xlsx or .ods workbook. Save it as CSV."
                 )
             if "xl/workbook.bin" in names:
-                raise UnreadableError("is a binary workbook (.xlsb); save it as .xlsx or as CSV")
+                raise UnreadableError("is a binary workbook (.xlsb). Save it as .xlsx or as CSV.")
             if size > MOST_BYTES:
-                raise UnreadableError(f"holds {size:,} bytes once unpacked; save the table as CSV")
+                raise UnreadableError(f"holds {size:,} bytes once unpacked. Save the table as CSV.")
             for part in parts:
                 with archive.open(part) as file:
                     _look_at(file, lenient=part.filename.lower().endswith(".vml"))

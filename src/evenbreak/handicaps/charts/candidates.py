@@ -66,8 +66,8 @@ class Candidates:
         )
         if m.size * (last + 1) > _MOST_CELLS:
             raise InputError(
-                "{races} races at {differences} differences are too many to try; narrow {games}, "
-                "raise {weaker_least}, or lower {up_to}",
+                "{races} races at {differences} differences are too many to try. Narrow "
+                "{games}, raise {weaker_least}, or lower {up_to}.",
                 races=m.size,
                 differences=last + 1,
                 games=Parameter("games"),
@@ -118,8 +118,9 @@ class Candidates:
         cells = self.m.size * self.points.size
         if most * cells > _MOST_CELLS_IN_ROWS:
             raise InputError(
-                "{rows} is {most}, and {races} races at {differences} differences are too many to "
-                "try for each number of rows; narrow {games}, lower {rows} or {up_to}",
+                "{rows} is {most}, and {races} races at {differences} differences are "
+                "too many to try for each number of rows. Narrow {games}, lower {rows} "
+                "or {up_to}.",
                 rows=Parameter("rows"),
                 most=most,
                 races=self.m.size,
@@ -148,8 +149,9 @@ class Candidates:
         if not short.any(axis=0).all() or not short[: self.evens, 0].any():
             nowhere = int(self.points[~short.any(axis=0)][0]) if short[: self.evens, 0].any() else 0
             raise NoChartError(
-                "{games_p90} is {games}, but at a difference of {nowhere} no allowed race ends "
-                "within that in 9 of 10 matches; give more, or allow shorter races",
+                "{games_p90} is {games}, but at a difference of {nowhere} no allowed "
+                "race ends within that in 9 of 10 matches. Give more, or allow shorter "
+                "races.",
                 games_p90=Parameter("games_p90"),
                 games=games,
                 nowhere=nowhere,
@@ -205,8 +207,8 @@ def cheapest_path(cost: Floats, evens: int, rows: int | None = None) -> Ints:
     if not np.isfinite(best[-1, left, here]):
         more = "more races" if rows is None else "more races, or more rows"
         raise NoChartError(
-            "no chart within these limits has races that get harder as the difference grows; "
-            "allow longer matches or {more}",
+            "no chart within these limits has races that get harder as the difference "
+            "grows. Allow longer matches or {more}.",
             more=more,
         )
     for d in range(differences - 1, 0, -1):
@@ -241,7 +243,7 @@ def similar_limits(limits: RaceLimits, spread: Any) -> list[RaceLimits]:
             continue
     if not groups:
         raise InputError(
-            "{spread} is {value}, which leaves no even race; give 1 or more", value=spread
+            "{spread} is {value}, which leaves no even race. Give 1 or more.", value=spread
         )
     return groups
 

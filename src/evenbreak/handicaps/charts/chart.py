@@ -62,44 +62,45 @@ def row_faults(rows: Sequence[ChartRow]) -> Iterator[tuple[int, str]]:
     >>> rows = [ChartRow(0, 9, 3, 3), ChartRow(12, None, 4, 3)]
     >>> for place, fault in row_faults(rows):
     ...     print(place, fault)
-    1 row 2 begins at 12, but row 1 ends at 9; begin it at 10
+    1 row 2 starts at 12, but row 1 ends at 9. Start it at 10.
     """
     first, last = rows[0], rows[-1]
     if first.difference_from != 0:
-        yield 0, f"row 1 begins at {first.difference_from}; a chart must begin at 0"
+        yield 0, f"row 1 must start at 0; it starts at {first.difference_from}"
     if first.stronger_needs != first.weaker_needs:
         yield (
             0,
-            f"row 1 is a race {first.stronger_needs}:{first.weaker_needs}; give an even race, "
-            "since at a difference of 0 neither player is the stronger",
+            f"row 1 is a race {first.stronger_needs}:{first.weaker_needs}. Give an even "
+            "race, since at a difference of 0 neither player is the stronger.",
         )
     for place, row in enumerate(rows):
         if row.difference_to is not None and row.difference_to < row.difference_from:
             yield (
                 place,
-                f"difference_to of row {place + 1} is {row.difference_to}; give "
-                f"{row.difference_from} or more",
+                f"difference_to of row {place + 1} must be {row.difference_from} or more; "
+                f"you gave {row.difference_to}",
             )
         if place and row.stronger_needs < row.weaker_needs:
             yield (
                 place,
-                f"stronger_needs of row {place + 1} is {row.stronger_needs}; give "
-                f"{row.weaker_needs} or more, since the stronger player never needs fewer games",
+                f"stronger_needs of row {place + 1} must be {row.weaker_needs} or more, "
+                "since the stronger player never needs fewer games; you gave "
+                f"{row.stronger_needs}",
             )
     for place, (row, after) in enumerate(pairwise(rows), 1):
         if row.difference_to is None:
-            yield place - 1, f"row {place} is open-ended but not the last row; give its end"
+            yield place - 1, f"row {place} is open-ended but not the last row. Give its end."
         elif after.difference_from != row.difference_to + 1:
             yield (
                 place,
-                f"row {place + 1} begins at {after.difference_from}, but row {place} ends at "
-                f"{row.difference_to}; begin it at {row.difference_to + 1}",
+                f"row {place + 1} starts at {after.difference_from}, but row {place} ends "
+                f"at {row.difference_to}. Start it at {row.difference_to + 1}.",
             )
     if last.difference_to is not None:
         yield (
             len(rows) - 1,
-            f"the last row ends at {last.difference_to}; leave its end out, since a chart covers "
-            "all larger differences too",
+            f"the last row ends at {last.difference_to}. Leave its end out, since a chart "
+            "covers all larger differences too.",
         )
 
 
@@ -160,7 +161,7 @@ class Chart:
     def __post_init__(self) -> None:
         rows = [_checked(row, f"row {i}") for i, row in enumerate(_rows(self.rows), 1)]
         if not rows:
-            raise InputError("rows is empty; give a row for each range of differences")
+            raise InputError("rows must not be empty. Give a row for each range of differences.")
         for _, fault in row_faults(rows):
             raise InputError(fault)
         object.__setattr__(self, "rows", tuple(rows))
@@ -186,8 +187,8 @@ class Chart:
         >>> chart("npl_10").race(5.5)
         Traceback (most recent call last):
         ...
-        evenbreak.errors.InputError: difference is 5.5; give whole points (round the two
-        ratings before you subtract them)
+        evenbreak.errors.InputError: difference must be whole points (round the two ratings before
+            you subtract them); you gave 5.5
         """
         points = whole(difference, "difference", at_least=None, wanted=_WHOLE_POINTS)
         m, n = self.races(points)
@@ -224,8 +225,8 @@ def _rows(rows: Iterable[Iterable[Any]]) -> list[ChartRow]:
         return [ChartRow(*row) for row in rows]
     except TypeError:
         raise InputError(
-            "{rows} is {value!r}; give rows of four: difference_from, difference_to, "
-            "stronger_needs, weaker_needs",
+            "{rows} must be rows of four: difference_from, difference_to, "
+            "stronger_needs, weaker_needs; you gave {value!r}",
             value=rows,
         ) from None
 
@@ -262,7 +263,7 @@ def chart(name: str) -> Chart:
     """
     if name not in list(CHARTS):
         raise InputError(
-            "chart is {name!r}; give one of {charts}", name=name, charts=", ".join(CHARTS)
+            "chart must be one of {charts}; you gave {name!r}", name=name, charts=", ".join(CHARTS)
         )
     return _read(name)
 

@@ -87,8 +87,8 @@ def chart_of(chart_or_name: Any) -> Chart:
     >>> chart_of("apa_8ball")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: chart is 'apa_8ball', a chart by skill level; give a chart by
-    rating difference: fargo_r6_hot, npl_8, npl_10, npl_12, npl_20, or a Chart of your own
+    evenbreak.errors.InputError: chart must be a chart by rating difference: fargo_r6_hot, npl_8,
+        npl_10, npl_12, npl_20, or a Chart of your own; you gave 'apa_8ball', a chart by skill level
     """
     return _found(chart_or_name, Chart)
 
@@ -150,7 +150,7 @@ def _found(wanted: Any, cls: type[AnyChart]) -> AnyChart:
     )
     shown = wanted.name if isinstance(wanted, Chart | LevelChart | PointsChart) else wanted
     raise InputError(
-        "chart is {shown!r}{others}; give {words}: {names}, or a {name} of your own",
+        "chart must be {words}: {names}, or a {name} of your own; you gave {shown!r}{others}",
         shown=shown,
         others="".join(others),
         words=kind.words,

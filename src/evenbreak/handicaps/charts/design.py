@@ -160,8 +160,8 @@ def fixed_length_chart(games: Any, scale: Any = DEFAULT_SCALE) -> Chart:
     longest = whole(games, "games", at_least=1, at_most=_LONGEST)
     if longest % 2 == 0:
         raise InputError(
-            "{games} is {longest}, which leaves no even race for equal players; give {fewer} "
-            "or {more}",
+            "{games} is {longest}, which leaves no even race for equal players. Give "
+            "{fewer} or {more}.",
             longest=longest,
             fewer=longest - 1,
             more=longest + 1,

@@ -127,9 +127,9 @@ def fair_races(
     """
     rack = rack if isinstance(rack, Rack) else Rack(rack)
     if not isinstance(rack.p1, float) or not isinstance(rack.p2, (float, type(None))):
-        raise InputError("rack holds arrays; give one number for each chance")
+        raise InputError("rack holds arrays. Give one number for each chance.")
     if rack.break_matters and breaks is None:
-        raise InputError("breaks is missing: with p2 the break matters; give winner_breaks, ...")
+        raise InputError("breaks is missing: with p2 the break matters. Give winner_breaks, ...")
     one_of(first_breaker, "first_breaker", (1, 2))
     target, top = probability(target, "target"), whole(top, "top", at_least=1)
     low, high = longest_matches(games, race_to)
@@ -183,7 +183,7 @@ def longest_matches(games: tuple[int, int] | None, race_to: int | None) -> tuple
     """
     if (games is None) == (race_to is None):
         raise InputError(
-            "{games} is {value!r} and race_to is {race_to!r}; give exactly one of them",
+            "{games} is {value!r} and race_to is {race_to!r}. Give exactly one of them.",
             value=games,
             race_to=race_to,
         )
@@ -265,10 +265,10 @@ def games_range(games: Any) -> tuple[int, int]:
     (5, 7)
     """
     if not isinstance(games, tuple | list) or len(games) != 2:
-        raise InputError("{games} is {value!r}; give the pair (lo, hi)", value=games)
+        raise InputError("{games} is {value!r}. Give the pair (lo, hi).", value=games)
     low, high = (whole(limit, "games", at_least=1) for limit in games)
     if low > high:
-        raise InputError("{games} is {value!r}; give the smaller number first", value=games)
+        raise InputError("{games} is {value!r}. Give the smaller number first.", value=games)
     return low, high
 
 
@@ -314,8 +314,8 @@ class RaceLimits:
         if max(least, (low + 2) // 2) > (high + 1) // 2:
             shortest = max(2 * least - 1, low + 1 - low % 2)
             raise InputError(
-                "{games} is {low}..{high}, which leaves no even race to {least} or more; give a "
-                "second number of {shortest} or more",
+                "{games} is {low}..{high}, which leaves no even race to {least} or more. "
+                "Give a second number of {shortest} or more.",
                 games=Parameter("games"),
                 low=low,
                 high=high,

@@ -220,7 +220,7 @@ class Gap:
         difference = self._of_one_pair()
         if match.break_matters:
             raise InputError(
-                "the break matters in the match, but ratings do not say who breaks well"
+                "the break matters in the match, but ratings don't say who breaks well"
             )
         if not self.error and not self.form:
             return match_odds(with_rack(match, Rack(self.scale.win_probability(difference))))
@@ -232,7 +232,7 @@ class Gap:
     def _of_one_pair(self) -> float:
         if self.difference.ndim:
             raise InputError(
-                "difference has shape {shape}; give a single number, the difference of one pair",
+                "difference must be a single number, that of one pair; its shape is {shape}",
                 shape=self.difference.shape,
             )
         return float(self.difference)
@@ -336,8 +336,8 @@ class Gap:
         else:
             if (many := (high * (high + 1) - low * (low - 1)) // 2) > MOST_RACES:
                 raise InputError(
-                    "games {low}..{high} offers {many:,} races, and {most_races:,} are the "
-                    "most; give fewer games",
+                    "games {low}..{high} offers {many:,} races, and {most_races:,} are "
+                    "the most. Give fewer games.",
                     low=low,
                     high=high,
                     many=many,

@@ -40,7 +40,7 @@ def lawful_chart(chart: Any) -> AnyChart:
     """Return a chart that breaks no law, or refuse it by the first that it breaks."""
     if not isinstance(chart, Chart | LevelChart | PointsChart):
         raise InputError(
-            "it is of the type {type}; let it be a Chart, a LevelChart or a PointsChart",
+            "it is of the type {type}. Let it be a Chart, a LevelChart or a PointsChart.",
             type=type(chart).__name__,
         )
     return cast("AnyChart", lawful(chart, broken_chart_laws(chart)))
@@ -60,7 +60,7 @@ def _races_are_turned_round(chart: AnyChart) -> Iterator[str]:
         seen = [(chart.race(one, other), chart.race(other, one)) for one, other in pairs]
     for pair, (race, turned) in zip(pairs, seen, strict=True):
         if race != turned[::-1]:
-            yield f"the race at {pair[0]} is {race}, but {turned} at {pair[1]}; turn it round"
+            yield f"the race at {pair[0]} is {race}, but {turned} at {pair[1]}. Turn it round."
 
 
 def _races_get_harder(chart: AnyChart) -> Iterator[str]:

@@ -51,7 +51,7 @@ class LevelChart:
     def __post_init__(self) -> None:
         levels = increasing(self.levels, "level")
         if not levels:
-            raise InputError("levels is empty; give the skill levels of the chart")
+            raise InputError("levels must not be empty. Give the skill levels of the chart.")
         object.__setattr__(self, "levels", levels)
         object.__setattr__(self, "needs", _needs(self.needs, levels))
 
@@ -73,7 +73,7 @@ class LevelChart:
         >>> level_chart("apa_8ball").race(1, 3)
         Traceback (most recent call last):
         ...
-        evenbreak.errors.InputError: level_1 is 1; give a level of the chart: 2, 3, 4, 5, 6, 7
+        evenbreak.errors.InputError: level_1 must be a level of the chart: 2, 3, 4, 5, 6, 7; it is 1
         """
         wanted = self._wanted
         mine = whole(level_1, "level_1", at_least=None, wanted=wanted)
@@ -121,7 +121,7 @@ class LevelChart:
         if wrong.any():
             held = f"holds {array[wrong].flat[0]:g}" if array.ndim else f"is {levels!r}"
             raise InputError(
-                "{name} {held}; give {wanted}", name=name, held=held, wanted=self._wanted
+                "{name} must be {wanted}; it {held}", name=name, held=held, wanted=self._wanted
             )
         return place
 
@@ -131,8 +131,8 @@ def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
     rows = [tuple(row) if hasattr(row, "__iter__") else () for row in needs]
     if len(rows) != len(levels) or any(len(row) != len(levels) for row in rows):
         raise InputError(
-            "{needs} is not a square for {n_levels} levels; give a row for each level, with "
-            "the games needed against each level",
+            "{needs} isn't a square for {n_levels} levels. Give a row for each level, "
+            "with the games needed against each level.",
             n_levels=len(levels),
         )
     square = tuple(
@@ -175,7 +175,7 @@ def level_chart(name: str) -> LevelChart:
     """
     if name not in list(LEVEL_CHARTS):
         raise InputError(
-            "level chart is {name!r}; give {level_charts}",
+            "level chart must be {level_charts}; you gave {name!r}",
             name=name,
             level_charts=" or ".join(LEVEL_CHARTS),
         )
@@ -230,7 +230,7 @@ class PointsChart:
         points = increasing(self.points, "points", at_least=1)
         if not levels or len(levels) != len(points):
             raise InputError(
-                "there are {n_levels} levels and {n_points} points; give one for each",
+                "there are {n_levels} levels and {n_points} points. Give one for each.",
                 n_levels=len(levels),
                 n_points=len(points),
             )
@@ -255,7 +255,7 @@ class PointsChart:
         number = whole(level, name, at_least=None, wanted=wanted)
         if number not in self.levels:
             raise InputError(
-                "{name} is {level!r}; give {wanted}", name=name, level=level, wanted=wanted
+                "{name} must be {wanted}; you gave {level!r}", name=name, level=level, wanted=wanted
             )
         return self.points[self.levels.index(number)]
 
@@ -280,7 +280,7 @@ def points_chart(name: str) -> PointsChart:
     """
     if name not in list(POINTS_CHARTS):
         raise InputError(
-            "chart of points is {name!r}; give {points_charts}",
+            "chart of points must be {points_charts}; you gave {name!r}",
             name=name,
             points_charts=" or ".join(POINTS_CHARTS),
         )

@@ -52,7 +52,7 @@ def loser_share(level: Any, points: Any) -> int:
     needs, _ = points_chart("apa_9ball").race(level, level)
     made = whole(points, "points", wanted=f"0 to {needs - 1}")
     if made >= needs:
-        raise InputError("points is {made}; give 0 to {most}", made=made, most=needs - 1)
+        raise InputError("points must be 0 to {most}; you gave {made}", made=made, most=needs - 1)
     limits = next(row[1:] for row in catalog_rows("apa_9ball_shares") if row[0] == level)
     return int(np.searchsorted(limits, made))
 

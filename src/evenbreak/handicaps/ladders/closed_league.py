@@ -85,7 +85,7 @@ class ClosedPair:
         object.__setattr__(self, "skill_difference", float(self.skill_difference))
         if not np.isfinite(self.skill_difference):
             raise InputError(
-                "{skill_difference} is {value!r}; give a finite number of points",
+                "{skill_difference} must be a finite number of points; you gave {value!r}",
                 value=self.skill_difference,
             )
         begun = error_on(self.table.widest, self.start, "rating difference")
@@ -111,7 +111,7 @@ class ClosedPair:
         size = self.table.widest
         if not -size <= state <= size:
             raise InputError(
-                "{state} is {value!r}; give a rating difference from {size} to {size_2}",
+                "{state} must be a rating difference from {size} to {size_2}; you gave {value!r}",
                 value=state,
                 size=-size,
                 size_2=size,
@@ -149,8 +149,8 @@ class ClosedPair:
         """
         if not self.system.conserving:
             raise InputError(
-                "{system} is {name}, under which the sum of two ratings changes; use law(), "
-                "the distribution of their difference",
+                "{system} is {name}, under which the sum of two ratings changes. Use "
+                "law(), the distribution of their difference.",
                 name=self.system.name,
             )
         law = self.law()
@@ -198,8 +198,8 @@ def in_step_law(
     unit = int(np.gcd.reduce(steps))
     if not by.conserving or unit == 0 or not (steps // unit % 2).all():
         raise InputError(
-            "{system} is {by}, whose players do not stay in step; give one that moves both "
-            "players of a match by the same odd number of points, or use a Ladder",
+            "{system} is {by}, whose players don't stay in step. Give one that moves "
+            "both players of a match by the same odd number of points, or use a Ladder.",
             by=by.name,
         )
     chances = table.chances(0.5)
@@ -218,5 +218,5 @@ def in_step_law(
             return Distribution(tuple(errors.tolist()), tuple(after.tolist()))
         law = after
     raise AccuracyError(
-        "the errors still change after {rounds} rounds; give another chart", rounds=_ROUNDS
+        "the errors still change after {rounds} rounds. Give another chart.", rounds=_ROUNDS
     )

@@ -62,7 +62,7 @@ class ErrorWalk:
         half = len(self.kernel) // 2
         if not -half <= state <= half:
             raise InputError(
-                "{state} is {value!r}; give a rating error from {half} to {half_2}",
+                "{state} must be a rating error from {half} to {half_2}; you gave {value!r}",
                 value=state,
                 half=-half,
                 half_2=half,
@@ -149,8 +149,8 @@ class RatingLadder(ErrorWalk):
         wins = number_probabilities(self.wins, "wins", "win chance")
         if len(wins) < 3 or len(wins) % 2 == 0:
             raise InputError(
-                "{wins} has {n_wins} chances; give one for each error from -widest to "
-                "widest, an odd number, three or more",
+                "{wins} must have one chance for each error from -widest to widest, an "
+                "odd number, three or more; it has {n_wins}",
                 n_wins=len(wins),
             )
         object.__setattr__(self, "wins", wins)
@@ -199,7 +199,7 @@ def long_run_law(steps: Ints, kernel: Floats) -> Floats:
 
 
 def _no_moves() -> InputError:
-    return InputError("no match moves a rating; give a system that moves them by whole points")
+    return InputError("no match moves a rating. Give a system that moves them by whole points.")
 
 
 def _law_of_class(steps: Ints, kernel: Floats) -> Floats:

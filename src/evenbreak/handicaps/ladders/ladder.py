@@ -133,7 +133,8 @@ class Ladder(ErrorWalk):
         by, chart = _system_and_chart(system, chart)
         if not isinstance(opponents, Opponents):
             raise InputError(
-                "opponents is {opponents!r}; give Opponents, such as NATURAL", opponents=opponents
+                "opponents must be Opponents, such as NATURAL; you gave {opponents!r}",
+                opponents=opponents,
             )
         doubling = by.scale.points_per_doubling
         if doubling < 1.0:
@@ -144,7 +145,8 @@ class Ladder(ErrorWalk):
             )
         if opponents.farthest > _MOST_SPREAD * doubling:
             raise InputError(
-                "spread of the opponents goes to {farthest} points; give {most_spread:.0f} or less",
+                "spread of the opponents goes to {farthest} points. Give "
+                "{most_spread:.0f} or less.",
                 farthest=opponents.farthest,
                 most_spread=_MOST_SPREAD * doubling,
             )
@@ -223,9 +225,9 @@ class Ladder(ErrorWalk):
         held = _at_the_ends(law)
         if held > _MOST_HELD:
             raise AccuracyError(
-                "the rating error is at the ends of the ladder, {widest} points off, with a "
-                "chance of {held:.2g}: the steps do not keep up with what drives it away, or "
-                "the ladder is too narrow; give {self}",
+                "the rating error is at the ends of the ladder, {widest} points off, "
+                "with a chance of {held:.2g}: the steps don't keep up with what drives "
+                "it away, or the ladder is too narrow. Give {self}.",
                 widest=self.widest,
                 held=held,
                 self=_remedy(self),
@@ -299,8 +301,8 @@ def _usual_width(
     """Return the narrowest usual width with next to nothing at its ends."""
     if _same_everywhere(system, chart):
         raise AccuracyError(
-            "chart {chart} has the same race at every difference, so nothing brings a wrong "
-            "rating back; give a chart whose races differ",
+            "chart {chart} has the same race at every difference, so nothing brings a "
+            "wrong rating back. Give a chart whose races differ.",
             chart=chart.name,
         )
     for doublings in _DOUBLINGS:
@@ -320,16 +322,16 @@ def _usual_width(
                 return widest
     if opponents.farthest:
         raise AccuracyError(
-            "the rating error goes beyond {widest} points, or does not settle: the opponents "
-            "are too far from the player's skill for the chart's races; give a {skill} nearer "
-            "to theirs",
+            "the rating error goes beyond {widest} points, or doesn't settle: the "
+            "opponents are too far from the player's skill for the chart's races. Give a "
+            "{skill} nearer to theirs.",
             widest=widest,
             skill=Parameter("skill"),
         )
     raise AccuracyError(
-        "the rating error goes beyond {widest} points: the steps are too long for the scale, "
-        "form varies too much, or the skill drifts away from the rating; give a smaller "
-        "{step}, another {system}, or less {day_sd}, {match_sd} or {drift}",
+        "the rating error goes beyond {widest} points: the steps are too long for the "
+        "scale, form varies too much, or the skill drifts away from the rating. Give a "
+        "smaller {step}, another {system}, or less {day_sd}, {match_sd} or {drift}.",
         widest=widest,
         step=Parameter("step"),
         system=Parameter("system"),

@@ -65,7 +65,7 @@ class LevelLadder:
             raise InputError("the system {name} has no chart of levels", name=self.system.name)
         if len(self.opponents) != len(chart.levels) or not sum(self.opponents) > 0.0:
             raise InputError(
-                "{opponents} is {value!r}; give a weight for each of the levels {levels}",
+                "{opponents} must be a weight for each of the levels {levels}; you gave {value!r}",
                 value=self.opponents,
                 levels=", ".join(map(str, chart.levels)),
             )

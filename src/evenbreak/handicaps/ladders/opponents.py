@@ -24,11 +24,13 @@ _NOTHING = Distribution((0,), (1.0,))
 def _in_whole_points(law: Distribution, name: str) -> None:
     if not isinstance(law, Distribution):
         raise InputError(
-            "{name} is {law!r}; give a Distribution of whole points", name=name, law=law
+            "{name} must be a Distribution of whole points; you gave {law!r}", name=name, law=law
         )
     for value in law.values:
         if value != int(value):
-            raise InputError("{name} holds {value!r}; give whole points", name=name, value=value)
+            raise InputError(
+                "{name} must be whole points; it holds {value!r}", name=name, value=value
+            )
 
 
 def farthest(law: Distribution) -> int:
@@ -135,7 +137,7 @@ def opponents_of(
     """
     points = np.rint(floats(ratings, "ratings")) - np.rint(floats(about, "about"))
     if not points.size:
-        raise InputError("ratings is empty; give the rating of one opponent or more")
+        raise InputError("ratings must not be empty. Give the rating of at least one opponent.")
     values, counts = np.unique(points.ravel().astype(np.int64), return_counts=True)
     return Opponents(Distribution.of(values.tolist(), counts.tolist()), error, given)
 

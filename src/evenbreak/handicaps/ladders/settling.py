@@ -136,8 +136,8 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
         passage = first_passage(chain_of_errors(ladder), left / remaining, target)
         if not passage.certain or passage.mean is None or passage.variance is None:
             raise InputError(
-                "{within} is {band}, and steps of {max} from an error of {error} may never "
-                "come so near; give a wider band",
+                "{within} is {band}, and steps of {max} from an error of {error} may "
+                "never come so near. Give a wider band.",
                 band=band,
                 max=ladder.steps.max(),
                 error=error,
@@ -145,8 +145,8 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
         later, tail = passage.distribution(tail=_TAIL / remaining, max_steps=_HORIZON)
         if tail * remaining > _TAIL:
             raise AccuracyError(
-                "from an error of {error} a rating {mean} to come within {band}; give a "
-                "wider band, a nearer start, or less drift",
+                "from an error of {error} a rating {mean} to come within "
+                "{band}. Give a wider band, a nearer start, or less drift.",
                 error=error,
                 mean=_too_long(passage.mean),
                 band=band,
@@ -170,8 +170,8 @@ def _too_long(mean: float) -> str:
 def _schedule(ladder: Ladder) -> tuple[tuple[int, int], ...]:
     if not ladder.system.newcomer_steps:
         raise InputError(
-            "newcomer is True, but in the system {name} newcomers move like everybody else; "
-            "leave it out",
+            "newcomer is True, but in the system {name} newcomers move like everyone "
+            "else. Leave it out.",
             name=ladder.system.name,
         )
     return ladder.system.newcomer_steps
@@ -239,7 +239,7 @@ def ladder_gap(ladder: Ladder) -> float:
     gap = 1.0 - float(np.abs(values).max(initial=0.0))
     if gap < 1e-9:
         raise AccuracyError(
-            "the gap is {gap:.1e}, which rounding hides; follow the ladder with ladder_mixing",
+            "the gap is {gap:.1e}, which rounding hides. Follow the ladder with ladder_mixing.",
             gap=gap,
         )
     return gap
@@ -285,7 +285,7 @@ def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
     (10, 97, 245)
     """
     if not 0.0 < eps < 1.0:
-        raise InputError("{eps} is {value!r}; give a number between 0 and 1", value=eps)
+        raise InputError("{eps} must be a number between 0 and 1; you gave {value!r}", value=eps)
     place = error_on(ladder.widest, start) + ladder.widest
     chain = chain_of_errors(ladder)
     now = np.eye(len(chain))[place]
@@ -300,8 +300,8 @@ def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
             return matches
         average = matrix @ average
     raise AccuracyError(
-        "the error is not within {eps:g} of the long run after {most_matches} matches; give "
-        "a larger eps",
+        "the error isn't within {eps:g} of the long run after {most_matches} matches. "
+        "Give a larger eps.",
         eps=eps,
         most_matches=_MOST_MATCHES,
     )

@@ -70,7 +70,7 @@ class Averages(System):
 
     def __post_init__(self) -> None:
         if whole(self.games, "games", at_least=1) % 2 == 0:
-            raise InputError("{games} is {value}; give an odd number", value=self.games)
+            raise InputError("{games} must be an odd number; you gave {value}", value=self.games)
         number(self.correction, "correction", low=0.0, high=4.0)
         number(self.balls, "balls", low=0.0, high=7.0)
         number(self.newcomer, "newcomer", low=0.0, high=WIN)

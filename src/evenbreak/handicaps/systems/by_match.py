@@ -105,8 +105,8 @@ class StepSystem(System):
         pair = isinstance(points, tuple | list) and len(points) == 2
         if not pair or not all(isinstance(point, Integral) for point in points):
             raise InputError(
-                "the rule of the system {name} returned {points!r}; let it return a pair, "
-                "the whole points of the winner and of the loser, such as (1, -1)",
+                "the rule of the system {name} returned {points!r}. Let it return a "
+                "pair, the whole points of the winner and of the loser, such as (1, -1).",
                 name=self.name,
                 points=points,
             )
@@ -215,7 +215,7 @@ class StepSystem(System):
         if self.own_chart is not None:
             return self.own_chart
         if not self.charts:
-            raise InputError("the system {name} has no chart of its own; give one", name=self.name)
+            raise InputError("the system {name} has no chart of its own. Give one.", name=self.name)
         return chart(self.charts[0])
 
     def known_charts(self) -> tuple[Chart, ...]:
@@ -240,7 +240,7 @@ def points_of(value: Any, name: str, *, at_least: int = 1) -> int:
     >>> points_of(5000, "up")
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: up is 5000; give a whole number from 1 to 1000
+    evenbreak.errors.InputError: up must be a whole number from 1 to 1000; you gave 5000
     """
     return whole(value, name, at_least=at_least, at_most=_MOST_POINTS)
 

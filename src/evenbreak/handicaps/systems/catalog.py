@@ -143,7 +143,9 @@ def _with_options(system: System, options: Mapping[str, str], name: str) -> Syst
     """Return a system with parameters set by name, and called as it was asked for."""
     if isinstance(system, StepSystem):
         if options:
-            raise InputError("it has no parameters by name; leave {first}= out", first=min(options))
+            raise InputError(
+                "it has no parameters by name. Leave {first}= out.", first=min(options)
+            )
         return system
     known = [
         field.name
@@ -154,7 +156,7 @@ def _with_options(system: System, options: Mapping[str, str], name: str) -> Syst
     for option, text in options.items():
         if option not in known:
             raise InputError(
-                "{option} is no parameter of it; give {known}",
+                "{option} isn't one of its parameters: {known}",
                 option=option,
                 known=", ".join(known),
             )
@@ -173,7 +175,9 @@ def _value(option: str, text: str, usual: Any) -> Any:
     try:
         return float(text) if isinstance(usual, float) else int(text)
     except ValueError:
-        raise InputError("{option} is {text!r}; give a number", option=option, text=text) from None
+        raise InputError(
+            "{option} must be a number; you gave {text!r}", option=option, text=text
+        ) from None
 
 
 def _added(name: Any, written: str, word: str) -> System:
@@ -185,14 +189,14 @@ def _added(name: Any, written: str, word: str) -> System:
         return cast("System", system)
     if word:
         raise InputError(
-            "system is {name!r}; write it as {grammar}{whole}",
+            "system is {name!r}. Write it as {grammar}{whole}.",
             name=name,
             grammar=FAMILIES[word].grammar,
             whole=", in whole numbers" if FAMILIES[word].numbers[1] else "",
         )
     *listed, last = [*(family.grammar for family in FAMILIES.values()), *added("system")]
     raise InputError(
-        "system is {name!r}; give {listed} or {last}",
+        "system must be {listed} or {last}; you gave {name!r}",
         name=name,
         listed=", ".join(listed),
         last=last,
@@ -210,8 +214,9 @@ def steps_of(name: Any) -> StepSystem:
     system = system_of(name)
     if not isinstance(system, StepSystem):
         raise InputError(
-            "the system {name} does not move ratings by whole points match by match, so there is "
-            "no chain to follow here; `evenbreak simulate --compare` plays seasons of it",
+            "the system {name} doesn't move ratings by whole points match by match, so "
+            "there's no chain to follow here; `evenbreak simulate --compare` plays "
+            "seasons of it",
             name=system.name,
         )
     return system

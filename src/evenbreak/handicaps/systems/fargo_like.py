@@ -239,7 +239,7 @@ def _fitted(
         at = at + step * min(1.0, _LONGEST / max(longest, _LONGEST))
         if longest < _ENOUGH:
             return at
-    raise AccuracyError("the ratings did not settle in {steps} steps of the fit", steps=_STEPS)
+    raise AccuracyError("the ratings didn't settle in {steps} steps of the fit", steps=_STEPS)
 
 
 def _solved(
@@ -315,4 +315,4 @@ def _alone(games: _Games, fit: Floats, start: Floats, counted: Floats, few: Any)
         at = at + step
         if np.abs(step).max() < _ENOUGH:
             return at
-    raise AccuracyError("the ratings did not settle in {steps} steps of the fit", steps=_STEPS)
+    raise AccuracyError("the ratings didn't settle in {steps} steps of the fit", steps=_STEPS)

@@ -111,9 +111,9 @@ def _races_are_turned_round(system: System, rng: np.random.Generator) -> Iterato
     if (m != turned_m).any() or (n != turned_n).any():
         place = int(np.flatnonzero((m != turned_m) | (n != turned_n))[0])
         yield (
-            f"race of the system {system.name} is {m[place]}:{n[place]} for {a[place]:g} and "
-            f"{b[place]:g}, but {turned_n[place]}:{turned_m[place]} for {b[place]:g} and "
-            f"{a[place]:g}; let it be the same race"
+            f"race of the system {system.name} is {m[place]}:{n[place]} for {a[place]:g} "
+            f"and {b[place]:g}, but {turned_n[place]}:{turned_m[place]} for {b[place]:g} "
+            f"and {a[place]:g}. Let it be the same race."
         )
 
 
@@ -164,7 +164,7 @@ def _winners_never_fall(system: System, rng: np.random.Generator) -> Iterator[st
             lost[loser[there], there] = True
         fell = (ratings < history.ratings - 1e-9) & ~lost
         if fell.any():
-            yield f"somebody fell in the system {system.name} on a night without a lost match"
+            yield f"someone fell in the system {system.name} on a night without a lost match"
 
 
 _LAWS: tuple[Callable[[System, np.random.Generator], Iterator[str]], ...] = (

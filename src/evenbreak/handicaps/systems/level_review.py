@@ -100,7 +100,7 @@ class LevelReview(System):
         whole(self.trim, "trim", at_least=0)
         if self.window <= 2 * self.trim:
             raise InputError(
-                "{trim} is {value}, which leaves no score of {window}; give less",
+                "{trim} is {value}, which leaves no score of {window}. Give less.",
                 value=self.trim,
                 window=self.window,
             )
@@ -252,8 +252,8 @@ def nearest_level(chart: LevelChart, levels: Any) -> Floats:
 def _by_innings(matches: Matches) -> Floats:
     if matches.innings_a is None:
         raise InputError(
-            "the innings of the matches are not known, and this review is by innings; use "
-            "level-review, which is by games"
+            "the innings of the matches aren't known, and this review is by innings. Use "
+            "level-review, which is by games."
         )
     score = np.minimum(matches.innings_a / np.maximum(matches.score_a, 1), _CAP)
     return np.asarray(np.where(matches.score_a > 0, score, _CAP))

@@ -174,7 +174,8 @@ def match_table(
     """
     if not isinstance(system, StepSystem):
         raise InputError(
-            "{system} is {value!r}; give a StepSystem, such as system_of('npl')", value=system
+            "{system} must be a StepSystem, such as system_of('npl'); you gave {value!r}",
+            value=system,
         )
     by = system.usual_chart() if chart is None else chart_of(chart)
     wanted = round(_DOUBLINGS * system.scale.points_per_doubling) if widest is None else widest

@@ -29,7 +29,7 @@ def own_system(name: str) -> System:
         code = import_module(module)
     except ImportError as error:
         raise InputError(
-            "system is {name!r}, but {error}; start in the folder of {module}.py, or install it",
+            "system is {name!r}, but {error}. Start in the folder of {module}.py, or install it.",
             name=name,
             error=str(error),
             module=module,
@@ -38,7 +38,7 @@ def own_system(name: str) -> System:
         raise InputError("system is {name!r}: {why}", name=name, why=why(error)) from error
     if not hasattr(code, attribute):
         raise InputError(
-            "system is {name!r}, but {module} has no {attribute}; name a class of it",
+            "system is {name!r}, but {module} has no {attribute}. Name a class of it.",
             name=name,
             module=module,
             attribute=attribute,
@@ -53,10 +53,10 @@ def lawful_system(system: Any) -> System:
     """Return a system that holds to `broken_laws`, or refuse it by the first law that it breaks."""
     if not isinstance(system, System):
         raise InputError(
-            "it isn't a System; derive its class from System: class {short}(System)",
+            "it isn't a System. Derive its class from System: class {short}(System).",
             short=type(system).__name__,
         )
     if not isinstance(getattr(system, "name", None), str):
-        raise InputError("its systems have no name; give it one")
+        raise InputError("its systems have no name. Give it one.")
     lawful(system, broken_laws(system))
     return system

@@ -233,9 +233,9 @@ def night_problems(
     >>> night = Results.from_names(["Ann", "Ann"], ["Bo", "Boo"], [5, 5], [3, 3], winner=[0, 1])
     >>> for problem in night_problems(system_of("npl"), club, night):
     ...     print(problem.row, problem.message)
-    0 neither the race nor the winner is stated ('Ann' - 'Bo', 5-3); give the chart that was used
-    (npl_8, npl_10, npl_12 or npl_20), or the columns race_a and race_b
-    1 'Boo' is not on the list; add the player with a first rating, or correct the name
+    0 neither the race nor the winner is stated ('Ann' - 'Bo', 5-3). Add the chart that was used
+    (npl_8, npl_10, npl_12 or npl_20), or the columns race_a and race_b.
+    1 'Boo' isn't on the list. Add the player with a first rating, or correct the name.
     """
     night = night_table(roster, results, chart)
     problems = [
@@ -291,10 +291,10 @@ def _strangers(numbers: Floats, night: NightTable) -> Iterator[Problem]:
             yield Problem(
                 int(row),
                 column,
-                f"{name!r} has no rating on the list; write a first rating"
+                f"{name!r} has no rating on the list. Write a first rating."
                 if place >= 0
-                else f"{name!r} is not on the list; add the player with a first rating, or "
-                "correct the name",
+                else f"{name!r} isn't on the list. Add the player with a first rating, or "
+                "correct the name.",
             )
 
 
@@ -315,10 +315,10 @@ def _no_end(roster: Roster, night: NightTable, chart: Chart | System | str, row:
     numbers = published(by, roster) if isinstance(by, System) else roster.rating
     whose = "system" if isinstance(by, System) else "chart"
     return (
-        f"{results.score_a[row]}-{results.score_b[row]} does not finish the race "
+        f"{results.score_a[row]}-{results.score_b[row]} doesn't finish the race "
         f"{night.chart_a[row]}:{night.chart_b[row]}, which the {whose} {by.name} has for "
         f"{roster.players[a]!r} ({numbers[a]:g}) and {roster.players[b]!r} "
-        f"({numbers[b]:g}); correct the score, give race_a and race_b, or mark a forfeit"
+        f"({numbers[b]:g}). Correct the score, give race_a and race_b, or mark a forfeit."
     )
 
 
@@ -326,14 +326,14 @@ def _no_winner(system: System, results: Results, row: int) -> str:
     name_a, name_b = results.players[results.player_a[row]], results.players[results.player_b[row]]
     return (
         f"neither the race nor the winner is stated ({name_a!r} - {name_b!r}, "
-        f"{results.score_a[row]}-{results.score_b[row]}); {_give_chart(system)}"
+        f"{results.score_a[row]}-{results.score_b[row]}). {_give_chart(system)}"
     )
 
 
 def _give_chart(system: System) -> str:
     *charts, last = (system.charts if isinstance(system, StepSystem) else ()) or ("",)
     names = f" ({', '.join(charts)} or {last})" if charts else ""
-    return f"give the chart that was used{names}, or the columns race_a and race_b"
+    return f"Add the chart that was used{names}, or the columns race_a and race_b."
 
 
 def _missing(system: System, night: NightTable) -> Iterator[Problem]:
@@ -344,13 +344,13 @@ def _missing(system: System, night: NightTable) -> Iterator[Problem]:
             yield Problem(
                 row,
                 "score_a",
-                f"the score is not stated, and the system {system.name} moves ratings by it; "
-                "write it, or mark a forfeit",
+                f"the score isn't stated, and the system {system.name} moves ratings by "
+                "it. Write it, or mark a forfeit.",
             )
         elif "race" in system.asks and results.race_a is not None and not results.race_a[row]:
             yield Problem(
                 row,
                 "race_a",
-                f"the race is not stated, and the system {system.name} moves ratings by it; "
+                f"the race is not stated, and the system {system.name} moves ratings by it. "
                 f"{_give_chart(system)}",
             )

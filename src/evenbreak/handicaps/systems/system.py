@@ -75,7 +75,7 @@ class System(ABC):
         chart = self.chart
         if chart is None:
             raise InputError(
-                "the system {name} has no chart and no method race; give it one", name=self.name
+                "the system {name} has no chart and no method race. Give it one.", name=self.name
             )
         a, b = (np.floor(np.asarray(x, dtype=float) + 0.5) for x in (a, b))
         return chart.races(a, b) if isinstance(chart, LevelChart) else chart.races(a - b)
@@ -100,8 +100,8 @@ class System(ABC):
             return level_skills(self.chart).strength(numbers)
         if self.scale is None:
             raise InputError(
-                "the numbers of the system {name} have no scale, so it is not known how strong "
-                "anyone is by them; give a system with a scale or levels",
+                "the numbers of the system {name} have no scale, so it isn't known how "
+                "strong anyone is by them. Give a system with a scale or levels.",
                 name=self.name,
             )
         return np.asarray(numbers, dtype=float) * (100.0 / self.scale.points_per_doubling)
@@ -119,7 +119,7 @@ class System(ABC):
         kind, own = type(self.chart), getattr(self, "__dataclass_fields__", {})
         if self.chart is None or not isinstance(chart, kind) or "own_chart" not in own:
             raise InputError(
-                "the system {name} cannot be played by the chart {chart}; leave {chart_option} out",
+                "the system {name} can't be played by the chart {chart}. Leave {chart_option} out.",
                 name=self.name,
                 chart=chart.name,
                 chart_option=Parameter("chart"),
@@ -155,8 +155,8 @@ def checked_ratings(system: System, ratings: Any, shape: tuple[int, ...], method
     values = np.asarray(ratings, dtype=float)
     if values.shape != shape:
         raise InputError(
-            "{method} of the system {name} returned the shape {got}; let it return one number "
-            "for each player, in the shape {shape}",
+            "{method} of the system {name} returned the shape {got}. Let it return one "
+            "number for each player, in the shape {shape}.",
             method=method,
             name=system.name,
             got=values.shape,
@@ -165,8 +165,8 @@ def checked_ratings(system: System, ratings: Any, shape: tuple[int, ...], method
     wrong = ~np.isfinite(values)
     if wrong.any():
         raise InputError(
-            "{method} of the system {name} returned {value} for player {player}; let it return "
-            "finite numbers",
+            "{method} of the system {name} returned {value} for player {player}. Let it "
+            "return finite numbers.",
             method=method,
             name=system.name,
             value=float(values[wrong].flat[0]),
@@ -180,8 +180,8 @@ def checked_races(system: System, a: Any, b: Any) -> tuple[Ints, Ints]:
     races = system.race(a, b)
     if not isinstance(races, tuple) or len(races) != 2:
         raise InputError(
-            "race of the system {name} returned {races!r}; let it return two arrays (m, n), the "
-            "games that each player needs",
+            "race of the system {name} returned {races!r}. Let it return two arrays (m, "
+            "n), the games that each player needs.",
             name=system.name,
             races=races,
         )
@@ -189,8 +189,8 @@ def checked_races(system: System, a: Any, b: Any) -> tuple[Ints, Ints]:
     for needs in map(np.asarray, races):
         if needs.shape != shape or not (needs >= 1).all() or (needs != np.floor(needs)).any():
             raise InputError(
-                "race of the system {name} returned {needs!r}; let it return whole games, 1 or "
-                "more, for each pair of ratings",
+                "race of the system {name} returned {needs!r}. Let it return whole "
+                "games, 1 or more, for each pair of ratings.",
                 name=system.name,
                 needs=needs,
             )

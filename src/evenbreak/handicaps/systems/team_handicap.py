@@ -109,7 +109,7 @@ def team_handicap(
     )
     if not lost < won:
         raise InputError(
-            "{points_lost} is {lost:g} and points_won {won:g}; give fewer points to the loser",
+            "{points_lost} is {lost:g} and points_won {won:g}. Give fewer points to the loser.",
             lost=lost,
             won=won,
         )

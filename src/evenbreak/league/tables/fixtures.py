@@ -1,4 +1,4 @@
-"""Who plays whom, where and when: round robins with home and away, dates, tables, what is left.
+"""Who plays who, where and when: round robins with home and away, dates, tables, what is left.
 
 The rounds are those of the canonical factorization with its home and away pattern (de Werra 1981,
 "Scheduling in sports"): as few breaks, two matches in a row at home or away, as there can be.
@@ -177,8 +177,8 @@ def nights(
         day += timedelta(days=1)
     if len(found) < count:
         raise InputError(
-            "{count} nights are needed, but there are {n} up to {ends}; start earlier, end later, "
-            "or play more rounds a night",
+            "{count} nights are needed, but there are {n} up to {ends}. Start earlier, "
+            "end later, or play more rounds a night.",
             count=count,
             n=len(found),
             ends=str(last),
@@ -195,7 +195,7 @@ class Fixture:
     round
         from 1.
     home, away
-        who plays whom.
+        who plays who.
     date
         when; None where no dates are set.
     venue

@@ -69,8 +69,8 @@ class TableRules:
                 object.__setattr__(self, name, number(getattr(self, name), name))
         if not self.loss <= self.draw <= self.win or min(self.a_set, self.shutout) < 0.0:
             raise InputError(
-                "points are {win:g}, {draw:g}, {loss:g} for a win, a draw and a loss; give "
-                "no more for a loss than for a draw, and for a draw than for a win",
+                "points are {win:g}, {draw:g}, {loss:g} for a win, a draw and a loss. "
+                "Give no more for a loss than for a draw, and for a draw than for a win.",
                 win=self.win,
                 draw=self.draw,
                 loss=self.loss,
@@ -78,7 +78,7 @@ class TableRules:
         if self.split:
             one_of(self.split, "split", tuple(SPLITS))
         elif self.win == self.loss and self.a_set == 0.0:
-            raise InputError("a win is worth no more than a loss; give points for a win or a set")
+            raise InputError("a win is worth no more than a loss. Give points for a win or a set.")
         for name in self.ties:
             one_of(name, "ties", TIE_BREAKS)
 

@@ -327,13 +327,13 @@ def in_order(results: Results) -> tuple[Results, dict[str, int]]:
     played, forfeits, empty = results.played()
     dates = played.date
     if dates is None:
-        raise InputError("the results have no dates; add the column date")
+        raise InputError("the results have no dates. Add the column date.")
     dated = ~np.isnat(dates)
     days = len(np.unique(dates[dated]))
     if days < 2:
         raise InputError(
-            "the results have games on {n_days} date{what}; give two or more in the column "
-            "date, so that earlier dates can predict later ones",
+            "the results have games on {n_days} date{what}. Give two or more in the "
+            "column date, so that earlier dates can predict later ones.",
             n_days=days,
             what="s" * (days != 1),
         )

@@ -315,7 +315,7 @@ def check_plan(plan: NightPlan) -> None:
     """
     first, second = (team.name for team in plan.teams)
     if first.casefold() == second.casefold():
-        raise InputError("both teams are called {name}; give them different names", name=first)
+        raise InputError("both teams are called {name}. Give them different names.", name=first)
     meeting = meeting_of(plan)
     night = meeting.night()
     if meeting.order == SEALED:

@@ -78,18 +78,18 @@ def _check_turn(state: TeamEvening, team: int, number: int, *, replaces: bool) -
     line = state.to_name
     if line is None or line.number != number:
         due = say("set {n} is next", n=line.number) if line else say("all sets have their players")
-        raise InputError("nobody can be put up in set {n} now: {due}", n=number, due=due)
+        raise InputError("no one can be put up in set {n} now: {due}", n=number, due=due)
     if team in state.due or replaces:
         return
     if not state.due:
         if state.meeting.order[number - 1] == WINNER:
             raise InputError(
-                "the winner of set {last} names first in set {n}; enter its result first",
+                "the winner of set {last} names first in set {n}. Enter its result first.",
                 last=number - 1,
                 n=number,
             )
         raise InputError(
-            "the loser of set {last} names first in set {n}; enter its result first",
+            "the loser of set {last} names first in set {n}. Enter its result first.",
             last=number - 1,
             n=number,
         )
@@ -105,7 +105,7 @@ def hand_in(state: TeamEvening, team: int, picks: tuple[Pick, ...]) -> list[What
         if line-ups are not sealed, both are in, or it does not fill the sets within the caps.
     """
     if not state.sealed:
-        raise InputError("line-ups are not sealed tonight; put up one player after another")
+        raise InputError("line-ups aren't sealed tonight. Put up one player after another.")
     if tuple(line.picks[team] for line in state.sets) == picks:
         return []
     if state.to_name is None:
@@ -160,7 +160,7 @@ def _checked(state: TeamEvening, number: int, score: Score) -> SetLine:
 def _line(state: TeamEvening, number: int) -> SetLine:
     if not 1 <= number <= len(state.sets):
         raise InputError(
-            "there is no set {n}; the sets are 1 to {sets}", n=number, sets=len(state.sets)
+            "there's no set {n}; the sets are 1 to {sets}", n=number, sets=len(state.sets)
         )
     return state.sets[number - 1]
 

@@ -272,7 +272,7 @@ def season_chances(
     for match in matches:
         if not 0 <= whole(match, "matches") < len(season.to_come):
             raise InputError(
-                "{matches} has {match}; {n_to_come} are to come",
+                "{matches} has {match}; {n_to_come} are still to be played",
                 match=match,
                 n_to_come=len(season.to_come),
             )

@@ -81,7 +81,8 @@ class TeamSeason:
             law = law[None]
         if law.ndim != 3 or law.shape[1:] != (len(left), len(ends)):
             raise InputError(
-                "{chances} has shape {law_shape}; give (layers, {n_left} matches, {n_ends} scores)",
+                "{chances} must have shape (layers, {n_left} matches, {n_ends} scores); "
+                "its shape is {law_shape}",
                 law_shape=law.shape,
                 n_left=len(left),
                 n_ends=len(ends),
@@ -194,7 +195,7 @@ def _rows(given: ArrayLike, name: str, wide: int, teams: int | None) -> Ints:
     found = whole_numbers(rows, name, at_least=0)
     if found.ndim != 2 or found.shape[1] != wide:
         raise InputError(
-            "{name} has shape {found_shape}; give {wide} columns",
+            "{name} must have {wide} columns; its shape is {found_shape}",
             name=name,
             found_shape=found.shape,
             wide=wide,

@@ -1,1 +1,1 @@
-"""Brackets: who plays whom, and where winners and losers go."""
+"""Brackets: who plays who, and where winners and losers go."""

@@ -276,7 +276,7 @@ class Bracket:
         """
         if name not in self.by_name:
             raise InputError(
-                "match is {name!r}; give one of {by_name}",
+                "match must be one of {by_name}; you gave {name!r}",
                 name=name,
                 by_name=some_of(list(self.by_name)),
             )
@@ -292,7 +292,7 @@ class Bracket:
         """
         if name not in self.players:
             raise InputError(
-                "player is {name!r}; give one of {players}",
+                "player must be one of {players}; you gave {name!r}",
                 name=name,
                 players=some_of(self.players),
             )

@@ -97,7 +97,7 @@ def drop_orders(
         if drops not in DROPS:
             listed = ", ".join(repr(name) for name in DROPS)
             raise InputError(
-                "{drops} is {value!r}; give {listed}, or the orders themselves",
+                "{drops} must be {listed}, or the orders themselves; you gave {value!r}",
                 value=drops,
                 listed=listed,
             )
@@ -109,14 +109,14 @@ def drop_orders(
     given = [list(order) for order in drops]
     if len(given) > len(counts):
         raise InputError(
-            "{drops} has {n_given} orders; give {n_counts} at most",
+            "{drops} must have at most {n_counts} orders; it has {n_given}",
             n_given=len(given),
             n_counts=len(counts),
         )
     for number, (order, count) in enumerate(zip(given, counts, strict=False), 1):
         if sorted(order) != list(range(1, count + 1)):
             raise InputError(
-                "{drops} has {order} for its round {number}; give 1 to {count}, each once",
+                "{drops} has {order} for its round {number}. Give 1 to {count}, each once.",
                 order=order,
                 number=number,
                 count=count,
@@ -299,7 +299,7 @@ def losers_qualifiers(bracket: Bracket) -> tuple[Slot, ...]:
     """
     found = tuple(match.slots[1] for match in bracket.matches if match.name.startswith("K1."))
     if not found or not bracket.format.startswith("double elimination"):
-        raise InputError("bracket has no qualifiers to redraw; give double_elimination 4 or more")
+        raise InputError("bracket has no qualifiers to redraw. Give double_elimination 4 or more.")
     return found
 
 
@@ -359,5 +359,5 @@ def _half_shift(slots: list[DraftSlot]) -> list[DraftSlot]:
 
 def _redrawn(slots: list[DraftSlot], rng: np.random.Generator | None) -> list[DraftSlot]:
     if rng is None:
-        raise InputError("rng is missing; give numpy.random.default_rng(seed) for a redraw")
+        raise InputError("rng is missing. Give numpy.random.default_rng(seed) for a redraw.")
     return [slots[i] for i in rng.permutation(len(slots))]

@@ -47,11 +47,12 @@ def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tu
     >>> checked_players(["Ann", "Ann"])
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: players has 'Ann' twice; give each player a name of their own
+    evenbreak.errors.InputError: players has 'Ann' twice. Give each player a name of their own.
     """
     if isinstance(players, str):
         raise InputError(
-            "{players} is {value!r}; give a list of names, or how many there are", value=players
+            "{players} must be a list of names, or how many there are; you gave {value!r}",
+            value=players,
         )
     if isinstance(players, Sequence):
         names = tuple(str(player) for player in players)
@@ -59,7 +60,7 @@ def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tu
         names = tuple(str(k) for k in range(1, whole(players, "players") + 1))
     if not fewest <= len(names) <= MOST:
         raise InputError(
-            "{players} has {n_names} names; give {fewest} to {most}",
+            "{players} must have {fewest} to {most} names; it has {n_names}",
             n_names=len(names),
             fewest=fewest,
             most=MOST,
@@ -68,7 +69,7 @@ def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tu
     for name in names:
         if name in seen:
             raise InputError(
-                "{players} has {name!r} twice; give each player a name of their own", name=name
+                "{players} has {name!r} twice. Give each player a name of their own.", name=name
             )
         seen.add(name)
     return names

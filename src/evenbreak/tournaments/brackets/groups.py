@@ -101,8 +101,8 @@ def groups_then_knockout(
     fewest = max(2, going_on + (best > 0))
     if len(names) // count < fewest:
         raise InputError(
-            "{name} is {value!r} for {players} players, but each group needs {fewest}; make fewer "
-            "groups, or let fewer players go on",
+            "{name} is {value!r} for {players} players, but each group needs {fewest}. "
+            "Make fewer groups, or let fewer players go on.",
             name=Parameter("groups"),
             value=groups,
             players=len(names),
@@ -110,7 +110,7 @@ def groups_then_knockout(
         )
     if count * going_on + best < 2:
         raise InputError(
-            "{name} must be 2 or more if there is a single group", name=Parameter("qualifiers")
+            "{name} must be 2 or more if there's a single group", name=Parameter("qualifiers")
         )
     dealt = [_dealt(len(names), count, k) for k in range(count)]
     sizes = [len(members) for members in dealt]

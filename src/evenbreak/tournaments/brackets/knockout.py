@@ -174,13 +174,13 @@ def checked_lines(lines: Sequence[int | None] | None, players: int) -> list[int 
     seated = [player for player in listed if player is not None]
     if sorted(seated) != list(range(players)):
         raise InputError(
-            "{lines} is {value!r}; give each position from 0 to {players} once",
+            "{lines} is {value!r}. Give each position from 0 to {players} once.",
             value=lines,
             players=players - 1,
         )
     if len(listed) != bracket_size(len(listed)):
         raise InputError(
-            "{lines} has {n_listed} entries; give 2, 4, 8, 16, ... of them", n_listed=len(listed)
+            "{lines} must have 2, 4, 8, 16, ... entries; it has {n_listed}", n_listed=len(listed)
         )
     return listed
 
@@ -255,7 +255,7 @@ def by_rating(players: Sequence[Name], ratings: Sequence[float]) -> list[Name]:
     """
     rated = column(ratings, "ratings", len(players), "players")
     if np.isnan(rated).any():
-        raise InputError("ratings holds a value that is not a number; give one for each player")
+        raise InputError("ratings must hold finite numbers; one value isn't")
     return [players[i] for i in np.argsort(-rated, kind="stable")]
 
 
@@ -292,7 +292,7 @@ def apart_by_club(players: Sequence[Name], clubs: Sequence[str | None]) -> list[
     """
     if len(clubs) != len(players):
         raise InputError(
-            "{clubs} has {n_clubs} values; give one for each of {n_players}",
+            "{clubs} must have one value for each of {n_players} players; it has {n_clubs}",
             n_clubs=len(clubs),
             n_players=len(players),
         )

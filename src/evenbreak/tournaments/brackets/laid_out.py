@@ -49,7 +49,7 @@ def _in_order(drafts: Sequence[Draft]) -> list[Draft]:
                 continue
             if slot.match not in by_name or (slot in taken and not _again(draft)):
                 raise InputError(
-                    "{draft} waits for the {outcome} of {match}, who does not come there",
+                    "{draft} waits for the {outcome} of {match}, who doesn't come there",
                     draft=draft.name,
                     outcome=slot.outcome,
                     match=slot.match,

@@ -135,7 +135,7 @@ def _check_names(bracket: Bracket, results: dict[str, str | Sequence[str]]) -> N
         if name not in known:
             listed = some_of(list(bracket.by_name))
             raise InputError(
-                "{results} has match {name!r}; give one of {listed}", name=name, listed=listed
+                "{results} has match {name!r}. Give one of {listed}.", name=name, listed=listed
             )
 
 
@@ -203,7 +203,8 @@ def _in_given_order(
     order = [bracket.player(player) for player in given[name]]
     if sorted(order) != sorted(members):
         raise InputError(
-            "results has {given!r} for group {group}; give its players in the order of their ranks",
+            "results has {given!r} for group {group}. Give its players in the order of "
+            "their ranks.",
             given=given[name],
             group=name,
         )

@@ -75,8 +75,8 @@ class Swiss:
         most = len(self.players) - 1 + len(self.players) % 2
         if self.rounds > most:
             raise InputError(
-                "{name} must be at most {most} for {players} players, so that nobody has to "
-                "play the same opponent twice; it is {value}",
+                "{name} must be at most {most} for {players} players, so that no one has "
+                "to play the same opponent twice; it is {value}",
                 name=Parameter("rounds"),
                 most=most,
                 players=len(self.players),
@@ -236,15 +236,15 @@ def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:
     for number, pairings in enumerate(played, 1):
         seats = [player for p in pairings for player in (p.first, p.second) if player is not None]
         if number == 1 and sorted(seats) != sorted(event.players):
-            raise InputError("round 1 does not have every player once")
+            raise InputError("round 1 doesn't have every player once")
         if len(set(seats)) < len(seats) or not set(seats) <= before:
             raise InputError("round {n} has a player twice, or one who had withdrawn", n=number)
         before = set(seats)
         for first, second, winner in pairings:
             if second is not None and winner not in (first, second):
                 raise InputError(
-                    "round {n}: {first} against {second} was won by {winner!r}; name one of "
-                    "the two",
+                    "round {n}: {first} against {second} was won by {winner!r}. Name one "
+                    "of the two.",
                     n=number,
                     first=first,
                     second=second,

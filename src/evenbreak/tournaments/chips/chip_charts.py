@@ -53,12 +53,12 @@ class ChipChart:
         rows = tuple(ChipRow(float(start), whole(c, "chips", at_least=1)) for start, c in self.rows)
         object.__setattr__(self, "rows", rows)
         if not rows:
-            raise InputError("rows is empty; give a rating and chips for each")
+            raise InputError("rows must not be empty. Give a rating and chips for each.")
         for weaker, stronger in pairwise(rows):
             if not stronger.rating_from > weaker.rating_from:
                 raise InputError(
-                    "the row from {above:g} must start above the one from {below:g}; give "
-                    "each rating once, the lowest first",
+                    "the row from {above:g} must start above the one from {below:g}. "
+                    "Give each rating once, the lowest first.",
                     above=stronger.rating_from,
                     below=weaker.rating_from,
                 )
@@ -135,7 +135,7 @@ def chip_chart(name: str | ChipChart) -> ChipChart:
         return name
     if name not in CHIP_CHARTS:
         raise InputError(
-            "there is no chip chart {name!r}; choose one of {charts}",
+            "there's no chip chart {name!r}. Choose one of {charts}.",
             name=name,
             charts=", ".join(CHIP_CHARTS),
         )

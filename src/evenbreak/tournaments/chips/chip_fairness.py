@@ -136,7 +136,7 @@ def fairest_chips(
     low, high = whole(fewest, "fewest", at_least=1), whole(most, "most", at_least=1)
     if low > high or len(rated) < 2:
         raise InputError(
-            "{fewest} is {value!r} and most {most!r}; give fewer first, two players",
+            "{fewest} is {value!r} and most {most!r}. Give the smaller number first, two players.",
             value=fewest,
             most=most,
         )

@@ -100,14 +100,14 @@ def play_chips(
     """
     counts = np.array([whole(count, "chips", at_least=1) for count in np.asarray(chips).tolist()])
     if len(counts) < 2:
-        raise InputError("{chips} is {value!r}; give two players or more", value=chips)
+        raise InputError("{chips} must have two players or more; you gave {value!r}", value=chips)
     table = np.asarray(racks, dtype=float)
     each = np.moveaxis(table.reshape(*table.shape[:2], -1), 2, 0)
     table = np.stack([checked_racks(one, len(counts)) for one in each])
     order = None if line is None else np.array(line)
     if order is not None and sorted(order.tolist()) != list(range(len(counts))):
         raise InputError(
-            "{line} is {value!r}; give each of {n_counts} players once",
+            "{line} is {value!r}. Give each of {n_counts} players once.",
             value=line,
             n_counts=len(counts),
         )
@@ -284,8 +284,8 @@ def checked_racks(racks: ArrayLike, players: int) -> Floats:
     table = floats(racks, "racks", low=0.0, high=1.0)
     if table.shape != (players, players):
         raise InputError(
-            "{racks} has shape {table_shape}; give a row and a column for each of {players} "
-            "players",
+            "{racks} must have a row and a column for each of {players} players; its "
+            "shape is {table_shape}",
             table_shape=table.shape,
             players=players,
         )

@@ -108,7 +108,7 @@ def play_evenings(
     for name in names:
         if name not in laws:
             raise InputError(
-                "{laws} has no match {name!r}; give the odds of every match (`pair_odds`)",
+                "{laws} has no match {name!r}. Give the odds of every match (`pair_odds`).",
                 name=name,
             )
     rng = np.random.default_rng(seed)
@@ -177,7 +177,7 @@ def _under_way(
     one, other = now.seats.get(now.bracket.match(match.match).name, (None, None))
     if match.match in now.winners or one is None or other is None or NOBODY in (one, other):
         raise InputError(
-            "playing has {match!r}; give matches whose players are known", match=match.match
+            "playing has {match!r}. Give matches whose players are known.", match=match.match
         )
     since = match.started if match.scored is None else match.scored
     elapsed = clock - since

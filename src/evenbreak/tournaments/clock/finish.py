@@ -141,7 +141,9 @@ class Finish:
     def start(self, match: str) -> Start:
         """Return when a match begins."""
         if match not in self.names:
-            raise InputError("match is {match!r}; give one that is still to be begun", match=match)
+            raise InputError(
+                "match must be one that hasn't started; you gave {match!r}", match=match
+            )
         times = self.starts[:, self.names.index(match)]
         return _start(times[~np.isnan(times)], times.size)
 
@@ -339,7 +341,7 @@ def finish(
     if where.assumed:
         name = next(iter(where.assumed))
         raise InputError(
-            "{results} has {name!r}; give results of matches whose players are known", name=name
+            "{results} has {name!r}. Give results of matches whose players are known.", name=name
         )
     clock = number(now, "now", low=0.0)
     speed = learned_pace(pace, played)
@@ -369,7 +371,7 @@ def minutes_later(one: Finish, other: Finish) -> tuple[float, float]:
         if they were played out different numbers of times.
     """
     if one.finishes.shape != other.finishes.shape:
-        raise InputError("the two were played out different numbers of times; give the same runs")
+        raise InputError("the two were played out different numbers of times. Give the same runs.")
     later = one.finishes - other.finishes
     return float(later.mean()), float(later.std() / np.sqrt(len(later)))
 
@@ -389,7 +391,7 @@ def tables_free(tables: int | Sequence[float], clock: float, busy: int) -> Float
         free = np.zeros(whole(tables, "tables", at_least=1))
     if len(free) < max(busy, 1):
         raise InputError(
-            "{tables} is {value!r}, with {busy} matches under way; give more tables",
+            "{tables} is {value!r}, with {busy} matches under way. Give more tables.",
             value=tables,
             busy=busy,
         )

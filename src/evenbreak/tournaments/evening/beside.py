@@ -177,7 +177,7 @@ def second_chance(state: Evening, *, race: int | None = None, name: str = "") ->
         raise InputError("a second chance is for those who are out of an elimination")
     names = out(state)
     if len(names) < 2:
-        raise InputError("fewer than two players are out, so there is no second chance yet")
+        raise InputError("fewer than two players are out, so there's no second chance yet")
     plan = replace(
         plan,
         form="single",

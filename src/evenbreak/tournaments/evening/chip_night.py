@@ -114,7 +114,7 @@ def chips_of(plan: Plan, entrant: Entrant) -> int:
     """Return the chips that an entrant starts with."""
     if plan.chips is None:
         raise InputError(
-            "a chip tournament needs a chip chart; choose one with {chips}",
+            "a chip tournament needs a chip chart. Choose one with {chips}.",
             chips=Parameter("chips"),
         )
     return int(plan.chips.chips([entrant.rating])[0])
@@ -133,7 +133,7 @@ def chip_night(events: Sequence[Event]) -> ChipNight:
     ({'Ann': 3, 'Bo': 4, 'Cy': 4}, ('Bo', 'Cy'), ('Ann',))
     """
     if not events or not isinstance(opened := events[0].what, Opened):
-        raise InputError("the first entry does not start a tournament")
+        raise InputError("the first entry doesn't start a tournament")
     walk = _Walk(opened.plan)
     entrants = {one.name: one for one in opened.entrants}
     for event in events[1:]:
@@ -203,7 +203,7 @@ class _Walk:
         if rack is None or {result.winner, result.loser} != set(rack.players):
             players = " against ".join(result.players)
             raise InputError(
-                "{match} is not a rack of {players}", match=result.match, players=players
+                "{match} isn't a rack of {players}", match=result.match, players=players
             )
         if rack.name in self.won:
             self.correct(rack, result.winner)

@@ -156,7 +156,7 @@ class Evening:
         """
         if not self.order:
             raise InputError(
-                "the draw has not been made yet; to make it: {draw}",
+                "the draw hasn't been made yet; to make it: {draw}",
                 draw=Command("tournament draw"),
             )
         if self.plan.form == "chips":
@@ -426,7 +426,7 @@ def evening(events: Iterable[Event]) -> Evening:
     kept = list(history.kept.values())
     first = kept[0].what if kept else None
     if not isinstance(first, Opened):
-        raise InputError("the first entry does not start a tournament")
+        raise InputError("the first entry doesn't start a tournament")
     plan, people, matches = first.plan, People(first.entrants), Matches()
     for event in (_as_named_now(event, plan, people.order) for event in kept[1:]):
         in_pairs = plan.form == "swiss" and bool(matches.later)

@@ -98,7 +98,7 @@ def house_tables(text: str) -> HouseTables:
     known = [name.casefold() for name in names]
     twice = next((name for name in names if known.count(name.casefold()) > 1), None)
     if twice:
-        raise InputError("two tables are called {name}; give each its own name", name=twice)
+        raise InputError("two tables are called {name}. Give each its own name.", name=twice)
     if not names:
         return HouseTables(count)
     numbered = names == tuple(map(str, range(1, count + 1)))
@@ -326,7 +326,7 @@ class Occasion:
         if wanted.isascii() and wanted.isdigit() and 1 <= int(wanted[:5]) <= self.tables:
             return int(wanted)
         raise InputError(
-            "there is no table {table}; the tables are {tables}",
+            "there's no table {table}; the tables are {tables}",
             table=text.strip(),
             tables=", ".join(names),
         )

@@ -43,11 +43,11 @@ def known_match(state: Evening, text: str, *, over: bool = False) -> str:
         return names[wanted]
     if chips and wanted.upper() in state.records:
         raise InputError(
-            "{match} does not count: a player had no chips left",
+            "{match} doesn't count: a player had no chips left",
             match=say("rack {n}", n=int(wanted[1:])),
         )
     raise InputError(
-        "there is no match {text!r}; the matches are {matches}",
+        "there's no match {text!r}; the matches are {matches}",
         text=text,
         matches=some_of([str(n) for n in sorted(map(state.number_of, state.bracket.by_name))]),
     )
@@ -78,11 +78,11 @@ def known_player(state: Evening, text: str) -> str:
         near = get_close_matches(wanted, names, 1)
         if near:
             raise InputError(
-                "{player!r} is not in this tournament; did you mean {near}?",
+                "{player!r} isn't in this tournament; did you mean {near}?",
                 player=text,
                 near=names[near[0]],
             )
-        raise InputError("{player!r} is not in this tournament", player=text)
+        raise InputError("{player!r} isn't in this tournament", player=text)
     return names[wanted]
 
 
@@ -109,7 +109,7 @@ def entered(state: Evening, name: str) -> str:
     full = known_player(state, name)
     if full.casefold() != " ".join(name.split()).casefold():
         raise InputError(
-            "{player!r} is not a full name; if you mean {full}, write that", player=name, full=full
+            "{player!r} isn't a full name; if you mean {full}, write that", player=name, full=full
         )
     return full
 
@@ -122,7 +122,7 @@ def games_in(
         return score
     if state.plan.form != "chips":
         raise InputError(
-            "{score!r} is not a score; write the games of each player, such as 7:5", score=score
+            "{score!r} isn't a score. Write the games of each player, such as 7:5.", score=score
         )
     winner = known_player(state, score)
     refuse_stranger(state, winner, name, pair)
@@ -133,7 +133,7 @@ def refuse_stranger(state: Evening, player: str, match: str, pair: tuple[str, st
     """Refuse a player who is not in a match."""
     if player not in pair:
         names = {"player": player, "match": state.match_words(match), "a": pair[0], "b": pair[1]}
-        raise InputError("{player} is not in {match}: it is {a} against {b}", **names)
+        raise InputError("{player} isn't in {match}: it is {a} against {b}", **names)
 
 
 def undecided(state: Evening, match: str) -> str:
@@ -154,11 +154,11 @@ def refuse_waiting(state: Evening, name: str) -> None:
     if name in state.standing.to_play:
         return
     if name in state.standing.winners:
-        raise InputError("{match} is not needed", match=state.match_words(name))
+        raise InputError("{match} isn't needed", match=state.match_words(name))
     slots = zip(state.bracket.match(name).slots, state.standing.seats[name], strict=True)
     waits = [slot.match for slot, seat in slots if seat is None and not isinstance(slot, int)]
     raise InputError(
-        "{match} is not ready: it is waiting for {waits}",
+        "{match} isn't ready: it's waiting for {waits}",
         match=state.match_words(name),
         waits=listed([state.match_words(one) for one in dict.fromkeys(waits)]),
     )
@@ -184,7 +184,7 @@ def winner_of(
         refuse_stranger(state, stated, name, pair)
     if ended and one < m and other < n:
         if ended not in ENDINGS or state.plan.form == "chips":
-            raise InputError("a rack is played out; enter who won it")
+            raise InputError("a rack is played out. Enter who won it.")
         if stated:
             return stated
         if ended == "time" and m - one != n - other:

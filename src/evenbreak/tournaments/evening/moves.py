@@ -272,7 +272,7 @@ def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
                     "{player} has no match ready that could be forfeited", player=loser
                 )
             raise InputError(
-                "{player} has {n} matches ready; say which: {matches}",
+                "{player} has {n} matches ready. Say which: {matches}.",
                 player=loser,
                 n=len(ready),
                 matches=listed([state.match_words(one) for one in ready]),
@@ -337,14 +337,14 @@ def call(state: Evening, match: str, table: int | None) -> Called:
     if table is None and not (free := state.free_tables):
         if kept := [names(k) for k in state.kept_tables]:
             raise InputError(
-                "the only free tables are those called by hand ({tables}); name one of them",
+                "the only free tables are those called by hand ({tables}). Name one of them.",
                 tables=", ".join(kept),
             )
         raise InputError("no table is free (there are {tables})", tables=state.plan.tables)
     chosen = free[0] if table is None else table
     if not 1 <= chosen <= state.plan.tables:
         raise InputError(
-            "there is no table {table}; the tables are 1 to {tables}",
+            "there's no table {table}; the tables are 1 to {tables}",
             table=chosen,
             tables=state.plan.tables,
         )
@@ -406,7 +406,7 @@ def change(
     found = Changed(tables, *races, name, date, labels, reserved, streamed, slower)
     if found == Changed():
         raise InputError(
-            "nothing would change; set {changes}",
+            "nothing would change. Set {changes}.",
             changes=listed(
                 [Parameter(name) for name in ("tables", "race", "losers_race", "final_race")], "or"
             ),
@@ -420,11 +420,11 @@ def change(
     sides = {match.side for match in state.whole.matches} if state.drawn else {"losers", "final"}
     if losers_race is not None and not sides & {"losers", "consolation"}:
         raise InputError(
-            "there is no losers' side; to change the races, set {race}", race=Parameter("race")
+            "there's no losers' side; to change the races, set {race}", race=Parameter("race")
         )
     if final_race is not None and "final" not in sides:
         raise InputError(
-            "there is no final; to change the races, set {race}", race=Parameter("race")
+            "there's no final; to change the races, set {race}", race=Parameter("race")
         )
     refuse_tables(changed(state.plan, found, None, ()))
     return found
@@ -436,7 +436,7 @@ def call_back(state: Evening, match: str) -> CalledBack:
     if state.plan.form == "chips":
         raise InputError("a chip tournament has no calls: the players at the tables play on")
     if name not in state.on_tables:
-        raise InputError("{match} is not on a table", match=state.match_words(name))
+        raise InputError("{match} isn't on a table", match=state.match_words(name))
     return CalledBack(name, state.pair(name))
 
 
@@ -452,7 +452,7 @@ def edit(state: Evening, player: str, *, name: str = "", rating: float | None = 
     after = replace(rated, name=name or player)
     if after == before:
         raise InputError(
-            "nothing about {player} would change; enter another name or rating", player=player
+            "nothing about {player} would change. Enter another name or rating.", player=player
         )
     check_entrant(state, after, besides=player)
     return Edited(player, after)

@@ -126,11 +126,11 @@ def refuse_tables(plan: Plan) -> None:
     names = [plan.table_name(table).casefold() for table in range(1, plan.tables + 1)]
     for name in names:
         if not name.strip() or names.count(name) > 1:
-            raise InputError("two tables are called {table!r}; give each its own name", table=name)
+            raise InputError("two tables are called {table!r}. Give each its own name.", table=name)
     for table in (*plan.reserved, *plan.streamed):
         if table > plan.tables:
             raise InputError(
-                "there is no table {table}; the tables are {tables}",
+                "there's no table {table}; the tables are {tables}",
                 table=table,
                 tables=", ".join(plan.table_name(k) for k in range(1, plan.tables + 1)),
             )
@@ -140,7 +140,7 @@ def refuse_bye(name: str) -> None:
     """Refuse a bye in place of a player."""
     if BYE.fullmatch(name):
         raise InputError(
-            "{name!r} is a bye, not a player; leave it out, the draw adds the byes", name=name
+            "{name!r} is a bye, not a player. Leave it out, the draw adds the byes.", name=name
         )
 
 
@@ -242,7 +242,7 @@ def pairings(drawn: Drawn, counted: Mapping[str, Result] | None = None) -> list[
     found = []
     for number in range(1, len(drawn) + 1):
         if (seats := drawn.get(f"R{number}")) is None:
-            raise InputError("round {n} is not drawn, and a later one is", n=number)
+            raise InputError("round {n} isn't drawn, and a later one is", n=number)
         pairs = [(str(one), other) for one, other in zip(seats[::2], seats[1::2], strict=True)]
         pairs.sort(key=lambda pair: pair[1] is None)
         names = [f"R{number}.{k}" for k in range(1, len(pairs) + 1)]

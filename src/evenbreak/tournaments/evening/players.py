@@ -56,7 +56,7 @@ class People:
         """
         for name in _names_in(what):
             if name not in self.entrants:
-                raise InputError("{player} has not entered", player=name)
+                raise InputError("{player} hasn't entered", player=name)
         match what:
             case Drawn():
                 self.draw(what)
@@ -139,7 +139,7 @@ def _names_in(what: What) -> tuple[str, ...]:
             return names
         case Result(players=names, winner=winner):
             if winner not in names:
-                raise InputError("{player} won a match they are not in", player=winner)
+                raise InputError("{player} won a match they aren't in", player=winner)
             return names
         case Waits(players=names) | Ranked(order=names) | Drawn(order=names):
             return names

@@ -22,7 +22,7 @@ def rename(state: Evening, player: str, to: str) -> Renamed:
     """Give a player, by their full name, another name, at any time."""
     before = state.entrants[entered(state, player)]
     if to == player or not to.strip():
-        raise InputError("{player} keeps that name; enter another", player=player)
+        raise InputError("{player} keeps that name. Enter another.", player=player)
     check_entrant(state, Entrant(to, before.rating), besides=player)
     return Renamed(player, to)
 
@@ -44,7 +44,7 @@ def swap(state: Evening, one: str, other: str) -> Swapped:
     In a Swiss they trade opponents in the round that is being played.
     """
     if not state.drawn:
-        raise InputError("there is no draw yet in which players could trade places")
+        raise InputError("there's no draw yet in which players could trade places")
     names = entered(state, one), entered(state, other)
     if one == other:
         raise InputError("name two players to trade places")
@@ -53,7 +53,7 @@ def swap(state: Evening, one: str, other: str) -> Swapped:
         for match, on in state.on_tables.items():
             if name in on.call.players:
                 raise InputError(
-                    "{player} has been called to table {table}; take {match} off it first",
+                    "{player} has been called to table {table}. Take {match} off it first.",
                     player=name,
                     table=state.plan.table_name(on.call.table),
                     match=state.match_words(match),
@@ -67,8 +67,8 @@ def _refuse_begun(state: Evening, player: str, *, this_round: bool = False) -> N
         return
     if state.plan.form == "chips":
         raise InputError(
-            "a chip tournament plays on in the order of its line; drop {player}, "
-            "and enter who comes in their place as a late player",
+            "a chip tournament plays on in the order of its line. Drop {player}, and "
+            "enter who comes in their place as a late player.",
             player=player,
         )
     now = f"R{len(state.later)}." if this_round else ""
@@ -127,5 +127,5 @@ def decline(state: Evening, name: str) -> Declined:
 
 def _registered(state: Evening, name: str) -> str:
     if name not in state.registered:
-        raise InputError("{player} is not on the list of those who would like to play", player=name)
+        raise InputError("{player} isn't on the list of those who would like to play", player=name)
     return name

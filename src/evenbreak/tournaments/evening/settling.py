@@ -33,18 +33,18 @@ def stand(state: Evening, match: str) -> list[Result]:
         if the match was not played by other players, or an earlier one must stand first.
     """
     if state.plan.form == "chips":
-        raise InputError("a rack of a player without chips can't stand; play it again, or undo")
+        raise InputError("a rack of a player without chips can't stand. Play it again, or undo.")
     name = known_match(state, match)
     played = {one.result.match: one.result for one in state.aside}
     if name not in played:
         if not played:
             raise InputError(
-                "{match} was not played by the wrong players, so there is nothing to let stand",
+                "{match} wasn't played by the wrong players, so there's nothing to let stand",
                 match=state.match_words(name),
             )
         raise InputError(
-            "{match} was not played by the wrong players, so there is nothing to let stand; "
-            "{others} can stand",
+            "{match} wasn't played by the wrong players, so there's nothing to let "
+            "stand; {others} can stand",
             match=state.match_words(name),
             others=listed([state.match_words(one) for one in played]),
         )
@@ -68,8 +68,8 @@ def stand(state: Evening, match: str) -> list[Result]:
             )
         if not missing & set(before.players):
             raise InputError(
-                "{players} did not come from {before}, so {match} can't stand; play it "
-                "again, or undo",
+                "{players} didn't come from {before}, so {match} can't stand. Play it "
+                "again, or undo.",
                 players=listed(sorted(missing)),
                 before=state.match_words(before.match),
                 match=state.match_words(name),
@@ -156,7 +156,7 @@ def break_ties(state: Evening, rng: np.random.Generator, *, only_lots: bool = Fa
             "the ties are already broken; to take that back: {undo}",
             undo=Command("tournament undo"),
         )
-    raise InputError("there is no tie to break; ties are broken once all matches are played")
+    raise InputError("there's no tie to break; ties are broken once all matches are played")
 
 
 def _broken(

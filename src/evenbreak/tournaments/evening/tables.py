@@ -16,7 +16,7 @@ def swap_tables(state: Evening, one: str, other: str) -> list[Called]:
     names = undecided(state, one), undecided(state, other)
     for name in names:
         if name not in state.on_tables:
-            raise InputError("{match} is not on a table", match=state.match_words(name))
+            raise InputError("{match} isn't on a table", match=state.match_words(name))
     if names[0] == names[1]:
         raise InputError("name two matches to trade tables")
     calls = [state.on_tables[name].call for name in names]
@@ -58,7 +58,7 @@ def wait(
     found = Waits(name, pair, tuple(dict.fromkeys(absent)), until, reason)
     if not found and name not in state.waiting_for:
         raise InputError(
-            "{match} is not waiting; say who is absent, or why it waits",
+            "{match} isn't waiting. Say who is absent, or why it waits.",
             match=state.match_words(name),
         )
     return found

@@ -150,7 +150,7 @@ def undo(state: Evening, entry: int | None = None) -> list[Undone]:
     own = own_last(state)
     chosen = own if entry is None else entry
     if chosen is None:
-        raise InputError("there is nothing to undo")
+        raise InputError("there's nothing to undo")
     events = dict(zip(state.numbers, state.events, strict=True))
     if chosen not in undoable(state) and not is_free(state, chosen):
         raise InputError(_why_not(state, events, chosen))
@@ -170,9 +170,9 @@ def _why_not(state: Evening, events: Mapping[int, Event], entry: int) -> Sentenc
         match = state.match_words(what.match) if state.drawn else what.match
         return say("{match} has been played or called again since that call", match=match)
     if entry not in (own := _own(events, entry)):
-        return say("entry {entry} came with entry {other}; undo that", entry=entry, other=own[-1])
+        return say("entry {entry} came with entry {other}. Undo that.", entry=entry, other=own[-1])
     return say(
-        "other entries follow from entry {entry}; undo those first, or correct it", entry=entry
+        "other entries follow from entry {entry}. Undo those first, or correct it.", entry=entry
     )
 
 
@@ -217,7 +217,7 @@ def redo(state: Evening, entry: int | None = None) -> list[Redone]:
     """Let an entry that was undone count again, with what came with it; None: the last one."""
     last = redoable(state)
     if last is None or entry not in (None, last):
-        raise InputError("there is nothing to redo")
+        raise InputError("there's nothing to redo")
     return [Redone(n) for n in _act(_all_events(state), last) if n in state.undone]
 
 

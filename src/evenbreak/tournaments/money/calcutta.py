@@ -124,11 +124,13 @@ def lot_worth(
     """
     auction = _Auction.of(fair, sold, paid_out)
     if player not in auction.to_come:
-        raise InputError("player is {player!r}; give one who is still to be sold", player=player)
+        raise InputError(
+            "player must be one who hasn't been sold; you gave {player!r}", player=player
+        )
     share = auction.to_come[player]
     others = sum(auction.to_come.values()) - share
     if others >= 1.0:
-        raise InputError("sold is empty; give the bids so far")
+        raise InputError("sold must not be empty. Give the bids so far.")
     return share * (auction.bids + number(bid, "bid", low=0.0)) / (1.0 - others)
 
 
@@ -149,10 +151,10 @@ class _Auction:
         shares = {name: number(s, f"fair share of {name}", low=0.0) for name, s in fair.items()}
         if abs(sum(shares.values()) - 1.0) > 1e-6:
             total = sum(shares.values())
-            raise InputError("fair shares sum to {total:g}; give shares that sum to 1", total=total)
+            raise InputError("fair shares must sum to 1; they sum to {total:g}", total=total)
         for name in bids:
             if name not in shares:
-                raise InputError("{sold} has {name!r}, who is not among the players", name=name)
+                raise InputError("{sold} has {name!r}, who isn't among the players", name=name)
         total = sum(number(bid, f"bid for {name}", low=0.0) for name, bid in bids.items())
         return cls(total, {name: part * s for name, s in shares.items() if name not in bids})
 

@@ -62,7 +62,7 @@ class Payouts:
         rows = tuple(PayoutRow(first, last, tuple(shares)) for first, last, shares in self.rows)
         object.__setattr__(self, "rows", rows)
         if not rows:
-            raise InputError("rows is empty; give shares for each number of entrants")
+            raise InputError("rows is empty. Give shares for each number of entrants.")
         before = 0
         for row in rows:
             first = whole(row.entrants_from, "entrants_from", at_least=1)
@@ -97,7 +97,7 @@ class Payouts:
             for row in self.rows
         ]
         raise InputError(
-            "{payouts} pays {spans} entrants, not {entrants}; enter your own shares",
+            "{payouts} pays {spans} entrants, not {entrants}. Enter your own shares.",
             payouts=self.name,
             spans=joined(spans, ", "),
             entrants=count,
@@ -151,7 +151,7 @@ def payout_table(name_or_shares: str | Sequence[float] | Payouts) -> Payouts:
         if name_or_shares not in PAYOUTS:
             listed = ", ".join(PAYOUTS)
             raise InputError(
-                "there is no payout table {name!r}; choose one of {tables}, or give shares",
+                "there's no payout table {name!r}. Choose one of {tables}, or give shares.",
                 name=name_or_shares,
                 tables=listed,
             )
@@ -294,8 +294,8 @@ def _payouts(text: str) -> Payouts:
     percents = [float(one) for one in text.split("/")] if _PERCENTS.fullmatch(text) else []
     if not any(percents):
         raise InputError(
-            "there is no payout table {text!r}; choose one of {tables}, or percentages such "
-            "as 50/30/20",
+            "there's no payout table {text!r}. Choose one of {tables}, or percentages "
+            "such as 50/30/20.",
             text=text,
             tables=", ".join(PAYOUTS),
         )

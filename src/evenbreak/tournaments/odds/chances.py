@@ -108,7 +108,7 @@ def chances_of(
         seats = now.seats.get(bracket.match(name).name, (None, None))
         if name in now.winners or None in seats:
             raise InputError(
-                "{live} has match {name!r}; give matches whose players are known", name=name
+                "{live} has match {name!r}. Give matches whose players are known.", name=name
             )
         one, other = seats
         table = tables[name].copy()
@@ -125,7 +125,7 @@ def _given(win: Wins, name: str) -> Any:
         return win
     if name not in win:
         raise InputError(
-            "{win} has no chances for match {name!r}; give them for every match", name=name
+            "{win} has no chances for match {name!r}. Give them for every match.", name=name
         )
     return win[name]
 
@@ -139,7 +139,8 @@ def _table(given: Any, bracket: Bracket) -> Floats:
     table = floats(given, "win", low=0.0, high=1.0).copy()
     if table.shape[:2] != (len(players), len(players)) or table.ndim > 3:
         raise InputError(
-            "win has shape {table_shape}; give a row and a column for each of {n_players} players",
+            "win must have a row and a column for each of {n_players} players; its shape "
+            "is {table_shape}",
             table_shape=table.shape,
             n_players=len(players),
         )
@@ -148,8 +149,8 @@ def _table(given: Any, bracket: Bracket) -> Floats:
     if off.max() > 1e-9:
         i, j, *_ = np.unravel_index(off.argmax(), off.shape)
         raise InputError(
-            "win[{player}, {player_2}] and win[{player_2}, {player}] do not add up to 1; "
-            "give the chances of both players of one match",
+            "win[{player}, {player_2}] and win[{player_2}, {player}] don't add up to 1. "
+            "Give the chances of both players of one match.",
             player=players[i],
             player_2=players[j],
         )

@@ -135,7 +135,7 @@ def swiss_odds(
     count = len(event.players)
     if table.shape[:2] != (count, count) or table.ndim > 3:
         raise InputError(
-            "{win} has shape {table_shape}; give a row and a column for each player",
+            "{win} must have a row and a column for each player; its shape is {table_shape}",
             table_shape=table.shape,
         )
     tables = np.moveaxis(table.reshape(count, count, -1), 2, 0)

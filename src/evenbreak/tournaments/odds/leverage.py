@@ -118,13 +118,13 @@ def _plan(now: Standing) -> Plan:
     if now.assumed:
         name = next(iter(now.assumed))
         raise InputError(
-            "results has {name!r}; give results of matches whose players are known", name=name
+            "results has {name!r}. Give results of matches whose players are known.", name=name
         )
     plan = exact_plan(now.remaining, (), MOST_STATES / len(now.bracket.players))
     if plan is None:
         raise InputError(
-            "bracket is too large for leverages at this point; ask again after a few results, or "
-            "compare title_odds with and without a result"
+            "bracket is too large for leverages at this point. Ask again after a few "
+            "results, or compare title_odds with and without a result."
         )
     return plan
 

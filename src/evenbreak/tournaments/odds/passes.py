@@ -294,9 +294,9 @@ def conditional(plan: Plan, chances: Chances, through: ForwardPass) -> ForwardPa
         if the results cannot all happen, or a group is still being played.
     """
     if any(isinstance(step, GroupStep) for step in plan.steps):
-        raise InputError("results has a match after the groups; give it when the groups are over")
+        raise InputError("results has a match after the groups. Give it when the groups are over.")
     if not float(through.total) > 0.0:
-        raise InputError("results cannot all happen; give results that agree with each other")
+        raise InputError("results can't all happen. Give results that agree with each other.")
     at_end = {
         number: 1.0 / float(through.after[number].sum())
         for number, step in enumerate(plan.steps)

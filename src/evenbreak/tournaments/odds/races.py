@@ -278,12 +278,12 @@ def _checked(
 ) -> tuple[Races, Scale, Floats, float]:
     rated = column(ratings, "ratings", len(bracket.players), "players")
     if not np.isfinite(rated).all():
-        raise InputError("ratings holds a value that is not a finite number; give one each")
+        raise InputError("ratings must hold finite numbers; one value isn't")
     plan = races if isinstance(races, Races) else Races(races)
     unknown = set(plan.by_match) - set(bracket.by_name)
     if unknown:
         raise InputError(
-            "by_match has match {unknown!r}, which the bracket does not have", unknown=min(unknown)
+            "by_match has match {unknown!r}, which the bracket doesn't have", unknown=min(unknown)
         )
     return plan, scale_of(scale), rated, number(break_advantage, "break_advantage")
 

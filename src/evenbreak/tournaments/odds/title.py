@@ -157,8 +157,8 @@ def prizes(bracket: Bracket, payouts: Sequence[float]) -> Floats:
     given = np.asarray(payouts, dtype=float)
     if given.ndim != 1 or len(given) > len(bracket.players) or not np.isfinite(given).all():
         raise InputError(
-            "{payouts} is {value!r}; give an amount for each paid place, at most {n_players} "
-            "of them",
+            "{payouts} must be an amount for each paid place, at most {n_players} of "
+            "them; you gave {value!r}",
             value=payouts,
             n_players=len(bracket.players),
         )
@@ -280,7 +280,7 @@ def odds_now(
 def _sampled(now: Standing, chances: Chances, samples: int, rng: np.random.Generator) -> TitleOdds:
     if now.assumed:
         raise InputError(
-            "results has {assumed!r}, whose players are not known yet; the odds of this "
+            "results has {assumed!r}, whose players aren't known yet; the odds of this "
             "bracket are sampled, so give only results of matches that can be played",
             assumed=next(iter(now.assumed)),
         )

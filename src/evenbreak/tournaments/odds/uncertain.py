@@ -111,7 +111,7 @@ def over_ratings(
     if now.assumed:
         name = next(iter(now.assumed))
         raise InputError(
-            "{results} has {name!r}; give results of matches whose players are known", name=name
+            "{results} has {name!r}. Give results of matches whose players are known.", name=name
         )
     mean = column(ratings, "ratings", len(bracket.players), "players")
     remaining = now.remaining
@@ -190,17 +190,17 @@ def drawn_ratings(mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Ge
     given, players = floats(spread, "spread"), len(mean)
     if given.shape == (players,):
         if (given < 0.0).any():
-            raise InputError("spread has a negative number; give a standard deviation each")
+            raise InputError("spread must be standard deviations, 0 or more")
         root = np.diag(given)
     elif given.shape == (players, players):
         values, vectors = np.linalg.eigh(0.5 * (given + given.T))
         if values[0] < -1e-9 * max(values[-1], 1.0):
-            raise InputError("spread is no covariance matrix; give one without negative variances")
+            raise InputError("spread must be a covariance matrix, without negative variances")
         root = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
     else:
         raise InputError(
-            "{spread} has shape {given_shape}; give a standard deviation for each of "
-            "{players} players, or their covariance matrix",
+            "{spread} must have a standard deviation for each of {players} players, or "
+            "their covariance matrix; its shape is {given_shape}",
             given_shape=given.shape,
             players=players,
         )

@@ -33,18 +33,18 @@ def object_in(body: bytes) -> dict[str, Any]:
         if "Number out of range" in str(error) or "Integer value" in str(error):
             _refuse_number()
         raise ProblemError(
-            "The body is not a JSON object, such as {example}.", example="{}"
+            "The body isn't a JSON object, such as {example}.", example="{}"
         ) from None
     except msgspec.DecodeError as error:
         at = re.search(r"\(byte (\d+)\)", str(error))
         before = body[: int(at[1])] if at else body
         raise ProblemError(
-            "The body is not JSON: line {line}, column {column}.",
+            "The body isn't JSON: line {line}, column {column}.",
             line=before.count(b"\n") + 1,
             column=len(before) - before.rfind(b"\n"),
         ) from None
     except UnicodeDecodeError:
-        raise ProblemError("The body is not in UTF-8.") from None
+        raise ProblemError("The body isn't in UTF-8.") from None
     except RecursionError:
         _refuse_depth()
     json.loads(body or b"{}", object_pairs_hook=_once)
@@ -55,7 +55,7 @@ def _once(pairs: list[tuple[str, Any]]) -> None:
     name, times = Counter(name for name, _ in pairs).most_common(1)[0] if pairs else ("", 1)
     if times > 1:
         raise ProblemError(
-            "{field!r} is in the body twice; give it once.", parameter=name[:40], field=name[:40]
+            "{field!r} is in the body twice. Give it once.", parameter=name[:40], field=name[:40]
         )
 
 

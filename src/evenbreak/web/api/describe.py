@@ -16,7 +16,7 @@ from evenbreak.web.api.resource import V1, Resource
 _TEMPLATE = "#/components/schemas/{name}"
 _BEARER = "token"
 _TAGS = {
-    "tonight": "The tournament of tonight, as everybody in the room sees it.",
+    "tonight": "The tournament of tonight, as everyone in the room sees it.",
     "enter": "What a program enters, with a token that the director created.",
     "questions": "What the commands answer, such as `evenbreak odds`.",
     "interface": "The interface itself.",

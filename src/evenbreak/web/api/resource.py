@@ -212,7 +212,7 @@ def _texts_read(one: Declared, texts: Sequence[str]) -> Any:
     if one.field.many:
         return tuple(one.kind.read(text) for text in texts)
     if len(texts) > 1:
-        raise InputError("it is given {n} times; give it once", n=len(texts))
+        raise InputError("it is given {n} times. Give it once.", n=len(texts))
     return one.kind.read(texts[0])
 
 
@@ -232,9 +232,9 @@ def _check_names(asks: Sequence[Declared], given: Mapping[str, Any]) -> None:
     for name in given:
         if name not in names:
             allowed = ", ".join(names)
-            wanted = say("known here: {names}", names=allowed) if names else say("there is none")
+            wanted = say("has: {names}", names=allowed) if names else say("has none")
             raise ProblemError(
-                "{field!r} is no parameter of this address; {wanted}.",
+                "{field!r} isn't a parameter of this address, which {wanted}.",
                 parameter=name[:_SHOWN],
                 field=name[:_SHOWN],
                 wanted=wanted,

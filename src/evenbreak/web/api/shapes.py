@@ -22,7 +22,7 @@ When: TypeAlias = Annotated[
 EventNumber: TypeAlias = Annotated[int, Meta(ge=1, le=99, description="The event of the night.")]
 Stage: TypeAlias = Annotated[
     Literal["registered", "under_way", "finished"],
-    Meta(description="registered: the draw has not been made yet."),
+    Meta(description="registered: the draw hasn't been made yet."),
 ]
 State: TypeAlias = Annotated[
     Literal["waits", "ready", "called", "playing", "done", "forfeit"],
@@ -274,7 +274,7 @@ class Rating:
 
     name: str
     rating: Annotated[float, Meta(description="As it was entered.")]
-    error: Annotated[float, Meta(ge=0, description="Its standard error; 0: taken as right.")]
+    error: Annotated[float, Meta(ge=0, description="Its standard error; 0: exact.")]
     provisional: bool
     tonight: Annotated[float | None, Meta(description="As tonight's games have moved it.")]
 

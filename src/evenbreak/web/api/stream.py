@@ -48,8 +48,8 @@ class Change:
     id: Annotated[
         str,
         Meta(
-            description="Its place among all entries, and a sum of what it says, so that another "
-            "file is noticed; send it back as it is to go on."
+            description="Its place among all entries, and a sum of what it says, so that "
+            "another file is noticed. Send it back as it is to go on."
         ),
     ]
     at: Annotated[str, Meta(description="When it was entered.")]
@@ -173,8 +173,8 @@ _AFTER = Declared(
     "after",
     Field(
         Text(),
-        "The id of the last entry that is known, for programs that cannot send Last-Event-ID: "
-        "0 for all entries. Without either, from now on.",
+        "The id of the last entry that is known, for programs that can't send "
+        "Last-Event-ID: 0 for all entries. Without either, from now on.",
     ),
     None,
 )

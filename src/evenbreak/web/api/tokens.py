@@ -74,7 +74,7 @@ def check_still(request: Request, state: Evening, match: str | None) -> None:
         on = state.on_tables.get(known_match(state, match or ""))
         if on is None or on.call.table != held.table:
             raise ProblemError(
-                "{match} is not on the table of this program's token ({scope}).",
+                "{match} isn't on the table of this program's token ({scope}).",
                 match=state.match_words(known_match(state, match or "")),
                 scope=scope_words(held, state.plan),
                 status=403,

@@ -120,7 +120,7 @@ async def cards_on_paper(request: Request) -> Response:
     cards = score_cards(state, None)
     if not cards:
         raise RefusalError(
-            "No match is left to play, so there is no score card to print.", status=404
+            "No match is left to play, so there's no score card to print.", status=404
         )
     name = state.plan.name or site_of(request).path.stem
     paper, claims = _paper(request), is_director(request)  # a code is its player's secret

@@ -79,7 +79,7 @@ NOT_WITH_FORMAT = {
     "knockout_size": say("This format has no groups. Leave the number advancing from them blank."),
     "pod_size": say("This format has no pods. Leave their size at 8."),
     "qualifiers": say(
-        "In this format nobody qualifies. Leave the number of players advancing blank."
+        "In this format no one qualifies. Leave the number of players advancing blank."
     ),
     "rounds": say("Only a Swiss has a number of rounds. Leave it blank."),
     "final": say("Only a double elimination has a choice of final."),
@@ -309,7 +309,7 @@ def _begun(
     file = read_upload(content, read_entrants) if content.strip() else nobody()
     if not (content.strip() or stated or (league and league.sheet)):
         raise RefusalError(
-            "Nobody has entered yet, so nothing shows the scale of the ratings. Choose it below."
+            "No one has entered yet, so nothing shows the scale of the ratings. Choose it below."
         )
     if file.levels and stated is None:
         raise RefusalError(
@@ -330,7 +330,7 @@ def _begun(
     doubts = (
         []
         if known
-        else league_doubts(scale, read.rating, say("is it the right scale?"), read.players)
+        else league_doubts(scale, read.rating, say("Is it the right scale?"), read.players)
     )
     doubts += chart_doubts(plan.chart, scale)
     unrated = zip(rows, np.isnan(read.rating).tolist(), strict=True)
@@ -400,7 +400,7 @@ def _date(form: Form) -> str:
     try:
         return date.fromisoformat(text).isoformat() if text else ""
     except ValueError:
-        raise RefusalError("{value!r} is not a date, such as 2025-03-01.", value=text) from None
+        raise RefusalError("{value!r} isn't a date, such as 2025-03-01.", value=text) from None
 
 
 def _refuse_of_other_formats(form: Form, kind: str) -> None:

@@ -98,7 +98,7 @@ def _level(text: str, chart: str) -> int:
     levels = (points_chart(chart) if chart in POINTS_CHARTS else level_chart(chart)).levels
     if text not in map(str, levels):
         raise RefusalError(
-            "{value!r} is not a skill level of {chart}. Enter one of {levels}.",
+            "{value!r} isn't a skill level of {chart}. Enter one of {levels}.",
             value=text[:20],
             chart=CHARTS_OF_LEVELS[chart],
             levels=", ".join(map(str, levels)),
@@ -113,7 +113,7 @@ def _scale(request: Request, state: Evening | None, league: League) -> Scale | N
             return scale_of(given)
         except InputError:
             raise RefusalError(
-                "There is no rating scale called {value!r}; choose one of {allowed}.",
+                "There is no rating scale called {value!r}. Choose one of {allowed}.",
                 value=given[:20],
                 allowed=", ".join(SCALES),
             ) from None
@@ -133,7 +133,7 @@ def _side(text: str, state: Evening | None, league: League) -> Entrant:
     if known is not None and not tonight:
         return Entrant(*known)
     if state is None:
-        raise RefusalError("{value!r} is not a rating. Enter a number, such as 520.", value=text)
+        raise RefusalError("{value!r} isn't a rating. Enter a number, such as 520.", value=text)
     return state.entrants[known_player(state, text)]
 
 
@@ -141,7 +141,7 @@ def _races(sides: Sequence[Entrant], stated: Scale | None, length: int) -> list[
     a, b = sides
     if not abs(a.rating - b.rating) < 1e6:  # neither too large nor not a number
         raise RefusalError(
-            "{value!r} is not a rating. Enter a number, such as 520.", value=format(a.rating, "g")
+            "{value!r} isn't a rating. Enter a number, such as 520.", value=format(a.rating, "g")
         )
     ratings, names = (a.rating, b.rating), (a.name, b.name)
     scale = stated or unstated_scale(ratings, names, CHOOSE_IT)

@@ -197,7 +197,7 @@ def _with_code(request: Request, code: str) -> str:
     if code not in players:
         site.codes.count(address)
         site.all_codes.count("")
-        raise RefusalError("Nobody has this code tonight. Check it on your score card.", status=404)
+        raise RefusalError("No one has this code tonight. Check it on your score card.", status=404)
     return players[code]
 
 

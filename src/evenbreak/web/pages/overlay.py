@@ -264,7 +264,7 @@ def _look(query: QueryParams) -> str:
     for name, color in asked.items():
         if not re.fullmatch(r"[0-9a-f]{6}", color):
             raise RefusalError(
-                "The color is {color!r}; give six hex digits, such as {name}=7a1f5c.",
+                "The color must be six hex digits, such as {name}=7a1f5c; you gave {color!r}.",
                 name=name,
                 color=color[:20],
             )

@@ -82,7 +82,7 @@ async def _finished(request: Request) -> tuple[Evening, list[tuple[str, str, flo
     night = night_of(request)
     state = await asyncio.to_thread(night.state) if night.exists else None
     if state is None or not state.drawn:
-        raise RefusalError("The draw has not been made yet.", status=404)
+        raise RefusalError("The draw hasn't been made yet.", status=404)
     known = await night.outlook()
     places = view_of(state, known).places if known and known.of is state else []
     prizes = await asyncio.to_thread(night.prizes)

@@ -224,7 +224,7 @@ async def _nights(request: Request) -> list[Night]:
     begun = begun_nights(request)
     drawn = [night for night in begun if (await asyncio.to_thread(night.state)).drawn]
     if not drawn:
-        raise RefusalError("The draw has not been made yet.", status=404)
+        raise RefusalError("The draw hasn't been made yet.", status=404)
     return drawn
 
 
