@@ -9,7 +9,7 @@ from evenbreak.answers.tournament.printed import Card
 from evenbreak.sheets.pdf_page import MARGIN, PAPERS, Paper, fitted, pdf_bytes
 
 _SIZE, _ROW = 11.0, 0.27
-_MOST_ROW = 0.5  # of a list that is short
+_MOST_ROW = 0.95  # of a list that is short
 _TOP = MARGIN + 0.75
 
 
@@ -73,7 +73,7 @@ def _row(page: Paper, first_match: FirstMatch, top: float, high: float, *, gray:
     wide, y = page.wide, top + 0.5 * high + 0.054
     if gray:
         page.band(MARGIN, top, wide - 2 * MARGIN, high, gray="0.93")
-    name, size = fitted(first_match.name, _SIZE * min(1.4, high / _ROW), 2.6, bold=True)
+    name, size = fitted(first_match.name, _SIZE * min(1.5, high / _ROW), 2.6, bold=True)
     page.text(MARGIN + 0.05, y, name, size=size, bold=True)
     page.text(MARGIN + 2.75, y, f"seed {first_match.seed}", size=9, color="0.3")
     number = f"match {first_match.match}" if first_match.match else ""

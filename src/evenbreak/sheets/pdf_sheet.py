@@ -145,8 +145,8 @@ def page_sizes(
 
 
 def longest_name(size: float) -> float:
-    """Return the width that a name may have, in inches: as many letters where they are large."""
-    return LONGEST_NAME * max(1.0, size / 11.5)
+    """Return the width that a name may have, in inches: more where few players leave room."""
+    return LONGEST_NAME if size < LARGEST else 2.6
 
 
 def rating_text(line: PlayerLine) -> str:
