@@ -120,7 +120,7 @@ def test_what_fails_unforeseen_is_said_in_json(
     browser.expected = (ArithmeticError,)
     got = browser.tells("GET", "/api/v1/tonight")
     assert (got.status, got.headers["content-type"]) == (500, "application/problem+json")
-    assert got.json["detail"] == "This failed; nothing was changed by it."
+    assert got.json["detail"] == "That failed; nothing was changed."
 
 
 def test_the_guard_too_answers_programs_in_json(begun: Browser) -> None:

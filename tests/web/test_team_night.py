@@ -488,7 +488,7 @@ def test_who_names_next_waits_for_the_result_where_it_decides_that(tmp_path: Pat
         assert night.put(1, "Wim").status == 200
         for phone in (*night.captains, night.guest):
             words = phone.open("/team").words
-            assert "The loser of set 1 names first in set 2" in words
+            assert "The loser of set 1 puts up first in set 2" in words
         assert night.put(0, "Bo").status == 400
         night.direct("result", number=1, a=4, b=0)
         assert night.state.due == (1,)

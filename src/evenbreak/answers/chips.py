@@ -1,4 +1,4 @@
-"""Chip tournaments: the odds of one, whom a chip chart favours, and a fairer chart."""
+"""Chip tournaments: the odds of one, whom a chip chart favors, and a fairer chart."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def chip_odds_answer(
         p_place, error = played.p_place, played.error
         how = _luck_words(played.runs, error[:, 0])
         if left is None:
-            how += " The players come to the tables in an order that is drawn anew each time."
+            how += " The players come to the tables in a new random order each time."
     order = np.argsort(-p_place[:, 0], kind="stable").tolist()
     values: dict[Any, Any] = {"name": names, "rating": ratings, "chips": chips}
     every = [("p_title", "title"), ("p_second", "second"), ("p_third", "third")]
@@ -131,7 +131,7 @@ def chip_odds_answer(
 
 
 def chip_audit(asked: questions.ChipAudit) -> Answer:
-    """Return whom a chip chart favours: over a tournament, and between the last two players."""
+    """Return whom a chip chart favors: over a tournament, and between the last two players."""
     field, warnings = _field_of(asked, asked.entrants)
     chart = chip_chart_of(asked.chart)
     found = chip_fairness(
@@ -198,9 +198,9 @@ def _favour_words(field: ChipField, found: ChipFairness) -> str:
     title, order = found.odds.title, np.argsort(-field.ratings, kind="stable")
     upper = upper_half(field.ratings, title)
     if abs(upper - 0.5) < 0.03:
-        verdict = "favours neither the stronger nor the weaker half of the field"
+        verdict = "favors neither the stronger nor the weaker half of the field"
     else:
-        verdict = f"favours the {'stronger' if upper > 0.5 else 'weaker'} half of the field"
+        verdict = f"favors the {'stronger' if upper > 0.5 else 'weaker'} half of the field"
     top = order[0]
     times = float(len(title) * title[top])
     return (
@@ -225,7 +225,7 @@ def _row_table(chart: ChipChart, found: ChipFairness) -> Table:
         times = None if title is None else len(place) * title
         rows.append([_start(row), row.chips, int(there.sum()), title, times])
     columns = columns_of("band_from chips players p_title times_equal_share")
-    return Table("rows", columns, rows, title="Odds of the title by row of the chart")
+    return Table("rows", columns, rows, title="Title odds by row of the chart")
 
 
 def _heads_up_table(chart: ChipChart, scale: Scale) -> Table:

@@ -82,7 +82,7 @@ def reproduction_answer(folder: str, verdicts: Mapping[str, int], files: Iterabl
     pages = listed([f"{folder}/{name}" for name in names if name.endswith(".md")], "or")
     tables, figures = (sum(name.endswith(kind) for name in names) for kind in (".csv", ".png"))
     return Answer(
-        f"The source text computed anew, in {folder}",
+        f"The source text recalculated, in {folder}",
         [
             f"Of {total:,} numbers in the source text, {confirmed:,} are confirmed and {wrong:,} "
             f"{'is' if wrong == 1 else 'are'} wrong in the text. Start with {pages}.",

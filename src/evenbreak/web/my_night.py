@@ -253,8 +253,8 @@ def why_words(state: Evening, mine: MyMatch) -> Sentence | str:
     if not start:
         return say("{mine} against {theirs}: even race", mine=ratings[0], theirs=ratings[1])
     return say_count(
-        "{mine} against {theirs}: a start of one game",
-        "{mine} against {theirs}: a start of {n} games",
+        "{mine} against {theirs}: a head start of one game",
+        "{mine} against {theirs}: a head start of {n} games",
         start,
         mine=ratings[0],
         theirs=ratings[1],

@@ -55,7 +55,7 @@ def test_the_least_fair_race_with_the_end_of_its_band_that_is_worse():
 @pytest.mark.parametrize(("tilt", "who"), [(0.0, "stronger"), (0.5, "neither"), (1.0, "weaker")])
 def test_whom_a_chart_favours(tilt, who):
     made = design("npl", RaceLimits((9, 11), weaker_least=2), tilt=tilt)
-    assert f"favours {'the ' * (who != 'neither')}{who} player" in words(
+    assert f"favors {'the ' * (who != 'neither')}{who} player" in words(
         chart_audit_answer(audit(made))
     )
 
@@ -98,7 +98,7 @@ def test_gaps_overlaps_and_easier_races_are_said_once_each():
     found = words(chart_audit_answer(audit(draft, scale="npl")))
     assert "a difference of 5." in found
     assert "differences of 12 to 14." in found
-    assert "21 and more" in found
+    assert "21 and up" in found
 
 
 def test_a_chart_that_determines_nothing_has_no_fit_and_no_details():

@@ -70,7 +70,7 @@ def test_what_rests_on_few_players_is_said_not_to_be_used():
 def test_how_much_of_the_field_newcomers_have_is_said():
     ratings = fit(SEASON, levels=Levels(field=0.85))
     (text,) = level_words(ratings, None)
-    assert "85% of how far that field was above or below the usual one" in text
+    assert "85% of its distance from the usual field" in text
     found = Evidence("field", (0.75,), (Estimate(0.001, 0.0005, 0.0015),), True, 0.85, 0.1)
     choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
     (text,) = level_words(ratings, choice)
@@ -93,4 +93,6 @@ def test_teams_that_are_too_many_to_compare_are_said_not_to_be_used(monkeypatch)
 
 
 def test_a_share_of_the_field_above_one_is_said():
-    assert "125% of how far" in " ".join(level_words(fit(SEASON, levels=Levels(field=1.25)), None))
+    assert "125% of its distance" in " ".join(
+        level_words(fit(SEASON, levels=Levels(field=1.25)), None)
+    )

@@ -51,7 +51,7 @@ def test_what_the_minutes_assume_is_said():
     assert "table" not in timed
     own = about_time(round_of(pace=own_pace(8.0), tables=2, turnover=Turnover(5)))
     assert "8 minutes a game on average" in own
-    assert "5 minutes pass between" in own
+    assert "starts 5 minutes later" in own
 
 
 def test_pairs_that_cannot_be_compared_or_made_even_are_named():

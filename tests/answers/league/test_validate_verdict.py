@@ -68,7 +68,7 @@ def test_form_of_the_day_is_allowed_for(play_season):
     file = ResultsFile(found.forecasts.results, "r.csv", (), (), "")
     text = " ".join(validate_answer(file, found, scale_of("npl")).sentences)
     assert text.startswith("You can trust")
-    assert "Form of the day is allowed for" in text
+    assert "Day-to-day form is allowed for" in text
 
 
 def test_what_no_form_explains_makes_chances_of_matches_unreliable(demo):

@@ -30,7 +30,7 @@ def test_the_other_look_ahead_is_named_where_it_prefers_another_shot():
         ((0.4, 0.2), "are the favorite as long as a miss leaves a chance below 0.6667"),
         ((0.6, 1), "are the favorite, whatever"),
         ((0.5, 1), "even"),
-        ((0, 0), "nobody wins"),
+        ((0, 0), "no one wins"),
         ((0, 0.5), "not the favorite"),
     ],
 )

@@ -26,7 +26,7 @@ SAME_SCALE = 0.05
 """Scales that differ by a smaller share are the same scale to a reader."""
 
 SAME_CHANCE = 0.02
-"""A chart favours neither player if the mean chance is nearer to 1/2 than this."""
+"""A chart favors neither player if the mean chance is nearer to 1/2 than this."""
 
 ROUGH = 0.25
 """A fit that is off by more than this share of a band, on average, is none to a reader."""
@@ -42,7 +42,7 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
     >>> from evenbreak.handicaps import audit
     >>> print(chart_audit_answer(audit("npl_10")).sentences[0].partition(". ")[0])
     At differences of 1 to 56 points, the stronger player wins 50% of the matches on average, so the
-    chart favours neither player
+    chart favors neither player
     """
     points = report.scale.points_per_doubling
     fitted = report.fit is not None and report.fit is report.best_fit
@@ -82,18 +82,18 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
 
 
 def _favoured(report: ChartAudit) -> Iterator[str]:
-    """Yield whom the chart favours as a whole, if any row has an end."""
+    """Yield whom the chart favors as a whole, if any row has an end."""
     chances = report.p_win
     if not chances.size:
         return
     last = max(row.difference_to for row in report.rows if row.difference_to is not None)
     mean = float(chances.mean())
     if abs(mean - 0.5) < SAME_CHANCE:
-        so = "so the chart favours neither player"
+        so = "so the chart favors neither player"
     else:
         who, often = ("stronger", chances > 0.5) if mean > 0.5 else ("weaker", chances < 0.5)
         so = (
-            f"so the chart favours the {who} player, who is the favorite at {int(often.sum())} of "
+            f"so the chart favors the {who} player, who is the favorite at {int(often.sum())} of "
             f"{chances.size} differences"
         )
     yield (
@@ -311,8 +311,8 @@ def _chances(between: Sequence[LevelCell], skills: LevelSkills) -> list[float]:
 def _in_fact(between: Sequence[LevelCell], chances: Sequence[float]) -> str:
     most, cell = max(zip(chances, between, strict=True), key=lambda pair: pair[0])
     return (
-        "That takes the levels to be as far apart as the races make up for. In some 40,000 matches "
-        f"of other leagues with this chart they were not: the higher level won "
+        "That assumes that the levels are as far apart as the races make up for. In some 40,000 "
+        f"matches of other leagues with this chart they were not: the higher level won "
         f"{percent(min(chances))} to {percent(most)} of the matches, the most between levels "
         f"{cell.level} and {cell.opponent_level}."
     )

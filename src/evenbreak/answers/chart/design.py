@@ -219,7 +219,7 @@ def _prices(task: DesignTask, made: Chart, up_to: int) -> Table | None:
             (what, *(getattr(measure, name) for name in names), len(chart.rows))
             for what, chart, measure in measured
         ],
-        "What each wish costs. 'Unfair' is how far the stronger player's chance is from the "
+        "The cost of each limit. 'Unfair' is how far the stronger player's chance is from the "
         "target:",
     )
 

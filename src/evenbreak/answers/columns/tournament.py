@@ -124,7 +124,7 @@ TEAMS = registry(
     number("p_best", "best pick if the\nratings are off", percent),
     detail("p_best_error", "standard\nerror", percent),
     text("order", "order"),
-    text("names_first", "who names first", name="meaning"),
+    text("names_first", "who puts up first", name="meaning"),
     text("sits_out", "sits out"),
     text("start_1", "head start"),
     number("p_win_1", "{a}\nwins", chance),

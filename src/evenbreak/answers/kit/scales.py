@@ -318,7 +318,7 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
     >>> from evenbreak.ratings.fitted import DayForm
     >>> from evenbreak.ratings import SCALES
     >>> print(*form_words(DayForm(Estimate(0.12, 0.06, 0.18), 900), SCALES["npl"]))
-    Form of the day: from match to match the strength difference of two players varies by 15
+    Day-to-day form: from match to match the strength difference of two players varies by 15
     points, give or take 2, so sweeps are likelier and hill-hill games rarer than ratings alone
     would say. This list of ratings states it (0.35 in log-odds); its errors, and odds, fair, live
     and matchups, allow for it.
@@ -327,7 +327,7 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
         return
     points, error = scale.points(form.sd), scale.points(form.sd_error)
     yield (
-        f"Form of the day: from match to match the strength difference of two players varies by "
+        f"Day-to-day form: from match to match the strength difference of two players varies by "
         f"{points:.0f} points, give or take {error:.0f}, so sweeps are likelier and hill-hill "
         "games rarer than ratings alone would say. This list of ratings states it "
         f"({form.sd:.2f} in log-odds); its errors, and odds, fair, live and matchups, allow for it."
@@ -341,7 +341,7 @@ def form_details(form: DayForm | None, scale: Scale) -> Iterator[str]:
     v, low, high = form.variance
     end = "This is established." if form.established else "This may be luck, so nothing uses it."
     yield (
-        f"Form of the day, estimated from {form.races:,} matches, each compared with the ratings "
+        f"Day-to-day form, estimated from {form.races:,} matches, each compared with the ratings "
         f"from all others: a standard deviation of {scale.points(form.sd):.1f} points (variance "
         f"{v:.3f} in squared log-odds, 95% interval {low:.3f} to {high:.3f}). {end}"
     )
@@ -351,17 +351,17 @@ def form_used_words(form: float, scale: Scale | None = None) -> str:
     """Return that an answer allows for form of the day; '' if there is none.
 
     >>> form_used_words(0.35)
-    'Form of the day is allowed for: from match to match the log-odds of a game vary by 0.35.'
+    'Day-to-day form is allowed for: from match to match the log-odds of a game vary by 0.35.'
     """
     if not form:
         return ""
     if scale is None:
         return (
-            "Form of the day is allowed for: from match to match the log-odds of a game vary by "
+            "Day-to-day form is allowed for: from match to match the log-odds of a game vary by "
             f"{form:g}."
         )
     return (
-        f"Form of the day is allowed for: from match to match the strength difference of two "
+        f"Day-to-day form is allowed for: from match to match the strength difference of two "
         f"players varies by {scale.points(form):.0f} points."
     )
 

@@ -107,10 +107,10 @@ def range_words(first: int, last: int | None) -> str:
     """Return a range of whole numbers, which may be open-ended.
 
     >>> range_words(7, 18), range_words(7, 7), range_words(49, None)
-    ('7 to 18', '7', '49 and more')
+    ('7 to 18', '7', '49 and up')
     """
     if last is None:
-        return say("{first} and more", first=first)
+        return say("{first} and up", first=first)
     return say("{first} to {last}", first=first, last=last) if last > first else str(first)
 
 

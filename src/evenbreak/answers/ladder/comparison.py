@@ -113,7 +113,7 @@ _EXPLANATION = (
     "and in percent of a doubling, the points that double the odds of winning a game. 'Settles "
     "in': the matches it takes a rating that starts one doubling too low to come within a sixth "
     "of a doubling, on average and for 9 out of 10 players. 'Favorite': how often the player "
-    "favoured by the errors wins, and in how many of 100 matches their chance is 60% or more. "
+    "favored by the errors wins, and in how many of 100 matches their chance is 60% or more. "
     "'Games': the average length of a match."
 )
 

@@ -94,7 +94,7 @@ def _heading(found: LadderFindings) -> str:
 
 def _form(when: str, sd: float) -> str:
     return (
-        f"Everybody's form varies from {when} to {when}, by up to {sd:g} points two times in three"
+        f"Everyone's form varies from {when} to {when}, by up to {sd:g} points two times in three"
     )
 
 
@@ -118,8 +118,8 @@ def _how_far_off(found: LadderFindings) -> str:
 def _how_unfair(favorite: Distribution) -> str:
     often = favorite.at_least(CLEAR_FAVORITE)
     return (
-        "These errors create favorites in matches that should be even: the favorite wins "
-        f"{100.0 * favorite.mean:.1f}% of them on average, and {of_100(often)} of the matches "
+        "Because of these errors, matches that should be even have a favorite who wins "
+        f"{100.0 * favorite.mean:.1f}% of the time on average, and {of_100(often)} of the matches "
         f"have a clear favorite, with a chance of {100 * CLEAR_FAVORITE:g}% or more."
     )
 
@@ -155,7 +155,7 @@ def _inflation(added: float) -> str:
     verb, what = ("raises", "inflate") if added > 0 else ("lowers", "deflate")
     return (
         f"Ratings {what}: each match {verb} the sum of the two ratings by {abs(added):.2f} points "
-        "on average. The results do not show it, because everybody's rating moves together."
+        "on average. The results do not show it, because everyone's rating moves together."
     )
 
 

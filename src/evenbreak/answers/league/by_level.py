@@ -137,7 +137,7 @@ def with_known_level(
     if new.any() and starter is not None:
         who = listed([roster.players[k] for k in np.flatnonzero(new)])
         notes.append(
-            say("No level is known of {players}: taken at {level:g}", players=who, level=starter)
+            say("No level known for {players}: assumed to be {level:g}", players=who, level=starter)
         )
     return with_level(file, starter), notes
 

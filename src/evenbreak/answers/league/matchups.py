@@ -63,7 +63,7 @@ def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
         parts.append(about_time(tonight))
     if doubtful(tonight):
         whose = "ratings" if tonight.levels is None else "levels"
-        parts.append(f"'A wins' is averaged over how far the {whose} may be off.")
+        parts.append(f"'A wins' allows for how uncertain the {whose} are.")
     parts += filter(None, [form_used_words(tonight.form, tonight.scale)])
     parts += [tonight.levels.why] if tonight.levels is not None else []
     remarks = [*([] if frame is None else about_pairs(frame)), *about_players(tonight)]
@@ -167,7 +167,7 @@ def which_races(tonight: Round, prefix: str) -> str:
 
 
 def least_even(paired: pd.DataFrame) -> str:
-    """Return which race favours one of the two most, of pairs as `races_of` names them.
+    """Return which race favors one of the two most, of pairs as `races_of` names them.
 
     >>> import pandas as pd
     >>> pairs = {"player_a": ["Ann", "Cy"], "player_b": ["Bo", "Di"]}
@@ -213,18 +213,18 @@ def time_words(pace: Pace, turnover: float | None = None) -> str:
 
     >>> from evenbreak.matches import PACES
     >>> print(time_words(PACES["9-ball"]))
-    Times assume 9-ball: 5.6 minutes a game and 3.8 more a match on average; two matches of
-    three come within 29% of that.
+    Times assume 9-ball: 5.6 minutes a game and 3.8 more a match on average; two matches in
+    three finish within 29% of that.
     """
     which = f"{pace.discipline}: " if pace.discipline else ""
     more = f" and {pace.overhead:.2g} more a match" if pace.overhead else ""
     text = (
-        f"Times assume {which}{pace.per_game:.2g} minutes a game{more} on average; two matches of "
-        f"three come within {percent(pace.log_sd)} of that"
+        f"Times assume {which}{pace.per_game:.2g} minutes a game{more} on average; two matches in "
+        f"three finish within {percent(pace.log_sd)} of that"
     )
     if turnover is None:
         return f"{text}."
-    return f"{text}, and {turnover:.3g} minutes pass between two matches on a table."
+    return f"{text}, and the next match on a table starts {turnover:.3g} minutes later."
 
 
 def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
@@ -260,12 +260,12 @@ def about_players(tonight: Round) -> Iterator[Remark]:
     by_level = unrated & isinstance(tonight.chart, LevelChart)
     for which, what, why in (
         (by_level & filled, "without a rating", "rated by skill level, such as {0:.4g} ± {1:.3g}"),
-        (unrated & filled & ~by_level, "without a rating", "taken as {0:g} ± {1:g}"),
-        (unrated & ~filled, "without a rating", "taken as {0:g}"),
+        (unrated & filled & ~by_level, "without a rating", "assumed to be {0:g} ± {1:g}"),
+        (unrated & ~filled, "without a rating", "assumed to be {0:g}"),
         (
             ~unrated & filled & (read.games == 0),
             "without games",
-            "rating taken as right to ± {1:g}",
+            "rating assumed right to ± {1:g}",
         ),
         (
             ~unrated & filled & (read.games == NOT_STATED),
@@ -277,9 +277,9 @@ def about_players(tonight: Round) -> Iterator[Remark]:
             filled_in = why.format(started.rating[place], started.standard_error[place])
             yield _remark(tonight, which & here, what, filled_in)
     if silent[here].all():
-        yield Remark("No standard errors are given", "all ratings are taken as exact")
+        yield Remark("No standard errors are given", "all ratings are treated as exact")
     elif (silent & here).any():
-        yield _remark(tonight, silent & here, "without a standard error", "rating taken as exact")
+        yield _remark(tonight, silent & here, "without a standard error", "rating treated as exact")
     by_games = ~unrated & filled & (read.games > 0) & here
     for place in np.flatnonzero(by_games)[:1]:
         how = f"taken from the games, such as ± {started.standard_error[place]:.3g} after "
@@ -310,7 +310,7 @@ def about_method(tonight: Round) -> Iterator[Remark]:
         )
     if tonight.form:
         yield Remark(
-            "Form of the day",
+            "Day-to-day form",
             "each chance and each length is averaged over it; the chance of a single game stays "
             "the same",
         )
@@ -354,7 +354,7 @@ def levels_data(levels: LevelSkills) -> dict[str, Any]:
 def game_model(tonight: Round) -> str:
     """Return how a game's chance follows from two ratings, in a sentence."""
     alone = "independently of every other game"
-    alone += " but for form of the day, whoever breaks." if tonight.form else ", whoever breaks."
+    alone += " but for day-to-day form, whoever breaks." if tonight.form else ", whoever breaks."
     if tonight.levels is not None:
         placed = ", ".join(
             f"{level} at {points:.0f}"

@@ -28,7 +28,7 @@ NAMES = {
     "team_sd": "teams",
     "division_sd": "divisions",
     "half_life": "half-life",
-    "brought_sd": "ratings brought along",
+    "brought_sd": "ratings from elsewhere",
 }
 """What each thing that a search may add is called."""
 
@@ -36,11 +36,11 @@ _SUBJECTS = {
     "joined": say("Joining late"),
     "newcomers": say("How new a player is"),
     "field": say("The field at the first event"),
-    "race": say("What the stated races take back"),
+    "race": say("What the races make up for"),
     "team_sd": say("The difference between teams"),
     "division_sd": say("The difference between divisions"),
     "half_life": say("The age of games"),
-    "brought_sd": say("What players bring along"),
+    "brought_sd": say("Ratings from elsewhere"),
 }
 """The same at the start of a sentence."""
 
@@ -99,8 +99,7 @@ def _beginning_words(ratings: Ratings) -> Iterator[str]:
     known = len(ratings.players) - len(others)
     if beginning.unknown_error and not off:
         yield (
-            "The ratings that players bring along do not help to predict these results, and are "
-            "not used."
+            "The ratings from elsewhere don't help to predict these results, so they aren't used."
         )
         return
     have = "brings a rating" if known == 1 else "bring a rating"
@@ -145,13 +144,13 @@ def _too_few_words(found: Evidence) -> Sentence:
 def _field_words(share: float, error: float | None) -> Sentence:
     if error is None:
         return say(
-            "Newcomers start where the field at their first event suggests: {share} of how far "
-            "that field was above or below the usual one is taken to be theirs too.",
+            "Newcomers start where the field at their first event suggests: {share} of its "
+            "distance from the usual field counts for them too.",
             share=Figure(share, ".0%"),
         )
     return say(
-        "Newcomers start where the field at their first event suggests: {share} of how far that "
-        "field was above or below the usual one is taken to be theirs too, give or take {error}.",
+        "Newcomers start where the field at their first event suggests: {share} of its "
+        "distance from the usual field counts for them too, give or take {error}.",
         share=Figure(share, ".0%"),
         error=Figure(error, ".0%"),
     )

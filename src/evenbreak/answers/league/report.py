@@ -214,7 +214,7 @@ def how_even(paired: pd.DataFrame) -> Iterator[str]:
     if len(offered):
         low, high = percent(offered["p_win_a"].min()), percent(offered["p_win_a"].max())
         wins = f"{low} of the time" if low == high else f"between {low} and {high} of the time"
-        yield (f"The stronger player wins {wins}, averaged over how far the ratings may be off.")
+        yield (f"The stronger player wins {wins}; this allows for rating uncertainty.")
         which = "The longest of these races" if len(offered) > 1 else "The race"
         yield (
             f"{which} lasts {offered['mean_games'].max():.1f} games on average; 9 out of 10 such "
@@ -280,7 +280,7 @@ def rating_model(sheet: Sheet) -> str:
     breaks = "whoever breaks"
     together = "games are independent of each other"
     if ratings.match_form:
-        together = "games of a match share the form of the day"
+        together = "games of a match share the players' form that day"
     if ratings.break_advantage is not None:
         breaks = f"the breaker playing {ratings.break_advantage:.3g} points better"
     return (

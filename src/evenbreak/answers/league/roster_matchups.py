@@ -71,7 +71,7 @@ class OfferedRaces:
         low, high = self.games
         span = f"{low:,} to " if low < high else ""
         text = f"The fairest races whose longest match has {span}{count_of(high, 'game')}"
-        return f"{text}; each pair gets the most even one." if low < high else f"{text}."
+        return f"{text}; for each pair, the closest to even." if low < high else f"{text}."
 
 
 FAIR_WITHIN = 0.1

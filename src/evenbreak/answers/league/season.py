@@ -125,7 +125,7 @@ def _fairness(fairness: pd.DataFrame) -> str:
     every = fairness[fairness["group"] == "all"].iloc[0]
     fifths = fairness[fairness["group"] == "fifth"]
     text = (
-        "How fair are the matches? The stronger player of the day wins "
+        "How fair are the matches? On the night, the stronger player wins "
         f"{_percent(every['p_win'], every['p_win_se'])} of them; 50% would be fair. "
         f"{_percent(every['p_hill_hill'])} go hill-hill, {_percent(every['p_shutout'])} are "
         f"shutouts, and a match takes {every['mean_games']:.1f} games on average."

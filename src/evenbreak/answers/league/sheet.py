@@ -174,7 +174,7 @@ def how_sure(scale: Scale, pairs: Sequence[SurePair]) -> Iterator[str]:
         yield (
             f"{'For half of the pairs, the' if several else 'The'} rating difference is known to "
             f"within {2 * middle.error:.{decimals_of(scale)}f} points (two standard errors)"
-            f"{' or better' if several else ''}. So a race that looks even may really favour "
+            f"{' or better' if several else ''}. So a race that looks even may really favor "
             "one of the two:"
         )
 

@@ -236,7 +236,7 @@ def _do_not(found: Validation, wrong: Mapping[str, int], scale: Scale) -> str:
     if found.choice is None:
         size = "smaller" if -1 in wrong.values() else "larger"
         return say(
-            "Do not use a prior of {points} points: {why}. Use a {size} {prior}, or leave it out "
+            "Don't use a prior of {points} points: {why}. Use a {size} {prior}, or leave it out "
             "to find the best.",
             points=points_text(found.prior_sd, scale),
             why=_too_sure(wrong),

@@ -145,7 +145,7 @@ _EXPLAINED = (
 _TESTS_EXPLAINED = (
     "Whether play within matches agrees with the model. 'Spread of scores' compares their squared "
     "errors with those of known strengths: more than expected suggests good and bad days, beyond "
-    "any form of the day that is allowed for. Fewer "
+    "any day-to-day form that is allowed for. Fewer "
     "'runs of racks' won by one player than expected mean streaks, which winner breaks cause too. "
     "p is how often luck alone makes so large a difference."
 )

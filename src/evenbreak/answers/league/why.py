@@ -33,7 +33,7 @@ from evenbreak.words import FilePath, Sentence, joined, race, say
 
 SOURCES = {
     "prior": say("assumed before"),
-    "brought": say("rating brought along"),
+    "brought": say("rating from elsewhere"),
     "results": say("these results"),
 }
 """What a person reads for each source of a rating."""

@@ -185,7 +185,7 @@ def comeback_tables(match: Match, odds: LiveOdds, names: tuple[str, str]) -> Ite
     """
     moments = odds.comebacks()
     if not moments:
-        yield "The match is over: there are no scores to come."
+        yield "The match is over."
     for breaker in sorted({moment.breaker or 0 for moment in moments}):
         score, *inner = odds.now.scores if (odds.now.breaker or 0) == breaker else ((-1, -1),)
         here = [moment for moment in moments if (moment.breaker or 0) == breaker]

@@ -142,7 +142,7 @@ class TwoPlayers:
             return joined([self.skills.why, _AVERAGED] if self.error else [self.skills.why])
         if not self.error:
             return ""
-        return "All of this is averaged over how far the ratings may be off (\N{PLUS-MINUS SIGN})."
+        return "All of this allows for rating uncertainty (\N{PLUS-MINUS SIGN})."
 
     @property
     def by_form(self) -> str:
@@ -161,8 +161,7 @@ class TwoPlayers:
         if not self.error:
             return ""
         return (
-            "Both ratings are taken as right here; evenbreak odds averages over how far they may "
-            "be off."
+            "Both ratings are treated as exact here; evenbreak odds allows for their uncertainty."
         )
 
     def noted(self, answer: Answer) -> Answer:

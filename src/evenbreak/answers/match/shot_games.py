@@ -122,7 +122,7 @@ def _advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot], look_
     best = ranked[0]
     wins = f"you win {percent(best.win)} of the time"
     if not any((best.shot.p1, best.shot.p2, *best.shot.later)) and best.win == 0.0:
-        return "Neither of you ever makes a ball, so nobody wins."
+        return "Neither of you ever makes a ball, so no one wins."
     if len(ranked) == 1:
         return f"{wins.capitalize()}.\n{_alone(best, look_ahead)}"
     equals = sorted((one.shot.name for one in ranked if one.behind < SAME), key=int)

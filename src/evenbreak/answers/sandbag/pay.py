@@ -128,9 +128,9 @@ def sandbag_pay_answer(
 
 _EXPLANATION = (
     "'Given away': how many of the dumped matches an honest player would have won. 'Extra wins': "
-    "how many more of the matches played in earnest the sandbagger wins; 'by the last': how many "
+    "how many more of the matches that count the sandbagger wins; 'by the last': how many "
     "of these come from the last match dumped. 'Pays from': how many times as much "
-    "as a win in a dumped match a win in earnest must be worth. 'Profit': the gain over an honest "
+    "as a win in a dumped match a win that counts must be worth. 'Profit': the gain over an honest "
     "player, in the unit of the stakes."
 )
 
@@ -151,7 +151,7 @@ def stakes_in_words(question: PayQuestion) -> str:
     """Return what is at stake, as a sentence."""
     prize = f"; a tournament win pays {question.prize:g}" if question.prize else ""
     return (
-        f"Stakes: winning is worth {question.stake:g} in a match played in earnest, "
+        f"Stakes: winning is worth {question.stake:g} in a match that counts, "
         f"{question.dumped_stake:g} in one that is dumped{prize}."
     )
 
@@ -168,7 +168,7 @@ def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
     if math.isfinite(cheapest.break_even):
         aside = "Leaving the prize aside, it" if question.prize else "It"
         yield (
-            f"{aside} pays off over {question.earnest} matches in earnest only if a win in earnest "
+            f"{aside} pays off over {question.earnest} matches that count only if such a win "
             f"is worth at least {cheapest.break_even:.2f} times as much as a win in a dumped match "
             f"(with {cheapest.dumped} dumped)."
         )
@@ -176,8 +176,8 @@ def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
         yield (
             f"In cycles of {CYCLE} matches, the most profitable plan for a player willing to be "
             f"{found.doubling} points under-rated is to dump {cycle.dumped} and play "
-            f"{cycle.earnest} in earnest. They are then {-cycle.rating_error:.1f} points "
-            f"under-rated when they start to play in earnest, win {percent(cycle.p_win)} of these "
+            f"{cycle.earnest} that count. They are then {-cycle.rating_error:.1f} points "
+            f"under-rated when they start to play for real, win {percent(cycle.p_win)} of these "
             f"matches and gain {cycle.profit:.2f} a match."
         )
     steps = ""
@@ -230,7 +230,7 @@ def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -
             f"{most.ladder.chart.name}: up to {most.all_pays.best.profit:.2f}.",
             Table("charts", columns, rows),
             "Each row is for the number of dumped matches that pays most. 'Pays from': how many "
-            "times as much as a win in a dumped match a win in earnest must be worth. 'Enters "
+            "times as much as a win in a dumped match a win that counts must be worth. 'Enters "
             f"low': how many more of their first {question.earnest} matches a player wins who "
             f"enters the league {found[0].doubling} points under-rated.",
         ],

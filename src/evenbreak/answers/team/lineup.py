@@ -184,7 +184,7 @@ def _in_words(found: Advice, named: Sequence[str]) -> Sentence:
             p=p,
         )
     return say(
-        "They name first. Their best pick is {pick}. Answer with {reply}, and you win "
+        "They put up first. Their best pick is {pick}. Answer with {reply}, and you win "
         "the night {p} of the time.",
         pick=_name(best),
         reply=names_words(best.answer),
@@ -229,11 +229,11 @@ def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | N
     gap = abs(first - second)
     toss = {"name_first": first, "answer_first": second, "worth": gap}
     if gap < 5e-4:
-        return toss, say("Who names first makes no difference.")
+        return toss, say("It makes no difference who puts up first.")
     return toss, say(
         "If you win the toss, {choice}: you win {better} of such nights, compared with {worse} the "
         "other way round.",
-        choice=say("answer") if second > first else say("name first"),
+        choice=say("answer") if second > first else say("put up first"),
         better=percent(max(first, second)),
         worse=percent(min(first, second)),
     )
@@ -277,7 +277,7 @@ def _sure_words(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -
         )
     return say(
         "Given rating uncertainty, {pick} is the best pick {p} of the time and {other} {q}, in "
-        "{draws} draws ({luck}); on average it is {pick}.",
+        "{draws} draws ({luck}); on average, {pick} comes out ahead.",
         pick=best,
         p=percent(share),
         other=names_words(others[0]),
@@ -325,7 +325,7 @@ def sealed_answer(
         [
             ", ".join(one.names),
             ", ".join(name for name in meeting.ours.players if name not in one.names)
-            or say("nobody"),
+            or say("no one"),
             one.worth,
             max(0.0, found.worth - one.worth),
             one.mix,

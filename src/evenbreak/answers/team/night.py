@@ -125,9 +125,11 @@ def waiting_words(state: TeamEvening) -> str:
     sets = {"last": line.number - 1, "n": line.number}
     if state.meeting.order[line.number - 1] == WINNER:
         return say(
-            "The winner of set {last} names first in set {n}, so enter its result first.", **sets
+            "The winner of set {last} puts up first in set {n}, so enter its result first.", **sets
         )
-    return say("The loser of set {last} names first in set {n}, so enter its result first.", **sets)
+    return say(
+        "The loser of set {last} puts up first in set {n}, so enter its result first.", **sets
+    )
 
 
 def history_words(events: Sequence[Event], state: TeamEvening) -> list[str]:

@@ -225,8 +225,8 @@ def team_rules_answer(
     >>> rules = LeagueRules(rosters, squads, levels, 5, SCALES["fargo"], 2, "AB")
     >>> answer = team_rules_answer(rules)
     >>> print(answer.sentences[0])
-    In the order AB, naming first in set 1 costs 0.9 points of winning chance on average; between \
-two teams of yours at most 0.9.
+    In the order AB, putting up first in set 1 costs 0.9 points of winning chance on average; \
+between two teams of yours at most 0.9.
     """
     rules.check()
     nights = rules.nights(rules.order)
@@ -254,18 +254,18 @@ def _points(change: float) -> str:
 
 def _order_words(order: str, nights: Floats) -> str:
     if BOTH in order and set(order) == {BOTH}:
-        return "Both captains name at once in every set, so nobody has the advantage of the toss."
+        return "Both captains name at once in every set, so no one has the advantage of the toss."
     edges = first_edges(nights)
     mean, widest = float(np.nanmean(edges)), float(np.nanmax(np.abs(edges)))
     if widest < _SMALL:
-        return f"In the order {order} it makes no difference who names first."
+        return f"In the order {order} it makes no difference who puts up first."
     if abs(mean) < _SMALL:
         return (
-            f"In the order {order} it makes no difference on average who names first in set 1; "
+            f"In the order {order} it makes no difference on average who puts up first in set 1; "
             f"between two teams of yours up to {_points(widest)}."
         )
     return (
-        f"In the order {order}, naming first in set 1 {'gains' if mean > 0 else 'costs'} "
+        f"In the order {order}, putting up first in set 1 {'gains' if mean > 0 else 'costs'} "
         f"{_points(mean)} on average; between two teams of yours at most {100.0 * widest:.1f}."
     )
 
@@ -328,4 +328,4 @@ def _orders_table(rules: LeagueRules, nights: Floats) -> Table:
         meaning = _IN_WORDS.get(named.get(order, ""), "your league's")
         rows.append([order, meaning, np.nanmean(edges), np.nanmax(np.abs(edges))])
     columns = columns_of("order names_first edge_mean edge_most")
-    return Table("orders", columns, rows, title="What naming first is worth")
+    return Table("orders", columns, rows, title="What putting up first is worth")

@@ -50,7 +50,7 @@ def team_season_answer(
     parts.append(_how(found, known=known))
     matches = count_of(len(season.played), "match", "matches")
     return Answer(
-        f"{count_of(len(season.teams), 'team')}: {matches} played, {len(season.to_come)} to come\n"
+        f"{count_of(len(season.teams), 'team')}: {matches} played, {len(season.to_come)} left\n"
         + rules_words(season.rules, sets=True, level="teams that are level", last="lot"),
         parts,
         details=[_places(found)],
@@ -178,14 +178,13 @@ def _error(found: SeasonChances) -> float:
 
 def _how(found: SeasonChances, *, known: bool) -> str:
     strengths = (
-        "the strengths are taken as right"
+        "the strengths are treated as exact"
         if known
-        else "averaged over how strong the teams may be, as their sets so far allow"
+        else "they allow for how uncertain the teams' strengths are after their sets so far"
     )
     if found.exact:
         return (
-            f"All {found.seasons:,} ways in which the matches to come may end were gone through; "
-            f"{strengths}."
+            f"All {found.seasons:,} ways the remaining matches can end were counted; {strengths}."
         )
     return (
         f"{found.seasons:,} seasons were simulated; {strengths}. The chances in the table are "

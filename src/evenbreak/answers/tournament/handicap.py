@@ -26,7 +26,7 @@ from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.races import Fairest, Race, Races
 from evenbreak.tournaments.odds.title import PlaceOdds
 
-_EVEN = 0.03  # a half of the field that is favoured by less than this is not
+_EVEN = 0.03  # a half of the field that is favored by less than this is not
 _REACH = 2  # how many games longer or shorter a race may be
 _OTHERWISE = (3, 5, 7, 9, 11)  # games of the races that are tried in place of a chart
 _GAMES = (0.85, 1.02)  # the games of the fairer tournaments, as shares of today's
@@ -36,13 +36,13 @@ _SHOWN = 5
 
 
 def favours_words(ratings: Floats, odds: PlaceOdds) -> str:
-    """Return whom the races of a handicapped tournament favour.
+    """Return whom the races of a handicapped tournament favor.
 
     >>> import numpy as np
     >>> from evenbreak.tournaments import single_elimination, title_odds
     >>> odds = title_odds(single_elimination(2), [[0.5, 0.6], [0.4, 0.5]])
     >>> favours_words(np.array([600.0, 500.0]), odds)
-    'The races favour the stronger half of the field: it wins the title 60% of the time, where
+    'The races favor the stronger half of the field: it wins the title 60% of the time, where
      50% would be fair.'
     """
     upper = upper_half(ratings, odds.title)
@@ -50,7 +50,7 @@ def favours_words(ratings: Floats, odds: PlaceOdds) -> str:
         verdict = "are fair to both halves of the field: the stronger half"
     else:
         stronger = upper > 0.5
-        verdict = f"favour the {'stronger' if stronger else 'weaker'} half of the field: it"
+        verdict = f"favor the {'stronger' if stronger else 'weaker'} half of the field: it"
         upper = upper if stronger else 1.0 - upper
     often = percent(upper)
     return f"The races {verdict} wins the title {often} of the time, where 50% would be fair."
@@ -99,7 +99,7 @@ def fairer_races(tournament: Tournament) -> list[Part]:
     return [
         table,
         *by_round,
-        "Unfairness is 0 if everybody has the same title odds, and 1 if they are off by an equal "
+        "Unfairness is 0 if everyone has the same title odds, and 1 if they are off by an equal "
         "share on average (root mean square). The stronger player needs the games in the table, "
         "the weaker as many as is fairest.",
     ]

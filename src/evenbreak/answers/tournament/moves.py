@@ -106,7 +106,9 @@ def called_words(before: Evening, after: Evening) -> list[Sentence]:
     for name, one in before.on_tables.items():
         if name not in after.on_tables and name not in after.counted:
             table = after.plan.table_name(one.call.table)
-            left = say("Off table {table}: {match}", match=after.match_words(name), table=table)
+            left = say(
+                "Taken off table {table}: {match}", match=after.match_words(name), table=table
+            )
             why = after.waiting_for.get(name)
             if why and why.absent:
                 gone = and_words(list(why.absent))

@@ -152,7 +152,7 @@ def _what_is_next(
         )
     words += [
         say(
-            "It is open who is the {runner_up}: some have won the same share of their matches.",
+            "The {runner_up} is still open: some players have won the same share of their matches.",
             runner_up=group_words(runners_up),
         )
         for runners_up in tied[len(groups) :]

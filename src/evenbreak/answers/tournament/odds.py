@@ -267,13 +267,13 @@ def how_words(
     elif to_draw == "rounds":
         drawn = ", each time with other ratings" if averaged else ""
         lines.append(
-            f"The rounds to come were paired and played {samples} times{drawn}; other luck would "
+            f"The remaining rounds were paired and played {samples} times{drawn}; other luck would "
             f"move no title odds by more than about {title}."
         )
     elif averaged:
         lines.append(
-            f"The odds are averaged over {samples} draws of how far the ratings may be off, by "
-            f"their standard errors; other draws would move no figure by more than about {off}."
+            f"The odds allow for rating uncertainty: averaged over {samples} draws of the ratings, "
+            f"by their standard errors; other draws would move no figure by more than about {off}."
         )
     elif odds.exact:
         lines.append("The odds are exact, if the ratings are right.")

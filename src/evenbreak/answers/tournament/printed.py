@@ -140,7 +140,7 @@ def onward_words(state: Evening, name: str) -> Sentence | str:
     }
     won, lost = to.get("winner"), to.get("loser")
     if match.side in ("final", "second final"):
-        again = say("If the winner of the losers’ side wins: match {n}.", n=won) if won else ""
+        again = say("If the losers’-side winner wins: match {n}.", n=won) if won else ""
         return again if match.side == "final" else ""
     if won and lost:
         return say("Winner to match {won}, loser to match {lost}.", won=won, lost=lost)

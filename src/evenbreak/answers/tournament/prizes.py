@@ -131,7 +131,7 @@ def calcutta_answer(
         words = f"All players are sold, for {bids:.2f} together."
     elif rows[0][2] is None:
         words = (
-            "Nothing is sold yet, so nobody knows how large the pot will be: the shares say what "
+            "Nothing is sold yet, so no one knows how large the pot will be: the shares say what "
             "each player is worth of it."
         )
     else:

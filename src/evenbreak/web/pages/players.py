@@ -29,7 +29,7 @@ _MONEY = re.compile(r"[0-9]{1,7}(\.[0-9]{1,2})?", re.ASCII)
 
 UNITS = (
     ("0", say("cents, as they come out")),
-    ("1", say("whole units")),
+    ("1", say("whole dollars or euros")),
     ("5", say("fives")),
     ("10", say("tens")),
 )
