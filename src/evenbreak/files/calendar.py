@@ -23,29 +23,10 @@ def calendar_bytes(
     start: time | None = None,
     minutes: int = 180,
 ) -> bytes:
-    r"""Return the fixtures that have a date as a calendar.
+    """Return the fixtures that have a date as a calendar, of whole days without a `start`.
 
-    An event keeps its UID when its date, time or table changes, so that a calendar that has it
-    already moves it. Times are those of the place where it is played.
-
-    Parameters
-    ----------
-    fixtures
-        the fixtures.
-    name
-        the name of the league.
-    venue
-        where those are played that do not say.
-    start
-        when a night starts; None: events of whole days.
-    minutes
-        how long a match lasts.
-
-    >>> from datetime import date
-    >>> match = Fixture(1, "Acers", "Bankers", date(2026, 9, 1), "Corner, Main St")
-    >>> calendar_bytes([match], name="Tuesday", start=time(19)).decode().splitlines()[8:12]
-    ['DTSTART:20260901T190000', 'DTEND:20260901T220000', 'SUMMARY:Acers v Bankers',
-     'LOCATION:Corner\\, Main St']
+    An event keeps its UID when its date, time or table changes, so that calendars that already have
+    it move it. Times are local to the venue; `venue` is for fixtures without their own.
     """
     dated = [one for one in fixtures if one.date is not None]
     stamp = min((one.date for one in dated if one.date), default=None)

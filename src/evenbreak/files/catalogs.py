@@ -42,12 +42,7 @@ def languages() -> dict[str, str]:
 
 
 def face_in(language: str) -> Face:
-    """Return how sentences are said in a language.
-
-    Raises
-    ------
-    DataError
-        if its catalog cannot be used.
+    """Return how sentences are said in a language; a DataError if its catalog can't be used.
 
     >>> face_in("de").number(1234.5, ",.1f")
     '1.234,5'
@@ -139,13 +134,7 @@ def _translations(place: Path) -> GNUTranslations:
 
 
 def read_catalog(place: Path) -> Catalog:
-    """Return a catalog as it is in its file.
-
-    Raises
-    ------
-    DataError
-        if it is no such file.
-    """
+    """Return the catalog in a file; a DataError if it isn't one."""
     from babel.messages.pofile import PoFileError, read_po
 
     try:

@@ -111,14 +111,7 @@ def is_chart(path: str | Path) -> bool:
 class ChartFile:
     """The content of a chart file, even if it is not a valid chart yet.
 
-    Parameters
-    ----------
-    found
-        the rows of a chart by rating difference as they are, or another kind of chart.
-    problems
-        what keeps those rows from being a chart, such as gaps and overlaps.
-    warnings
-        what to check although the file can be used, a line each.
+    `problems`, such as gaps and overlaps, keep its rows from being a chart.
     """
 
     found: ChartDraft | LevelChart | PointsChart
@@ -136,11 +129,8 @@ class ChartFile:
 def read_chart_file(path: str | Path) -> ChartFile:
     """Read a chart file; gaps and overlaps are kept as problems, for `audit` to report.
 
-    Raises
-    ------
-    DataError
-        if there is nothing to audit: missing columns, cells that are not whole numbers, rows
-        that end before they begin, or an invalid chart by skill level.
+    It's a DataError if there is nothing to audit: missing columns, cells that aren't whole numbers,
+    rows that end before they start, or an invalid chart by skill level.
     """
     table = (DIFFERENCES | LEVELS | POINTS).text(path)
     name = "chart" if str(path) == "-" else printable(Path(path).stem)

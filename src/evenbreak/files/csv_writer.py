@@ -62,9 +62,8 @@ def rows_of(frame: pd.DataFrame) -> list[tuple[Any, ...]]:
 def csv_lines(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Iterator[str]:
     r"""Yield a header and rows as lines of CSV, each with its line end.
 
-    Cells are separated by commas. Floats have six decimals, whole numbers none; True is yes and
-    False is no; None, NaN and infinities are empty cells; dates are ISO. Text is as `text_cell`
-    writes it.
+    Floats have six decimals, whole numbers none; True is yes and False is no; None, NaN and
+    infinities are empty cells; dates are ISO. Text is as `text_cell` writes it.
 
     >>> list(csv_lines(["race_a", "p_win_a"], [[7, 0.5], [8, None]]))
     ['race_a,p_win_a\n', '7,0.500000\n', '8,\n']

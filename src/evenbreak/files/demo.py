@@ -33,19 +33,9 @@ EVENING = "demo_evening.csv"
 
 
 def write_demo(folder: str | Path) -> list[str]:
-    """Write the files of the demo into a folder, and return the names of those it did not have.
+    """Write the demo's files into a folder; return the names of those that are new.
 
-    Raises
-    ------
-    DataError
-        if the folder has another file with one of their names; nothing is written then.
-    OSError
-        if they cannot be written.
-
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     len(write_demo(folder)), write_demo(folder)
-    (11, [])
+    It's a DataError if another file has one of their names; nothing is written then.
     """
     there = Path(folder)
     content = {name: _place(name).read_bytes() for name in DEMO}
@@ -60,14 +50,9 @@ def write_demo(folder: str | Path) -> list[str]:
 
 
 def write_demo_evening(path: str | Path, now: datetime) -> Evening:
-    """Write a tournament that is half played to a new file: results, tables in use, a score.
+    """Write a half-played tournament to a new file: results, tables in use, a score.
 
-    Parameters
-    ----------
-    path
-        the file, which must not exist yet.
-    now
-        a minute after the last of it has happened.
+    `now` is a minute after its last event.
     """
     events = read_event_list(_place(EVENING))
     last, end = datetime.fromisoformat(events[-1].at), now - timedelta(minutes=1)

@@ -129,16 +129,9 @@ NAMED = 6
 def rows_of_drill(
     table: TextTable, drill: str | None, *, as_above: bool = False
 ) -> NDArray[np.int64]:
-    """Return the rows of one drill, noting as a problem what leaves open which rows these are.
+    """Return the rows of one drill (None: the only one); a problem is noted where they're unclear.
 
-    Parameters
-    ----------
-    table
-        of which `drill` may be a column; without it all rows are of one drill.
-    drill
-        the drill asked about, in any case; None: the only one of the file.
-    as_above
-        whether an empty cell means the same drill as the cell above it.
+    With `as_above`, an empty cell means the drill of the cell above it.
     """
     rows = np.arange(len(table))
     if "drill" not in table:
@@ -306,26 +299,9 @@ class ShotsFile(NamedTuple):
 def read_practice(
     path: str | Path, *, drill: str | None = None, dates: DateOrder | None = None
 ) -> ScoresFile | ShotsFile:
-    r"""Read practice scores, or a log of single shots with the columns made and tried.
+    """Read practice scores, or a log of single shots with the columns made and tried.
 
-    Parameters
-    ----------
-    path, drill, dates
-        as for `read_scores`; a log of shots has no drills.
-
-    Raises
-    ------
-    DataError
-        with all problems of the file.
-
-    >>> import tempfile, pathlib
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = pathlib.Path(folder) / "shots.csv"
-    ...     rows = "date,shot,made,tried\n2025-01-03,cut,6,10\n2025-01-03,bank,2,10\n"
-    ...     _ = path.write_text(rows)
-    ...     file = read_practice(path)
-    >>> file.log.names, file.log.made
-    (('cut', 'bank'), array([6, 2]))
+    A log of shots has no drills. The DataError has all problems of the file.
     """
     shots, scores = (
         schema.but(
@@ -410,30 +386,10 @@ def _shots(table: TextTable, drill: str | None) -> ShotsFile:
 def read_scores(
     path: str | Path, *, drill: str | None = None, dates: DateOrder | None = None
 ) -> ScoresFile:
-    r"""Read practice scores from a CSV file, one score per row; '-' is standard input.
+    """Read practice scores from a CSV file, one score per row; '-' is standard input.
 
-    Parameters
-    ----------
-    path
-        the file.
-    drill
-        whose scores are read, if the file has several drills.
-    dates
-        'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date of the file shows it.
-
-    Raises
-    ------
-    DataError
-        with all problems of the file: no column of scores, no rows, scores that are not
-        numbers or too large, dates that cannot be read, several drills and none asked for.
-
-    >>> import tempfile, pathlib
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = pathlib.Path(folder) / "scores.csv"
-    ...     _ = path.write_text("Date;Points\n2024-09-03;50\n2024-09-10;44,5\n")
-    ...     file = read_scores(path)
-    >>> file.scores, str(file.dates[0])
-    (array([50. , 44.5]), '2024-09-03')
+    `drill` chooses among several; `dates`, 'mdy' or 'dmy', settles the order in dates such as
+    9/3/2024 if no date of the file shows it. The DataError has all problems of the file.
     """
     return _scores(SCORES.but(date={"order": dates}).read(path), drill)
 

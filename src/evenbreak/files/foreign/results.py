@@ -35,12 +35,9 @@ _JSON = re.compile(rb'(?:\xef\xbb\xbf)?\s*(?:\{\s*["}]|\[\s*[\[{\]])')
 
 
 def saved_in(content: bytes, source: str) -> tuple[SavedTournament, list[str]] | None:
-    """Return the tournament in another program's file, with warnings; None where there is none.
+    """Return the tournament in another program's file, with warnings; None if the file is none.
 
-    Raises
-    ------
-    DataError
-        if a file is JSON, but damaged or of no known program.
+    A DataError if the file is JSON, but damaged or of no known program.
     """
     parsed = _json_in(content, source)
     if parsed is None:
@@ -99,13 +96,9 @@ def _cell(value: Any) -> str:
 
 
 def export_of(content: bytes, source: str) -> Export | None:
-    """Return the matches of another program's file; None where a file is none.
+    """Return the matches of another program's file; None if the file is none.
 
-    Raises
-    ------
-    DataError
-        as `saved_in` does, or if the file has no match that was played, or matches that
-        contradict themselves.
+    A DataError as for `saved_in`, or if no match was played, or matches contradict themselves.
     """
     json_data = _json_in(content, source)
     if json_data is None:

@@ -70,22 +70,8 @@ class ExportError(EvenbreakError):
 class Played(NamedTuple):
     """A match, or a set of one, that counts as a result.
 
-    Parameters
-    ----------
-    player_a, player_b
-        the names.
-    score_a, score_b
-        games won, without those given as a head start.
-    race_a, race_b
-        the games that each had to win; 0 where not stated.
-    date, event
-        as text; '' where not stated.
-    winner
-        a, b or ''.
-    forfeit
-        whether it was one.
-    remarks
-        what is counted, such as `Remark.HEAD_START`.
+    Scores leave out games given as a head start. Races are 0, and the other fields '', where not
+    stated; the winner is 'a', 'b' or ''.
     """
 
     player_a: str
@@ -135,28 +121,10 @@ Slots: TypeAlias = tuple[str | From | None, ...]
 class SavedMatch(NamedTuple):
     """A match of a saved tournament.
 
-    Parameters
-    ----------
-    key
-        its number in the file; None for a second final that the file leaves out.
-    played
-        the results in it: one, several sets, or none.
-    left_out
-        why there is none: `Remark.BYE`, `Remark.UNFINISHED` or `Remark.NO_SCORE`.
-    problem
-        what contradicts itself in it; '' if nothing.
-    side
-        winners, losers, final, second final or third place.
-    round
-        its round.
-    slots
-        who comes to it from where.
-    winner
-        1 or 2 if it has been won, else 0.
-    race, table, started, ended
-        what the file says of it; 0 or '' where it says nothing.
-    pair, score
-        the players and the score of a match in play.
+    `key` is its number in the file, None for a second final that the file leaves out. It has one
+    result or several sets in `played`, or the reason for none in `left_out`. The side is winners,
+    losers, final, second final or third place; the winner is 1, 2 or 0. `pair` and `score` are of a
+    match in play.
     """
 
     key: Any
@@ -178,20 +146,7 @@ class SavedMatch(NamedTuple):
 class SavedTournament(NamedTuple):
     """A saved tournament, its matches in the order of the file.
 
-    Parameters
-    ----------
-    matches
-        the matches; where `refusal` is not '', without their places in the bracket.
-    name
-        its name.
-    players
-        the names in seed order.
-    everybody
-        whether everybody plays everybody.
-    discipline
-        8-ball, 9-ball or 10-ball; '' where not stated.
-    refusal
-        why the bracket cannot be rebuilt.
+    `refusal` is the reason why the bracket can't be rebuilt; matches then have no place in it.
     """
 
     matches: tuple[SavedMatch, ...]
@@ -217,16 +172,9 @@ def misshapen() -> str:
 
 
 def match_of(key: Any, read: Callable[[], tuple[Played, ...] | Remark], *times: Any) -> SavedMatch:
-    """Return a match with its results, on the day of the first time, or with what is wrong.
+    """Return a match with its results, on the day of the first time, or with its problem.
 
-    Parameters
-    ----------
-    key
-        its number in the file.
-    read
-        returns the results in it, or why there are none.
-    times
-        when it was, such as 2024-09-03T19:30:00+02:00.
+    `read` returns the results or the reason for none; times are like 2024-09-03T19:30:00+02:00.
     """
     try:
         played = read()

@@ -47,24 +47,10 @@ def read_saved_tournament(
 ) -> list[Event]:
     """Return the events of a tournament that CueScore, Challonge or brackets-manager saved.
 
-    Each match is checked: its players must be those whom the results before it send there.
-
-    Parameters
-    ----------
-    path
-        the JSON file.
-    plan
-        the ratings' scale, the tables and whatever the file does not say; a race of 0 is that of
-        the file.
-    entrants
-        those with ratings, by name; the others are new players.
-    at
-        the time of what the file has no time for.
-
-    Raises
-    ------
-    DataError
-        if the file is not such a tournament, or contradicts itself.
+    Each match is checked: its players must be those whom earlier results send there. The plan has
+    what the file lacks, and a race of 0 is that of the file; players not in `entrants` are new;
+    `at` is the time of whatever has none. It's a DataError if the file is no such tournament, or
+    contradicts itself.
     """
     source, content = content_of(path)
     parsed = saved_in(content, source)

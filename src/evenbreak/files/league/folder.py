@@ -36,20 +36,8 @@ RESULTS, ROSTER, CHART = "results", "roster", "chart"
 class SeenFile:
     """A file of a folder, and what it is.
 
-    Parameters
-    ----------
-    name
-        of the file.
-    what
-        results, team_results, roster, fixtures, teams, chart, aliases; '' if none of them.
-    about
-        what it holds, in words.
-    columns
-        of results: the titles of the columns, where they are not known ones.
-    players
-        the names in it, as they are compared.
-    holds
-        its content, where it could be read.
+    `what` is results, team_results, roster, fixtures, teams, chart or aliases, '' for none of them;
+    `columns` are titles of results that aren't known; `players` are names as they are compared.
     """
 
     name: str
@@ -69,13 +57,7 @@ class SeenFile:
 
 
 def seen_files(folder: str | Path) -> list[SeenFile]:
-    """Return what the files in a folder are, in the order of their names.
-
-    Raises
-    ------
-    OSError
-        if the folder cannot be read.
-    """
+    """Return what the files in a folder are, by name; an OSError if the folder can't be read."""
     places = sorted(
         place
         for place in Path(folder).iterdir()

@@ -130,14 +130,9 @@ class Published:
 
 @dataclass(frozen=True, kw_only=True)
 class LeagueFile:
-    """What a league's file says; what it leaves out is None or empty.
+    """The content of a league's file; what it leaves out is None or empty.
 
-    Attributes
-    ----------
-    folder, file
-        the league's folder, in which its files are, and the name of this one.
-    aliases
-        from a name as it may be written to the name that is meant.
+    `aliases` lead from a name as written to the name that is meant.
     """
 
     folder: Path
@@ -212,29 +207,10 @@ _FREE = {"aliases", "columns", "players"}
 
 
 def read_league(place: str | Path = ".", *, quickly: bool = False) -> LeagueFile:
-    r"""Read the file of a league.
+    """Read the file of a league: its folder, or the file itself.
 
-    Parameters
-    ----------
-    place
-        the league's folder, or the file.
-    quickly
-        whether chart and system are left for the command that uses them to check: they take a
-        quarter of a second to load, which most commands do without.
-
-    Raises
-    ------
-    DataError
-        with every problem of the file, a line each: what cannot be read, unknown keys with the
-        nearest one that is known, values that are not allowed, files that are not there.
-
-    >>> import tempfile, pathlib
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     _ = pathlib.Path(folder, "league.toml").write_text(
-    ...         'name = "Tuesday 8-Ball"\nchart = "apa_8ball"\n[team]\ncap = 23\n')
-    ...     league = read_league(folder)
-    >>> league.name, league.chart, league.team.cap, league.scale
-    ('Tuesday 8-Ball', 'apa_8ball', 23.0, None)
+    With `quickly`, chart and system are left for the command that uses them to check: loading them
+    takes a quarter of a second. The DataError has every problem, one per line.
     """
     path = Path(place)
     if path.is_dir():

@@ -60,20 +60,10 @@ EXAMPLES: Mapping[str, str] = {
 
 @dataclass(frozen=True, kw_only=True)
 class NewLeague:
-    """What a new file says.
+    """The content of a new file: dotted keys with values as typed for an option, and more.
 
-    Parameters
-    ----------
-    values
-        the keys that have a value, dotted, with the value as an option would be typed.
-    sources
-        the files of results, each with the titles of its columns.
-    aliases
-        which names mean which players.
-    levels
-        whether the players have skill levels and no ratings.
-    teams
-        the teams of the roster.
+    `sources` are the files of results with the titles of their columns; `levels` is for players who
+    have skill levels and no ratings.
     """
 
     values: Mapping[str, str]

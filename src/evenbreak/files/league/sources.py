@@ -43,16 +43,8 @@ _NEARLY_ALL = 0.9
 class Change:
     """Something that was changed or left out, or that a person should look at.
 
-    Parameters
-    ----------
-    kind
-        renamed, double, left out or doubt.
-    source, line
-        the file, as the league calls it, and the line; 0 where it is the whole file.
-    text
-        what was done, or what is in doubt.
-    first
-        of a double match the file that has it first.
+    The kind is renamed, double, left out or doubt; line 0 is the whole file; `first` is the file
+    that has a double match first.
     """
 
     kind: Kind
@@ -64,15 +56,7 @@ class Change:
 
 @dataclass(frozen=True)
 class NameDoubt:
-    """Names that may be one player's.
-
-    Parameters
-    ----------
-    names
-        the names, that with the most matches first.
-    matches
-        how many matches each has.
-    """
+    """Names that may be one player's, the one with the most matches first."""
 
     names: tuple[str, ...]
     matches: tuple[int, ...]
@@ -98,18 +82,10 @@ def _in_toml(text: str) -> str:
 
 @dataclass(frozen=True, eq=False)
 class LeagueResults:
-    """The results of a league.
+    """The results of a league as one file, and what happened to them on the way.
 
-    Parameters
-    ----------
-    file
-        all matches as one file of results, with the warnings of all files.
-    changes
-        what was changed and left out, and what is in doubt, in the order of the files.
-    name_doubts
-        names that may be one player's; they are kept apart.
-    sources
-        each file with the matches that it gave.
+    Names in `name_doubts` may be one player's, but are kept apart; `sources` has the number of
+    matches of each file.
     """
 
     file: ResultsFile
@@ -132,35 +108,11 @@ def league_results(
     skip_bad: bool = True,
     **reading: Any,
 ) -> LeagueResults:
-    r"""Return the results of a league from all the files that it names.
+    """Return the results of a league from all the files that it names.
 
-    Parameters
-    ----------
-    league
-        the league, as `read_league` reads it.
-    aliases, columns, dates
-        as for `read_results`, in place of what the league says.
-    skip_bad
-        whether rows that cannot be read are left out and listed; otherwise they are an error.
-    reading
-        what else `read_results` takes.
-
-    Raises
-    ------
-    DataError
-        if the league names no results, or one of the files cannot be read.
-
-    >>> import tempfile, pathlib
-    >>> from evenbreak.files.league.league_file import read_league
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     place = pathlib.Path(folder)
-    ...     _ = (place / "a.csv").write_text("date,home,away,score\n2024-09-03,Ann,Bo,7-5\n")
-    ...     _ = (place / "b.csv").write_text("Datum;Heim;Gast;Ergebnis\n3.9.2024;Bo;Ann;5:7\n")
-    ...     _ = (place / "league.toml").write_text(
-    ...         '[[results]]\nfile = "a.csv"\n[[results]]\nfile = "b.csv"\n')
-    ...     found = league_results(read_league(place))
-    >>> len(found.results), [(one.kind, one.source, one.line) for one in found.changes]
-    (1, [('double', 'b.csv', 2)])
+    `aliases`, `columns` and `dates` replace those of the league. With `skip_bad`, rows that can't
+    be read are left out and listed. It's a DataError if the league names no results, or one of the
+    files can't be read.
     """
     if not league.results:
         raise refusal(

@@ -184,12 +184,9 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
 
 
 def check_one_scale(league: RatedList, entrants: RosterFile) -> None:
-    """Refuse entrants whose ratings are on another scale than those of the league's list.
+    """Refuse entrants whose ratings are on another scale than the league's list.
 
-    Raises
-    ------
-    DataError
-        if the two files state different scales, or one has skill levels and the other points.
+    It's a DataError, also if one file has skill levels and the other points.
     """
     if np.isnan(entrants.roster.rating).all():
         return None

@@ -36,21 +36,7 @@ FIXTURE_LIST = PAIR | Schema(
 
 @dataclass(frozen=True)
 class Sides:
-    """Who takes part.
-
-    Parameters
-    ----------
-    names
-        the teams or players, in the order of the file.
-    of_teams
-        whether they are teams.
-    venues
-        where each is at home; '' where the file does not say.
-    tables
-        the number of tables of venues.
-    warnings
-        about the file.
-    """
+    """The teams or players that take part, in the order of the file; venues may be ''."""
 
     names: tuple[str, ...]
     of_teams: bool

@@ -104,22 +104,11 @@ class Typed(NamedTuple):
 
 @dataclass(frozen=True)
 class Reading:
-    """How a line is read.
+    """One reading of a line, numbered from 1.
 
-    Parameters
-    ----------
-    number
-        of the line, from 1.
-    text
-        the line.
-    players
-        who is on it; if it is doubted, by the likeliest reading. Nobody is on a heading.
-    doubt
-        why it can mean something else; '' if it cannot.
-    choices
-        all that a line in doubt can mean, the likeliest first; () leaves it out.
-    front
-        a place in front of the name that is left out.
+    `players` are those of the likeliest reading, none on a heading. In doubt, `doubt` says why and
+    `choices` are all possible readings, the likeliest first; () leaves the line out. `front` is a
+    place before the name that is left out.
     """
 
     number: int
@@ -169,21 +158,9 @@ def _stem(name: str) -> str:
 
 
 def readings(lines: Sequence[str], most: int = 1) -> list[Reading]:
-    """Return how the lines of a list are read; lines without a letter or number are none.
+    """Return the readings of a list's lines, apart from those without a letter or number.
 
-    Parameters
-    ----------
-    lines
-        as they were pasted.
-    most
-        how many numbers may follow a name.
-
-    >>> for one in readings(["Players:", "1. Ann Lee 612", "2) José", "Łukasz Żak - 620"]):
-    ...     print(one.number, [player.words for player in one.players])
-    1 []
-    2 ['Ann Lee, 612']
-    3 ['José']
-    4 ['Łukasz Żak, 620']
+    At most `most` numbers follow a name.
     """
     parts = [_parts(k, text, most) for k, text in enumerate(lines, 1)]
     rows = [one for one in parts if re.search(r"[^\W_]", one.name) or one.columns]

@@ -275,13 +275,7 @@ class RosterFile:
 
 
 def refuse_to_read(file: RatedList, scale: Scale, whose: str, remedy: str) -> None:
-    """Refuse to read a list that states no scale on one that its ratings contradict.
-
-    Raises
-    ------
-    InputError
-        as `refuse_contradicted` does, with the name of the file.
-    """
+    """Refuse, as `refuse_contradicted`, a list without a scale whose ratings contradict it."""
     if file.scale is not None:
         return
     try:
@@ -317,19 +311,9 @@ def read_roster(path: str | Path) -> RosterFile:
 
 
 def roster_of(table: TextTable, *, rated: bool = True) -> RosterFile:
-    """Return the roster in a table, or raise all the problems found in it.
+    """Return the roster in a table, or raise its problems in one DataError.
 
-    Parameters
-    ----------
-    table
-        with the columns of `ROSTER`, its cells read.
-    rated
-        whether it must have a column of ratings or of levels.
-
-    Raises
-    ------
-    DataError
-        as `read_roster` does, with the problems that the table had before.
+    A `rated` roster must have a column of ratings or of levels.
     """
     names = table["player"].tolist()
     _refuse_twice(table, names)

@@ -43,18 +43,9 @@ COLUMNS = (
 
 
 class Saved(NamedTuple):
-    """What a file of ratings to begin from says.
+    """A file of ratings to start from; names are as the results spell them.
 
-    Parameters
-    ----------
-    beginning
-        the ratings, with names as the results spell them.
-    found
-        how many of the players are in the results.
-    warnings
-        what to check although the file can be used.
-    scale_stated
-        whether the file states its scale.
+    `found` counts the players who are in the results.
     """
 
     beginning: Beginning
@@ -66,14 +57,7 @@ class Saved(NamedTuple):
 def saved_csv(ratings: Ratings, day: str, before: Beginning | None = None) -> bytes:
     """Return a file with the ratings of all who have played, and of those who did not this time.
 
-    Parameters
-    ----------
-    ratings
-        the ratings.
-    day
-        the last day of their results, '' if they have no dates.
-    before
-        those with which they began: players without results keep theirs.
+    `day` is the last one of their results; players without results keep their rating of `before`.
 
     >>> from evenbreak.ratings import Results, fit
     >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [7], [4]))
@@ -125,22 +109,10 @@ def _rounded(value: Any) -> Any:
 
 
 def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
-    """Read ratings to begin from: a file that `saved_csv` made, or any list of rated players.
+    """Read ratings to start from: a file that `saved_csv` made, or any list of rated players.
 
-    Parameters
-    ----------
-    path
-        the file.
-    scale
-        the scale of its ratings, where it states none.
-    players
-        the players of the results; names are matched with theirs as elsewhere.
-
-    Raises
-    ------
-    DataError
-        with every problem of the file: those of a roster, numbers out of range, dates that are
-        none, or a scale other than the one asked for.
+    The scale is for a file that states none. The DataError has every problem of the file: those of
+    a roster, numbers out of range, invalid dates, another scale.
     """
     table = SAVED.read(path)
     prior, mean, day = (table[name] for name in ("prior", "prior_mean", "as_of"))

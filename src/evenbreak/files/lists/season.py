@@ -313,38 +313,17 @@ MOST_LISTED = 5
 
 @dataclass(frozen=True, eq=False)
 class PairsFile:
-    """Who plays who.
-
-    Parameters
-    ----------
-    pairs
-        places in the roster, shape (matches, 2), in the order of the file.
-    warnings
-        what to check although the file can be used, a line each.
-    """
+    """Who plays whom: places in the roster, shape (matches, 2), in the order of the file."""
 
     pairs: NDArray[np.int64]
     warnings: tuple[str, ...]
 
 
 def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
-    r"""Read a list of pairs from a CSV file, a match a row; '-' is standard input.
+    """Read a list of pairs from a CSV file, one match per row; '-' is standard input.
 
-    Names are those of the roster; upper and lower case may differ where that is unambiguous.
-
-    Raises
-    ------
-    DataError
-        with every problem of the file: missing columns, no rows, names that the roster does
-        not have, a player on both sides.
-
-    >>> import tempfile, pathlib
-    >>> club = Roster(["Ann", "Bo", "Cy"], [92, 71, 80])
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = pathlib.Path(folder) / "tonight.csv"
-    ...     _ = path.write_text("player_a,player_b\nCy,Ann\nbo,Cy\n")
-    ...     read_pairs(path, club).pairs.tolist()
-    [[2, 0], [1, 2]]
+    Upper and lower case may differ where that is unambiguous. The DataError has every problem:
+    missing columns, no rows, unknown names, a player on both sides.
     """
     table, pairs = _read(PAIRS, path, roster)
     return PairsFile(pairs, table.warnings)

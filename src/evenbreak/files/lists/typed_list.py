@@ -26,21 +26,10 @@ _WRITE_IT = say(
 def read_players(
     path: str | Path, schema: Schema, *, numbers: Sequence[str] = ("rating",)
 ) -> TextTable:
-    r"""Read a list of players: a table with a header, or a player on each line.
+    r"""Read a list of players: a table with a header, or one player per line.
 
-    Parameters
-    ----------
-    path
-        the file; '-' is standard input, which must have a header.
-    schema
-        the columns of the table; `player` is among them.
-    numbers
-        the columns of the numbers that may follow a name on its line, in this order.
-
-    Raises
-    ------
-    DataError
-        as `read_table` does.
+    `numbers` are the columns of the numbers that may follow a name, in order. Standard input, '-',
+    must have a header. A DataError as for `read_table`.
 
     >>> import tempfile, pathlib
     >>> from evenbreak.files.tables.schema import Text

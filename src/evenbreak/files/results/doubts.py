@@ -59,21 +59,10 @@ def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> li
 def without_bad_rows(
     table: TextTable, read: Callable[[TextTable], Results]
 ) -> tuple[TextTable, list[str], tuple[LeftOut, ...]]:
-    """Return a table without rows that cannot be read or hold no games, and what was left out.
+    """Return a table without rows that can't be read or hold no games, and what was left out.
 
-    What was left out is listed as warnings and row by row, with those that were not cut into cells.
-
-    Parameters
-    ----------
-    table
-        the rows of the file.
-    read
-        reads them; what it cannot read, it adds to the table's problems.
-
-    Raises
-    ------
-    DataError
-        with all problems if they are not those of single rows, or no row is left.
+    The rows left out are listed in warnings and one by one, with those that weren't split into
+    cells. Problems of the whole table, or no row left, are a DataError.
     """
     read(table)
     unread = {line for line in table.problems.lines if line > table.header}
@@ -127,17 +116,9 @@ def date_warnings(
     source: str,
     today: np.datetime64 | None = None,
 ) -> list[str]:
-    """Return a warning for each match with a doubtful date.
+    """Return a warning for each match with a doubtful date (NaT: none stated).
 
-    Parameters
-    ----------
-    dates, lines
-        of the matches; NaT where no date is stated.
-    source
-        what the file is called.
-    today
-        the present day if not that of the clock. The day after it is not yet the future: it
-        has begun in other time zones.
+    The day after `today` isn't the future yet: it has started in other time zones.
 
     >>> days = np.array(["2024-09-03", "2204-09-10", "2024-09-17"], dtype="datetime64[D]")
     >>> date_warnings(days, np.array([2, 3, 4]), "r.csv")

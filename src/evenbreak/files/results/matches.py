@@ -229,10 +229,7 @@ _BY_WINNER = ("race_a", "race_b", "winner")
 def results_rows(table: TextTable, names: PlayerNames, columns: Mapping[str, Values]) -> Results:
     """Return the matches of a table; rows that contradict themselves are added to its problems.
 
-    Raises
-    ------
-    DataError
-        with all problems so far, if a column is missing that nothing takes the place of.
+    A missing column without a substitute is a DataError, with all problems so far.
     """
     settled, good = _with_scores(table, columns)
     if any(_is_missing(table, name) for name in NEEDED):

@@ -71,16 +71,8 @@ def columns_hint(
 ) -> str:
     """Return what to do about missing columns of players and scores.
 
-    Parameters
-    ----------
-    places
-        where the columns are that have names that are known.
-    titles
-        all titles.
-    rows
-        the cells below them, row by row.
-    called
-        what the columns are called that have other names than in results of players.
+    `places` are those of the columns with known names; `called` are other names than in results of
+    players.
 
     >>> print(columns_hint({}, ["Sp H", "Sp G", "S"], [["Ann", "Bo", "7-5"]]))
     If they have other names, add columns "player_a=Sp H,player_b=Sp G,score=S"

@@ -28,19 +28,9 @@ def races_by_chart(
 ) -> tuple[Results, list[str]]:
     """Return results with the races that a chart sets for the levels or ratings stated in them.
 
-    Where both players reached their games, or neither did, the race is left open; so it is where
-    the chart is one of points, or no levels are stated.
-
-    Parameters
-    ----------
-    results
-        the matches.
-    chart
-        the name or the file of the chart.
-    lines, source
-        the line of each match, and what the file is called in warnings.
-    points
-        whether scores are points where the chart is one of points, and it sets those to win.
+    A race stays open where both players reached their games, or neither did, and where the chart is
+    one of points or no levels are stated. With `points`, scores are points where the chart is one
+    of points, and it sets the points to win.
     """
     of_league = find_chart(chart)
     race_a, race_b = (race.copy() for race in results.races)

@@ -57,13 +57,7 @@ def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
 def _of_league(
     path: str | Path, *, aliases: str | Path | None = None, skip_bad: bool = False, **reading: Any
 ) -> ResultsFile:
-    """Return the results of a league as one file; what is given here replaces what it says.
-
-    Raises
-    ------
-    DataError
-        as `read_league` and `league_results` do.
-    """
+    """Return a league's results as one file; what is given here replaces the league's own."""
     league = read_league(path, quickly=True)
     known = None if aliases is None else read_aliases(aliases)
     return league_results(league, aliases=known, skip_bad=skip_bad, **reading).file

@@ -35,14 +35,7 @@ def played_matches(
 ) -> tuple[TextTable, tuple[LeftOut, ...]]:
     """Return a table without byes and matches not played yet, its forfeits marked as such.
 
-    Parameters
-    ----------
-    table
-        the matches, with a column `forfeit` if forfeits count otherwise than matches.
-    names
-        the columns of the players or teams.
-    to_come
-        whether matches not played yet stay, without a score.
+    With `to_come`, matches not played yet stay, without a score.
     """
     said = {
         name: [key_of(text) for text in table.cells(name)]

@@ -20,17 +20,7 @@ CLEARED = "cleared"
 
 
 class Row(NamedTuple):
-    """An entry as it is kept, without who made it.
-
-    Parameters
-    ----------
-    id
-        the number of its row.
-    strand, number
-        what it is part of, and which entry of that it is.
-    at, kind, what
-        when, the kind, and the details as JSON.
-    """
+    """An entry as stored, without its author; `what` is JSON."""
 
     id: int
     strand: str
@@ -52,13 +42,8 @@ class Row(NamedTuple):
 def rows_from(path: str | Path, first: int, most: int) -> list[Row]:
     """Return the entries of a file from an id on, the last `most` of them; none if it has none.
 
-    Those that an earlier version wrote have the ids that they keep when the file is brought up to
-    date.
-
-    Raises
-    ------
-    DataError
-        if there is a file that cannot be read.
+    Entries of an earlier version have the ids that they keep in the update. A DataError if there is
+    a file that can't be read.
     """
     if not is_there(path):
         return []

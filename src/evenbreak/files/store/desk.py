@@ -25,16 +25,9 @@ _SECRETS = "CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT
 
 
 def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
-    """Return the secrets of a tournament by name; those that it has none of are kept from now on.
+    """Return the secrets of a tournament by name; `first` are those to store where it has none.
 
-    In a file that cannot be written to now they are not kept: it is shown all the same.
-
-    Parameters
-    ----------
-    path
-        the file of the tournament.
-    first
-        a secret for each name, for the first time.
+    In a file that is read-only now they aren't stored.
     """
     with opened(path) as base:
         kept = _secrets(base)
@@ -89,22 +82,13 @@ _BY = "phone "
 class Act:
     """Something that a phone did, or that the director did about one.
 
-    Parameters
-    ----------
-    kind
-        claimed: the phone is this player's from now on; released: the player has none;
-        coming: the player is on the way to the table, in `score['minutes']`;
-        proposed: the player sent a result; withdrawn: and took it back; entered: what was proposed
-        is the result now; objected: a table says that its last result is wrong;
-        tablet: the phone belongs to the table that `player` names; no tablet: it no longer does.
-    player
-        who did it, or whom it is about; the number of a table for what a tablet did.
-    match
-        its name; '' for what is about no match.
-    score
-        the games of each player by name, of a proposal or of the result that is objected to.
-    event
-        the number of the event of the night whose match it is; a claim is for all of them.
+    claimed: the phone is this player's from now on; released: the player has none; coming: the
+    player is on the way to the table, in `score['minutes']`; proposed: the player sent a result;
+    withdrawn: and took it back; entered: the proposal is the result now; objected: a table says
+    that its last result is wrong; tablet: the phone belongs to the table that `player` names; no
+    tablet: not anymore.
+
+    A claim is for all events of the night.
     """
 
     kind: str = ""
@@ -236,17 +220,7 @@ class Phones:
 
 @dataclass(frozen=True)
 class Sides:
-    """What the two players of a match propose.
-
-    Parameters
-    ----------
-    match, pair
-        the match and who play it.
-    claims
-        the phones of those who have one.
-    proposed
-        what they propose.
-    """
+    """What the two players of a match propose; `claims` are the phones of those who have one."""
 
     match: str
     pair: tuple[str, str]
@@ -319,24 +293,10 @@ def enter(
     event: int = 1,
     form: str | None = None,
 ) -> Phones:
-    """Add what a phone does to the log, and return what is known of the phones after that.
+    """Add a phone's action to the log, and return what is known of the phones after it.
 
-    Parameters
-    ----------
-    path
-        the file of the tournament.
-    state
-        its state, which knows what the players are called now.
-    decide
-        returns what is done, given the phones as they are; None: nothing is new. Nobody else can
-        add anything in the meantime.
-    at, by
-        when, and which phone does it: `by_phone`.
-    event
-        the number of the event of the night.
-    form
-        what the form is known by that it comes from. If it was taken before, nothing is asked and
-        nothing is added.
+    `decide` returns the action, None for nothing new; no one else can add anything meanwhile. A
+    `form` (its id) that was taken before adds nothing, and `decide` isn't asked.
     """
     with changing(path) as base:
         earlier = entries(base, path, PHONES, _RULES)

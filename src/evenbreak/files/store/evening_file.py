@@ -53,28 +53,18 @@ Result = TypeVar("Result")
 
 @contextmanager
 def opened(path: str | Path) -> Iterator[sqlite3.Connection]:
-    """Open the file of an evening to read it; what cannot be written to can be read all the same.
-
-    Raises
-    ------
-    DataError
-        if it is not one, or cannot be read.
-    """
+    """Open an evening's file to read it, read-only files too; a DataError if that's impossible."""
     with _checked(Path(path), reading=True) as base:
         yield base
 
 
 @contextmanager
 def changing(path: str | Path) -> Iterator[sqlite3.Connection]:
-    """Open the file of an evening to change it; others who want to, wait until the block ends.
+    """Open an evening's file to change it; others who want to change it wait for the block to end.
 
-    What the block writes is kept as a whole, or not at all if it raises an error. A file that an
-    earlier version wrote is copied before its first change.
-
-    Raises
-    ------
-    DataError
-        if it is not one, or cannot be read or written.
+    The block's changes are kept as a whole, or not at all if it raises an error. A file of an
+    earlier version is copied before its first change. It's a DataError if the file can't be read or
+    written.
     """
     with _checked(Path(path), reading=False) as base:
         if _version(base) < FORMAT:
@@ -84,20 +74,10 @@ def changing(path: str | Path) -> Iterator[sqlite3.Connection]:
 
 
 def begin(path: str | Path, write: Callable[[sqlite3.Connection], Result]) -> Result:
-    """Write to the file of an evening, which is made if it is not there: all of it, or nothing.
+    """Write to an evening's file, creating it if needed: everything, or nothing on an error.
 
-    Parameters
-    ----------
-    path
-        the file.
-    write
-        writes to the database. What it wrote is dropped if it raises an error; it is called once
-        more if somebody else makes the file in the meantime.
-
-    Raises
-    ------
-    DataError
-        if the file is there and not one of an evening, or cannot be read or written.
+    `write` is called again if someone else creates the file meanwhile. It's a DataError if the file
+    is no evening's, or can't be read or written.
     """
     place = Path(path)
     while not os.path.lexists(place):

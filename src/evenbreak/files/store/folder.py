@@ -46,13 +46,8 @@ _PAUSE = 0.02
 def check_folder(folder: str | Path) -> None:
     """Check, before a long computation, that `write_files` can write into a folder.
 
-    Files that a killed run had begun to replace are put back. Nothing is left behind, and the
-    folder is not created.
-
-    Raises
-    ------
-    OSError
-        if no file could be written there.
+    Files that a killed run was replacing are put back. Nothing is left behind, and the folder is
+    not created. An OSError if no file could be written there.
 
     >>> check_folder(".")
     """
@@ -303,15 +298,10 @@ class _Change(TypedDict):
 
 
 def change(folder: Path, entries: Tree) -> None:
-    """Put entries in their places in a folder: all of them, or none.
+    """Put entries in their places in a folder: all of them, or none (OSError).
 
-    A single entry takes its place in one step; only that may be a new folder with its files.
-    Nobody else may write into the folder meanwhile (`sole_writer`).
-
-    Raises
-    ------
-    OSError
-        if that is not possible; the folder is then as it was.
+    A single entry takes its place in one step; only that may be a new folder with its files. No one
+    else may write into the folder meanwhile (`sole_writer`).
     """
     recover(folder)
     work = folder / WORK
@@ -334,12 +324,9 @@ def change(folder: Path, entries: Tree) -> None:
 
 
 def recover(folder: Path) -> None:
-    """Put back what a change that was not finished has replaced, and remove what it left.
+    """Put back what an unfinished change has replaced, and remove what it left.
 
-    Raises
-    ------
-    OSError
-        if that is not possible, or if `.evenbreak-writing` holds what is not this program's.
+    An OSError if that's impossible, or if `.evenbreak-writing` holds something else.
     """
     work = folder / WORK
     if not os.path.lexists(work):

@@ -38,14 +38,8 @@ class TakenBeforeError(InputError):
 class Rules(Generic[Entered, State]):
     """How the entries of a strand are read, and the state that they make.
 
-    Parameters
-    ----------
-    kinds
-        the kinds of entries.
-    event
-        makes an entry of when, what, and by whom.
-    fold
-        returns the state after entries; it raises an error if it cannot be shown.
+    `event` makes an entry of a time, a content and an author; `fold` raises an error if the state
+    can't be shown.
     """
 
     kinds: Kinds[Any]
@@ -53,13 +47,7 @@ class Rules(Generic[Entered, State]):
     fold: Callable[[Sequence[Entered]], State]
 
     def state(self, path: str | Path, events: Sequence[Entered]) -> State:
-        """Return the state after the entries of a file, or name the first that cannot be.
-
-        Raises
-        ------
-        DataError
-            if there is no such state; it names the entry that does not fit.
-        """
+        """Return the state after a file's entries; a DataError names the first that doesn't fit."""
         try:
             return self.fold(events)
         except FAULTS:
@@ -69,13 +57,7 @@ class Rules(Generic[Entered, State]):
             raise
 
     def rows(self, events: Sequence[Entered], first: int = 1) -> list[Row]:
-        """Return entries as they are kept.
-
-        Raises
-        ------
-        InputError
-            if one could not be read again.
-        """
+        """Return entries as they are stored; an InputError if one couldn't be read again."""
         rows = [
             (k, one.at, self.kinds.name(one.what), self.kinds.text(one.what), one.by)
             for k, one in enumerate(events, first)
@@ -85,13 +67,7 @@ class Rules(Generic[Entered, State]):
         return rows
 
     def read(self, at: Any, kind: Any, what: Any, author: Any) -> Entered:
-        """Return an entry from its columns.
-
-        Raises
-        ------
-        InputError
-            if a column is not what it should be.
-        """
+        """Return an entry from its columns; an InputError if a column isn't what it should be."""
         return self.event(at, _what(self.kinds, at, kind, what, author), author)
 
 
@@ -124,13 +100,7 @@ def _what(kinds: Kinds[Any], at: Any, kind: Any, what: Any, author: Any) -> Any:
 def entries(
     base: sqlite3.Connection, path: str | Path, strand: str, rules: Rules[Entered, State]
 ) -> list[Entered]:
-    """Return the entries of a strand in their order.
-
-    Raises
-    ------
-    DataError
-        if one is damaged.
-    """
+    """Return the entries of a strand in order; a DataError if one is damaged."""
     asked = f"SELECT number, at, kind, what, author FROM {source(base)} "  # noqa: S608
     found = []
     for number, *row in base.execute(f"{asked} WHERE strand = ? ORDER BY number", (strand,)):

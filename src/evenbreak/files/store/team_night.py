@@ -21,13 +21,7 @@ Decide = Callable[[list[Event], TeamEvening | None], Sequence[What]]
 
 
 def read_team_events(path: str | Path) -> list[Event]:
-    """Return the events of all team nights in a file; none if it has no team night.
-
-    Raises
-    ------
-    DataError
-        if the file is not that of an evening, or cannot be read.
-    """
+    """Return the events of all team nights in a file, if any; a DataError if it can't be read."""
     if not is_there(path):
         return []
     with opened(path) as base:
@@ -39,37 +33,9 @@ def add_team_events(
 ) -> tuple[TeamEvening | None, bool]:
     """Add events to a team night; return the state after them, and whether there are any.
 
-    Parameters
-    ----------
-    path
-        the file; it is made if it does not exist.
-    decide
-        returns what happens; nobody else can add anything in the meantime. If it raises an error,
-        nothing is added.
-    at, by
-        when it is entered, and by whom.
-    form
-        the number of the form that it comes from. If that has added something already, nothing is
-        asked and nothing is added.
-
-    Raises
-    ------
-    DataError
-        if the file is not that of an evening, or cannot be read or written.
-
-    >>> import tempfile, pathlib
-    >>> from evenbreak.teams.evening.events import Begun
-    >>> from evenbreak.teams.evening.events import NightPlan, TeamSheet
-    >>> us = TeamSheet("Racks", ("Ann",), (600.0,), (0.0,), (6.0,))
-    >>> them = TeamSheet("Cues", ("Cy",), (560.0,), (0.0,), (6.0,))
-    >>> how = {"at": "2025-03-01T19:30:00", "by": "director's page", "form": "f1"}
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     file = pathlib.Path(folder) / "tonight.db"
-    ...     for _ in range(2):
-    ...         plan = NightPlan((us, them), 1, race=5)
-    ...         state, added = add_team_events(file, lambda events, state: [Begun(plan)], **how)
-    ...     state.teams, added, len(read_team_events(file))
-    (('Racks', 'Cues'), False, 1)
+    The file is created if needed. No one else can add anything while `decide` returns the events;
+    if it raises an error, nothing is added. A `form` (its id) that was taken before adds nothing. A
+    DataError if the file is no evening's, or can't be read or written.
     """
 
     def write(base: sqlite3.Connection) -> tuple[TeamEvening | None, bool]:
@@ -86,12 +52,9 @@ def add_team_events(
 
 
 def team_night_of(path: str | Path, events: Sequence[Event]) -> TeamEvening | None:
-    """Return the state after the events of a file, if it can be shown; None: no night has begun.
+    """Return the state after the events of a file; None before a night starts.
 
-    Raises
-    ------
-    DataError
-        if it cannot; it names the entry that does not fit.
+    The DataError names the entry that doesn't fit.
     """
     return _RULES.state(path, events)
 

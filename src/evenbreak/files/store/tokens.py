@@ -42,15 +42,8 @@ CREATE TABLE IF NOT EXISTS token (
 class Token:
     """What is known of a token.
 
-    Parameters
-    ----------
-    name
-        of the program that has it.
-    scope
-        what it may enter: scores, director, or table:4 for the match on the fourth table.
-    created, used
-        when it was created, and the time of the last entry made with it; '' if there is none or
-        nobody has looked.
+    Its scope is scores, director, or table:4 for the match on the fourth table; `used` is the time
+    of the last entry made with it, '' if there is none or it wasn't looked up.
 
     >>> Token("TV", "table:4").allows("result"), Token("TV", "table:4").allows("call")
     (True, False)
@@ -83,23 +76,10 @@ def at_table(number: int) -> str:
 
 
 def create_token(path: str | Path, name: str, scope: str, at: str) -> str:
-    """Create a token and return it: nobody can learn it later.
+    """Create a token and return it: it can't be shown again.
 
-    Parameters
-    ----------
-    path
-        the file of the tournament.
-    name
-        of the program.
-    scope
-        what it may enter, as in `Token`.
-    at
-        when, such as 2025-03-01T19:30:00.
-
-    Raises
-    ------
-    InputError
-        if another program has the name, or there are too many.
+    It's an InputError if another program has the name, or there are too many. The scope is that of
+    `Token`.
     """
     called = clean_name(name)
     if not is_name(called) or len(called) > _LONGEST:
@@ -122,13 +102,7 @@ def create_token(path: str | Path, name: str, scope: str, at: str) -> str:
 
 
 def revoke_token(path: str | Path, name: str) -> None:
-    """Revoke a token: from now on, no server on the file takes it.
-
-    Raises
-    ------
-    InputError
-        if no program of this name has one.
-    """
+    """Revoke a token at once, on every server; an InputError if no program of this name has one."""
     with changing(path) as base:
         base.execute(_TABLE)
         if not base.execute("DELETE FROM token WHERE name = ?", (name,)).rowcount:
@@ -136,15 +110,7 @@ def revoke_token(path: str | Path, name: str) -> None:
 
 
 def kept_tokens(path: str | Path, *, used: bool = False) -> dict[str, Token]:
-    """Return the tokens of a file by their hashes, the oldest first.
-
-    Parameters
-    ----------
-    path
-        the file.
-    used
-        whether the last entry of each is looked for as well.
-    """
+    """Return the tokens of a file by hash, the oldest first; `used` adds their last entries."""
     with opened(path) as base:
         found = _tokens(base, path) if has_table(base, "token") else {}
         if not used:

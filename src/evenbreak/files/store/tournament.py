@@ -39,31 +39,9 @@ TAKEN = say("that was entered before; nothing was entered a second time")
 def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: int = 0) -> Evening:
     """Write the first events of a tournament to a new file, or to that of a team night.
 
-    Parameters
-    ----------
-    path
-        the file.
-    events
-        what has happened so far.
-    in_place_of
-        how many events the tournament has that this one takes the place of; 0: there is none.
-
-    Raises
-    ------
-    DataError
-        if the file is there already with a tournament, or cannot be written.
-    InputError
-        if the events do not begin a tournament.
-
-    >>> import tempfile, pathlib
-    >>> from evenbreak.tournaments.evening.events import Dropped, Entrant, Opened, Plan
-    >>> first = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     file = pathlib.Path(folder) / "tonight.db"
-    ...     _ = new_tournament(file, [Event("2025-03-01T19:30:00", first)])
-    ...     _ = add_events(file, lambda state: [Event("2025-03-01T19:31:00", Dropped("Bo"))])
-    ...     list(read_tournament(file).entrants)
-    ['Ann']
+    `in_place_of` is the number of events of the tournament that this one replaces. A DataError if
+    the file already has another tournament, or can't be written; an InputError if the events don't
+    start a tournament.
     """
     state = _shown(evening(events))
 
@@ -87,13 +65,7 @@ def _clear(base: sqlite3.Connection) -> None:
 
 
 def delete_tournament(path: str | Path) -> None:
-    """Take the tournament out of a file; make a copy of the file first, to have it back.
-
-    Raises
-    ------
-    DataError
-        if the file is not that of a tournament, or cannot be written.
-    """
+    """Take the tournament out of a file, without a copy; a DataError if that's impossible."""
     with changing(path) as base:
         _clear(base)
         renew(base, path, {})
@@ -132,25 +104,11 @@ def _entered(base: sqlite3.Connection, path: str | Path) -> dict[int, list[Event
 def begin_beside(
     path: str | Path, begin: Callable[[Evening], Sequence[Event]], *, form: str | None = None
 ) -> int:
-    """Begin another event on the tables of the tournament in a file; return its number.
+    """Start another event on the tables of the tournament in a file; return its number.
 
-    Parameters
-    ----------
-    path
-        the file.
-    begin
-        returns the first entries of the event, given the state of the first event.
-    form
-        what the form is known by that it comes from.
-
-    Raises
-    ------
-    TakenBeforeError
-        if the form was taken before.
-    DataError
-        if the file has no tournament, or cannot be read or written.
-    InputError
-        if a chip tournament is played: its tables are never free.
+    `begin` returns its first entries, given the state of the first event. A TakenBeforeError if the
+    form (its id) was taken before; an InputError for a chip tournament, whose tables are never
+    free; a DataError if the file has no tournament, or can't be read or written.
     """
     with changing(path) as base:
         strands = _strands(base, path)
@@ -172,13 +130,7 @@ def begin_beside(
 
 
 def read_events(path: str | Path, event: int = 1) -> list[Event]:
-    """Return the entries of a tournament, or of another event of its night.
-
-    Raises
-    ------
-    DataError
-        if the file is not that of a tournament, has no such event, or cannot be read.
-    """
+    """Return the entries of a tournament, or of another event of its night (DataError: none)."""
     return read_night(path, event)[event]
 
 
@@ -191,51 +143,25 @@ def event_numbers(path: str | Path) -> list[int]:
 
 
 def read_night(path: str | Path, event: int = 1) -> dict[int, list[Event]]:
-    """Return the entries of all events of a night by their numbers; `event` must be one of them.
-
-    Raises
-    ------
-    DataError
-        if the file is not that of a tournament, has no such event, or cannot be read.
-    """
+    """Return the entries of all events of a night by number; a DataError if `event` is missing."""
     with opened(path) as base:
         return _strands(base, path, event)
 
 
 def read_tournament(path: str | Path, event: int = 1) -> Evening:
-    """Return the state of a tournament, or of another event of its night.
-
-    Raises
-    ------
-    DataError
-        if the file is not that of a tournament, has no such event, or cannot be read.
-    """
+    """Return the state of a tournament, or of another event of its night (DataError: none)."""
     return night_of(path, read_night(path, event))[event]
 
 
 def night_of(path: str | Path, strands: Mapping[int, Sequence[Event]]) -> dict[int, Evening]:
-    """Return the state of each event of a night, from the entries in its file.
-
-    Raises
-    ------
-    DataError
-        if there is none; it names the entry that does not fit.
-    """
+    """Return the state of each event of a night; a DataError names the entry that doesn't fit."""
     return together({n: _RULES.state(path, events) for n, events in strands.items()})
 
 
 def earlier_nights(places: Iterable[str | Path]) -> tuple[EarlierNight, ...]:
-    """Return what earlier tournaments say of the pace at their venue, oldest first.
+    """Return the pace of earlier tournaments at their venue, oldest first.
 
-    Parameters
-    ----------
-    places
-        their files, and folders of which all files of tournaments are taken, copies too.
-
-    Raises
-    ------
-    DataError
-        if a file is not that of a tournament, or cannot be read.
+    Of a folder, all files of tournaments are used. A DataError if a file can't be read as one.
     """
     return nights_until(_states(places))
 
@@ -269,34 +195,12 @@ def add_events(
 ) -> tuple[Evening, Evening]:
     """Add events to a tournament, and return its state before and after.
 
-    What follows from them in other events of its night is added to those at once, or nothing is.
-
-    Parameters
-    ----------
-    path
-        the file.
-    decide
-        returns the events, given the state; nobody else can add any in the meantime. If it raises
-        an error, nothing is added.
-    event
-        the number of the event of the night.
-    by
-        who enters them, unless an event says so itself; kept beside them.
-    form
-        what the form is known by that they come from. If it was taken before, nothing is asked and
-        nothing is added.
-    check
-        gets the state before and after; if it raises an error, nothing is added.
-    more
-        returns what comes with them by itself, such as calls, each with the number of its event,
-        given all events of the night before and after.
-
-    Raises
-    ------
-    TakenBeforeError
-        if the form was taken before.
-    DataError
-        if the file is not that of a tournament, or cannot be read or written.
+    What follows from them in other events of its night is added at once, or nothing is. No one else
+    can add events while `decide` returns them, given the state; an error from it, or from `check`,
+    which gets the states before and after, adds nothing. `more` returns automatic entries such as
+    calls, each with the number of its event, given the night before and after. A `form` (its id)
+    taken before is a TakenBeforeError; a file that can't be read or written, or is no tournament's,
+    a DataError.
     """
     with changing(path) as base:
         if was_taken(base, str(event), form):
@@ -383,13 +287,7 @@ def is_event_list(path: str | Path) -> bool:
 
 
 def read_event_list(path: str | Path) -> list[Event]:
-    """Return the events in a CSV file.
-
-    Raises
-    ------
-    DataError
-        if a row is not an event, or the events are not those of a tournament.
-    """
+    """Return the events in a CSV file; a DataError if they are not those of a tournament."""
     text = text_of(Path(path).read_bytes(), str(path)).read()
     reader = csv.reader(text.splitlines()[1:])
     events = []

@@ -118,12 +118,7 @@ def _are_there(base: sqlite3.Connection) -> bool:
 def renew(base: sqlite3.Connection, path: str | Path, night: Mapping[int, Evening]) -> None:
     """Write what has changed in the rows of a night, in the transaction that changes its log.
 
-    Parameters
-    ----------
-    base, path
-        the file.
-    night
-        the events of the night by their numbers; what the file has of others is removed.
+    Rows of events not in `night` are removed.
     """
     with apart(base, path):
         if not _are_there(base):

@@ -29,18 +29,9 @@ some rows below the header."""
 class Fit(NamedTuple):
     """How well a row fits as the header; the greatest fits best.
 
-    Parameters
-    ----------
-    complete
-        whether it has every required column, or what takes its place.
-    known
-        how many of its titles are known.
-    titles
-        how many titles it has, blank ones aside.
-    above
-        how many rows stand above it, as a negative number: the first of equals is taken.
-    rows
-        how many rows it takes: 2 where a row of Home and Away stands above Player and Score.
+    `complete`: it has every required column or a substitute. `above` is minus the number of rows
+    above it: the first of equals is taken. `rows` is 2 where a row of Home and Away is above Player
+    and Score.
     """
 
     complete: bool
@@ -56,21 +47,10 @@ class Fit(NamedTuple):
 
 
 class Header:
-    """The names by which a reader knows its columns.
+    """The names by which a reader knows its columns, besides those by language.
 
-    Parameters
-    ----------
-    required, optional
-        for each column its other names, besides those by language.
-    instead
-        for a required column the sets of columns that can take its place.
-    called
-        for some columns the title that they have in this file, whatever other titles mean; - is
-        that of a column that is not to be read.
-    hint
-        what to do about missing columns.
-    maybe
-        whether titles in `called` that the file lacks are left aside.
+    `instead` has sets of columns that can replace a required one; `called` the titles of columns in
+    this file, - for a column not to be read; with `maybe`, those that the file lacks are ignored.
     """
 
     def __init__(

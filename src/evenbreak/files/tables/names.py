@@ -44,11 +44,10 @@ U+202E does), and code points that are no letters. Joiners stay; some scripts ne
 
 
 def clean_name(text: str) -> str:
-    r"""Return a name as it is to be printed.
+    r"""Return a name as it is printed: in Unicode's NFC, without hidden letters or extra blanks.
 
-    That is in Unicode's form NFC, without hidden letters, blanks around or double blanks inside,
-    and without the apostrophes by which `evenbreak.files.csv_writer` keeps a spreadsheet from
-    running a formula.
+    The apostrophes by which `evenbreak.files.csv_writer` keeps a spreadsheet from running a formula
+    are removed too.
 
     >>> clean_name(" Zoe\u0308  Kestleman "), clean_name("'=cmd()"), clean_name("Bo\u202e")
     ('Zoë Kestleman', '=cmd()', 'Bo')
@@ -138,24 +137,11 @@ def same_name(name: str) -> str:
 
 
 class PlayerNames:
-    """The players whose names stand in some columns of a table.
+    """The players named in some columns of a table.
 
-    Names that differ in case or blanks alone are one player's. Of the spellings of a name the
-    one in `means` is used, else the most frequent.
-
-    Parameters
-    ----------
-    table, columns
-        where the names stand.
-    means
-        from a name as written to the name that is meant.
-
-    Attributes
-    ----------
-    players
-        the names that are meant, sorted.
-    places
-        for each text that names a player their place in `players`.
+    Names that differ only in case or blanks are one player's. Of the spellings of a name the one in
+    `means` is used, otherwise the most frequent. `players` are the names that are meant, sorted;
+    `places` has the place there of each text.
     """
 
     def __init__(self, table: TextTable, columns: Sequence[str], means: Mapping[str, str]) -> None:

@@ -54,17 +54,7 @@ Content: TypeAlias = bytes | Path
 
 
 class Text(NamedTuple):
-    """The text of a file.
-
-    Parameters
-    ----------
-    body
-        what is in it.
-    encoding
-        how `body` is encoded.
-    warnings
-        whether that had to be guessed.
-    """
+    """The text of a file; `warnings` says whether its encoding was a guess."""
 
     body: Content
     encoding: str
@@ -79,10 +69,7 @@ class Text(NamedTuple):
 def content_of(path: str | Path) -> tuple[str, bytes]:
     """Return what to call a file in messages, and its bytes; '-' is standard input.
 
-    Raises
-    ------
-    DataError
-        if there is no such file, or it is larger than any list of a league.
+    A DataError if there is no such file, or it is larger than any list of a league.
     """
     source, content = table_content(path)
     if isinstance(content, Path):
@@ -161,10 +148,7 @@ def head_of(content: Content) -> bytes:
 def text_of(content: Content, source: str) -> Text:
     r"""Return the text of a file: UTF-8, UTF-16 with a byte order mark, or else Windows-1252.
 
-    Raises
-    ------
-    DataError
-        if there is none.
+    It's a DataError if there is none.
 
     >>> text_of("\ufeffZoë".encode("utf-16-be"), "r.csv").read()
     'Zoë'
@@ -288,17 +272,7 @@ _ZIP = b"PK\x03\x04"
 
 
 class Sheet(NamedTuple):
-    """The rows of a sheet that are not blank.
-
-    Parameters
-    ----------
-    name
-        what the sheet is called.
-    lines
-        the number of each row in the sheet, from 1.
-    rows
-        their cells as text.
-    """
+    """The rows of a sheet that are not blank, with their line numbers from 1."""
 
     name: str
     lines: list[int]
@@ -313,14 +287,10 @@ def is_spreadsheet(content: bytes) -> bool:
 def sheets_of(content: bytes, source: str) -> list[Sheet]:
     """Return the visible sheets of a workbook that hold anything.
 
-    Numbers are written as they are (1500, not 1500.0), dates as 2024-09-03, times of day as
-    7:05, which is what a spreadsheet makes of a score of 7:5. It is read in a process of its own:
-    one that asks for all the memory ends that process alone.
-
-    Raises
-    ------
-    DataError
-        if the file is no workbook, is damaged or locked, too large, or empty.
+    Numbers are written as they are (1500, not 1500.0), dates as 2024-09-03, times of day as 7:05,
+    which is what a spreadsheet makes of a score of 7:5. A process of its own reads it, so that a
+    workbook that asks for all the memory ends only that process. It's a DataError if the file is no
+    workbook, is damaged, locked, too large, or empty.
     """
     # -I and -S: nothing from the current folder or the environment is imported there.
     bundled = getattr(sys, "frozen", False)  # there is no Python but the program itself
@@ -348,35 +318,16 @@ SAMPLE = 2000
 
 
 class Export(NamedTuple):
-    """The matches in a file that another program saved.
-
-    Parameters
-    ----------
-    sheet
-        a header and a row for each match; their lines count the matches.
-    warnings
-        what was left out or changed, a line each.
-    """
+    """The matches in a file that another program saved; their lines count the matches."""
 
     sheet: Sheet
     warnings: list[str]
 
 
 class TableRows(NamedTuple):
-    """The rows of a file, from the header on.
+    """The rows of a file, from the header on; no titles if it has none.
 
-    Parameters
-    ----------
-    titles, line
-        the header, and the line where it begins; no titles where the file has no rows.
-    body
-        the rows below it.
-    unreadable
-        the lines that cannot be split into cells; complete once `body` has been used up.
-    warnings
-        what to know about how the file was read, a line each.
-    sample
-        the first rows below the header.
+    `unreadable` are lines that can't be split into cells, complete once `body` is used up.
     """
 
     titles: list[str]
@@ -393,21 +344,9 @@ def table_rows(
     header: Header,
     exported: Callable[[bytes, str], Export | None] | None = None,
 ) -> TableRows:
-    """Return the rows of a file, whatever format it has.
+    """Return the rows of a file in any format; a DataError if it holds no table.
 
-    Parameters
-    ----------
-    content, source
-        what is in it, and what it is called in messages.
-    header
-        what is looked for.
-    exported
-        reads the exports of other programs; None for what is no such file.
-
-    Raises
-    ------
-    DataError
-        if the file holds no table at all.
+    `exported` reads the exports of other programs, and returns None for other files.
     """
     if isinstance(content, Path):
         # Only a table of text can be read piece by piece.

@@ -42,24 +42,10 @@ LONGEST_WHOLE = 20  # characters; Python refuses to read numbers of thousands of
 class Column:
     """A column of a kind of file; its class says what the cells mean.
 
-    Parameters
-    ----------
-    also
-        its other names, separated by commas.
-    about
-        what it holds, as the reference puts it.
-    needed
-        whether a file must have it.
-    instead
-        sets of columns that can take its place, each as names separated by blanks.
-    filled
-        whether every cell must hold something.
-    empty
-        what an empty cell means, such as "for a new player"; None: other columns settle that.
-    write
-        what to write in place of a cell that cannot be read; '' for what is usual.
-    nothing
-        the value of an empty cell.
+    `also` are other names, separated by commas; `instead` sets of columns that can replace it, each
+    as names separated by blanks. With `filled`, no cell may be empty; `empty` says what an empty
+    cell means, such as "for a new player" (None: other columns settle that), and `nothing` is its
+    value. `write` is the remedy for an unreadable cell, '' for the usual one.
     """
 
     also: str = field(default="", kw_only=False)
@@ -294,24 +280,7 @@ class Parsed(Column):
 
 
 class Schema:
-    r"""The columns of a kind of file.
-
-    Parameters
-    ----------
-    rows
-        what its rows are, such as matches; '' where a file without any is no problem.
-    columns
-        each by its name.
-
-    >>> import tempfile, pathlib
-    >>> from evenbreak.files.tables.schema import Number, Text
-    >>> scores = Schema("scores", drill=Text("exercise"), score=Number("points", least=0, most=99))
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = pathlib.Path(folder) / "scores.csv"
-    ...     _ = path.write_text("Drill;Points\nL;48\nL;44,5\n", encoding="utf-8")
-    ...     scores.read(path)["score"]
-    array([48. , 44.5])
-    """
+    """The columns of a kind of file by name; `rows` is '' where a file without rows is fine."""
 
     def __init__(self, rows: str = "", /, **columns: Column) -> None:
         self.rows = rows
@@ -348,15 +317,7 @@ class Schema:
         return {name: c.aliases for name, c in self.columns.items() if c.needed == needed}
 
     def text(self, path: str | Path, **how: Any) -> TextTable:
-        """Return the table in a file as text, whose cells are still to be read.
-
-        Parameters
-        ----------
-        path
-            the file; '-' is standard input.
-        how
-            as for `read_table`.
-        """
+        """Return the table in a file as text, whose cells are still to be read."""
         needed, optional = (self._names(needed=needed) for needed in (True, False))
         table = read_table(path, needed, optional, self._instead(), rows=self.rows, **how)
         if "given_name" in self.columns:

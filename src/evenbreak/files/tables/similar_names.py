@@ -47,25 +47,12 @@ def similar_names(
 ) -> list[tuple[str, ...]]:
     """Return groups of different names that may mean one player.
 
-    First come names that differ in case, blanks, punctuation, accents (ä, a and ae are the
-    same) or the order of words; then names whose given names have the same first three
-    letters; then names that are one slip of the hand apart, in a word of four letters or
-    more. Each kind is in the order of the names, and no group is part of another. Names alike but
-    for a word more, such as a second surname, are of the second kind.
-
-    Parameters
-    ----------
-    names
-        as they are written.
-    met
-        pairs of names that played each other, and so are two players: a group of the second
-        or third kind is left out where all pairs in it have met. Groups of the first kind
-        are kept: somebody has entered one player twice.
-
-    >>> similar_names(["Ann Lee", "Lee, Ann", "Bo Petersen", "Bo Peterson", "Cy", "CY", "Di"])
-    [('Ann Lee', 'Lee, Ann'), ('CY', 'Cy'), ('Bo Petersen', 'Bo Peterson')]
-    >>> similar_names(["Dave Jones", "David Jones", "Anna", "Anne"], met=[("Anne", "Anna")])
-    [('Dave Jones', 'David Jones')]
+    First come names that differ in case, blanks, punctuation, accents (ä, a and ae are the same) or
+    the order of words; then names whose given names share the first three letters, or that have an
+    extra word, such as a second surname; then names one typo apart, in a word of four letters or
+    more. Each kind is in the order of the names, and no group is part of another. Groups of the
+    second and third kind are left out if all pairs in them have `met`: players don't play
+    themselves. Groups of the first kind stay: someone has entered one player twice.
     """
     words = {name: split for name in sorted(set(names)) if (split := _words(name))}
     bare = {name: tuple(map(_without_umlauts, split)) for name, split in words.items()}

@@ -49,17 +49,7 @@ class Texts(NamedTuple):
 
 
 class Values(NamedTuple):
-    """A column as read.
-
-    Attributes
-    ----------
-    values
-        a value for each row: that of an empty cell where a cell could not be read.
-    good
-        which cells could be read, or may be empty.
-    stated
-        which cells are not empty.
-    """
+    """A column as read: `good` cells could be read or may be empty, `stated` ones aren't empty."""
 
     values: NDArray[Any]
     good: NDArray[np.bool_]

@@ -49,10 +49,7 @@ class UnreadableError(Exception):
 def read(content: bytes) -> list[tuple[str, list[int], list[list[str]]]]:
     """Return the visible sheets of a workbook: the name, the rows' numbers, their cells as text.
 
-    Raises
-    ------
-    UnreadableError
-        if it is no workbook, is damaged or locked, or would fill the memory.
+    UnreadableError if it is no workbook, is damaged or locked, or would fill the memory.
     """
     from python_calamine import CalamineWorkbook, SheetTypeEnum, SheetVisibleEnum
 
