@@ -71,21 +71,10 @@ def drop_orders(
 ) -> list[list[int]]:
     """Return, for each round of drops, whose loser drops into each match, from 1 on.
 
-    Parameters
-    ----------
-    size
-        the lines of the bracket, a power of 2.
-    drops
-        'straight': the loser of match i drops into match i. 'usual': what most programs do.
-        'fewest rematches': the flips with the fewest expected rematches among equal players.
-        Or the orders themselves, from the first round of drops on.
-    pod
-        keep drops within pods of so many lines; None: there are no pods.
-
-    Raises
-    ------
-    InputError
-        if an order does not name each match once.
+    'straight': the loser of match i drops into match i; 'usual': what most programs do; 'fewest
+    rematches': the flips with the fewest expected rematches among equal players; or the orders
+    themselves, from the first round of drops on. Drops stay within pods of `pod` lines, if there
+    are pods. An InputError if an order doesn't name each match once.
 
     >>> drop_orders(16, "fewest rematches")
     [[4, 3, 2, 1], [1, 2], [1]]

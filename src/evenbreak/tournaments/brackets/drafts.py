@@ -96,18 +96,8 @@ def bracket_of(
 ) -> Bracket:
     """Return the bracket that a full grid makes once its byes are resolved.
 
-    Parameters
-    ----------
-    form, players
-        `format` and `players` of the bracket.
-    drafts
-        the matches; each comes after the matches that feed it.
-    ranks
-        who leaves the tournament at which point, best first.
-    groups
-        the groups, with their places.
-    consolation
-        who leaves the consolation event at which point, best first.
+    Each draft comes after those that feed it; ranks, best first, are who leaves the tournament, or
+    the consolation event, at which point.
     """
     sent: dict[Source, DraftSlot] = {}
     kept: list[Draft] = []

@@ -131,16 +131,8 @@ def knockout(
 ) -> tuple[list[Draft], list[Rank]]:
     """Return the matches of a knock-out, and who leaves it at which point, best first.
 
-    Parameters
-    ----------
-    entrants
-        who is on each line; their number is a power of 2.
-    letter, side
-        the letter of the match names ('W' for W1.1, W1.2, ...) and the side of the matches.
-    last
-        the name of the final.
-    third_place
-        whether the losing semifinalists play for third place.
+    The number of entrants, one per line, is a power of 2; matches are named by the letter: W1.1,
+    ...
     """
     drafts: list[Draft] = []
     rounds: list[list[str]] = []
@@ -206,14 +198,9 @@ Name = TypeVar("Name")
 
 
 def standard_lines(size: int) -> list[int]:
-    """Return the seeds, from 1 on, in the order of the first-round lines.
+    """Return the seeds, from 1 on, in the order of the first-round lines (a power of 2).
 
     Seeds 1 and 2 can meet only in the final, seeds 1 to 4 only in the last four, and so on.
-
-    Parameters
-    ----------
-    size
-        the number of lines, a power of 2.
 
     >>> standard_lines(8)
     [1, 8, 4, 5, 2, 7, 3, 6]

@@ -11,28 +11,12 @@ from evenbreak.tournaments.brackets.drafts import Draft, DraftSlot, Rank, bracke
 
 
 def laid_out(form: str, players: tuple[str, ...], drafts: Sequence[Draft]) -> Bracket:
-    """Return the bracket of a list of matches, in whatever order.
+    """Return the bracket of a list of matches, in any order.
 
-    Parameters
-    ----------
-    form, players
-        `format` and `players` of the bracket.
-    drafts
-        the matches: in a slot there is a player, by position, a bye (None), or the winner or
-        loser of another match. A match between the winner and the loser of one other match is
-        a second final, which is played if the undefeated player has lost that match.
-
-    Raises
-    ------
-    InputError
-        if a match leads to itself, two matches take one player, or there is no final.
-
-    >>> semi_finals = [Draft("A", "winners", 1, (0, 1)), Draft("B", "winners", 1, (2, 3))]
-    >>> final = Draft("F", "final", 1, (winner("A"), winner("B")))
-    >>> third = Draft("T", "third place", 1, (loser("A"), loser("B")))
-    >>> bracket = laid_out("single", ("Ann", "Bo", "Cy", "Di"), [final, third, *semi_finals])
-    >>> [match.name for match in bracket.matches], [str(place) for place in bracket.places]
-    (['A', 'B', 'T', 'F'], ['1', '2', '3', '4'])
+    A slot has a player, by position, a bye (None), or the winner or loser of another match. A match
+    between the winner and the loser of one other match is a second final, played if the undefeated
+    player lost that match. An InputError if a match leads to itself, two matches take one player,
+    or there is no final.
     """
     ordered = [_with_undefeated(draft, drafts) for draft in _in_order(drafts)]
     return bracket_of(form, players, ordered, _ranks(ordered))

@@ -21,14 +21,7 @@ def match_numbers(bracket: Bracket, first: Mapping[str, int] | None = None) -> d
 
     Rounds of the winners' side alternate with those of the losers' side: W1, W2, L1, L2, W3, L3,
     L4, W4, ... A match has a higher number than those that feed it. Byes are not matches and have
-    no number; a second final has the last one.
-
-    Parameters
-    ----------
-    bracket
-        the bracket.
-    first
-        numbers that are given away already; matches without one get those that follow.
+    no number; a second final has the last one. Numbers in `first` are kept, and the rest follow.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> match_numbers(double_elimination(5))

@@ -253,20 +253,7 @@ def _best_runners_up(
 def ranked(
     members: Sequence[int], pairs: Sequence[tuple[int, int]], winners: Sequence[int]
 ) -> list[int]:
-    """Return how many players are ranked ahead of each member; tied players share a number.
-
-    Parameters
-    ----------
-    members
-        the players.
-    pairs, winners
-        the two players and the winner of each match.
-
-    >>> ranked([4, 5, 6], [(4, 5), (5, 6), (4, 6)], [4, 5, 4])
-    [0, 1, 2]
-    >>> ranked([4, 5, 6], [(4, 5), (5, 6), (4, 6)], [4, 5, 6])
-    [0, 0, 0]
-    """
+    """Return how many players are ranked ahead of each member; tied players share a number."""
     seat = {player: k for k, player in enumerate(members)}
     beats = np.zeros((len(seat), len(seat)), dtype=np.int16)
     for (one, other), won in zip(pairs, winners, strict=True):

@@ -50,14 +50,8 @@ def heads_up(p: float, chips: int, other_chips: int) -> float:
 class LastPlayers:
     """The last players of a chip tournament at one table, as a game to walk.
 
-    Parameters
-    ----------
-    chips
-        everybody's chips.
-    line
-        who is where: who stays at the table, the challenger, then who waits.
-    racks
-        racks[i][j] = P(i, who stays, beats the challenger j).
+    `line` has who is at the table, the challenger, then who waits; racks[i][j] = P(i, at the table,
+    beats the challenger j).
     """
 
     chips: tuple[int, ...]

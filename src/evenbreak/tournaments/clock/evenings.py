@@ -50,20 +50,8 @@ class InPlay(NamedTuple):
 class Evenings:
     """Many evenings: rows are runs, columns the matches still to be played.
 
-    Parameters
-    ----------
-    names
-        the matches.
-    needed
-        whether each is played: a second final may not be.
-    minutes
-        how long it takes; of a match under way, from now on.
-    turnover
-        how long its table needs after it.
-    first, second
-        who plays, by position.
-    first_won
-        whether the player in slot 1 wins.
+    `needed` is False for a second final that isn't played. Minutes of a match under way are from
+    now on; `turnover` is the time that its table needs after it; players are positions.
     """
 
     names: tuple[str, ...]
@@ -86,23 +74,7 @@ def play_evenings(
     runs: int = 2000,
     seed: int = 0,
 ) -> Evenings:
-    """Return many evenings from where the tournament stands.
-
-    Parameters
-    ----------
-    now
-        where it stands.
-    laws
-        who wins each match still to be played and in how many games.
-    pace, turnover
-        how long matches take, and the time between two on a table (see `turnovers`).
-    playing
-        the matches under way.
-    clock
-        what time it is, in minutes since the first start.
-    runs, seed
-        how many evenings, and the seed of their luck.
-    """
+    """Return many evenings from the present state on; `clock` counts from the first start."""
     remaining = now.remaining
     names = tuple(match.name for match in remaining.matches if match.name not in now.winners)
     for name in names:
@@ -198,25 +170,10 @@ def _under_way(
 def minutes_left(
     chances: Floats, usual: Floats, match_sd: float, evening: Floats, elapsed: float, rng: Generator
 ) -> tuple[Ints, Floats]:
-    """Return how a match under way ends in each run, and the minutes it still takes.
+    """Return how a match under way ends in each run, and its remaining minutes, shape (runs,).
 
-    Parameters
-    ----------
-    chances, usual
-        the chance of each way in which it may end, and its minutes in all at the usual pace.
-    match_sd
-        how much the minutes of a match vary, as for `Pace`.
-    evening
-        the pace of the evening, for each run.
-    elapsed
-        the minutes that it has taken. Given those, longer ways are the likelier.
-    rng
-        the source of luck.
-
-    Returns
-    -------
-    tuple
-        the position of the way, and the minutes left, each of shape (runs,).
+    `chances` and `usual` are the chance of each way to end, and its minutes in all at the usual
+    pace; given the `elapsed` minutes, longer ways are likelier. `evening` is the pace of each run.
     """
     median = evening[:, None] * np.maximum(usual, 1e-9) * lognormal(0.0, match_sd)
     with np.errstate(divide="ignore"):
@@ -237,13 +194,8 @@ _AT_ONCE = 0.62  # with table and players free, so many real turnovers take unde
 def turnovers(turnover: Turnover | None, luck: Floats) -> Floats:
     """Return the times between two matches on a table, from uniform random numbers.
 
-    Parameters
-    ----------
-    turnover
-        the time between two matches; None: as in real events with table and players free,
-        none in 62 of 100 cases and otherwise the usual one, 4.1 minutes on average.
-    luck
-        numbers from 0 to 1.
+    None: as in real events with table and players free, 0 in 62 of 100 cases and otherwise the
+    usual time, 4.1 minutes on average.
 
     >>> turnovers(None, np.array([0.6, 0.81]))
     array([0. , 7.5])

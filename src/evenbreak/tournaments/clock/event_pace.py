@@ -56,14 +56,9 @@ def nights_of(discipline: str, earlier: Iterable[EarlierNight]) -> list[EarlierN
 
 
 def venue_ratio(nights: Sequence[EarlierNight], prior_nights: float = _PRIOR_NIGHTS) -> float:
-    """Return how many times as long as usual matches take at a venue, from its earlier nights.
+    """Return the ratio of match times at a venue to the usual, from its nights of one discipline.
 
-    Parameters
-    ----------
-    nights
-        of one discipline.
-    prior_nights
-        how many nights at the usual pace are added; 0 for what the nights took on average.
+    `prior_nights` nights at the usual pace are added; 0 gives the plain average.
 
     >>> venue_ratio([EarlierNight("2025-03-01T19:30:00", "9-ball", 1.21)] * 2).__round__(3)
     1.1

@@ -20,15 +20,7 @@ from evenbreak.tournaments.clock.table_schedule import Waiting
 
 @dataclass(frozen=True, eq=False)
 class SharedTables:
-    """Tournaments on the same tables.
-
-    Parameters
-    ----------
-    parts
-        when each would end if it were alone, all from the same number of runs.
-    tables
-        how many tables there are for all of them.
-    """
+    """Tournaments on the same tables; `parts` are as if alone, from the same number of runs."""
 
     parts: tuple[Finish, ...]
     tables: int

@@ -29,15 +29,7 @@ class Schedule(NamedTuple):
 
 
 def longest_paths(waits: Waiting, minutes: Floats) -> Floats:
-    """Return for each match the minutes until the end if tables were never short.
-
-    Parameters
-    ----------
-    waits
-        which match waits for which.
-    minutes
-        the minutes of each match.
-    """
+    """Return for each match the minutes until the end if there were always a free table."""
     path = minutes.copy()
     for k in range(len(minutes) - 1, -1, -1):
         follow = np.flatnonzero(waits.after[k])
@@ -58,29 +50,12 @@ def schedule(
     first: Sequence[int] = (),
     under_way: Sequence[int] = (),
 ) -> Schedule:
-    """Return when each match begins and ends.
+    """Return when each match starts and ends.
 
-    Parameters
-    ----------
-    waits
-        which match waits for which.
-    minutes
-        how long each match takes, shape (runs, matches).
-    needed
-        whether it is played, shape (runs, matches).
-    turnover
-        how long its table needs after it, shape (runs, matches).
-    tables
-        from when on each table is free, shape (runs, tables).
-    now
-        the earliest start.
-    priority
-        which match comes first, the largest number; None: by the longest remaining path.
-    first
-        the matches that begin first of all, by position and in this order, even if their rounds
-        would still wait.
-    under_way
-        the matches that are on the first tables now, by position.
+    Arrays have shape (runs, matches), `tables`, from when each is free, (runs, tables). `now` is
+    the earliest start. Of matches that can start, that with the largest `priority` goes first
+    (None: with the longest remaining path); but those in `first`, by position, start before all
+    others, even if their rounds would still wait. Matches `under_way` are on the first tables now.
     """
     taken = np.where(needed, minutes, 0.0)
     if priority is None:
@@ -154,14 +129,8 @@ def _fill(
 class Waiting:
     """Which matches wait for which.
 
-    Parameters
-    ----------
-    names
-        the matches still to be played, in the bracket's order.
-    after
-        after[i, j]: match j cannot begin before match i is over.
-    shared
-        shared[i, j]: a player of a group is in both, so that they cannot overlap.
+    after[i, j]: match j can't start before match i is over; shared[i, j]: a player of a group is in
+    both, so that they can't overlap.
     """
 
     names: tuple[str, ...]
@@ -170,23 +139,10 @@ class Waiting:
 
 
 def waiting(bracket: Bracket, names: Collection[str], *, for_rounds: bool) -> Waiting:
-    """Return which of some matches of a bracket wait for which.
+    """Return which of some matches, those not over, wait for which.
 
-    Parameters
-    ----------
-    bracket
-        the whole bracket.
-    names
-        the matches that are not over.
-    for_rounds
-        whether a round begins only when all rounds that feed it, and the round before it in
-        a group, are over.
-
-    >>> from evenbreak.tournaments import single_elimination
-    >>> bracket = single_elimination(8)
-    >>> waits = waiting(bracket, [match.name for match in bracket.matches], for_rounds=True)
-    >>> [waits.names[i] for i in np.flatnonzero(waits.after[:, waits.names.index("W2.1")])]
-    ['W1.1', 'W1.2', 'W1.3', 'W1.4']
+    With `for_rounds`, a round starts only when all rounds that feed it, and the round before it in
+    a group, are over.
     """
     matches = [match for match in bracket.matches if match.name in names]
     place = {match.name: k for k, match in enumerate(matches)}

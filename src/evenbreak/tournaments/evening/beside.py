@@ -28,13 +28,7 @@ from evenbreak.tournaments.evening.roster import rename
 
 
 def together(states: Mapping[int, Evening]) -> dict[int, Evening]:
-    """Return the events of a night, each knowing of the others; a lone event stays as it is.
-
-    Parameters
-    ----------
-    states
-        each event by its number, as it would be alone.
-    """
+    """Return the events of a night, each aware of the others; a lone event stays as it is."""
     if len(states) < 2:
         return dict(states)
     first = min(states)
@@ -83,17 +77,10 @@ def with_entry(event: int, number: int) -> str:
 def carried(
     before: Mapping[int, Evening], after: Mapping[int, Evening], event: int
 ) -> dict[int, list[Event]]:
-    """Return what entries of one event enter in the others of the night.
+    """Return what the entries of one event add to the others of the night.
 
-    A person has one name in all of them. What came with an entry is taken back with it, unless it
-    is the call of a match that has begun since, and entered again with it.
-
-    Parameters
-    ----------
-    before, after
-        the events before and after these entries.
-    event
-        the number of the one that they are in.
+    A person has one name in all of them. What an entry brought is taken back with it, and added
+    again with it, except the call of a match that has started since.
     """
     then, now = before[event], after[event]
     first = len(then.log) + 1
@@ -153,24 +140,11 @@ def out(state: Evening) -> list[str]:
 
 
 def second_chance(state: Evening, *, race: int | None = None, name: str = "") -> Opened:
-    """Return the beginning of a second event for those who are out of an elimination by now.
+    """Return the start of a second event for those who are out of an elimination by now.
 
-    It is a single elimination. Whoever went out last is the first seed; more can enter until its
-    draw is made.
-
-    Parameters
-    ----------
-    state
-        the first event.
-    race
-        the games of a race; None: those of the losers' side.
-    name
-        what it is called.
-
-    Raises
-    ------
-    InputError
-        if it is no elimination, or fewer than two are out.
+    It is a single elimination, to the losers' side's race by default. The last player out is the
+    first seed; more can enter until its draw. An InputError if the first is no elimination, or
+    fewer than two are out.
     """
     plan = state.plan
     if plan.form not in ELIMINATIONS or not state.drawn:

@@ -11,16 +11,9 @@ from evenbreak.tournaments.evening.fold import Evening
 def ready_matches(state: Evening, order: Sequence[str] = ()) -> list[str]:
     """Return the matches that can be called now, the best first.
 
-    One that is waiting for somebody is not among them, one that is played already comes first, and
-    one that was taken off its table last.
-
-    Parameters
-    ----------
-    state
-        the evening.
-    order
-        the matches in the order that ends the evening soonest, as far as worked out; the others
-        follow by their numbers.
+    One that waits for someone is left out; one being played already comes first, one that was taken
+    off its table last. `order` ends the evening soonest, as far as calculated; others follow by
+    number.
     """
     return [name for _, name in night_queue({0: state}, [(0, name) for name in order])]
 
@@ -65,16 +58,9 @@ def proposed_calls(
     order: Sequence[tuple[int, str]] = (),
     tables: Sequence[int] | None = None,
 ) -> list[tuple[int, Called]]:
-    """Return a match for each free table, as far as there are any whose players are free.
+    """Return a match for each free table, as long as there are any whose players are free.
 
-    Parameters
-    ----------
-    states
-        the events of the night, by number.
-    order
-        as in `night_queue`.
-    tables
-        the tables; None: those that are given out by themselves.
+    `order` is as in `night_queue`; tables by default are those assigned automatically.
     """
     given = list(states[min(states)].free_tables if tables is None else tables)
     busy: set[str] = set()

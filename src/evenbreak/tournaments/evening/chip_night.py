@@ -35,20 +35,9 @@ from evenbreak.words import Parameter
 
 
 class Rack(NamedTuple):
-    """A rack that is being played or was, and when it began.
+    """A rack that is being played or was, named R1, R2, ... in the order of their starts.
 
-    Parameters
-    ----------
-    name
-        R1, R2, ... in the order in which they began.
-    table
-        the table.
-    players
-        whoever stays at the table, and the challenger.
-    since
-        when it began.
-    after
-        the rack on this table whose winner stays; None for the first.
+    `after` is the rack on this table whose winner stays; None for the first.
     """
 
     name: str
@@ -62,18 +51,8 @@ class Rack(NamedTuple):
 class ChipNight:
     """A chip night at a moment.
 
-    Parameters
-    ----------
-    racks
-        the racks that count and those that are being played, by name.
-    chips
-        what is left to each player, in the order of the draw.
-    tables
-        the rack that is being played on each table in use.
-    line
-        who waits, the next to play first.
-    gone
-        who is out or went home, the first first.
+    `chips` are those left, in the order of the draw; `line` waits, the next to play first; `gone`
+    are out or went home, the first first.
     """
 
     racks: Mapping[str, Rack]

@@ -39,13 +39,7 @@ def drawn_racks(state: Evening, drawn: Floats) -> Floats:
 def chip_odds(state: Evening, win: Floats) -> PlaceOdds:
     """Return who finishes where: exactly for the last players at one table, else by simulation.
 
-    Parameters
-    ----------
-    state
-        the evening; the draw has been made.
-    win
-        P(i beats j in a rack) in the order of the players; a third axis, if there is one, is for
-        samples of the ratings.
+    `win` is P(i beats j in a rack), with an optional third axis for samples of the ratings.
     """
     night = state.chip_night
     count, left = len(night.chips), len(night.order)
@@ -103,18 +97,10 @@ def chip_minutes(
     tables: int | None = None,
     turnover: Turnover | None = None,
 ) -> Floats:
-    """Return how long the rest of the evening takes, in minutes, in each of many evenings.
+    """Return the remaining minutes of the evening, in each of many evenings.
 
-    Parameters
-    ----------
-    state, win
-        as in `chip_odds`.
-    pace
-        how long matches take this evening; a rack is a match of one game.
-    tables
-        how many tables there are; None: those of the evening.
-    turnover
-        the time between two racks on a table; None: as long as a match of one game needs anyway.
+    `win` as in `chip_odds`; a rack is a match of one game. Without a turnover, the time between two
+    racks is that which a match of one game needs anyway.
     """
     lengths = _played(state, win, tables, to_the_end=True).lengths
     rng = np.random.default_rng(0)

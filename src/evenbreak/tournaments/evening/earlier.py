@@ -13,23 +13,11 @@ _MOST_NIGHTS = 20  # at a venue: it changes, and more of them would say no more
 
 
 def night_played(state: Evening) -> EarlierNight | None:
-    """Return how long an evening took against what was to be expected before its first match.
+    """Return how long an evening took, and the time expected before its first match.
 
-    Returns
-    -------
-    EarlierNight or None
-        None if it says nothing of the pace: it is not over, no match was called, tables or races
-        were changed meanwhile, it is a chip tournament, or it took less than half or more than
-        twice as long as usual, as when the results were typed in afterwards.
-
-    >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Result
-    >>> both = Entrant("Ann", 80.0), Entrant("Bo", 70.0)
-    >>> happened = [Opened(Plan("single", 5), both), Drawn(("Ann", "Bo"), (0, 1))]
-    >>> happened += [Called("F", 1, ("Ann", "Bo")), Result("F", ("Ann", "Bo"), (5, 4), "Ann")]
-    >>> clock = "19:00", "19:00", "19:30", "20:20"
-    >>> events = [Event(f"2025-03-01T{at}:00", what) for at, what in zip(clock, happened)]
-    >>> round(night_played(evening(events)).ratio, 2)
-    1.19
+    None if it doesn't show the pace: it isn't over, no match was called, tables or races were
+    changed, it is a chip tournament, or it took less than half or more than twice as long as usual,
+    as when results were typed in afterwards.
     """
     calls = [k for k, one in enumerate(state.events) if isinstance(one.what, Called)]
     if not state.drawn or not calls or state.plan.form == "chips":

@@ -22,14 +22,10 @@ def tables_text(plan: Plan) -> str:
 
 
 def next_edition(state: Evening, date: str = "") -> tuple[Plan, tuple[Entrant, ...]]:
-    """Return the plan and the entrants of an evening like one before: same people, same options.
+    """Return the plan and the entrants of an evening like an earlier one: same people and options.
 
-    The people are also those who were left out of the draw, or asked to play.
-
-    Raises
-    ------
-    InputError
-        if its bracket came from another program.
+    The people include those left out of the draw, or who asked to play. An InputError if its
+    bracket came from another program.
     """
     if state.plan.layout:
         raise InputError(

@@ -45,46 +45,16 @@ BY_ITSELF = "by itself"
 class Plan(Format, Occasion):
     """What is played: the format, the races, the tables; and the occasion.
 
-    Parameters
-    ----------
-    form
-        double, single, pods, consolation, groups, round-robin, swiss, king-of-the-hill, chips, or
-        the format of a bracket from another program, in words.
-    final, drops
-        as in `double_elimination`.
-    qualifiers
-        how many a double elimination leads to, or how many go on from each group or pod.
-    placement
-        how qualifiers of a double elimination are paired: half shift or redraw.
-    groups, knockout_size, pod_size, rounds
-        how many groups, how many go on from all of them together, the lines of a pod, the rounds
-        of a Swiss.
-    third_place
-        as in `single_elimination`.
-    seeding
-        listed, rating, blind or drawn: how the draw orders the entrants.
-    race, losers_race, final_race
-        the games of a race, on the losers' side and in the final (None: as the others).
-    handicapped
-        whether the stronger player needs that many games, and the weaker as many as is fairest.
-    chart
-        races by this chart; then `race` says nothing.
-    scale
-        the scale of the ratings, as `scale_of` reads it.
-    starter, starter_error
-        the rating of a new player and how far off it may be.
-    discipline
-        8-ball, 9-ball or 10-ball: how long matches take.
-    layout
-        the matches of a bracket from another program, in place of those of a format.
-    by_match
-        the races of single matches, by name.
-    chips
-        the chips that players of a chip tournament start with.
-    earlier
-        the nights before at this venue: they set the pace.
-    match_form
-        form of the day, by the list of ratings: how much the log-odds of a game vary.
+    `form` is double, single, pods, consolation, groups, round-robin, swiss, king-of-the-hill,
+    chips, or the format of a bracket from another program, in words; that bracket is in `layout`.
+    `final`, `drops` and `third_place` are as in `double_elimination` and `single_elimination`;
+    `qualifiers` are those of a double elimination, or of each group or pod, paired by `placement`:
+    half shift or redraw. `knockout_size` is how many go on from all groups together, `pod_size` the
+    lines of a pod. `seeding` is listed, rating, blind or drawn. `handicapped`: the stronger player
+    needs `race` games, the weaker gets the fairest number; with a `chart`, `race` isn't used.
+    `starter` is the rating of a new player, and `starter_error` its standard error. `earlier`
+    nights at this venue set the pace. `match_form` is the standard deviation of a game's log-odds
+    from match to match.
     """
 
     form: str
@@ -151,15 +121,7 @@ class Late:
 
 @dataclass(frozen=True)
 class Edited:
-    """Another name or rating of a player before the draw; they keep their place among the others.
-
-    Parameters
-    ----------
-    name
-        as they entered.
-    entrant
-        as they are from now on.
-    """
+    """A new name or rating before the draw; the player, found by `name`, keeps their place."""
 
     name: str
     entrant: Entrant
@@ -239,18 +201,9 @@ class CalledBack:
 
 @dataclass(frozen=True)
 class Waits:
-    """A match is let wait until it is called, or until another of these without a reason.
+    """A match waits until it is called, or until another of these without a reason.
 
-    Parameters
-    ----------
-    match, players
-        the match.
-    absent
-        which of its players are not here.
-    until
-        when the match is forfeited, such as 2025-03-01T20:15:00; "": it is not.
-    reason
-        why it waits.
+    `absent` players forfeit it at the time `until` ('': they don't).
     """
 
     match: str
@@ -316,15 +269,11 @@ class Ranked:
 
 @dataclass(frozen=True)
 class LaterDraw:
-    """Something was drawn in the course of the evening.
+    """Something was drawn during the evening.
 
-    Parameters
-    ----------
-    stage
-        R1, R2, ...: a round of a Swiss; K1: the losers' qualifiers, for the knock-out.
-    order
-        the players of the round in pairs (None: a bye), or the matches that the qualifiers come
-        from, in the order of the matches that they go into.
+    The stage is R1, R2, ... for a round of a Swiss, whose order is the players in pairs (None: a
+    bye), or K1 for the losers' qualifiers of a knock-out: the matches that they come from, in the
+    order of those that they go into.
     """
 
     stage: str

@@ -67,53 +67,14 @@ ELIMINATIONS = ("double", "single", "pods", "consolation")
 class Evening:
     """The state of an evening.
 
-    Parameters
-    ----------
-    plan
-        what is played.
-    entrants
-        the players by name, in the order in which they entered.
-    order
-        the players in seed order; empty before the draw.
-    lines
-        the player on each first-round line; None for a format without lines.
-    records
-        all results of each match that were not undone, in the order in which they came in.
-    dropped
-        the players who have gone home.
-    calls
-        the last call of each match and its players, in the order in which they came.
-    scores
-        the last live score of each match and its players.
-    ties
-        the last breaking of the ties of each group.
-    later
-        what was drawn in the course of the evening, by stage.
-    events
-        the events that were not undone.
-    numbers
-        the number of each of them in the file, from 1.
-    entries
-        for each player the number of the entry that brought them in, and their place in it: a
-        rename keeps both.
-    former
-        the name now of players who were renamed, by the names that they had.
-    arrived, paid
-        who is here, and who has paid.
-    registered
-        who wants to play and has not been let in, with the rating that they state.
-    waits
-        for each match and its players why it waits.
-    undone
-        the entries that are undone, by number, the last undone last.
-    log
-        all entries as they were made.
-    elsewhere
-        the tables that other events of the night have taken, and who plays there.
-    beside
-        the other events of the night.
-    event
-        the number of this one.
+    `order` and `lines` are the draw: players in seed order, and on first-round lines. `records` are
+    all results of each match that were not undone, in the order in which they came in; `calls` and
+    `scores` are the last of each match and its players. `entries` has for each player the number of
+    the entry that brought them in, and their place in it: a rename keeps both; `former` maps old
+    names to those of now. `registered` want to play and aren't let in yet, with the rating that
+    they state. `waits` has why matches wait. `numbers` are those of `events` in the file, from 1;
+    `undone` has those taken back, the last one last, and `log` all entries. `elsewhere` are the
+    tables taken by other events of the night (`beside`), and `event` is the number of this one.
     """
 
     plan: Plan
@@ -147,13 +108,7 @@ class Evening:
 
     @cached_property
     def bracket(self) -> Bracket:
-        """The bracket.
-
-        Raises
-        ------
-        InputError
-            if the draw has not been made.
-        """
+        """The bracket; an InputError before the draw."""
         if not self.order:
             raise InputError(
                 "the draw hasn't been made yet; to make it: {draw}",
@@ -406,21 +361,7 @@ class Evening:
 
 
 def evening(events: Iterable[Event]) -> Evening:
-    """Return the state after events.
-
-    Raises
-    ------
-    InputError
-        if they are not those of an evening.
-
-    >>> from evenbreak.tournaments.evening.events import Undone
-    >>> ann, bo = Entrant("Ann", 80.0), Entrant("Bo", 70.0)
-    >>> happened = [Opened(Plan("single", 5), (ann, bo)), Drawn(("Ann", "Bo"), (0, 1))]
-    >>> happened += [Result("F", ("Ann", "Bo"), (3, 5), "Bo")]
-    >>> happened += [Result("F", ("Ann", "Bo"), (5, 3), "Ann"), Undone()]
-    >>> evening([Event("2025-03-01T19:30:00", what) for what in happened]).winners
-    {'F': 'Bo'}
-    """
+    """Return the state after events; an InputError if they are not those of an evening."""
     log = tuple(events)
     history = read(log)
     kept = list(history.kept.values())

@@ -73,12 +73,9 @@ def names_text(names: Sequence[str]) -> str:
 
 
 def house_tables(text: str) -> HouseTables:
-    """Return how many tables there are, or what they are called.
+    """Return how many tables there are, or their names.
 
-    Raises
-    ------
-    InputError
-        if there are none or too many, or two have one name.
+    An InputError if there are none, too many, or two of the same name.
 
     >>> house_tables("4"), house_tables("1-2, TV"), house_tables("1-4").labels
     (HouseTables(many=4, labels=None), HouseTables(many=3, labels=('1', '2', 'TV')), ())
@@ -276,22 +273,11 @@ class Format:
 
 @dataclass(frozen=True, kw_only=True)
 class Occasion:
-    """What the house says of an evening: its name, what its tables are called, its pace.
+    """The house's facts about an evening: its name, its tables, its pace.
 
-    Parameters
-    ----------
-    name, date
-        what the event is called, and when it is.
-    tables
-        how many tables there are.
-    labels
-        what the house calls its tables, from the first; () and beyond them: their numbers.
-    reserved
-        the tables that are given out by hand only.
-    streamed
-        the tables that are filmed.
-    slower
-        how much longer matches take here than is usual.
+    `labels` are the names of the tables, from the first; beyond them they have numbers. `reserved`
+    tables are assigned by hand only, `streamed` ones are filmed; `slower` is how many times as long
+    as usual matches take.
     """
 
     tables: Tables = 4

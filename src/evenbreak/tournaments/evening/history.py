@@ -38,18 +38,9 @@ class ReadRename(Renamed):
 
 @dataclass(frozen=True)
 class History:
-    """The entries of an evening, as they are read.
+    """The entries of an evening: `kept` and `undone` (the last one last) by number from 1.
 
-    Parameters
-    ----------
-    kept
-        those that are not undone, by number from 1.
-    undone
-        those that are, the last undone last.
-    entries
-        the players by the names that they have now.
-    former
-        for names that players had: those that they have now.
+    `former` maps earlier names of players to those of now.
     """
 
     kept: Mapping[int, Event]
@@ -61,10 +52,7 @@ class History:
 def read(events: Sequence[Event]) -> History:
     """Return the entries of an evening as they are read.
 
-    Raises
-    ------
-    InputError
-        if something is undone that is not there, or done again that was not undone.
+    An InputError if something is undone that isn't there, or redone that wasn't undone.
     """
     log: Log[Event] = Log(fixed=1)
     renames = any(isinstance(event.what, Renamed) for event in events)

@@ -33,12 +33,9 @@ def can_draw(state: Evening) -> bool:
 
 
 def draw_later(state: Evening, rng: np.random.Generator) -> LaterDraw:
-    """Draw the next stage of an evening whose first draw has been made.
+    """Draw the next stage of an evening after its first draw.
 
-    Raises
-    ------
-    InputError
-        if there is none, or it must wait for matches.
+    An InputError if there is none, or it must wait for matches.
     """
     stage = stage_to_draw(state)
     if stage is None:

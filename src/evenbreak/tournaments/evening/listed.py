@@ -26,28 +26,10 @@ from evenbreak.tournaments.odds.races import games_needed
 class MatchRow(NamedTuple):
     """A match of the bracket, or one on hold because its players no longer belong in it.
 
-    Parameters
-    ----------
-    match
-        the number that it has on every screen; None if it is not in the bracket now.
-    code
-        what it is called in the entries of the log, such as W1.2.
-    side, round
-        the part of the bracket, and the round there.
-    player_a, player_b
-        the players; None as long as one is not known.
-    race_a, race_b
-        the games that each needs.
-    score_a, score_b
-        the games that each has won, also in a match in play; None for a forfeit.
-    state
-        waiting (for a player), ready, playing, over, forfeit, not needed, or on hold.
-    winner
-        who moves on as the winner.
-    table_name
-        what the house calls the table that it is or was on.
-    called, ended
-        when it was called to a table, and when its result first came in.
+    `match` is its number on every screen, None if it isn't in the bracket now; `code`, such as
+    W1.2, is its name in the log. Scores include a match in play, and are None for a forfeit. The
+    state is waiting (for a player), ready, playing, over, forfeit, not needed, or on hold. `ended`
+    is when its result first came in.
     """
 
     match: int | None
@@ -68,19 +50,7 @@ class MatchRow(NamedTuple):
 
 
 class PlayerRow(NamedTuple):
-    """A player who has entered.
-
-    Parameters
-    ----------
-    name
-        as they are called now.
-    seed
-        the place in the draw; None before it.
-    rating, standard_error
-        the rating that they play with, and how far off it may be.
-    arrived, paid, dropped, unrated
-        whether they are here, have paid, have gone home, and came without a rating.
-    """
+    """A player who has entered; the seed is None before the draw."""
 
     name: str
     seed: int | None
@@ -95,22 +65,9 @@ class PlayerRow(NamedTuple):
 class StandingRow(NamedTuple):
     """How far a player has come.
 
-    Parameters
-    ----------
-    place, place_to
-        the place once it is decided; players who share places have the first and the last of them.
-    side
-        the event of which it is a place, such as consolation; None: the main one.
-    name
-        the player.
-    won, lost
-        matches that count, forfeits among them; a bye of a Swiss is won.
-    games_won, games_lost
-        the games of those matches.
-    buchholz, chips
-        the wins of their opponents in a Swiss, and the chips left in a chip tournament.
-    prize
-        what the place is paid, if prizes are kept.
+    Places are None until decided; players who share places have the first and the last. The side is
+    the event, such as consolation, None for the main one. Matches include forfeits, and a bye of a
+    Swiss is won. `buchholz` is the wins of a player's opponents in a Swiss.
     """
 
     place: int | None
@@ -127,18 +84,9 @@ class StandingRow(NamedTuple):
 
 
 class RankRow(NamedTuple):
-    """How a player stands among those of a group, a Swiss or a chip tournament.
+    """A player's rank, from 1, in a group, a Swiss or a chip tournament; equal players share it.
 
-    Parameters
-    ----------
-    rank
-        from 1; players who are level have the same.
-    name
-        the player.
-    won, lost
-        matches of the group, or of the finished rounds of a Swiss; a bye of a Swiss is won.
-    buchholz, chips
-        as in `StandingRow`.
+    Matches are those of the group, or of a Swiss's finished rounds, in which a bye is won.
     """
 
     rank: int

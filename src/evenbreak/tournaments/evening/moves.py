@@ -52,14 +52,9 @@ __all__ = ["known_match", "known_player"]
 
 
 def draw(state: Evening, rng: np.random.Generator, *, without: Sequence[str] = ()) -> Drawn:
-    """Make the draw, in the way that the plan says.
+    """Make the draw, as planned; players left out (`without`) may be let in late.
 
-    Players whom it is to do `without` go on the list of those who may be let in late.
-
-    Raises
-    ------
-    InputError
-        if it has been made, or there are too few players.
+    An InputError if it has been made, or there are too few players.
     """
     if state.drawn:
         raise InputError(
@@ -84,12 +79,9 @@ def draw(state: Evening, rng: np.random.Generator, *, without: Sequence[str] = (
 def draw_next(
     state: Evening, rng: np.random.Generator, *, without: Sequence[str] = ()
 ) -> list[Drawn | LaterDraw]:
-    """Draw what is to be drawn next: the bracket, the next round of a Swiss, or qualifiers.
+    """Draw what comes next: the bracket, a round of a Swiss, or qualifiers.
 
-    Raises
-    ------
-    InputError
-        if there is nothing to draw, or it must wait for matches.
+    An InputError if there is nothing to draw, or it must wait for matches.
     """
     if state.drawn:
         return [draw_later(state, rng)]
@@ -107,20 +99,11 @@ def result(
     ended: str = "",
     winner: str = "",
 ) -> Result:
-    """Enter the result of a match that has not been decided.
+    """Return the entry of a result of a match that hasn't been decided.
 
-    Parameters
-    ----------
-    state
-        the evening.
-    match
-        the match; in a chip tournament the number of its table will do.
-    score
-        the games of each player; in a chip tournament the winner will do.
-    ended
-        why the race was not played out: "time" or "conceded"; "": it was.
-    winner
-        the winner, where the score does not say it.
+    In a chip tournament the table's number will do for the match, and the winner for the score.
+    `ended`: why the race wasn't played out, "time" or "conceded". The winner is needed only where
+    the score doesn't show it.
     """
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:

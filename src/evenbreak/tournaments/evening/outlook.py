@@ -70,18 +70,10 @@ class _InScore(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Outlook:
-    """A tournament under way, at a moment.
+    """A tournament under way, after its draw, at a moment.
 
-    Parameters
-    ----------
-    state
-        the state of the evening; the draw has been made.
-    now
-        what time it is, such as 2025-03-01T19:30:00.
-    walkovers
-        the chance that a match that has not begun is a walkover, for either player.
-    origin
-        from when times are counted; None: from the first match of the night.
+    `walkovers` is the chance that a match not yet started is a walkover, for either player. Times
+    count from `origin`, by default the first match of the night.
     """
 
     state: Evening
@@ -327,12 +319,9 @@ class Outlook:
         ]
 
     def leverages(self, payouts: Sequence[float] | None = None) -> list[Leverage]:
-        """Return what each match to come changes; nothing if the bracket is too large for that.
+        """Return what each remaining match changes; nothing if the bracket is too large for that.
 
-        Parameters
-        ----------
-        payouts
-            the money for first place, second, ...: then it is the prizes. None: the title.
+        That is the title, or the prizes with `payouts` for first place, second, ...
         """
         state = self.state
         if stage_to_draw(state) is not None or state.plan.form in ("swiss", "chips"):
@@ -443,13 +432,7 @@ class Outlook:
         pace: Pace | str | None = None,
         turnover: Turnover | None = None,
     ) -> Finish:
-        """Return when it ends, given what has been played and what is on the tables.
-
-        Parameters
-        ----------
-        laws, tables, pace, turnover
-            as in `clock.finish.finish`; None: those of this evening.
-        """
+        """Return when it ends, given what has been played and what is on the tables."""
         state = self.state
         playing = [self._in_play(name, one.at) for name, one in state.on_tables.items()]
         return finish(

@@ -77,28 +77,9 @@ def entrants_of(roster: Roster) -> tuple[Entrant, ...]:
 
 
 def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
-    """Begin an evening, if what is planned can be played by those who have entered.
+    """Start an evening, if the plan suits those who have entered; more may enter later, or all.
 
-    Parameters
-    ----------
-    plan
-        what is played.
-    entrants
-        who has entered; more may enter later, or all of them.
-
-    Raises
-    ------
-    InputError
-        if there are too few or too many players for the plan, or one of them is a bye.
-
-    >>> two = [Entrant("Ann", 600.0), Entrant("Bo", 500.0)]
-    >>> opened(Plan("single", 5), two).plan.form
-    'single'
-    >>> opened(Plan("double", 5, qualifiers=4), two)
-    Traceback (most recent call last):
-    ...
-    evenbreak.errors.InputError: qualifiers must be a power of 2, at most 2 for this
-    bracket; it is 4
+    An InputError if there are too few or too many players for the plan, or one of them is a bye.
     """
     names = tuple(one.name for one in entrants)
     if len(names) == 1 or len(names) > MOST_PLAYERS:
@@ -200,17 +181,7 @@ def swiss_of(plan: Plan, order: tuple[str, ...]) -> Swiss:
 
 
 def bracket_now(bracket: Bracket, plan: Plan, drawn: Drawn) -> Bracket:
-    """Return the matches of which it is known where their players come from.
-
-    Parameters
-    ----------
-    bracket
-        all matches, as `bracket_of` returns them.
-    plan
-        what is played.
-    drawn
-        what has been drawn so far.
-    """
+    """Return the matches whose players' origin is known by what has been drawn so far."""
     if plan.form == "swiss":
         rounds = pairings(drawn)
         return swiss_bracket(swiss_of(plan, bracket.players), rounds, to_come=False)
@@ -294,16 +265,7 @@ def table_places(before: Occasion, after: Occasion) -> dict[int, int]:
 
 
 def changed(plan: Plan, change: Changed, bracket: Bracket | None, begun: Iterable[str]) -> Plan:
-    """Return a plan with other tables or races; matches that have begun keep their race.
-
-    Parameters
-    ----------
-    plan, change
-        the plan so far, and what is changed.
-    bracket
-        the bracket; None before the draw.
-    begun
-        the matches that have been called, scored or played.
+    """Return a plan with other tables or races; matches that have started keep their race.
 
     >>> changed(Plan("double", 5, tables=4), Changed(race=4), None, ()).race
     4

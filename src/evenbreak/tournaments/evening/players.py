@@ -47,12 +47,9 @@ class People:
         return tuple(self.order), None if self.lines is None else tuple(self.lines)
 
     def take(self, what: What, *, in_pairs: bool = False) -> None:
-        """Let something happen; `in_pairs`: in a round of a Swiss, whose pairs are no seeds.
+        """Apply an entry; with `in_pairs`, a round of a Swiss, its pairs aren't seeds.
 
-        Raises
-        ------
-        InputError
-            if a player is in it who has not entered, as only a damaged file holds it.
+        An InputError for a player who hasn't entered, as in a damaged file.
         """
         for name in _names_in(what):
             if name not in self.entrants:

@@ -106,15 +106,7 @@ def register(state: Evening, name: str, rating: float | None = None) -> Register
 
 
 def accept(state: Evening, name: str, *, unrated: bool = False) -> Late:
-    """Let in somebody who has asked to play, or was left out of the draw.
-
-    Parameters
-    ----------
-    state, name
-        the evening, and the full name.
-    unrated
-        whether the rating that they state is left aside.
-    """
+    """Let in someone who asked to play, or was left out of the draw, maybe without their rating."""
     rating = state.registered[_registered(state, name)]
     rating = None if unrated else rating
     return late(state, state.plan.newcomer(name) if rating is None else Entrant(name, rating))

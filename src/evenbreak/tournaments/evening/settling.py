@@ -17,20 +17,11 @@ from evenbreak.words import Command, listed
 
 
 def stand(state: Evening, match: str) -> list[Result]:
-    """Let a match stand that was played before a correction sent somebody else into it.
+    """Let a match count that was played before a correction changed its players.
 
-    The players who had moved on into it from the corrected match stay where they are. The
-    corrected score is kept.
-
-    Returns
-    -------
-    list of Result
-        the corrected matches, with the player who has played on as winner.
-
-    Raises
-    ------
-    InputError
-        if the match was not played by other players, or an earlier one must stand first.
+    Those who had moved on into it from the corrected match stay where they are, as its winner, and
+    the corrected score is kept. Returns the corrected matches. An InputError if the match wasn't
+    played by other players, or an earlier one must be settled first.
     """
     if state.plan.form == "chips":
         raise InputError("a rack of a player without chips can't stand. Play it again, or undo.")
@@ -102,17 +93,7 @@ def _tied_runners(state: Evening) -> list[str]:
 
 
 class TieBreak(NamedTuple):
-    """How the ties of a group were broken.
-
-    Parameters
-    ----------
-    ranked
-        the final order.
-    difference
-        the games that each player won minus those they lost.
-    by_lot
-        the players whose order was drawn by lot.
-    """
+    """The order of a group after its ties are broken, by games won minus lost, then by lot."""
 
     ranked: Ranked
     difference: dict[str, int]
@@ -120,25 +101,12 @@ class TieBreak(NamedTuple):
 
 
 def break_ties(state: Evening, rng: np.random.Generator, *, only_lots: bool = False) -> TieBreak:
-    """Break the ties of a round robin that is played out.
+    """Break the ties of a finished round robin; with `only_lots`, by lot alone.
 
-    Players who are level in matches won, also among themselves, are ranked by games won minus
-    games lost in all their matches, and then by lot. Runners-up of several groups who are level in
-    the share of matches won are ranked by the same for each match, and then by lot.
-
-    Parameters
-    ----------
-    state
-        the evening.
-    rng
-        draws the lots.
-    only_lots
-        whether games do not count, so that lots alone break the ties.
-
-    Raises
-    ------
-    InputError
-        if there is no tie.
+    Players level in matches won, overall and among themselves, are ranked by games won minus games
+    lost in all their matches, and then by lot. Runners-up of several groups who are level in the
+    share of matches won are ranked by the same per match, and then by lot. An InputError if there
+    is no tie.
     """
     runners_up = state.bracket.runners_up
     broken = [runners_up.name] if runners_up and runners_up.name in state.results else []

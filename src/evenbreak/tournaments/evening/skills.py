@@ -34,23 +34,10 @@ class Games(NamedTuple):
 def skills_before(ratings: Floats, errors: Floats, unrated: Bools) -> tuple[Floats, Floats]:
     """Return the mean and the covariance of the players' skills before any game.
 
-    A player without a rating is one more of the field: as good on average as those with one, and as
-    far apart as they are. The starter's rating and error weigh as much as a few players of the
-    field, so that they decide where few are rated (the normal-inverse-chi-square posterior). Where
-    the center of the field lies is not known for certain either, and is the same for all without a
-    rating.
-
-    Parameters
-    ----------
-    ratings, errors
-        the ratings and their standard errors; of a player without a rating those of a new player.
-    unrated
-        who has no rating.
-
-    >>> field = np.array([500.0, 430.0, 440.0, 450.0, 460.0])
-    >>> mean, spread = skills_before(field, np.array([100.0, 0, 0, 0, 0]), field == 500.0)
-    >>> mean[0].round(), np.sqrt(spread[0, 0]).round()
-    (np.float64(463.0), np.float64(81.0))
+    A player without a rating is one more of the field: as good on average as those with one, and
+    with the same spread. The starter's rating and error count as a few players of the field, so
+    that they decide where few are rated (the normal-inverse-chi-square posterior). The center of
+    the field isn't known for certain either, and is the same for all unrated players.
     """
     mean, covariance = ratings.astype(float).copy(), np.diag(errors.astype(float) ** 2)
     field = ratings[~unrated].astype(float)
@@ -73,25 +60,9 @@ def skills_tonight(
 ) -> tuple[Floats, Floats]:
     """Return the mean and the covariance of the players' skills, given tonight's games.
 
-    Parameters
-    ----------
-    ratings
-        the ratings.
-    spread
-        their standard errors, or the covariance matrix; a rating without an error is right.
-    games
-        what was played.
-    scale
-        the scale of the ratings.
-    form
-        how much the log-odds of a game vary from match to match: the games of one match then say
-        less than as many games of several.
-
-    >>> from evenbreak.ratings.scale import scale_of
-    >>> even = np.array([500.0, 500.0]), np.array([100.0, 0.0])
-    >>> mean, spread = skills_tonight(*even, [Games(0, 1, 7, 2)], scale_of("fargo"))
-    >>> mean.round(), np.sqrt(spread[0, 0]).round()
-    (array([584., 500.]), np.float64(71.0))
+    `spread` has standard errors (0: exact) or a covariance matrix. `form` is the standard deviation
+    of a game's log-odds from match to match: with it, the games of one match count for less than as
+    many games of several.
     """
     slope = math.log(2.0) / scale.points_per_doubling
     covariance = spread.astype(float) if spread.ndim == 2 else np.diag(spread.astype(float) ** 2)

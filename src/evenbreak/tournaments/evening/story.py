@@ -23,21 +23,10 @@ MOST_STEPS = 64
 
 
 class Step(NamedTuple):
-    """A result, and the title odds after it.
+    """A result (None: the draw), and the title odds after it.
 
-    Parameters
-    ----------
-    at
-        when it came in, such as 2025-03-01T19:30:00; of the first step: when the draw was made.
-    result
-        the result; None: of the first step.
-    chance
-        what its winner had been given in that match before it began; None if that is not known,
-        as of a forfeit.
-    title
-        each player's chance of the title afterwards, by name.
-    minutes
-        how long the match took since it was called; None if it was not.
+    `chance` is the winner's in that match before it started, None if unknown, as for a forfeit;
+    `minutes` count from its call.
     """
 
     at: str
@@ -55,16 +44,9 @@ class Step(NamedTuple):
 
 @dataclass(frozen=True)
 class Story:
-    """The story of a night so far.
+    """The story of a night so far, from the draw on if `whole`.
 
-    Parameters
-    ----------
-    steps
-        from the draw on; empty before it.
-    folded
-        the events up to each step, for a later story that goes on from here.
-    whole
-        whether it is told from the draw on.
+    `folded` has the events up to each step, for a later story that continues this one.
     """
 
     steps: tuple[Step, ...]
@@ -131,25 +113,10 @@ def story_of(
     *,
     within: float = math.inf,
 ) -> Story:
-    """Return the story of a night so far.
+    """Return the story of a night so far, continuing an `earlier` one.
 
-    Parameters
-    ----------
-    state
-        the state of the evening.
-    earlier
-        a story of the same night: what both have in common is not worked out again.
-    within
-        after so many seconds no second step is begun; then the story is not `whole` yet, and
-        its beginning lacks: that is what takes longest.
-
-    >>> from evenbreak.tournaments.evening.events import Entrant, Opened, Plan
-    >>> both = Entrant("Ann", 80.0), Entrant("Bo", 80.0)
-    >>> happened = Opened(Plan("single", 5), both), Drawn(("Ann", "Bo"), (0, 1))
-    >>> happened += (Result("F", ("Ann", "Bo"), (5, 4), "Ann"),)
-    >>> story = story_of(evening([Event("2025-03-01T19:30:00", what) for what in happened]))
-    >>> [step.title["Ann"] for step in story.steps], story.steps[1].chance, story.steps[1].hill
-    ([0.5, 1.0], 0.5, True)
+    After `within` seconds no second step is started; the story then isn't `whole`, and lacks its
+    beginning, which takes longest.
     """
     known = {} if earlier is None else dict(zip(earlier.folded, earlier.steps, strict=True))
     folded, latest = _prefixes(state), time.monotonic() + within

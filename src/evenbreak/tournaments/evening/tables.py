@@ -36,18 +36,7 @@ def wait(
 ) -> Waits:
     """Let a match wait, off its table; without a reason it waits no longer.
 
-    Parameters
-    ----------
-    state
-        the evening.
-    match
-        a match that could be played.
-    absent
-        which of its players are not here.
-    until
-        when it is forfeited by them, such as 2025-03-01T20:15:00.
-    reason
-        another reason.
+    `absent` players forfeit it at the time `until`, such as 2025-03-01T20:15:00.
     """
     name = undecided(state, match)
     if state.plan.form == "chips":

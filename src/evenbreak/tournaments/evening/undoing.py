@@ -67,10 +67,10 @@ def undoable(state: Evening) -> dict[int, Event]:
 
 
 def free_entries(state: Evening) -> set[int]:
-    """Return the numbers of the entries that nothing follows from.
+    """Return the numbers of the entries that nothing depends on.
 
-    Undone, they leave every other result and every match in play as it is. Scores that players tap
-    are not among them.
+    Undoing them leaves every other result and every match in play as it is. Scores that players tap
+    are left out.
     """
     return {number for number in state.numbers[1:] if is_free(state, number)}
 
@@ -138,14 +138,10 @@ def _leads_nowhere(state: Evening, what: object) -> bool:
 
 
 def undo(state: Evening, entry: int | None = None) -> list[Undone]:
-    """Take back an entry; None: the last that the director made.
+    """Undo an entry; None: the director's last one.
 
-    Calls that came with it, as when two matches trade tables, are taken back too.
-
-    Raises
-    ------
-    InputError
-        if something follows from it.
+    Calls that came with it, as when two matches trade tables, are undone too. An InputError if
+    something depends on it.
     """
     own = own_last(state)
     chosen = own if entry is None else entry
@@ -257,16 +253,8 @@ def _came_with_next(events: Mapping[int, Event], number: int) -> bool:
 class Loss(NamedTuple):
     """A match that is no longer played, or whose result no longer counts.
 
-    Parameters
-    ----------
-    match, players
-        the match, as it was played.
-    table
-        the table that it leaves; None: it was on none, or stays there.
-    score
-        its score so far; None: it has none, or keeps it.
-    result
-        its result; None: it was in play.
+    `table` is the one that it leaves, `score` the one that it loses; `result` is None for a match
+    in play.
     """
 
     match: str

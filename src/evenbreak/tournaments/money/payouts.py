@@ -266,16 +266,7 @@ def shared_prize(amounts: Sequence[float], first: int, last: int, unit: float = 
 def with_prizes(
     places: Sequence[tuple[str, str]], prizes: Sequence[float], unit: float = 0.0
 ) -> list[tuple[str, str, float]]:
-    """Return places, such as 5-6, with what each is paid; who share places share their money.
-
-    Parameters
-    ----------
-    places
-        who finished where: a place and a name each.
-    prizes
-        the money for first place, second, ...
-    unit
-        what prizes are rounded down to.
+    """Return places, such as 5-6, with their pay in multiples of `unit`; shared places share it.
 
     >>> with_prizes([("1", "Ann"), ("2-3", "Bo"), ("2-3", "Cy")], [100.0, 60.0, 30.0])
     [('1', 'Ann', 100.0), ('2-3', 'Bo', 45.0), ('2-3', 'Cy', 45.0)]

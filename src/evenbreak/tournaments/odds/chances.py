@@ -73,24 +73,11 @@ def chances_of(
 ) -> Chances:
     """Return the tables of all undecided matches.
 
-    Parameters
-    ----------
-    now
-        the state of the tournament.
-    win
-        P(i beats j) for every two players, in the bracket's order: a table of shape (n, n), or
-        a function of two names; or a mapping with one of these for each match.
-    live
-        P(the player in slot 1 wins) for matches in play.
-    walkovers
-        the chance that a match is a walkover, either way with equal chance: one number, or a
-        mapping by match name.
-
-    Raises
-    ------
-    InputError
-        if a chance is not a probability, the two chances of a pair do not add up to 1, or a
-        match is unknown or has no table.
+    `win` is P(i beats j) in the bracket's order, shape (n, n), or a function of two names, or a
+    mapping of these by match; `live` is P(the player in slot 1 wins) for matches in play.
+    `walkovers` is the chance of a walkover, equally likely either way: one number, or by match. An
+    InputError if a chance is not a probability, the two chances of a pair do not add up to 1, or a
+    match is unknown or has no table.
     """
     bracket, count = now.bracket, len(now.bracket.players)
     known: dict[int, Floats] = {}

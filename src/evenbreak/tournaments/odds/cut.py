@@ -12,16 +12,9 @@ from evenbreak.tournaments.odds.planning import elimination_order
 
 
 class Cut(NamedTuple):
-    """A bracket cut in two.
+    """A bracket cut in two: the players of `rest` are the slots that the early matches fill.
 
-    Parameters
-    ----------
-    early
-        the matches and groups of the first part.
-    rest
-        the later ones, as a bracket whose players are the slots that the early ones fill.
-    entrants
-        what fills each of these: a source or a player.
+    `entrants` has what fills each: a source or a player.
     """
 
     early: frozenset[str]

@@ -191,15 +191,7 @@ _PAIRS = 8  # pairs of changes that are tried at a time
 
 
 class FairestRounds(NamedTuple):
-    """The fairest races by round that were found.
-
-    Parameters
-    ----------
-    games
-        the games that the stronger player needs in each round.
-    found
-        how fair they are.
-    """
+    """The fairest races by round that were found: the games that the stronger player needs."""
 
     games: Mapping[RoundOf, int]
     found: Fairness
@@ -223,31 +215,9 @@ def fairest_rounds(
 ) -> FairestRounds:
     """Return races by round that make a tournament fairer, found by changing one or two at a time.
 
-    Parameters
-    ----------
-    bracket, ratings, scale, form
-        as in `tournament_fairness`.
-    games
-        where to begin: the games that the stronger player needs in each round.
-    lengths
-        the shortest and the longest race of each round.
-    games_mean
-        the fewest and the most games of the whole tournament, on average.
-    tries
-        how many tournaments are tried at most.
-
-    Raises
-    ------
-    InputError
-        if a round has no race to begin with.
-
-    >>> from evenbreak.tournaments import single_elimination
-    >>> bracket = single_elimination(4)
-    >>> begin = {("winners", 1): 5, ("final", 1): 7}
-    >>> asked = {"lengths": dict.fromkeys(begin, (3, 9)), "games_mean": (20.0, 30.0)}
-    >>> best = fairest_rounds(bracket, [620, 560, 500, 440], begin, **asked)
-    >>> best.games, round(best.found.spread, 3)
-    ({('winners', 1): 6, ('final', 1): 6}, 0.049)
+    `games` is where to start: the games that the stronger player needs; each round's stay within
+    its `lengths`, and the tournament's mean within `games_mean`. At most `tries` tournaments are
+    tried. An InputError if a round has no race to start with.
     """
     search = _Search(bracket, ratings, scale, whole(tries, "tries", at_least=1), games_mean, form)
     missing = {round_of(match) for match in bracket.matches} - set(games) & set(lengths)

@@ -22,13 +22,8 @@ _CHUNK = 1 << 15
 class RankOrders(NamedTuple):
     """The final order that each result of a group leads to.
 
-    Parameters
-    ----------
-    order_of
-        the order, by number, for each combination of results; bit k of a combination is set if
-        slot 1's player wins match k.
-    orders
-        orders[o, i]: how many members are ahead of member i in order o; tied members share it.
+    `order_of` numbers it for each combination of results, whose bit k is set if slot 1's player
+    wins match k; orders[o, i] is how many members are ahead of member i in order o, equal for ties.
     """
 
     order_of: NDArray[np.int32]
@@ -37,15 +32,7 @@ class RankOrders(NamedTuple):
 
 @lru_cache(maxsize=16)
 def rank_orders(members: int, pairs: tuple[tuple[int, int], ...]) -> RankOrders:
-    """Return the final order of a group for each combination of results.
-
-    Parameters
-    ----------
-    members
-        the number of players.
-    pairs
-        the two players of each match, from 0 on.
-    """
+    """Return the final order of a group for each combination of results."""
     count = 1 << len(pairs)
     codes = np.empty(count, dtype=np.int64)
     power = members ** np.arange(members)
@@ -68,21 +55,9 @@ def rank_states(
 ) -> tuple[NDArray[np.int16], csr_array]:
     """Return who can have the given ranks, and how likely that is for each final order.
 
-    Remaining ties are broken by lot: all orders of tied players are equally likely.
-
-    Parameters
-    ----------
-    members, pairs
-        as in `rank_orders`.
-    ranks
-        the ranks of interest, ascending, from 0 on.
-
-    Returns
-    -------
-    states
-        states[s, k]: the member with rank ranks[k] in state s.
-    shares
-        shares[s, o] = P(state s | order o).
+    Remaining ties are broken by lot: all orders of tied players are equally likely. Ranks ascend
+    from 0; states[s, k] is the member with rank ranks[k] in state s, and shares[s, o] = P(state s |
+    order o).
     """
     found: dict[tuple[int, ...], int] = {}
     rows, columns, shares = [], [], []
@@ -122,10 +97,7 @@ def _lots(ahead: tuple[int, ...], ranks: tuple[int, ...]) -> dict[tuple[int, ...
 def result_chances(chances: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     """Return the chance of each combination of results of a group's matches.
 
-    Parameters
-    ----------
-    chances
-        P(slot 1's player wins) for each match: numbers, or arrays over samples.
+    Each is P(slot 1's player wins): a number, or an array over samples.
 
     >>> result_chances([np.array(0.75), np.array(0.5)])
     array([0.125, 0.375, 0.125, 0.375])

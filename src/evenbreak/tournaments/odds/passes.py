@@ -40,18 +40,9 @@ _FEW = 4_000  # states, for which a sparse matrix takes longer to call than to m
 class ForwardPass:
     """The result of a forward pass; arrays have a last axis for samples, if there are any.
 
-    Parameters
-    ----------
-    meet
-        for each match, the chance of each pair of its step.
-    first_wins
-        for each match, P(slot 1's player wins) in each pair.
-    ranks
-        for each group, ranks[i, k] = P(member i has rank k, from 0 on).
-    total
-        the probability of the what-if results; 1 if there are none.
-    after
-        the probabilities of the states after each step, by its number, if they were kept.
+    `meet` has the chance of each pair of a match, `first_wins` P(slot 1's player wins) given the
+    pair, ranks[i, k] = P(member i has rank k, from 0 on). `total` is the probability of the what-if
+    results; `after` has the state probabilities after each step, if they were kept.
     """
 
     meet: Mapping[str, Floats]
@@ -64,14 +55,7 @@ class ForwardPass:
 def forward_pass(plan: Plan, chances: Chances, *, keep: bool = False) -> ForwardPass:
     """Return the chance of every pair in every match of a plan.
 
-    Parameters
-    ----------
-    plan
-        the steps.
-    chances
-        the chances of the matches, for one sample or many.
-    keep
-        whether to keep the probabilities of all states.
+    `keep` keeps the probabilities of all states.
     """
     masses: dict[int, Floats] = {}
     meet: dict[str, Floats] = {}
@@ -218,11 +202,8 @@ class Rewards(Protocol):
 class ResultValues(NamedTuple):
     """The values of the two results of a match.
 
-    Parameters
-    ----------
-    first, second
-        for each pair, the chance that they meet times the expected reward from then on, given
-        that slot 1's player wins (`first`) or slot 2's (`second`).
+    For each pair, the chance that they meet times the expected reward from then on, given that slot
+    1's player wins (`first`) or slot 2's (`second`).
     """
 
     first: Floats
@@ -237,18 +218,10 @@ def backward_pass(
     rewards: Rewards | None = None,
     kinds: int = 1,
 ) -> dict[str, ResultValues]:
-    """Return the values of the results of every match.
+    """Return the values of the results of every match; the forward pass has kept all states.
 
-    Parameters
-    ----------
-    plan, chances, through
-        the plan, the chances, and their forward pass with all states kept.
-    at_end
-        the value of the end, for each step that leaves no slot open, by its number.
-    rewards
-        the rewards of results; None: only the end has a value.
-    kinds
-        the number of kinds of reward.
+    `at_end` is the value of the end for each step that leaves no slot open; without rewards only
+    the end has a value.
     """
     values: dict[int, Floats] = {}
     found: dict[str, ResultValues] = {}
@@ -283,15 +256,8 @@ def backward_pass(
 def conditional(plan: Plan, chances: Chances, through: ForwardPass) -> ForwardPass:
     """Return the chances of all pairs given that the what-if results happen.
 
-    Parameters
-    ----------
-    plan, chances, through
-        a plan with what-if results, the chances, and their forward pass with all states kept.
-
-    Raises
-    ------
-    InputError
-        if the results cannot all happen, or a group is still being played.
+    The forward pass has kept all states. An InputError if the results can't all happen, or a group
+    is still being played.
     """
     if any(isinstance(step, GroupStep) for step in plan.steps):
         raise InputError("results has a match after the groups. Give it when the groups are over.")

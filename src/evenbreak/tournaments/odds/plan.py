@@ -26,15 +26,7 @@ Index: TypeAlias = NDArray[np.int32]
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """What follows if the player in one of the two slots wins.
-
-    Parameters
-    ----------
-    rows
-        the states in which that player can win; None: all.
-    to
-        the next state for each of them.
-    """
+    """The states in which one slot can win (None: all), and the next state for each."""
 
     rows: Index | None
     to: Index
@@ -44,14 +36,8 @@ class Branch:
 class Apart:
     """A branch of a match whose parts are summed before they are joined.
 
-    Parameters
-    ----------
-    winner
-        which of his slot's players wins, in each state of the winner's part.
-    loser
-        which of his slot's players loses, in each state of the loser's part.
-    kept
-        the sparse matrix that sums the states of the loser's part that are one without the loser.
+    `winner` and `loser` are which of his slot's players wins or loses in each state of that part;
+    `kept` is the sparse matrix that sums the states of the loser's part that are one without them.
     """
 
     winner: Index
@@ -63,26 +49,10 @@ class Apart:
 class MatchStep:
     """One match. Its states are all pairs of states of the parts of the bracket that it joins.
 
-    Parameters
-    ----------
-    name
-        the match.
-    joins
-        the numbers of the steps before it whose open slots it joins: none, one or two.
-    sizes
-        the number of states of each of these.
-    first, second
-        the distinct pairs of players who can meet, by slot.
-    pair
-        the pair in each state; None if states and pairs are the same.
-    branches
-        what follows if slot 1's player wins, and if slot 2's player wins.
-    size
-        the number of states after the match.
-    slots
-        the open slots of this part of the bracket after the match.
-    columns
-        the player in each of these slots, for each state.
+    `joins` numbers the earlier steps whose open slots it joins, at most two, with `sizes` states
+    each. `first` and `second` are the distinct pairs of players who can meet; `pair` is that of
+    each state, None if states and pairs are the same. `size`, `slots` and `columns` are the states
+    after the match, the open slots, and the player in each of these by state.
     """
 
     name: str
@@ -145,18 +115,9 @@ class MatchStep:
 
 @dataclass(frozen=True, eq=False)
 class GroupStep:
-    """One group: who has each qualifying rank.
+    """One group: who has each qualifying rank, from 0 on.
 
-    Parameters
-    ----------
-    group
-        the group.
-    pairs
-        the two players of each match, by position in the group.
-    ranks
-        the qualifying ranks, from 0 on.
-    size, slots, columns
-        as for a match.
+    `pairs` are positions in the group; size, slots and columns are as for a match.
     """
 
     group: Group

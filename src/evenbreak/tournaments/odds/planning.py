@@ -46,20 +46,7 @@ class Table(NamedTuple):
 
 
 def plan_of(bracket: Bracket, assumed: tuple[tuple[str, int], ...] = ()) -> Plan:
-    """Return the plan of a bracket, however large.
-
-    Parameters
-    ----------
-    bracket
-        the matches still to be played, with the known players in their slots.
-    assumed
-        what-if results of matches whose players are not known yet.
-
-    >>> from evenbreak.tournaments import double_elimination
-    >>> plan = plan_of(double_elimination(4))
-    >>> [(step.name, step.size) for step in plan.steps]
-    [('W1.1', 2), ('W1.2', 2), ('L1.1', 8), ('W2.1', 16), ('L2.1', 12), ('F', 13), ('F2', 1)]
-    """
+    """Return the plan of a bracket, however large, with what-if results of matches to come."""
     plan = exact_plan(bracket, assumed, math.inf)
     assert plan is not None  # noqa: S101 - nothing is too many
     return plan
@@ -75,16 +62,9 @@ def exact_plan(
 ) -> Plan | None:
     """Return the plan of a bracket, or None if it would be too large.
 
-    It is too large if one match would have more than `most_states` joint states, or all
-    matches together three times as many. Where the estimate is far beyond that, nothing is
-    built; otherwise building stops before the first match that is too large. Plans are cached.
-
-    Parameters
-    ----------
-    bracket, assumed
-        as in `plan_of`.
-    most_states
-        the largest number of joint states of one match.
+    It is too large if one match would have more than `most_states` joint states, or all matches
+    together three times as many. Where the estimate is far beyond that, nothing is built; otherwise
+    building stops before the first match that is too large. Plans are cached.
     """
     question = bracket, assumed, most_states
     if question not in _KEPT:
@@ -159,18 +139,8 @@ def match_step(
 ) -> MatchStep:
     """Return the step of one match.
 
-    Parameters
-    ----------
-    match
-        the match.
-    tables
-        the states of the parts that it joins.
-    outlets
-        the slots that its winner and loser go to.
-    nobody
-        what stands for nobody: the number of players.
-    result
-        its winner, if that is assumed.
+    `nobody` is the number that means no player, the number of players; `result` is an assumed
+    winner.
     """
     size, columns = _joined(tables)
     first, second = (
@@ -304,12 +274,7 @@ def _in_order(to: list[Index], states: int) -> tuple[list[Index], NDArray[np.int
 class Order(NamedTuple):
     """The order in which matches and groups are processed.
 
-    Parameters
-    ----------
-    names
-        the matches and groups.
-    states
-        an estimate of the joint states of all steps together, on the high side.
+    `states` is an estimate, on the high side, of the joint states of all steps together.
     """
 
     names: tuple[str, ...]

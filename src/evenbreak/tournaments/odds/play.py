@@ -19,18 +19,8 @@ from evenbreak.tournaments.odds.plan import Players
 class PlayedOut:
     """Many runs of a tournament, or of its first matches.
 
-    Parameters
-    ----------
-    first, second
-        who sat in slot 1 and slot 2 of each match, in each run; the number of players stands
-        for nobody.
-    first_won
-        whether slot 1's player won.
-    sent
-        who came out of each match or group to each slot that waits for them.
-    order
-        for each group, the players in the order of their ranks, shape (runs, members); so too
-        for the runners-up.
+    The number of players means nobody. `order` has, for each group, the players by rank, shape
+    (runs, members), and so for the runners-up.
     """
 
     first: Mapping[str, Players]
@@ -49,31 +39,16 @@ def play_out(
     only: Collection[str] | None = None,
     given: Mapping[str, NDArray[np.bool_]] | None = None,
 ) -> PlayedOut:
-    """Play a bracket out.
+    """Play a bracket out `runs` times.
 
-    Each match's pseudo-random numbers are spread evenly over the runs (a Latin hypercube):
-    one in each of `runs` equal parts of 0 to 1. They are drawn match after match, so that the
-    same seed gives matches of the same name the same luck whatever the chances are.
+    Each match's pseudo-random numbers are spread evenly over the runs (a Latin hypercube): one in
+    each of `runs` equal parts of 0 to 1. They are drawn match after match, so that the same seed
+    gives matches of the same name the same luck whatever the chances are. Chances may have a third
+    axis for runs; matches and groups in `only` come with all that feed them; `given` is whether
+    slot 1's player wins in each run, where that is drawn elsewhere.
 
-    Parameters
-    ----------
-    bracket
-        the matches still to be played, with the players who are known in their slots.
-    chances
-        their chances; with a third axis, those of each run.
-    rng
-        where pseudo-random numbers come from.
-    runs
-        how often.
-    only
-        play these matches and groups; they are all that feed them too. None: all.
-    given
-        for matches whose result is drawn elsewhere, whether slot 1's player wins in each run.
-
-    Notes
-    -----
-    M. D. McKay, R. J. Beckman, W. J. Conover (1979), "A comparison of three methods for
-    selecting values of input variables", Technometrics 21.
+    M. D. McKay, R. J. Beckman, W. J. Conover (1979), "A comparison of three methods for selecting
+    values of input variables", Technometrics 21.
     """
     nobody = len(bracket.players)
     first: dict[str, Players] = {}

@@ -165,20 +165,8 @@ def from_score(
 ) -> PairOdds:
     """Return the odds of a match in play, for the two who play it.
 
-    Parameters
-    ----------
-    law
-        the odds at its start.
-    players
-        the two players, by position.
-    needs
-        the games that each needs in all.
-    score
-        the games that each has won.
-    p
-        P(the first player wins a game).
-    form
-        as in `pair_odds`; the score shows some of it.
+    p is P(the first player wins a game); `needs` count from the start. `form` is as in `pair_odds`;
+    the score shows some of it.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> start = pair_odds(single_elimination(2), [500, 500], 5)["F"]

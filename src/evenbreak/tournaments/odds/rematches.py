@@ -312,15 +312,7 @@ def place_odds(
 ) -> Floats:
     """Return P(each player has each place), shape (players, places) or (players, places, samples).
 
-    Parameters
-    ----------
-    bracket
-        the whole bracket.
-    meetings
-        the meetings of the matches to take into account.
-    ranks
-        for each group to take into account, ranks[i, k] = P(member i has rank k, from 0 on);
-        so too for the runners-up, where i is any player.
+    ranks[i, k] = P(member i has rank k, from 0 on); for the runners-up, i is any player.
     """
     column = {place: k for k, place in enumerate(bracket.places)}
     samples = [part.probability.shape[1:] for part in meetings.values()]

@@ -43,16 +43,9 @@ _CELLS = 80_000
 
 
 class SampledOdds(NamedTuple):
-    """Odds of the matches still to be played.
+    """Odds of the matches still to be played, without the places already taken.
 
-    Parameters
-    ----------
-    p_place, error
-        P(each place) for each player, leaving out places already taken, and standard errors.
-    meetings
-        who meets whom.
-    samples
-        the number of samples.
+    `p_place` is P(each place) for each player, `error` its standard errors.
     """
 
     p_place: Floats
@@ -72,19 +65,7 @@ class _Batch:
 def sampled_odds(
     now: Standing, chances: Chances, samples: int, rng: np.random.Generator
 ) -> SampledOdds:
-    """Return the odds of the matches still to be played.
-
-    Parameters
-    ----------
-    now
-        the state of the tournament.
-    chances
-        the chances of the matches still to be played.
-    samples
-        the number of samples, at least.
-    rng
-        the random numbers.
-    """
+    """Return the odds of the matches still to be played, from at least so many samples."""
     bracket = now.remaining
     sampler = _Sampler(now, bracket, chances, cut_before(bracket, _STATES_PER_SAMPLE))
     controls = controls_of(now, bracket, sampler.cut.early, chances)
@@ -107,18 +88,8 @@ def places_of_samples(
 ) -> Floats:
     """Return P(each place) for each player in each sample, shape (players, places, samples).
 
-    Parameters
-    ----------
-    now
-        the state of the tournament.
-    tables
-        the chances of the matches, whose third axis runs over the samples.
-    samples
-        the number of samples.
-    rounds
-        how often each sample's first rounds are played; the places are averaged over these.
-    rng
-        the random numbers.
+    The third axis of the chances is the samples; each sample's first rounds are played `rounds`
+    times, and the places averaged.
     """
     bracket = now.remaining
     cut = cut_before(bracket, _STATES_PER_SAMPLE)
@@ -304,14 +275,8 @@ _MOST_CONTROLS = 600
 class Controls:
     """The sums that the regression needs, batch by batch.
 
-    Parameters
-    ----------
-    slots
-        the slots whose player is a control, and who can come to each.
-    cells
-        the places (columns of Y) that are controls themselves.
-    expected
-        the exact mean of each control.
+    `slots` are those whose player is a control, and who can get there; `cells` the places (columns
+    of Y) that are controls themselves; `expected` is each control's exact mean.
     """
 
     slots: Mapping[Source, NDArray[np.int64]]
@@ -352,18 +317,12 @@ class Controls:
 
 
 def slope_of(centered: Floats, joint: Floats, samples: int) -> tuple[Floats, int]:
-    """Return the regression of Y on the controls X, and how many of these say something new.
+    """Return the regression of Y on the controls X, and how many of these add information.
 
-    Controls that repeat others, or never vary, are no hindrance: the columns are scaled, and
-    solved by the eigenvectors of their correlations. Other threads go on meanwhile: scipy's `lstsq`
-    would stop them all, on a busy computer for half a second.
-
-    Parameters
-    ----------
-    centered, joint
-        the sums of squares and products of X - mean X with itself, and with Y - mean Y.
-    samples
-        how many were summed.
+    Controls that repeat others, or never vary, do no harm: the columns are scaled, and solved by
+    the eigenvectors of their correlations. Other threads go on meanwhile: scipy's `lstsq` would
+    stop them all, on a busy computer for half a second. `centered` and `joint` are the sums of
+    squares and products of X - mean X with itself, and with Y - mean Y.
     """
     squares = np.diag(centered)
     varies = squares > 1e-12 * samples
@@ -382,17 +341,8 @@ def controls_of(
 ) -> Controls:
     """Return the controls for samples of the early matches of a bracket.
 
-    They are who comes to which slot, and who leaves for which place, in as many of the early
-    rounds as can be calculated exactly.
-
-    Parameters
-    ----------
-    now
-        where the tournament stands.
-    bracket, early
-        the matches still to be played, and those of them that are drawn.
-    chances
-        the chances of the matches.
+    They are who gets to which slot, and who leaves for which place, in as many of the early rounds
+    as can be calculated exactly.
     """
     for start in exact_starts(bracket, early, _STATES):
         plan = plan_of(start)

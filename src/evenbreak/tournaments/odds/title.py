@@ -251,17 +251,7 @@ def odds_now(
     samples: int = SAMPLES,
     rng: np.random.Generator | None = None,
 ) -> TitleOdds:
-    """Return the chance of each place for each player, from the present state on.
-
-    Parameters
-    ----------
-    now
-        the state of the tournament.
-    chances
-        the chances of the matches still to be played.
-    most_states, samples, rng
-        as in `title_odds`.
-    """
+    """Return the chance of each place for each player, from the present state on."""
     remaining = now.remaining
     plan = exact_plan(remaining, tuple(now.assumed.items()), most_states)
     if plan is None:

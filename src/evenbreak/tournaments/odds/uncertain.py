@@ -141,12 +141,7 @@ def over_ratings(
 def title_bands(title: Floats, drawn: Floats) -> Floats:
     """Return the title odds where a player's own rating is low, and where it is high.
 
-    Parameters
-    ----------
-    title
-        P(each player wins), with a column for each draw of the ratings.
-    drawn
-        the ratings, a row for each draw, as `drawn_ratings` returns them.
+    `title` has a column, and `drawn` a row, per draw of the ratings.
     """
     fifth = max(1, len(drawn) // 5)
     by_skill = np.take_along_axis(title, np.argsort(drawn.T, axis=1, kind="stable"), axis=1)
@@ -157,31 +152,18 @@ def title_bands(title: Floats, drawn: Floats) -> Floats:
 def error_of_pairs(laws: Floats) -> Floats:
     """Return the standard error of a mean of samples whose second half may mirror the first.
 
-    Parameters
-    ----------
-    laws
-        an even number of samples, on the last axis.
+    Samples, an even number, are on the last axis.
     """
     of_pair = laws.reshape(*laws.shape[:-1], 2, -1).mean(axis=-2)
     return np.asarray(of_pair.std(axis=-1, ddof=1) / np.sqrt(of_pair.shape[-1]))
 
 
 def drawn_ratings(mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Generator) -> Floats:
-    """Return draws of the ratings, a row each; the second half mirrors the first.
+    """Return draws of the ratings, `pairs` and their mirror images in the second half, a row each.
 
-    The same generator gives the same draws on every machine: a covariance has many roots, of
-    which the symmetric one does not depend on the eigenvectors that a library happens to choose.
-
-    Parameters
-    ----------
-    mean
-        the ratings.
-    spread
-        the standard deviation of each, or their covariance matrix.
-    pairs
-        half of how many draws.
-    rng
-        where pseudo-random numbers come from.
+    The same generator gives the same draws on every machine: a covariance has many roots, of which
+    the symmetric one doesn't depend on the eigenvectors that a library happens to choose. `spread`
+    has standard deviations, or is the covariance matrix.
 
     >>> drawn_ratings(np.array([600.0, 500.0]), [30, 0], 1, np.random.default_rng(0)).round()
     array([[604., 500.],
