@@ -35,15 +35,7 @@ Picture = Callable[[Any, "Answer"], "Axes | Figure"]
 
 
 def picture_of(command: str, asked: Any, answer: Answer) -> Axes | Figure:
-    """Return the picture of an answer.
-
-    Parameters
-    ----------
-    command, asked
-        the question, as `evenbreak.answers.asked.answer_to` takes it.
-    answer
-        its answer.
-    """
+    """Return the picture of an answer to a command's question."""
     return _PICTURES[command](asked, answer)
 
 

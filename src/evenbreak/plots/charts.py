@@ -18,23 +18,9 @@ def draw_chart(
 ) -> Axes:
     """Draw the stronger player's chance over the rating difference, race by race.
 
-    The curve rises within each band and drops where the next race begins; it is broken where no
-    row gives a race. The last race is drawn for as many points as the widest band before it.
-
-    Parameters
-    ----------
-    report
-        the audit of a chart.
-    beside
-        the audit of another chart; if its scale differs, its points are converted to those of
-        the first.
-    ax
-        the axes to draw on; None: those of a new figure.
-
-    >>> from evenbreak.handicaps import audit, chart
-    >>> axes = draw_chart(audit(chart("npl_10")), audit(chart("npl_12")))
-    >>> [text.get_text() for text in axes.get_legend().texts]
-    ['chart npl_10', 'chart npl_12']
+    The curve rises within each band and drops where the next race starts; it is broken where no row
+    gives a race. The last race is drawn for as many points as the widest band before it. A chart
+    `beside` it on another scale is converted to the points of the first.
     """
     points = report.scale.points_per_doubling
     axes = new_axes(

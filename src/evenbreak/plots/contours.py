@@ -47,38 +47,11 @@ def contour_axes(
     """Draw the contour lines of a function of two probabilities, each labeled with its level.
 
     Negative levels are dashed, the `main` one is thick. All lines are black, so the figure reads
-    the same in black and white.
+    the same in black and white. The axes become a square of side 1; `function` takes two arrays p1
+    and p2 of the same shape, in (0, 1), never exactly 0 or 1, and returns one of that shape; labels
+    keep away from the `marked` points.
 
-    Parameters
-    ----------
-    axes
-        the axes to draw on; they become a square of side 1.
-    function
-        takes two arrays p1 and p2 of the same shape, in (0, 1), and returns an array of that
-        shape. p1 and p2 are never exactly 0 or 1.
-    x, y
-        what p1 and p2 are the probabilities of.
-    levels
-        the levels of the lines, increasing.
-    main
-        the level of the thick line, usually the even chance.
-    marked
-        points that labels keep away from.
-
-    Returns
-    -------
-    matplotlib.contour.QuadContourSet
-        the lines; `.levels` are their levels.
-
-    Notes
-    -----
     Source: the style of Figs. 5.3 and 5.6.
-
-    >>> from evenbreak.plots.picture import new_axes
-    >>> axes = new_axes("", "")
-    >>> lines = contour_axes(axes, lambda p1, p2: p1 - p2, x="p1", y="p2", levels=[-0.5, 0, 0.5])
-    >>> [text.get_text() for text in lines.labelTexts]
-    ['−0.5', '0', '0.5']
     """
     side = np.clip(np.linspace(0.0, 1.0, _POINTS), _INSIDE, 1.0 - _INSIDE)
     p1, p2 = np.meshgrid(side, side)
@@ -146,24 +119,9 @@ def share_panels(
 ) -> tuple[Picture, list[Axes]]:
     """Draw player 1's long-run share of racks over (p1, p2) in four panels without titles.
 
-    The panels are winner, loser and alternate breaks, and winner minus loser breaks.
+    The panels are winner, loser and alternate breaks, and winner minus loser breaks;
+    `first_breaker` is 1 or 2, as in `evenbreak.practice.long_run_share`.
 
-    Parameters
-    ----------
-    x, y
-        what p1 and p2 are the probabilities of.
-    first_breaker
-        who breaks the first rack, as in `evenbreak.practice.long_run_share`.
-    marked
-        points that labels keep away from.
-
-    Raises
-    ------
-    InputError
-        if `first_breaker` is not 1 or 2.
-
-    Notes
-    -----
     Source: Fig. 5.6.
 
     >>> figure, panels = share_panels(x="$p_1$", y="$p_2$")

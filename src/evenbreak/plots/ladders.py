@@ -26,20 +26,11 @@ _Box = tuple[float, float, float, float]
 
 
 class SystemPoint(NamedTuple):
-    """A system as a point: how far off ratings stay, and how long newcomers take.
+    """A system as a point: the spread of rating errors, and how long newcomers take to settle.
 
-    Parameters
-    ----------
-    name
-        what is written beside it.
-    sd
-        standard deviation of the rating error in the long run, in percent of a doubling, the
-        points that double the odds.
-    matches
-        the mean number of matches that a rating takes to settle from a doubling too low.
-    unbeaten
-        for a step size: whether no other is both more accurate and faster. None: another system
-        or chart, drawn for comparison.
+    `sd` is in percent of a doubling of the odds, in the long run; `matches` is the mean number
+    until a rating a doubling too low settles. `unbeaten`: no other step size is both more accurate
+    and faster; None: not a step size, drawn for comparison.
     """
 
     name: str
@@ -59,25 +50,9 @@ def ladder_figure(
 ) -> Picture:
     """Draw the distribution of the rating error, and below it how fast newcomers settle.
 
-    The normal distribution with the same mean and standard deviation is drawn for comparison.
-
-    Parameters
-    ----------
-    law
-        the distribution of the rating error in the long run, in points.
-    natural
-        the same against correctly rated opponents; None if that is `law` itself.
-    within
-        the band of errors that is shaded, from -within to within points.
-    curve
-        how a newcomer settles; None: no second picture.
-    title
-        what ladder it is.
-
-    >>> from evenbreak.stats import Distribution
-    >>> figure = ladder_figure(Distribution((-1, 0, 1), (0.25, 0.5, 0.25)))
-    >>> figure.axes[0].get_xlabel()
-    'rating minus true skill (points)'
+    The normal distribution with the same mean and standard deviation is drawn for comparison, and
+    `natural`, that against correctly rated opponents. Errors from -within to within points are
+    shaded.
     """
     size, roomy = (5.4, 4.4 if curve is None else 7.8), ConstrainedLayoutEngine(h_pad=0.1)
     figure = Picture(figsize=size, layout=roomy)
@@ -172,23 +147,9 @@ def _draw_settling(axes: Axes, curve: Settling) -> None:
 
 @in_our_look
 def draw_systems(points: Iterable[SystemPoint], *, chart: str = "", ax: Axes | None = None) -> Axes:
-    """Draw how far off ratings stay over how long newcomers take, for several systems.
+    """Draw the spread of rating errors over how long newcomers take, for several systems.
 
     The step sizes that no other step beats in both are filled and joined.
-
-    Parameters
-    ----------
-    points
-        the systems.
-    chart
-        the chart of the step sizes.
-    ax
-        the axes to draw on; None: those of a new figure.
-
-    >>> axes = draw_systems([SystemPoint("step 1", 15.4, 60.3, True),
-    ...     SystemPoint("step 2", 20.8, 30.8, True)])
-    >>> sorted(text.get_text() for text in axes.texts)
-    ['step 1', 'step 2']
     """
     on_chart = f" on {chart}" if chart else ""
     axes = new_axes(

@@ -20,22 +20,7 @@ MOST_PLAYERS = 40
 
 @in_our_look
 def draw_errors(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
-    """Draw how far off the ratings are, week by week.
-
-    Parameters
-    ----------
-    weeks
-        as `weeks_frame` returns it.
-    ax
-        the axes to draw on; None: those of a new figure.
-
-    >>> from evenbreak.answers.league.season_tables import weeks_frame
-    >>> from evenbreak.league import LeaguePlayers, Season, run_chunk
-    >>> season = Season(LeaguePlayers.of([92, 80], skill=[85, 80]), "npl", weeks=3)
-    >>> axes = draw_errors(weeks_frame(run_chunk(season, 20, np.random.SeedSequence(1))))
-    >>> axes.get_xlabel()
-    'week'
-    """
+    """Draw how far off the ratings of `weeks_frame` are, week by week."""
     axes = new_axes(
         "week",
         "rating minus true skill (points)",
@@ -66,16 +51,9 @@ def draw_errors(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
 
 @in_our_look
 def draw_gaps(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
-    """Draw how often the stronger player wins, by the gap between the two skills.
+    """Draw how often the stronger player wins, by skill gap, from `fairness_frame`.
 
     The bars are two standard errors of the simulation, up and down.
-
-    Parameters
-    ----------
-    fairness
-        as `fairness_frame` returns it.
-    ax
-        the axes to draw on; None: those of a new figure.
     """
     rows = fairness[fairness["group"] == "gap"]
     axes = new_axes(
@@ -110,14 +88,7 @@ def draw_gaps(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
 def draw_standings(standings: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     """Draw how many matches each player wins: the mean, and the range of 8 seasons in 10.
 
-    Of more than 40 players the first 20 and the last 20 are drawn.
-
-    Parameters
-    ----------
-    standings
-        as `standings_frame` returns it.
-    ax
-        the axes to draw on; None: those of a new figure.
+    Of more than 40 players in `standings_frame` the first 20 and the last 20 are drawn.
     """
     rows, many, half = standings, len(standings), MOST_PLAYERS // 2
     title = "Matches won in a season"
@@ -145,14 +116,7 @@ def draw_standings(standings: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
 
 @in_our_look
 def draw_even(deciles: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
-    """Draw the share of even matches by skill, a line for each system with 90% bars.
-
-    Parameters
-    ----------
-    deciles
-        as `deciles_frame` returns it.
-    ax
-        the axes to draw on; None: those of a new figure.
+    """Draw the share of even matches by skill (`deciles_frame`), by system, with 90% bars.
 
     >>> rows = [("npl", part, 0.5, 0.01) for part in (1, 2)]
     >>> frame = pd.DataFrame(rows, columns=["system", "part", "p_even", "p_even_se"])
@@ -173,15 +137,7 @@ def draw_even(deciles: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
 
 @in_our_look
 def draw_errors_compared(nights: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
-    """Draw how far off ratings are night by night, a line for each system.
-
-    Parameters
-    ----------
-    nights
-        as `nights_frame` returns it.
-    ax
-        the axes to draw on; None: those of a new figure.
-    """
+    """Draw how far off ratings are night by night (`nights_frame`), one line per system."""
     axes = new_axes(
         "night",
         "typical rating error (doublings of odds)",
@@ -215,21 +171,7 @@ MOST_NAMED = 6
 
 @in_our_look
 def draw_pay(pays: Sandbagging, *, ax: Axes | None = None) -> Axes:
-    """Draw the chance of winning each match that counts, for several numbers of dumped matches.
-
-    Parameters
-    ----------
-    pays
-        what `sandbagging` returned.
-    ax
-        the axes to draw on; None: those of a new figure.
-
-    >>> from evenbreak.handicaps import Ladder
-    >>> from evenbreak.league import sandbagging
-    >>> axes = draw_pay(sandbagging(Ladder("npl"), dumped=8))
-    >>> [text.get_text() for text in axes.get_legend().get_texts()]
-    ['honest', '2 dumped', '4 dumped', '6 dumped', '8 dumped']
-    """
+    """Draw the chance of winning each match that counts, for several numbers of dumped matches."""
     axes = new_axes(
         "match that counts",
         "chance of winning it",
@@ -255,21 +197,7 @@ def draw_pay(pays: Sandbagging, *, ax: Axes | None = None) -> Axes:
 def draw_watch(watched: Sequence[Watched], *, alpha: float, ax: Axes | None = None) -> Axes:
     """Draw the evidence against each player, match by match, on a logarithmic axis.
 
-    Parameters
-    ----------
-    watched
-        what `watch` returned.
-    alpha
-        the alarm is at 1 / alpha.
-    ax
-        the axes to draw on; None: those of a new figure.
-
-    >>> import numpy as np
-    >>> from evenbreak.league import Watched
-    >>> rows, e = np.arange(3), np.log([1.0, 8.0, 200.0])
-    >>> axes = draw_watch([Watched("Ann", rows, rows > 0, e, e, "any", 0.01)], alpha=0.01)
-    >>> [text.get_text() for text in axes.get_legend().get_texts()]
-    ['alarm', 'Ann']
+    The alarm is at 1 / alpha.
     """
     axes = new_axes(
         "match number of the player",

@@ -37,30 +37,10 @@ def draw_formats(
     names: tuple[str, str] = ("A", "B"),
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw player 1's chance in a match against that in a game, a curve per format.
+    """Draw player 1's chance in a match against that in a game, a curve per format, at most seven.
 
-    Parameters
-    ----------
-    formats
-        the matches, seven at most.
-    line
-        what stays fixed as p1 varies, as options of `evenbreak.matches.crossings`.
-    pairs
-        the crossings, each marked by a dot.
-    p1
-        that chance for the two players in question, a vertical line.
-    title
-        who plays, above the picture.
-    names
-        of player 1 and player 2.
-    ax
-        the axes to draw on; None: those of a new figure.
-
-    >>> from evenbreak.matches import crossings, match_format
-    >>> two = [match_format("2:1"), match_format("4:2")]
-    >>> axes = draw_formats(two, {}, [crossings(*two)], p1=0.6)
-    >>> [text.get_text() for text in axes.get_legend().get_texts()]
-    ['2:1', '4:2', 'equal formats', 'A against B']
+    `line` is what stays fixed as p1 varies, as options of `evenbreak.matches.crossings`; each
+    crossing is a dot, and the players' own p1 a vertical line.
     """
     fixed = {name: line.get(name) for name in ("p2", "break_odds")}
     matters = any(value is not None for value in fixed.values())
@@ -115,27 +95,12 @@ _LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
 def course_figure(
     odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A", "B")
 ) -> Picture:
-    """Return a figure of a match so far.
+    """Return a figure of a match so far, with at least one rack.
 
     The upper panel is player 1's chance of winning the match after each rack: a filled dot is a
     rack that player 1 won, an open dot a rack that player 2 won, and the rack that changed most is
     marked. The lower panel is the leverage of each rack: how much depended on it before it was
     played.
-
-    Parameters
-    ----------
-    odds
-        the match, with at least one rack.
-    title
-        who plays what, above the picture.
-    names
-        of player 1 and player 2.
-
-    >>> from evenbreak.games import Race, Rack
-    >>> from evenbreak.matches import live_odds
-    >>> figure = course_figure(live_odds(Race(3, 2, Rack(0.6)), [1, 2, 1]))
-    >>> [label.get_text() for label in figure.axes[1].get_xticklabels()]
-    ['0-0', '1-0', '1-1', '2-1']
     """
     figure = Picture(figsize=(6.0, 4.8), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))

@@ -169,20 +169,9 @@ def new_axes(
     counts: str = "",
     ax: Axes | None = None,
 ) -> Axes:
-    """Return labeled axes.
+    """Return labeled axes, of a new figure (size in inches) unless `ax` is given.
 
-    Parameters
-    ----------
-    x, y
-        the labels of the axes, with units.
-    title
-        text above the axes.
-    size
-        width and height of a new figure in inches.
-    counts
-        "x", "y" or "xy": what counts something, and has ticks at whole numbers only.
-    ax
-        the axes to use; None: those of a new figure.
+    `counts`, "x", "y" or "xy", are axes of counts, with ticks at whole numbers only.
 
     >>> axes = new_axes("level", "probability")
     >>> axes.get_xlabel()
@@ -304,12 +293,7 @@ _USE = re.compile(r'(<use href="#([\w.-]+)"[^>]*?) (style="[^"]*")')
 
 
 def small_svg(svg: str) -> str:
-    """Return a picture with coordinates to a twentieth of a point and without unused names.
-
-    Parameters
-    ----------
-    svg
-        a picture as matplotlib writes it.
+    """Return matplotlib's SVG with coordinates to a twentieth of a point, without unused names.
 
     >>> small_svg('<path id="a" d="M 0.04 1.2345"/>  <!-- axis -->')
     '<path d="M 0 1.2"/>  '

@@ -39,26 +39,9 @@ def draw_scores(
     new: float | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw the scores of a file, their mean and trend, and how sure these are.
+    """Draw the scores of a file over date or order, their mean and trend, with their uncertainty.
 
-    Parameters
-    ----------
-    file
-        the scores, drawn over their dates, or in the order of the file if it has no dates.
-    interval
-        of the true mean; None draws no band.
-    line
-        of the trend on the date of each score; None draws none.
-    new
-        one more score, drawn after the others.
-    ax
-        the axes to draw on; None: those of a new figure.
-
-    >>> import numpy as np
-    >>> from evenbreak.files.practice import ScoresFile, ShotsFile
-    >>> axes = draw_scores(ScoresFile(np.array([50.0, 44.0]), None, "scores.csv", ()), None)
-    >>> [text.get_text() for text in axes.figure.legends[0].get_texts()]
-    ['scores', 'mean 47.00']
+    `new` is one more score, drawn after the others.
     """
     axes = new_axes(
         "number of the score" if file.dates is None else "date",
@@ -98,16 +81,7 @@ def draw_practice_shots(
 ) -> Axes:
     """Draw the share of single shots made on each day, and in the earlier and the later half.
 
-    Parameters
-    ----------
-    file
-        the log; without dates each shot is drawn in place of each day.
-    found
-        what it says.
-    confidence
-        of the intervals of the days.
-    ax
-        the axes to draw on; None: those of a new figure.
+    Without dates, shots take the place of days.
     """
     log, title = file.log, f"Practice shots: {Path(file.source).name}"
     axes = new_axes("shot" if log.day is None else "date", "share made", title=title, ax=ax)
@@ -230,21 +204,7 @@ def draw_score(
 ) -> Axes:
     """Draw the probability of each score, with its mean, median and mode.
 
-    Parameters
-    ----------
-    law
-        the distribution of the score.
-    innings
-        the number of innings, for the label of the axis.
-    asked
-        spans of scores to shade, each with its name: the fewest balls, and the most or None.
-    ax
-        the axes to draw on; None: those of a new figure.
-
-    >>> from evenbreak.stats import RunLength
-    >>> axes = draw_score(RunLength(0.9))
-    >>> [text.get_text() for text in axes.get_legend().get_texts()]
-    ['mean 9', 'median 6', 'mode 0']
+    `asked` spans, which are shaded, have a name, the fewest balls, and the most or None.
     """
     low, high = (law.quantile(q) for q in _SHOWN)
     scores = np.arange(low, high + 1)
@@ -276,22 +236,10 @@ def draw_score(
 
 @in_our_look
 def draw_spot(match: StraightPool, *, ax: Axes | None = None) -> Axes:
-    """Draw A's chance in straight pool against the weaker player's points.
+    """Draw A's chance in straight pool against the weaker player's points; A is player 1.
 
-    The match as it stands is a dot on the curve. If any number of points makes it even (see
+    The match as it is now is a dot on the curve. If any number of points makes it even (see
     `even_spot`), a dashed line marks the one nearest to even.
-
-    Parameters
-    ----------
-    match
-        the match; player 1 is A.
-    ax
-        the axes to draw on; None: those of a new figure.
-
-    >>> from evenbreak.matches import StraightPool
-    >>> axes = draw_spot(StraightPool(50, 50, 0.9, 0.8))
-    >>> axes.get_xlabel()
-    'points B needs'
     """
     weaker, even, _ = even_spot(match)
     name = f"points_{weaker}"
@@ -336,17 +284,7 @@ _TICKS = 20
 def draw_drill(statistics: DrillStatistics, *, ax: Axes | None = None) -> Axes:
     """Draw the fraction of attempts at each level of a drill in the long run.
 
-    It is drawn on the axes `ax`, or else in a new figure.
-
-    Notes
-    -----
     Source: Table 5.5.
-
-    >>> from evenbreak.games import Drill
-    >>> from evenbreak.practice import drill_statistics
-    >>> axes = draw_drill(drill_statistics(Drill.progressive(0.8)))
-    >>> len(axes.patches)
-    9
     """
     law = statistics.distribution
     axes = new_axes(
@@ -361,12 +299,8 @@ def draw_drill(statistics: DrillStatistics, *, ax: Axes | None = None) -> Axes:
 
 @in_our_look
 def draw_log(analysis: LogAnalysis, *, ax: Axes | None = None) -> Axes:
-    """Draw the levels of a log beside those of the long run with its success rates.
+    """Draw the levels of a log next to those of the long run with its success rates.
 
-    It is drawn on the axes `ax`, or else in a new figure.
-
-    Notes
-    -----
     Source: exercise 5.1.
     """
     axes = new_axes(

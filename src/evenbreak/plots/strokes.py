@@ -322,23 +322,11 @@ _SWEEPS = 8
 def positions_of(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, float]]:
     """Return a place for every node, in units of the distance between neighbors.
 
-    A graph that is a path, ignoring self-loops and directions (one-ball, n-ahead, drills), lies
-    on a line, with player 1's wins to the right. A graph whose states are scores (a, b), each of
-    which an arc changes by 1 at most, lies on a grid: racks played to the right, player 1's
-    lead upwards. Any other graph is layered by the distance from `start`, with terminal nodes
-    on the outer rows: player 1's wins above, the others below.
-
-    Parameters
-    ----------
-    graph
-        the diagram; nodes may have a `winner`, and terminal nodes have no arc to another node.
-    start
-        the node from which the layers are counted.
-
-    >>> from evenbreak.game import graph_of
-    >>> from evenbreak.games import OneBall
-    >>> positions_of(graph_of(OneBall(0.5, 0.5)), "S1")
-    {'L': (0.0, 0.0), 'S2': (1.0, 0.0), 'S1': (2.0, 0.0), 'W': (3.0, 0.0)}
+    A graph that is a path, ignoring self-loops and directions (one-ball, n-ahead, drills), is on a
+    line, with player 1's wins to the right. A graph whose states are scores (a, b), each of which
+    an arc changes by 1 at most, is on a grid: racks played to the right, player 1's lead upwards.
+    Any other graph is layered by the distance from `start`, with terminal nodes, which have no arc
+    to another node, on the outer rows: player 1's wins above, the others below.
     """
     return _on_a_line(graph, start) or _on_the_lattice(graph) or _in_layers(graph, start)
 

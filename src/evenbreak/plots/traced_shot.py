@@ -185,13 +185,7 @@ _HOLE = 2.5
 
 
 def bare_axes(figure: Figure, place: tuple[float, float, float, float]) -> Axes:
-    """Return axes without ticks, with equal scales.
-
-    Parameters
-    ----------
-    figure, place
-        the figure, and the left, bottom, width and height as shares of it.
-    """
+    """Return axes without ticks, with equal scales; place is left, bottom, width, height."""
     axes = figure.add_axes(place)
     axes.set_axis_off()
     axes.set_aspect("equal")
