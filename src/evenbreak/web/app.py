@@ -71,15 +71,7 @@ _HTTP = {
 
 
 def make_app(site: Site, *, streams: int = 500) -> Starlette:
-    """Return the application that serves a site.
-
-    Parameters
-    ----------
-    site
-        the file, the addresses and the secrets.
-    streams
-        how many pages may follow what happens at once.
-    """
+    """Return the application that serves a site to at most so many streams at once."""
     watch = Watch(site.path, streams)
     app = Starlette(
         routes=[

@@ -70,21 +70,10 @@ class _StopError(BaseException):
 
 
 class Limited:
-    """Work that has so many seconds of the processor, and then ends wherever it is.
+    """Work limited to some seconds of processor time (of the clock, where threads have none).
 
-    A step in C, such as the solution of one system of equations, ends first.
-
-    Parameters
-    ----------
-    work
-        what is done.
-    seconds
-        of the processor, where the system tells them for a thread; of the clock elsewhere.
-
-    Raises
-    ------
-    TimeoutError
-        when they are over.
+    A TimeoutError ends it wherever it is; but a step in C, such as the solution of one system of
+    equations, ends first.
 
     >>> Limited(lambda: 7, 1.0)()
     7
@@ -142,17 +131,7 @@ class Made:
         self._made: dict[str, tuple[object, asyncio.Future[bytes]]] = {}
 
     async def file(self, name: str, of: object, make: Callable[[], bytes]) -> bytes:
-        """Return a file, which is made again only when it is to show something else.
-
-        Parameters
-        ----------
-        name
-            of the file.
-        of
-            what it shows; another object when that has changed.
-        make
-            makes it.
-        """
+        """Return a file, which is made again only when the object `of` is another one."""
         made = self._made.get(name)
         if made is None or made[0] is not of:
             made = self._made[name] = of, asyncio.ensure_future(self._beside.run(make))

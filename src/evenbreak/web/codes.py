@@ -19,17 +19,9 @@ LENGTH = 5
 
 
 def codes_of(state: Evening, key: str, before: Mapping[str, str] | None = None) -> dict[str, str]:
-    """Return the code of each player who is in the tournament.
+    """Return the code of each player in the tournament, drawn from the secret key.
 
-    Parameters
-    ----------
-    state
-        the state of the evening.
-    key
-        the secret from which codes are drawn.
-    before
-        the codes of other events of the night, which are returned too: whoever is in one of them
-        has a code already.
+    `before` has the codes of other events of the night: a player in one of them has a code already.
 
     >>> from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, Renamed
     >>> from evenbreak.tournaments.evening.fold import evening

@@ -17,17 +17,10 @@ def of_league(
     charts: Collection[str],
     orders: Collection[str] = (),
 ) -> dict[str, str]:
-    """Return what the fields of a form begin with: the league's rules, by the fields' names.
+    """Return the initial values of a form's fields, by name: the league's rules.
 
-    Parameters
-    ----------
-    question
-        what the form asks.
-    league
-        the league's file; None if there is none.
-    charts, orders
-        the words of the fields `races` and `order`, which a chart and an order of the league
-        must be; another order is a pattern, and another chart is left out.
+    A chart or an order of the league must be among `charts` or `orders`; another order is a
+    pattern, and another chart is left out.
     """
     if league is None:
         return {}

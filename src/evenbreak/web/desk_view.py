@@ -44,16 +44,9 @@ from evenbreak.words import Sentence, joined, listed, say, tally
 
 
 class Side(NamedTuple):
-    """A player of a match.
+    """A player of a match; `short` is the first name where no one else tonight has it.
 
-    Parameters
-    ----------
-    name, short
-        in full, and the first name where nobody else tonight has it.
-    won, needs
-        games won so far, and those needed.
-    behind, winner
-        whether they need more games than the other, or have lost; and whether they have won.
+    `behind`: they need more games than the other, or have lost.
     """
 
     name: str
@@ -68,28 +61,11 @@ class Side(NamedTuple):
 class DeskMatch:
     """A match as the director sees it.
 
-    Parameters
-    ----------
-    name, number
-        in the file, and on paper.
-    part
-        the side of the bracket, or the round.
-    sides
-        its players; empty while one of them is not known.
-    places
-        the same in words, with where a player comes from who is not known yet.
-    state
-        waits, ready, called, playing, hill, sent, two, done or forfeit.
-    table
-        the one that it is on.
-    minutes
-        how long ago it was called.
-    sent
-        the games of each player that the phone of a player sent, by that player.
-    agreed
-        whether both sent the same, but perhaps from one phone.
-    event, tag
-        the number of its event of the night, and what that is called; '' if there is only one.
+    `part` is the side of the bracket, or the round; `places` has in words where unknown players
+    come from. The state is waits, ready, called, playing, hill, sent, two, done or forfeit;
+    `minutes` count from the call. `sent` has each player's games, by the player whose phone sent
+    them; `agreed`: both sent the same, maybe from one phone. `tag` is its event, '' if there is
+    only one.
     """
 
     name: str
@@ -124,19 +100,7 @@ class DeskMatch:
 def desk_match(
     state: Evening, name: str, now: str, sides: Mapping[str, Sides] | None = None
 ) -> DeskMatch:
-    """Return a match as the director sees it.
-
-    Parameters
-    ----------
-    state
-        the evening.
-    name
-        of the match.
-    now
-        what time it is.
-    sides
-        what phones have sent, by match.
-    """
+    """Return a match as the director sees it; `sides` is what phones have sent, by match."""
     match = state.bracket.match(name)
     seats = state.standing.seats[name]
     of: dict[str, Any] = {"event": state.event, "tag": event_name(state) if state.beside else ""}
@@ -232,21 +196,11 @@ def progress(state: Evening) -> tuple[int, int]:
 
 
 class LastAct(NamedTuple):
-    """What was entered last: it stays on the desk until it is read.
+    """The last entry, which stays on the desk until it is read.
 
-    Parameters
-    ----------
-    event, number, at
-        of the entry: its event and number, and when it was made.
-    title, lines
-        what it was, and what follows from it.
-    undo
-        what is taken back; '' if something follows from it.
-    match, over
-        the number of its match, 0 if it is about none; and whether it is a result.
-    by, absent
-        the phones or the tablet that entered it, '' if the director did; and who forfeited it,
-        and has not gone home.
+    `lines` are its effects; `undo` is '' if something depends on it; `match` is 0 if it is about
+    none; `over`: it is a result. `by` is the phones or the tablet, '' for the director; `absent`
+    forfeited it and haven't gone home.
     """
 
     event: int

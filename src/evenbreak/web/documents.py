@@ -62,19 +62,10 @@ def goes_on(path: Path) -> bool:
 
 
 class Alone:
-    """One program at a time that has tonight's page; a second one learns where it is.
+    """Lets one program at a time have tonight's page; a second one learns where it is.
 
-    The system ends the lock with the program, however that ends.
-
-    Parameters
-    ----------
-    path
-        the file that is locked; the user's own unless given.
-
-    Attributes
-    ----------
-    running, of
-        the address of the other program's page, and the file of its night; '' if there is none.
+    The system ends the lock with the program, however that ends. `running` and `of` are the address
+    of the other program's page and the file of its night, '' if there is none.
     """
 
     def __init__(self, path: Path | None = None) -> None:

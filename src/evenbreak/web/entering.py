@@ -34,14 +34,10 @@ _LONGEST_NAME = 80
 
 
 def asked_of(question: type, values: Mapping[str, Any]) -> Any:
-    """Return what is asked with these values, its names as they are printed.
+    """Return a question with these values.
 
-    Raises
-    ------
-    RefusalError
-        if a text is too long.
-    InputError
-        if a name cannot be printed, or the question refuses its values.
+    A RefusalError for a text too long; an InputError for a name that can't be printed, or values
+    that the question refuses.
     """
     found = dict(values)
     for one in declared(question):
@@ -65,16 +61,10 @@ def asked_of(question: type, values: Mapping[str, Any]) -> Any:
 
 @dataclass(frozen=True)
 class Entered:
-    """What was entered, or would be.
+    """An entry, made or proposed, with the states before and after it.
 
-    Parameters
-    ----------
-    move, asked
-        the move, and what was asked for it: several questions if a form has several matches.
-    before, after
-        the states of the event.
-    already
-        what is said of what was so already.
+    A form with several matches has several questions; `already` is what is said of those already
+    done.
     """
 
     move: Move[Evening, What]
@@ -112,13 +102,7 @@ class Entered:
 
 
 class SureError(Exception):
-    """What is entered takes something away, or is to be asked about in any case.
-
-    Parameters
-    ----------
-    would
-        what would be entered.
-    """
+    """The entry takes something away, or must be confirmed in any case."""
 
     def __init__(self, would: Entered) -> None:
         self.would = would
@@ -139,30 +123,11 @@ async def enter(
 ) -> Entered:
     """Enter what is asked, with the calls that a result makes by itself.
 
-    Parameters
-    ----------
-    site, night
-        where, and in which event.
-    move, asked
-        the move, and what is asked for it.
-    by
-        who enters it, as it is kept.
-    key
-        what the form or the request is known by: it is taken once.
-    sure, named
-        whether what it takes away is meant, and the name of the question that was answered with it;
-        if something else would be lost by now, it is asked again. '' is meant whatever is lost.
-    everywhere
-        whether a player who goes home does so in all events of the night.
-    check
-        gets the state before; if it raises an error, nothing is entered.
-
-    Raises
-    ------
-    SureError
-        if it is not sure, and would take something away.
-    TakenBeforeError
-        if the form was taken before.
+    `by` is the author as stored; a form or request, by its `key`, is taken once. `sure`: what it
+    takes away is meant, if the question answered was `named` ('': any); if by now something else
+    would be lost, it is asked again. `everywhere`: a player who goes home does so in all events.
+    `check` gets the state before; an error from it enters nothing. A SureError if it isn't sure; a
+    TakenBeforeError if the form was taken before.
     """
     at, already = site.clock(), list[str]()
 

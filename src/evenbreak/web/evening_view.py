@@ -20,19 +20,7 @@ _WALKING = timedelta(minutes=5)  # since the call, that a match without a score 
 
 @dataclass(frozen=True)
 class MatchView:
-    """A match that can be played or is being played.
-
-    Parameters
-    ----------
-    name
-        of the match.
-    players, needs, score
-        the players, the games that each needs and has won.
-    table
-        where it is played, or may be called to; None: no table is free.
-    since
-        when it was called, such as 19:40; '' if it was not.
-    """
+    """A match that can be played or is being played; `table` is None if none is free."""
 
     name: str
     players: tuple[str, str]
@@ -46,24 +34,8 @@ class MatchView:
 class EveningView:
     """An evening as the pages show it.
 
-    Parameters
-    ----------
-    state
-        the state of the evening.
-    races
-        what is raced to, in words.
-    playing, calls, waiting
-        the matches on tables, those to call now, those that wait for a table or a player.
-    free
-        the free tables.
-    finish
-        when it ends: early, in the middle and late, such as 22:15; None: not known.
-    places
-        who finished where, as far as decided.
-    older
-        whether odds and finish are those before the last entry.
-    chips
-        in a chip tournament each player with chips, table and place in the line.
+    `calls` can be called now, `waiting` matches wait for a table or a player; `finish` is early,
+    middle and late, such as 22:15. `older`: odds and finish are from before the last entry.
     """
 
     state: Evening
@@ -95,15 +67,7 @@ def provisional_in(state: Evening) -> Collection[str]:
 
 
 def view_of(state: Evening, known: Known | None) -> EveningView:
-    """Return an evening as the pages show it.
-
-    Parameters
-    ----------
-    state
-        the state of the evening.
-    known
-        what has been worked out, perhaps for an earlier state.
-    """
+    """Return an evening as the pages show it; `known` may be of an earlier state."""
     if not state.drawn:
         return EveningView(state, _races(state), [], [], [], [], None, [], False)
     data: dict[str, Any] = known.data if known else {}
@@ -146,17 +110,7 @@ def _races(state: Evening) -> str:
 
 
 def match_view(state: Evening, name: str, table: int | None = None) -> MatchView:
-    """Return a match that can be played now.
-
-    Parameters
-    ----------
-    state
-        the state of the evening.
-    name
-        of the match.
-    table
-        the one to call it to, unless it is on one.
-    """
+    """Return a match that can be played now, on its table or the one to call it to."""
     pair, since = state.pair(name), ""
     if name in state.on_tables:
         table = state.on_tables[name].call.table
@@ -191,22 +145,10 @@ class Favorite(NamedTuple):
 
 
 class PlayerView(NamedTuple):
-    """A player as the page shows them.
+    """A player as the page shows them; '' and None where something is unknown or over.
 
-    Parameters
-    ----------
-    name, rating, error
-        the rating and how far off it may be.
-    title
-        the chance of the title; None: not known, or none.
-    place
-        where they finished; '' if that is open.
-    match, other
-        the match that they play now or can play next, and whom they meet; '' if not known.
-    table, called
-        where they play, or will be called to next; None: they do not, or will not.
-    starts
-        when their next match begins: early, in the middle and late, such as 20:40; None: no match.
+    `match` and `other` are the match that they play now or next, and the opponent; `starts` is
+    when: early, middle and late, such as 20:40.
     """
 
     name: str
@@ -223,15 +165,7 @@ class PlayerView(NamedTuple):
 
 
 def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
-    """Return the players, the highest rating first, those with provisional ratings last.
-
-    Parameters
-    ----------
-    state
-        the state of the evening.
-    known
-        what has been worked out, perhaps for an earlier state.
-    """
+    """Return the players by rating, the highest first, provisional ratings last."""
     titles = {one.name: one for one in favorites_of(known)}
     calls = {name: at for at, name in known.calls} if known and known.of is state else {}
     places: Mapping[str, Place] = {}

@@ -203,24 +203,9 @@ async def _read(request: Request) -> Form:
 
 
 class FormField(NamedTuple):
-    """A field of a form; its words are sentences, which the page says in the reader's language.
+    """A field of a form; its words are sentences, translated by the page.
 
-    Parameters
-    ----------
-    name
-        what the form calls it.
-    label
-        what it asks for.
-    shape
-        flag, choice, whole, number or text.
-    usual
-        what it is unless it is changed.
-    choices
-        each word that may be chosen, with its title.
-    formats
-        the tournament formats that have it; none if all have.
-    longest
-        the most letters that may be typed.
+    The shape is flag, choice, whole, number or text; without `formats`, all have it.
     """
 
     name: str
@@ -266,19 +251,7 @@ def name_of(one: Declared) -> str:
 
 
 def asked_in(question: type[Asked], form: Form, fields: Sequence[Declared], **values: Any) -> Asked:
-    """Return what a form asks; what is left empty has its default.
-
-    Parameters
-    ----------
-    question
-        what is asked.
-    form
-        the form.
-    fields
-        the fields of the question that the form has.
-    values
-        fields of the question that are not read from a field of their own.
-    """
+    """Return the question that a form asks; empty fields have their defaults."""
     read = {one.name: value_of(one, form) for one in fields if form.text(name_of(one))}
     return question(**read, **values)
 

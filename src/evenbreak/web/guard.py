@@ -56,17 +56,10 @@ def headers(script_hash: str) -> list[tuple[bytes, bytes]]:
 
 
 class Guard:
-    """Refuses wrong hosts and bodies that are too large or too slow, before anything is read.
+    """Refuses wrong hosts, and bodies too large or too slow, before anything is read.
 
-    Parameters
-    ----------
-    app
-        what answers.
-    hosts
-        the names under which this computer may be asked; others may be a page elsewhere that has
-        its own name lead here (DNS rebinding).
-    script_hash
-        of the one script that pages may run.
+    Any other host may be a page elsewhere whose own name leads here (DNS rebinding). `script_hash`
+    is of the one script that pages may run.
     """
 
     def __init__(self, app: ASGIApp, *, hosts: Collection[str], script_hash: str) -> None:
@@ -167,17 +160,7 @@ async def turn_away(
 
 
 class RefusalError(EvenbreakError):
-    """A request that is refused.
-
-    Parameters
-    ----------
-    template
-        what the reader is told, as `evenbreak.words.say` takes it.
-    status
-        of HTTP.
-    values
-        what fills it in.
-    """
+    """A refused request; template and values are those of `evenbreak.words.say`."""
 
     def __init__(self, template: str, /, *, status: int = 400, **values: Any) -> None:
         super().__init__(template, **values)

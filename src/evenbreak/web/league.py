@@ -44,13 +44,7 @@ class Progress:
 
 @dataclass(eq=False)
 class League:
-    """A league: its results, and what is made of them.
-
-    Parameters
-    ----------
-    beside
-        the file of the tournament; those of the league have names beginning like it.
-    """
+    """A league: its results, and what is made of them, in files named like the tournament's."""
 
     beside: Path
     sheet: Sheet | None = None
@@ -76,13 +70,7 @@ class League:
         return sorted(folder.glob(f"{glob.escape(self.beside.stem)}.league-*.csv"))
 
     def add_evening(self, content: bytes, begun: datetime) -> None:
-        """Add the results of an evening; if it was added before, they take the place of those.
-
-        Raises
-        ------
-        DataError
-            with every problem of the results.
-        """
+        """Add an evening's results, replacing those before; a DataError has all problems."""
         from evenbreak.files.results.results_file import read_results
 
         read_upload(content, read_results)
@@ -90,14 +78,10 @@ class League:
         write_files(self.beside.parent, {name: content})
 
     def keep(self, content: bytes, scale: str, race: int) -> None:
-        """Keep results, and how they are shown, in place of all before; refuse unreadable ones.
+        """Store results, and how they are shown, instead of earlier ones.
 
-        Those before stay in files that end in .replaced.
-
-        Raises
-        ------
-        DataError
-            with every problem of the results; earlier ones are then kept.
+        Those before stay in files that end in .replaced. A DataError has every problem; nothing
+        changes then.
         """
         from evenbreak.files.results.results_file import read_results
 

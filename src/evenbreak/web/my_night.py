@@ -29,16 +29,9 @@ _FINALS = "final", "second final", "third place"
 
 
 class Step(NamedTuple):
-    """A match on a player's way.
+    """A match on a player's way: 'done' (won), 'forfeit' (lost) or 'playing' (next).
 
-    Parameters
-    ----------
-    kind
-        'done' for one that was won, 'forfeit' for one that was lost, 'playing' for the next one.
-    other
-        the opponent, or where they come from.
-    score
-        such as 5-4, the player's own games first; or when it starts.
+    `score` has the player's own games first, or is the starting time.
     """
 
     kind: str
@@ -47,17 +40,7 @@ class Step(NamedTuple):
 
 
 class After(NamedTuple):
-    """Where a player goes from a match.
-
-    Parameters
-    ----------
-    where
-        the next match in words.
-    at
-        when it starts, such as 21:40; '' if that is not known.
-    other
-        the opponent, or where they come from.
-    """
+    """Where a player goes from a match, when ('': not known), and the opponent or their origin."""
 
     where: Sentence | str
     at: str
@@ -68,30 +51,11 @@ class After(NamedTuple):
 class MyMatch:
     """The match that a player plays, or plays next.
 
-    Parameters
-    ----------
-    name, number, round
-        the match, as files call it and as people do.
-    seat
-        0 if the player is the first of its two, or 1.
-    pair
-        its players; None: the opponent is not known yet.
-    other
-        the opponent, or where they come from.
-    needs, score
-        the games that each needs and has won, the first player's first.
-    table
-        where it is played; None: it has not been called.
-    since
-        when it was called, such as 19:40.
-    called
-        the table to which it is called next; None: none.
-    starts
-        when it starts: early, in the middle and late; None: that is not known.
-    middle
-        where the middle of these times is between the other two, in percent.
-    last
-        whose game can be taken back: 0 or 1; both where it is not known who won the last one.
+    `seat` is 0 if the player is the first of the two. `pair` is None while the opponent is unknown;
+    `needs` and `score` have the first player's games first. `table` is None until the call.
+    `starts` is early, middle and late; `middle` is where the middle is between the other two, in
+    percent. `last` is whose game can be taken back, 0 or 1; both where it isn't known who won the
+    last one.
     """
 
     name: str

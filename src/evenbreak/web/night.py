@@ -50,33 +50,13 @@ def now() -> str:
 
 @dataclass(frozen=True)
 class Known:
-    """What was worked out of a state.
+    """What has been calculated from a state.
 
-    Parameters
-    ----------
-    of
-        that state.
-    at
-        when, in seconds of the event loop's clock.
-    data
-        as the answer about the evening has it for JSON; `calls` besides, each a table and a match.
-    queue
-        the matches of all events that can be called, the best first, each with its event.
-    start
-        when the evening began, in minutes after midnight.
-    day
-        of that midnight, such as 2025-03-01.
-    odds
-        of the places.
-    next_starts
-        when each player's next match begins: early, in the middle and late, in minutes since the
-        start; only of players who may still play.
-    means
-        what each player's rating is on average, given tonight's games.
-    starts
-        the same of each match that has not begun, given that it is played.
-    problem
-        why nothing of all this could be worked out; '' if it was.
+    `at` is in seconds of the event loop's clock. `data` is the evening's JSON answer, with `calls`,
+    pairs of table and match; `queue` has callable matches with their events, the best first.
+    `start` is in minutes after the midnight of `day`; `next_starts` and `starts` are early, middle
+    and late minutes since then, by player and by match. `means` are mean ratings given tonight's
+    games. `problem` is why none of this could be calculated.
     """
 
     of: Evening
@@ -99,17 +79,7 @@ class Known:
 
 
 class Night:
-    """An event of the night in a file.
-
-    Parameters
-    ----------
-    path
-        the file.
-    event
-        the number of the event: 1 unless it was begun beside others.
-    clock
-        returns what time it is.
-    """
+    """An event of the night in a file; its number is 1 unless it was started next to others."""
 
     def __init__(self, path: Path, event: int = 1, *, clock: Callable[[], str] = now) -> None:
         self.path = path

@@ -214,23 +214,9 @@ def page(
 ) -> Response:
     """Return a page.
 
-    Parameters
-    ----------
-    request
-        what is answered.
-    template
-        its name in the folder `templates`.
-    live
-        whether the page follows what happens in the tournament.
-    quick
-        whether it asks again after a second or two, for what is being worked out.
-    status
-        of HTTP.
-    of
-        what the page is made of, besides who reads it and the minute: while these stay the same
-        objects (or equal texts), a hundred phones get what was rendered for the first.
-    values
-        what the template shows.
+    A `live` page follows the tournament; a `quick` one asks again after a second or two, for what
+    is being calculated. While the objects in `of` stay the same (or equal texts), a hundred phones
+    get what was rendered for the first.
     """
     code = language(request)
     face = page_face(code)

@@ -48,16 +48,9 @@ class Line:
 
 
 class ListError(Exception):
-    """A list has lines that are to be asked about.
+    """A list has lines in doubt; `content` is the list as a field holds it.
 
-    Parameters
-    ----------
-    lines
-        all lines of the list.
-    content
-        the list as a field can hold it.
-    stated
-        whose ratings of the list count, as was answered before.
+    `stated` is whose ratings count, as answered before.
     """
 
     def __init__(self, lines: Sequence[Line], content: str, stated: Collection[str] = ()) -> None:
@@ -66,12 +59,9 @@ class ListError(Exception):
 
 
 def entered_list(content: bytes, form: Form, known: Known | None) -> tuple[bytes, frozenset[str]]:
-    """Return a list that leaves no doubt, and whose ratings count though the league has others.
+    """Return a list without doubts, and whose ratings count though the league has others.
 
-    Raises
-    ------
-    ListError
-        if there is something to ask, and the form does not answer it.
+    A ListError if the form leaves a question open.
     """
     stated = frozenset(form.texts("stated"))
     typed = typed_lines(content, ENTRANTS)

@@ -30,18 +30,9 @@ class Listening(Protocol):
 class Room:
     """The addresses at which phones are let in: none until it is opened.
 
-    Parameters
-    ----------
-    asked_as
-        the names under which this computer may be asked; those for phones come and go.
-    found_at
-        is told where the page is found whenever that changes.
-    port
-        where the page is.
-    server
-        what listens.
-    name
-        by what phones find it (and at which port) where not by these addresses, as in a container.
+    `asked_as` are this computer's names in requests, to which those for phones are added;
+    `found_at` is called with each new address of the page. `name` is by what phones find it (and at
+    which port) where not by these addresses, as in a container.
     """
 
     def __init__(
@@ -69,13 +60,7 @@ class Room:
         return places_of(self.open_at, self.port, self.name)
 
     async def open(self) -> None:
-        """Let phones in.
-
-        Raises
-        ------
-        RefusalError
-            if this computer is in no network, or another program has the port there.
-        """
+        """Let phones in; a RefusalError without a network, or if the port is taken there."""
         async with self._turn:
             self._close()  # the network may be another one by now
             await self._open()

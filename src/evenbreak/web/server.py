@@ -48,20 +48,9 @@ def server_of(
     name: str = "",
     then: Callable[[], object] | None = None,
 ) -> uvicorn.Server:
-    """Return the server of a site, which listens on this computer.
+    """Return a site's server, which listens on this computer, with `lan` for phones too.
 
-    Parameters
-    ----------
-    site
-        what is served; its `room` lets phones in.
-    port
-        where it listens.
-    lan
-        whether phones are let in from the start.
-    name
-        by what phones find it, where not by an address of this computer.
-    then
-        what is called once it listens, in a thread.
+    `name` is as for `Room`; `then` is called in a thread once it listens.
     """
     # It warns of each form that is cut or wrong, which any guest can send.
     logging.getLogger("python_multipart").setLevel(logging.ERROR)
@@ -198,15 +187,7 @@ def room(limit: int) -> tuple[int, int]:
 
 
 class Door:
-    """The connections there are, by address.
-
-    Parameters
-    ----------
-    most
-        how many there may be.
-    own
-        the addresses of this computer.
-    """
+    """The open connections by address, limited apart from this computer's `own` addresses."""
 
     def __init__(self, most: int, own: Collection[str]) -> None:
         self.most = most

@@ -143,14 +143,9 @@ def check_director(request: Request) -> None:
 
 
 def captain_of(request: Request, night: int) -> int | None:
-    """Return for which team a captain's PIN was entered in this session; None: for neither.
+    """Return the team whose captain's PIN was entered in this session; None: neither.
 
-    Parameters
-    ----------
-    request
-        of the session.
-    night
-        the number of the event with which the team night began.
+    `night` is the number of the event with which the team night started.
     """
     site = request.app.state.site
     return next(

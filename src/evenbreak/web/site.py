@@ -42,30 +42,12 @@ _MOST_KINDS = 8  # kinds of pages and answers besides, each for whoever reads it
 class Site:
     """One running page.
 
-    Parameters
-    ----------
-    path
-        the file of the tournament, which need not exist yet.
-    hosts
-        the names and addresses under which this computer may be asked, before a `Room` adds those
-        for phones to `asked_as`.
-    address
-        where phones find it, such as http://192.168.1.20:8000; for QR codes.
-    rules
-        the league's file, from which forms begin; None if there is none.
-    color
-        of the house, such as #7a1f5c; None: the usual one.
-    clock
-        returns what time it is, such as 2025-03-01T19:30:00.
-    origins
-        the pages elsewhere that may use the interface from a browser, such as
-        https://league.example.
-    tries, all_tries, codes, all_codes, taps
-        wrong PINs from each address and from all, wrong codes of players likewise, and taps in each
-        match, in the last minute.
-    wrong_tokens, entries, questions
-        wrong tokens from each address, entries of each program, and questions of other programs
-        from each address, likewise.
+    The file at `path` need not exist yet. `hosts` are this computer's names and addresses in
+    requests, before a `Room` adds those for phones to `asked_as`; `address` is for phones, in QR
+    codes. `rules`, the league's file, fill in forms. `origins` are pages elsewhere that may use the
+    interface from a browser. The counters are of the last minute: wrong PINs by address and
+    overall, wrong codes of players likewise, taps by match, wrong tokens by address, entries by
+    program, questions by address.
     """
 
     path: Path
@@ -333,13 +315,7 @@ def of_event(path: str, event: int) -> str:
 
 
 def night_of(request: Request) -> Night:
-    """Return the event that a request is about: as its form or its address says, else the first.
-
-    Raises
-    ------
-    RefusalError
-        if there is no such event.
-    """
+    """Return the event of a request, by form or address, else the first (RefusalError: none)."""
     nights: list[Night] = request.app.state.site.nights
     number = event_of(request)
     for night in nights:

@@ -28,18 +28,9 @@ from evenbreak.words import Sentence, say, tally
 
 @dataclass(frozen=True)
 class Tap:
-    """A tap, as the form of a page has it.
+    """A tap, as the form of a page sends it.
 
-    Parameters
-    ----------
-    match, pair
-        the match and who was in it.
-    score
-        what it is to be, the first player's games first.
-    seen
-        what it was on the page.
-    key
-        what the form is known by.
+    `score` is the new one, `seen` that on the page, the first player's games first.
     """
 
     match: str
@@ -79,18 +70,9 @@ def note(
     decide: Callable[[Phones], Act | None],
     by: str = "",
 ) -> Phones:
-    """Keep what the phone that asks does, or somebody else, and return what is known after it.
+    """Store what a phone does, or someone else (`by`), and return what is known after it.
 
-    Parameters
-    ----------
-    request, night
-        where it was entered, and in which event.
-    key
-        what the form is known by: one that comes in again adds nothing.
-    decide
-        returns what is done, given the phones as they are.
-    by
-        who does it, if it is not the phone.
+    A form that comes in again, by its `key`, adds nothing.
     """
     return enter(
         night.path,

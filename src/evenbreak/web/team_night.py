@@ -30,15 +30,7 @@ _KEPT = 12  # answers, and solved nights
 
 
 class TeamNow(NamedTuple):
-    """A team night as it stands.
-
-    Parameters
-    ----------
-    events
-        of all team nights in the file.
-    state
-        of the one that is on.
-    """
+    """The current team night, and the events of all in the file."""
 
     events: list[Event]
     state: TeamEvening
@@ -46,30 +38,14 @@ class TeamNow(NamedTuple):
 
 @dataclass(frozen=True)
 class Advised:
-    """What a captain is advised.
-
-    Parameters
-    ----------
-    answer
-        in words and numbers.
-    found
-        each pick and what it is worth, or where line-ups are sealed each line-up.
-    """
+    """A captain's advice; `found` is each pick, or sealed line-up, with its worth."""
 
     answer: Answer
     found: Advice | SealedNight
 
 
 class TeamNights:
-    """The team nights in a file.
-
-    Parameters
-    ----------
-    path
-        the file.
-    beside
-        the thread that works things out.
-    """
+    """The team nights in a file; `beside` is the thread that calculates."""
 
     def __init__(self, path: Path, beside: Beside) -> None:
         self.path = path

@@ -19,22 +19,9 @@ _RARE = 5e-4  # shares below this are not shown
 
 
 class SetView(NamedTuple):
-    """A set.
+    """A set; '' and None where something is unknown.
 
-    Parameters
-    ----------
-    number
-        counted from 1.
-    names
-        who plays, for each team; '' if not known.
-    hidden
-        which team's pick is in but not shown yet.
-    needs
-        the games that each side needs; None: not known yet.
-    score
-        how it ended; None: it has not.
-    said
-        how each team says that it ended.
+    `hidden` is the team whose pick is in but not shown yet; `said` is each team's result.
     """
 
     number: int
@@ -48,20 +35,9 @@ class SetView(NamedTuple):
 class OptionView(NamedTuple):
     """A pick that a captain can make.
 
-    Parameters
-    ----------
-    value
-        the places of its players in the squad, as the form sends them.
-    name
-        of the player, or both of them.
-    worth
-        the chance of winning the night with it; None: not known.
-    reply
-        the other side's best reply; '' if there is none to come.
-    mix
-        how often to pick it, where both teams pick unseen.
-    counts
-        what it counts under a cap, such as 6; '' if there is none.
+    `value` are the positions of its players in the squad, `worth` is the chance of winning the
+    night with it, `reply` the other side's best ('': none follows), `mix` its share where both
+    teams pick unseen, `counts` its weight under a cap.
     """
 
     value: str
@@ -128,20 +104,7 @@ def advised_line_ups(found: SealedNight) -> list[OptionView]:
 
 
 def drawn(options: Sequence[OptionView], lot: str) -> OptionView | None:
-    """Return the pick that is drawn by the shares of a mixture; None if there is no mixture.
-
-    Parameters
-    ----------
-    options
-        what can be picked.
-    lot
-        the same lot draws the same pick again.
-
-    >>> both = [OptionView("0", "Ann", 0.5, mix=0.6), OptionView("1", "Bo", 0.5, mix=0.4)]
-    >>> sorted({drawn(both, f"lot {k}").name for k in range(20)})
-    ['Ann', 'Bo']
-    >>> drawn([OptionView("0", "Ann", 0.5, mix=1.0), OptionView("1", "Bo", 0.4, mix=0.0)], "x")
-    """
+    """Return the pick that a lot draws from a mixture, always the same; None without a mixture."""
     shares = [one.mix or 0.0 for one in options]
     if sum(share > _RARE for share in shares) < 2:
         return None
@@ -169,18 +132,9 @@ def plain_options(state: TeamEvening, team: int) -> list[OptionView]:
 def captain_values(
     whole: TeamEvening, captain: int, found: Advised | None, lot: str
 ) -> dict[str, Any]:
-    """Return what a captain sees: the advice, and the form in which they choose.
+    """Return what captain 0 (A) or 1 (B) sees: the advice, and the form for their choice.
 
-    Parameters
-    ----------
-    whole
-        the state of the night, with all picks.
-    captain
-        whose: 0 for team A, 1 for B.
-    found
-        the advice; None: not known yet.
-    lot
-        by which a pick is drawn, where it is best to draw.
+    `lot` draws a pick, where it is best to draw.
     """
     state = whole.seen_by(captain)
     line = state.to_name

@@ -34,20 +34,8 @@ _JUST_CALLED = timedelta(seconds=25)
 class TableView(NamedTuple):
     """A table and what is on it, or is to be called to it.
 
-    Parameters
-    ----------
-    name
-        what the house calls it.
-    state
-        playing, hill, called, two (the players disagree) or ready (it is to be called).
-    match, number
-        the match, and what people call it.
-    score
-        games won; none is shown while the players disagree.
-    chance
-        of the first player; None: not known.
-    tag
-        its event, if there are several; else ''.
+    The state is playing, hill, called, two (the players disagree, and no score is shown) or ready.
+    `chance` is the first player's; `tag` is the event, if there are several.
     """
 
     name: str
@@ -81,30 +69,10 @@ class Placed(NamedTuple):
 
 @dataclass(frozen=True)
 class WallView:
-    """A night as everybody sees it.
+    """A night as everyone sees it.
 
-    Parameters
-    ----------
-    name
-        what it is called.
-    view
-        the evening.
-    tables, next
-        what is on the tables, and what waits for one.
-    favorites
-        who wins it, the most likely first.
-    places
-        who finished where, as far as that is decided.
-    played, matches
-        how many matches have been played, and will be.
-    prizes
-        the money for each place.
-    clock
-        what time it is, such as 21:29.
-    chances
-        of the first player of each match that is played or ready.
-    parts
-        the events of a night that has several, of which this is the whole.
+    `favorites` start with the likeliest winner; `places` are those decided; `chances` are the first
+    player's, by match. `parts` are the events of a night with several, of which this is the whole.
     """
 
     name: Sentence | str
@@ -196,22 +164,10 @@ def wall_view(
     unit: float = 0.0,
     disputed: Collection[str] = (),
 ) -> WallView:
-    """Return a night as everybody sees it.
+    """Return a night as everyone sees it; `known` may be of an earlier state.
 
-    Parameters
-    ----------
-    state, known
-        the state, and what was worked out of it or of an earlier one.
-    name
-        what it is called where it has no name.
-    now
-        what time it is, such as 2025-03-01T19:30:00.
-    prizes
-        the money for each place.
-    unit
-        what it is rounded down to where places share it.
-    disputed
-        the matches of which the players have sent different scores.
+    `unit` is what shared prizes are rounded down to; in `disputed` matches the players have sent
+    different scores.
     """
     view = view_of(state, known)
     fresh = known if known and known.of is state else None
@@ -268,15 +224,7 @@ def _table(
 
 
 def pictures_of(view: WallView, *, told: int) -> list[str]:
-    """Return what the wall shows in turn of a night: tables, bracket, story, end, or check-in.
-
-    Parameters
-    ----------
-    view
-        the night.
-    told
-        how many steps its story has.
-    """
+    """Return what the wall shows in turn: tables, bracket, story (`told` steps), end, check-in."""
     if not view.state.drawn:
         return ["check-in"]
     bracket = [] if view.state.plan.form == "chips" else ["bracket"]

@@ -34,15 +34,7 @@ _LOG = logging.getLogger(__name__)
 
 
 class Watch:
-    """What was entered last, and who waits for more.
-
-    Parameters
-    ----------
-    path
-        the file.
-    most
-        how many may follow it at once; an address may have half of that.
-    """
+    """The last entry, and who waits for more; one address may have half of the `most` followers."""
 
     def __init__(self, path: Path, most: int) -> None:
         self.path = path
@@ -139,17 +131,10 @@ class Watch:
 def stream_of(
     request: Request, told: Callable[[str | None], Awaitable[bytes]], last: str | None = None
 ) -> Response:
-    """Stream server-sent events: one at once, and another whenever something was entered.
+    """Stream server-sent events: one at once, and another after each entry.
 
-    Parameters
-    ----------
-    request
-        who follows.
-    told
-        returns the next, given what the last entry was known by that was told; it looks at what was
-        entered after all that it waits for.
-    last
-        the last entry that they know.
+    `told` returns the next, given its name of the last entry sent; it looks at everything after
+    that.
     """
     watch: Watch = request.app.state.watch
     here = address_of(request)
@@ -171,15 +156,7 @@ def stream_of(
 
 
 class Waking:
-    """Wakes those who follow as soon as something was entered by whoever is answered.
-
-    Parameters
-    ----------
-    app
-        what answers.
-    watch
-        whom to wake.
-    """
+    """Wakes followers as soon as anyone answered has entered something."""
 
     def __init__(self, app: ASGIApp, *, watch: Watch) -> None:
         self.app = app

@@ -18,13 +18,10 @@ _LARGEST = 10**40
 def object_in(body: bytes) -> dict[str, Any]:
     """Return the JSON object in a body; an empty body is an empty object.
 
+    A ProblemError if it is something else, has a name twice, or is too deep or too large.
+
     >>> object_in(b'{"score": [7, 5]}'), object_in(b"")
     ({'score': [7, 5]}, {})
-
-    Raises
-    ------
-    ProblemError
-        if it is something else, has a name twice, or is too deep or too large to be meant.
     """
     try:
         found = msgspec.json.decode(body or b"{}", type=dict[str, Any])

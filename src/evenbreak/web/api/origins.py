@@ -23,15 +23,7 @@ _PRIVATE = b"access-control-request-private-network"
 
 
 class Origins:
-    """Lets named pages elsewhere use the interface, and takes cookies from all who ask it.
-
-    Parameters
-    ----------
-    app
-        what answers.
-    origins
-        the pages' origins, such as https://league.example.
-    """
+    """Lets pages at some origins use the interface, and strips cookies from all who ask it."""
 
     def __init__(self, app: ASGIApp, *, origins: Collection[str] = ()) -> None:
         self.app = app

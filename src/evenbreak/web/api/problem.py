@@ -56,18 +56,9 @@ class Problem:
 
 
 class ProblemError(RefusalError):
-    """A request to the interface that is refused.
+    """A refused request to the interface: as a `RefusalError`, with the name of the parameter.
 
-    Parameters
-    ----------
-    template, status, values
-        as of a `RefusalError`.
-    parameter
-        the name of the parameter that is wrong.
-    more
-        what the answer holds besides, such as `how` or what would be lost.
-    headers
-        of the answer.
+    `more` is what else the answer holds, such as `how` or what would be lost.
     """
 
     def __init__(

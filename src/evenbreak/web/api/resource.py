@@ -47,17 +47,7 @@ _SHOWN = 40  # characters of a wrong value that a problem repeats
 
 
 class Call(NamedTuple):
-    """What comes in.
-
-    Parameters
-    ----------
-    request
-        as it came.
-    site
-        the page that runs.
-    values
-        of the resource's parameters, checked by their kinds; what was left out has its default.
-    """
+    """An incoming request; values are checked by their kinds, with defaults filled in."""
 
     request: Request
     site: Site
@@ -66,26 +56,13 @@ class Call(NamedTuple):
 
 @dataclass(frozen=True)
 class Resource:
-    """An address of the interface: what it is asked, what it answers, who may ask.
+    """An address of the interface: its parameters, its answer, who may ask.
 
-    Parameters
-    ----------
-    path
-        below /api/v1, such as "/tonight/bracket".
-    does
-        what it does, in a sentence: the summary in OpenAPI and in the reference.
-    answer
-        returns a value that JSON can hold, a `Kept`, or a whole `Response`.
-    gives
-        what it answers: a frozen dataclass, or a JSON schema.
-    method
-        of HTTP.
-    asks
-        the parameters of the address (GET, and `EVENT`), or of the JSON body (POST).
-    scope
-        who may ask: "" everybody in the room, else whoever has a token for "scores" or "director".
-    streams
-        whether it goes on answering.
+    `path` is below /api/v1; `does` is its summary in OpenAPI and in the reference; `answer` returns
+    a value that JSON can hold, a `Kept`, or a whole `Response`, described by `gives`, a frozen
+    dataclass or a JSON schema. `asks` are the parameters of the address (GET, and `EVENT`), or of
+    the JSON body (POST). The scope is "" for everyone on the network, "scores" or "director" for
+    those with a token.
     """
 
     path: str
@@ -109,15 +86,7 @@ class Resource:
 
 
 class Kept(NamedTuple):
-    """An answer that is made once for all who ask, while what it is made of stays the same.
-
-    Parameters
-    ----------
-    of
-        what it is made of: objects and texts, as `Site.rendered_of` takes them.
-    make
-        makes it.
-    """
+    """An answer made once for all who ask, as long as the objects in `of` are the same."""
 
     of: Sequence[object]
     make: Callable[[], Any]

@@ -28,17 +28,7 @@ PLACES = 4
 
 
 class Seen(NamedTuple):
-    """An event as everybody sees it.
-
-    Parameters
-    ----------
-    view
-        what the wall shows of it.
-    known
-        what has been worked out of it, perhaps of an earlier state; None: nothing yet.
-    now
-        what time it is.
-    """
+    """An event as everyone sees it; `known` may be of an earlier state (None: nothing yet)."""
 
     view: WallView
     known: Known | None

@@ -76,23 +76,7 @@ class Change:
 
 
 def message(row: Row, state: Evening | None) -> bytes:
-    """Return an entry as the stream has it; b"" for a form that added nothing.
-
-    Parameters
-    ----------
-    row
-        the entry.
-    state
-        of its event: it knows the numbers of matches and the names of tables.
-
-    >>> row = Row(7, "1", 3, "2025-03-01T19:30:00", "redone", '{"entry": 2}')
-    >>> print(message(row, None).decode())
-    id: 7-cde79473
-    event: entry
-    data: {"id":"7-cde79473","at":"2025-03-01T19:30:00","kind":"redone","event":1,"entry":3,"of":2}
-    <BLANKLINE>
-    <BLANKLINE>
-    """
+    """Return an entry as the stream sends it; b"" for a form that added nothing."""
     if row.strand in _UNSEEN:
         change = Change(row.mark, row.at, _UNSEEN[row.strand])
     elif row.strand.isdigit():
@@ -125,16 +109,9 @@ def _message(event: str, mark: str, data: dict[str, Any]) -> bytes:
 
 
 def since(watch: Watch, states: Mapping[str, Evening], last: str) -> bytes:
-    """Return what has come in after an entry, or that all is to be read anew.
+    """Return what came in after an entry, or the advice to read everything again.
 
-    Parameters
-    ----------
-    watch
-        what was entered.
-    states
-        of the events of the night, by their strands.
-    last
-        what the last entry is known by that is known there.
+    `last` is the client's name for its last entry.
     """
     new = watch.since(last)
     if new is None:

@@ -105,12 +105,9 @@ def _route(name: str, move: Move[Evening, What]) -> Route:
 
 
 def _by_event(request: Request, form: Form) -> list[tuple[Night, Form]]:
-    """Return what a form enters in each event: all calls of a night may come in one, each `of` its.
+    """Return what a form enters in each event: one form may have all calls of a night.
 
-    Raises
-    ------
-    RefusalError
-        if there is no such event, or not as many matches as events and tables.
+    A RefusalError if there is no such event, or their number isn't that of matches and tables.
     """
     rows = list(zip(form.texts("of"), form.texts("match"), form.texts("table"), strict=False))
     if not rows:

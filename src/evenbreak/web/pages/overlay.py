@@ -48,29 +48,12 @@ _COLORS = ("accent", "ink", "back")
 
 
 class Plate(NamedTuple):
-    """What is shown of a table.
+    """What an overlay shows of a table.
 
-    Parameters
-    ----------
-    kind
-        playing, hill, called, two (the players disagree), next (it is to be called), won (it has
-        just ended), champion, or idle.
-    pair
-        the two players; the champion alone; nobody.
-    score
-        games won; None: none is shown.
-    needs
-        the games that each needs; None: of a chip tournament's rack.
-    chance, band
-        the first player's chance of the match, and where it lies if little is known of a rating.
-    round, race
-        in words.
-    winner
-        who won.
-    left
-        in how many seconds something else is to be shown; 0: when it happens.
-    chips
-        how many each has left in a chip tournament.
+    The kind is playing, hill, called, two (the players disagree), next (to be called), won (just
+    ended), champion, or idle. `pair` is the champion alone, or empty. `chance` is the first
+    player's, `band` its range where little is known of a rating. `left` is the seconds until
+    something else is shown; 0: until it happens.
     """
 
     kind: str
