@@ -78,12 +78,7 @@ class TakenBack(NamedTuple, Generic[Entered]):
 
 
 class Log(Generic[Entered]):
-    """Entries in their order, of which some are undone.
-
-    Parameters
-    ----------
-    fixed
-        how many entries at the beginning cannot be undone.
+    """Entries in order, some undone; the first `fixed` entries can't be.
 
     >>> log = Log()
     >>> for number, what in enumerate(["a", "b", Undone(), Undone(1), Redone(2)], 1):
@@ -98,12 +93,9 @@ class Log(Generic[Entered]):
         self.undone: dict[int, TakenBack[Entered]] = {}
 
     def take(self, number: int, event: Entered) -> int | None:
-        """Take an entry; return the number of the one that it undoes or enters again, if it does.
+        """Take an entry; return the number of the one that it undoes or redoes, if it does.
 
-        Raises
-        ------
-        InputError
-            if something is undone that is not there, or done again that was not undone.
+        An InputError if that isn't there, or isn't undone.
         """
         match event.what:
             case Undone(entry=entry):
@@ -151,26 +143,14 @@ class Kinds(Generic[What]):
         return json.dumps(msgspec.to_builtins(what))
 
     def read(self, kind: str, text: str) -> What:
-        """Return what happened from the name of its kind and its JSON.
-
-        Raises
-        ------
-        InputError
-            if it is no such entry; the message names the field.
-        """
+        """Return an entry from its kind and JSON; an InputError names the field that is wrong."""
         if kind not in self.kinds:
             raise InputError("{kind!r} isn't a kind of entry", kind=kind[:40])
         return read_json(self.kinds[kind], text)
 
 
 def read_json(kind: type[What], text: str) -> What:
-    """Return a value of a class from its JSON.
-
-    Raises
-    ------
-    InputError
-        if a field is missing, unknown, not of its kind, or outside its limits.
-    """
+    """Return a value of a class from its JSON; an InputError if a field is missing or wrong."""
     try:
         data = json.loads(text, parse_constant=_lowest)
         json.dumps(data, ensure_ascii=False).encode()  # no half of a letter is in it

@@ -20,22 +20,11 @@ class AlreadyError(InputError):
 class Move(Generic[State, What]):
     """Something that can be entered on a night.
 
-    Parameters
-    ----------
-    question
-        what is asked for it: its fields are the options of a command and the fields of a form.
-    decide
-        returns what happens, given the state, what is asked, and when it is entered. It raises an
-        `InputError` if the rules do not allow it, an `AlreadyError` if it is so already.
-    said
-        returns in words what that changed, given the state before and after, and what was asked.
-    doubts
-        returns in the same way what may be wrong with it, though it was entered.
-    would
-        returns in words what it would do, of a move that is asked about before it is entered even
-        if it takes nothing away; None: the others.
-    by
-        who may: the director, or whoever is in the room.
+    The question's fields are the options of a command and the fields of a form. `decide` returns
+    the entries for a state, a question and a time, or raises an `InputError` (against the rules) or
+    an `AlreadyError`. `said` and `doubts` return in words what it changed and what may be wrong
+    with it, given the states before and after; `would` returns what it would do, for a move that is
+    confirmed first even if it takes nothing away.
     """
 
     question: type

@@ -132,17 +132,7 @@ def takes_any(question: type) -> bool:
 
 
 def taken(question: Any, typed: Mapping[str, Any], league: LeagueFile) -> list[Taken]:
-    """Return what a question takes from a league's file.
-
-    Parameters
-    ----------
-    question
-        what is asked.
-    typed
-        the fields that have a value already.
-    league
-        the file.
-    """
+    """Return what a question takes from a league's file for fields without a value."""
     every = list(_offered(question, typed, league))
     has = {*typed, *(one.name for one in every)}
     if not all(one.name in has for one in declared(question) if one.required):

@@ -284,16 +284,8 @@ def command_of(
 ) -> Callable[[Callable[..., Answer | None]], click.Command]:
     """Return a decorator that makes a command of the function that answers a question.
 
-    Parameters
-    ----------
-    question
-        what is asked; its docstring is the help of the command, and its `examples` end it.
-    name
-        the name of the command.
-    answers
-        whether there is an answer to print; False of a command that does something instead.
-    options
-        as for `faces`.
+    The question's docstring is the command's help, followed by its `examples`. Without `answers`
+    there is nothing to print; options are those of `faces`.
     """
 
     def decorate(answer: Callable[..., Answer | None]) -> click.Command:

@@ -22,12 +22,8 @@ _PATIENCE = 8.0
 def cluster_at(address: str | None) -> Iterator[distributed.Client | None]:
     """Connect to a dask cluster; None where there is no address.
 
-    Raises
-    ------
-    InputError
-        if dask is not installed.
-    WorkerError
-        if no scheduler answers, or it has no worker; in the block, for whatever dask raises.
+    An InputError if dask is not installed; a WorkerError if no scheduler answers, or it has no
+    worker, and in the block, for whatever dask raises.
     """
     if address is None:
         yield None

@@ -24,20 +24,12 @@ Function = Callable[..., "Answer"]
 def faces(
     *, page: bool = True, always_text: bool = False, ask_face: bool = False, ask_page: bool = False
 ) -> Callable[[Function], Function]:
-    """Return a decorator that prints the `Answer` of a command, as its options ask.
+    """Return a decorator that prints the `Answer` of a command as its options ask.
 
-    Parameters
-    ----------
-    page
-        whether `--html FILE` writes the answer as a page; False if the command has an
-        option `--html` of its own.
-    always_text
-        whether a pipe gets text too, because the tables are written to files.
-    ask_face
-        whether the command gets the face (text, csv or json) as `face`, because some faces hold
-        less than others.
-    ask_page
-        whether the command writes the page itself, and gets its name as `page_file`.
+    `page` adds `--html FILE`, unless the command has its own. With `always_text` a pipe gets text
+    too, because the tables go to files. `ask_face` passes the format (text, csv or json) as `face`,
+    because some hold less; `ask_page` passes the page's name as `page_file`, for a command that
+    writes it.
     """
 
     def decorate(function: Function) -> Function:

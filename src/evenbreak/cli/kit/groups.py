@@ -14,18 +14,10 @@ if TYPE_CHECKING:
 
 
 class Entry(NamedTuple):
-    """Where a command lives, and its line in the help text.
+    """Where a command is, and its line and section in the help text.
 
-    Parameters
-    ----------
-    help
-        the line: what the command gives its user.
-    module
-        the module of `evenbreak.cli` whose `command` it is; a colon separates the name of the
-        command where it is another (`start:demo`); '' where the answer to its question is all
-        there is to it (`evenbreak.answers.asked`).
-    section
-        the heading under which it is listed.
+    The module is that of `evenbreak.cli` whose `command` it is, with a colon before another name
+    (`start:demo`); '' where an answer is all there is to it (`evenbreak.answers.asked`).
     """
 
     help: str
@@ -34,13 +26,7 @@ class Entry(NamedTuple):
 
 
 class LazyGroup(click.Group):
-    """A click group that lists its commands without importing them.
-
-    Parameters
-    ----------
-    table
-        each command by name, in the order of the help text; sections are listed as they come.
-    """
+    """A click group that lists its commands, in the order of the table, without importing them."""
 
     def __init__(self, *args: Any, table: Mapping[str, Entry], **options: Any) -> None:
         super().__init__(*args, **options)

@@ -102,20 +102,7 @@ class Working:
 
 
 class Progress:
-    """A bar that counts, shown only if the work takes long, and erased at its end.
-
-    Parameters
-    ----------
-    what
-        what is counted, such as 'charts designed'.
-
-    >>> with Progress("charts designed") as progress:
-    ...     progress(1)
-    >>> with Progress("seasons") as progress:
-    ...     progress(250, 1000)
-    >>> with Progress("dates") as progress:
-    ...     progress(100, 400, 0.04)
-    """
+    """A bar that counts, shown only if the work takes long, and erased at its end."""
 
     def __init__(self, what: str) -> None:
         self._what = what

@@ -167,10 +167,7 @@ def _races(
 ) -> LeagueRaces:
     """Return how races are set: by the chart or the fairest, for the league's list or the ratings.
 
-    Raises
-    ------
-    DataError
-        if the chart has skill levels, and neither the list nor the results state them.
+    A DataError if the chart has skill levels, and neither the list nor the results state them.
     """
     import numpy as np
 
@@ -206,13 +203,7 @@ def _races(
 
 
 def _last_levels(results: Results, chart: LevelChart | PointsChart) -> Roster:
-    """Return the skill level that each player had in the last match that states one.
-
-    Raises
-    ------
-    DataError
-        if no match states a level of the chart.
-    """
+    """Return each player's skill level in the last match that states one (DataError: none does)."""
     import numpy as np
 
     from evenbreak.handicaps.charts.played_chart import last_levels

@@ -249,14 +249,9 @@ def scale_by_chart(asked: Rate | Why | Validate | Report) -> Scale:
 def rated(
     asked: HowToRate, file: files.ResultsFile, scale: Scale, **more: Any
 ) -> tuple[Ratings, PriorChoice | None]:
-    """Return the ratings of results, and how their prior was chosen; `more` for `usual_ratings`.
+    """Return the ratings of results, with day-to-day form, and how their prior was chosen.
 
-    Form of the day is estimated with them.
-
-    Raises
-    ------
-    DataError
-        if no match counts.
+    `more` is for `usual_ratings`. A DataError if no match counts.
     """
     from evenbreak.ratings.usual import usual_ratings
 

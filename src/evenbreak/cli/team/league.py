@@ -250,18 +250,9 @@ def _next(to_come: Any, rounds: tuple[str, ...]) -> tuple[tuple[int, ...], str]:
 
 
 class Strengths(NamedTuple):
-    """How strong the players of teams are, and what is doubtful about their lists.
+    """The strengths of teams' players, and what is doubtful about their lists.
 
-    Parameters
-    ----------
-    rosters
-        the players of each team.
-    scale
-        of their ratings.
-    levels
-        how strong skill levels are, if the chances come from those.
-    warnings
-        about the lists.
+    `levels` are the strengths of skill levels, if the chances come from those.
     """
 
     rosters: list[ratings.Roster]
