@@ -26,7 +26,7 @@ def test_what_is_there_already_gives_no_event():
 @each_of(
     "state, move, why",
     [
-        (after(), lambda s: moves.put_up(s, 1, 1, ("Wim",)), "Racks names first"),
+        (after(), lambda s: moves.put_up(s, 1, 1, ("Wim",)), "Racks puts up first"),
         (after(ANN), lambda s: moves.put_up(s, 0, 1, ("Bo",)), "already"),
         (after(ANN), lambda s: moves.put_up(s, 1, 2, ("Wim",)), "set 1 is next"),
         (after(ANN), lambda s: moves.put_up(s, 1, 1, ("Uli", "Vic")), "1 player in"),

@@ -84,16 +84,16 @@ def _check_turn(state: TeamEvening, team: int, number: int, *, replaces: bool) -
     if not state.due:
         if state.meeting.order[number - 1] == WINNER:
             raise InputError(
-                "the winner of set {last} names first in set {n}. Enter its result first.",
+                "the winner of set {last} puts up first in set {n}. Enter its result first.",
                 last=number - 1,
                 n=number,
             )
         raise InputError(
-            "the loser of set {last} names first in set {n}. Enter its result first.",
+            "the loser of set {last} puts up first in set {n}. Enter its result first.",
             last=number - 1,
             n=number,
         )
-    raise InputError("{team} names first in set {n}", team=state.teams[1 - team], n=number)
+    raise InputError("{team} puts up first in set {n}", team=state.teams[1 - team], n=number)
 
 
 def hand_in(state: TeamEvening, team: int, picks: tuple[Pick, ...]) -> list[What]:
