@@ -231,7 +231,7 @@ def test_every_game_is_answered_within_a_sharp_bound(game) -> None:
 def test_what_cannot_be_bounded_is_refused_by_name() -> None:
     """Left once in 10^17 steps: 1 less a chance to stay is 0 in floats."""
     chain = chain_of(OneBall(1e-17, 1e-17))
-    with pytest.raises(AccuracyError, match="use elimination"):
+    with pytest.raises(AccuracyError, match="Use elimination"):
         UnitPairs(chain).limit(chain.density())
 
 
@@ -245,7 +245,7 @@ def test_what_would_take_too_long_is_refused_at_once() -> None:
     chain = chain_from_arrays(range(n), arcs // n, arcs % n, chances, 0)
     begun = time.process_time()
     with pytest.raises(
-        AccuracyError, match=r"29,999 states that nothing cuts in two .*use elimination"
+        AccuracyError, match=r"29,999 states that nothing cuts in two .*Use elimination"
     ):
         stochastic_limit(chain, via="eigen")
     assert time.process_time() - begun < 3.0

@@ -69,9 +69,9 @@ def test_refusals() -> None:
         fit_chain([["a"], ["b"]])
     with pytest.raises(ChainError, match="no step"):
         fit_chain([])
-    with pytest.raises(ChainError, match="a sequence is 3"):
+    with pytest.raises(ChainError, match="a sequence must"):
         fit_chain([3])  # type: ignore[list-item]
-    with pytest.raises(ChainError, match="a sequence is"):
+    with pytest.raises(ChainError, match="a sequence must"):
         fit_chain([[["a"], ["b"]]])  # type: ignore[list-item]
     with pytest.raises(ChainError, match="start is 'z'"):
         fit_chain([["a", "b"]], start="z")

@@ -40,9 +40,9 @@ def test_no_probability(p: object) -> None:
 
 @pytest.mark.parametrize("who", [0, 3, None])
 def test_no_player(who: object) -> None:
-    with pytest.raises(InputError, match="player is"):
+    with pytest.raises(InputError, match="player must"):
         Rack(0.5).chance(who)  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="breaker is"):
+    with pytest.raises(InputError, match="breaker must"):
         Rack(0.5).chance(1, who)  # type: ignore[arg-type]
 
 

@@ -141,13 +141,25 @@ def test_newcomer_steps_repay_it_sooner():
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
-        ({"dumped": -1}, "dumped is -1"),
+        ({"dumped": -1}, "dumped must be a whole number from 0 to 1000; you gave -1"),
         ({"dumped": 130}, "wider ladder"),
-        ({"earnest": 0}, "earnest is 0"),
-        ({"earnest": 2000}, "earnest is 2000"),
-        ({"stake": -1.0}, "stake is -1.0"),
-        ({"start": 0.5}, "start is 0.5"),
-        ({"start": 500}, "start is 500"),
+        ({"earnest": 0}, "earnest must"),
+        ({"earnest": 2000}, "earnest must be a whole number from 1 to 1000; you gave 2000"),
+        ({"stake": -1.0}, r"stake must be a finite number, 0 or more; you gave -1\.0"),
+        (
+            {"start": 0.5},
+            (
+                r"start must be a rating error in whole points from -120 to 120, or a larger "
+                r"widest; you gave 0\.5"
+            ),
+        ),
+        (
+            {"start": 500},
+            (
+                "start must be a rating error in whole points from -120 to 120, or a larger "
+                "widest; you gave 500"
+            ),
+        ),
     ],
 )
 def test_what_cannot_be_is_refused(asked, message):

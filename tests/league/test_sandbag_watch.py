@@ -93,7 +93,7 @@ def test_alpha_is_a_chance(alpha):
 
 
 def test_the_honest_are_of_two_kinds():
-    with pytest.raises(InputError, match="honest is 'all'"):
+    with pytest.raises(InputError, match="honest must be 'any' or 'established'; you gave 'all'"):
         watch([], NPL, LAW, honest="all")
 
 
@@ -107,7 +107,7 @@ def test_e_is_held_where_a_float_ends():
 def test_the_form_of_the_day_is_no_sandbagging():
     told = watched(day_sd=60.0)["Bo"]
     assert told.log_e.max() < watched()["Bo"].log_e.max()
-    with pytest.raises(InputError, match="day_sd is 500"):
+    with pytest.raises(InputError, match="day_sd must be a number from 0 to 120; you gave 500"):
         watched(day_sd=500.0)
 
 

@@ -106,5 +106,5 @@ def test_progress_goes_from_none_to_all():
 )
 def test_numbers_are_whole_and_large_enough(name, value):
     right = {"replicas": 1, "seed": 1, "jobs": 1}
-    with pytest.raises(InputError, match=f"{name} is "):
+    with pytest.raises(InputError, match=f"{name} must be "):
         simulate(SEASON, **{**right, name: value})

@@ -131,5 +131,5 @@ def test_arrays_and_tiny_chances():
 
 def test_only_races_have_one():
     assert shutout_probability(Ahead(2, 2, Rack(0.5))) is None
-    with pytest.raises(InputError, match="player is 3"):
+    with pytest.raises(InputError, match="player must"):
         shutout_probability(Race(2, 2, Rack(0.5)), player=3)

@@ -277,11 +277,11 @@ def test_arrays_broadcast_and_scalars_stay_scalars() -> None:
 @pytest.mark.parametrize(
     ("shot", "options", "said"),
     [
-        ((-1.6,), {}, "cut is -1.6"),
-        (([0.1, 1.6],), {}, "cut holds 1.6"),
-        ((0.1,), {"speed": -1.0}, "speed is -1.0"),
-        ((0.1,), {"mu": math.nan}, "mu is nan"),
-        ((0.1,), {"friction": "Shepard's"}, "friction is"),
+        ((-1.6,), {}, "it is -1.6"),
+        (([0.1, 1.6],), {}, "it holds 1.6"),
+        ((0.1,), {"speed": -1.0}, "speed must be a number from 0 to 1e+50; it is -1.0"),
+        ((0.1,), {"mu": math.nan}, "is nan"),
+        ((0.1,), {"friction": "Shepard's"}, "friction must"),
     ],
 )
 def test_refusals(shot: tuple[Any, ...], options: dict[str, Any], said: str) -> None:

@@ -87,7 +87,7 @@ def test_a_plot_is_drawn_on_the_axes_given_and_on_no_others(plot):
     ],
 )
 def test_what_is_not_plain_axes_is_refused(ax):
-    with pytest.raises(InputError, match="ax is"):
+    with pytest.raises(InputError, match="ax must"):
         draw(OneBall(0.4, 0.8), ax=ax)
 
 

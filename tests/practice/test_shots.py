@@ -240,16 +240,22 @@ def test_a_shot_may_have_fractions():
 @each_of(
     "ask, remedy",
     [
-        (lambda: one_ball_win(1.5, 0.5), "p1 is 1.5, not a probability"),
-        (lambda: one_ball_win(0.5, math.nan), "p2 is nan, not a probability"),
+        (lambda: one_ball_win(1.5, 0.5), "p1 must be a number from 0 to 1; you gave 1.5"),
+        (lambda: one_ball_win(0.5, math.nan), "p2 must be a number from 0 to 1; you gave nan"),
         (lambda: one_ball_win([0.5] * 2, [0.5] * 3), "broadcast"),
         (lambda: one_ball_win(0.5, 0.5, look_ahead="three"), "'infinite' or 'two shots'"),
-        (lambda: critical_p2(-0.1), "p1 is -0.1"),
-        (lambda: break_even_p2(0.5, 2), "win is 2"),
+        (lambda: critical_p2(-0.1), "p1 must be a number from 0 to 1; you gave -0.1"),
+        (lambda: break_even_p2(0.5, 2), "win must"),
         (lambda: break_even_p2(0.5, 0.5, look_ahead=2), "'infinite' or 'two shots'"),
-        (lambda: ShotChoice("bank", 0.5, "often"), "p2 is 'often'"),
-        (lambda: compare_shots([]), "shots is empty"),
-        (lambda: compare_shots([(0.4, 0.6)]), "a shot is (0.4, 0.6)"),
+        (
+            lambda: ShotChoice("bank", 0.5, "often"),
+            "p2 must be a number from 0 to 1; you gave 'often'",
+        ),
+        (lambda: compare_shots([]), "shots must have"),
+        (
+            lambda: compare_shots([(0.4, 0.6)]),
+            "a shot must be ShotChoice(name, p1, p2); you gave (0.4, 0.6)",
+        ),
         (
             lambda: compare_shots([ShotChoice("", 0.5, 0.5)], look_ahead=""),
             "'two shots' or 'all shots'",

@@ -190,9 +190,9 @@ def test_a_component_without_a_named_player_stays_at_the_center():
     ("anchor", "words"),
     [
         ({"X": 80}, "'X'"),
-        ({"A": math.nan}, "anchor of 'A' is nan"),
-        ({"A": "high"}, "anchor of 'A' is 'high'"),
-        ("high", "anchor is 'high'"),
+        ({"A": math.nan}, "anchor of 'A' must be a finite number of points; you gave nan"),
+        ({"A": "high"}, "anchor of 'A' must be a finite number of points; you gave 'high'"),
+        ("high", "anchor must be a finite number of points; you gave 'high'"),
     ],
 )
 def test_wrong_anchors_are_refused(anchor, words):
@@ -202,7 +202,7 @@ def test_wrong_anchors_are_refused(anchor, words):
 
 def test_players_who_never_met_have_no_difference():
     ratings = fit(Results.from_names(["A", "C"], ["B", "D"], [7, 7], [2, 3]))
-    with pytest.raises(InputError, match="not connected"):
+    with pytest.raises(InputError, match="aren't connected"):
         ratings.difference_error("A", "C")
 
 

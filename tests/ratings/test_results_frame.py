@@ -99,23 +99,50 @@ def test_a_forfeit_needs_no_score():
 @each_of(
     "columns, named",
     [
-        ({"score_b": [5, 2.5]}, r"row 1: score_b is 2.5"),
-        ({"score_b": [5, -1]}, r"row 1: score_b is -1"),
-        ({"score_b": [5, "7-5"]}, r"row 1: score_b is '7-5'"),
-        ({"score_b": [5, None]}, r"row 1: score_b is empty"),
-        ({"score_b": [5, True]}, r"row 1: score_b is True"),
-        ({"score_b": [5, 10**30]}, r"row 1: score_b is 1000"),
-        ({"player_b": ["Bo", None]}, r"row 1: player_b is empty"),
-        ({"player_b": ["Bo", 7]}, r"row 1: player_b is 7"),
+        ({"score_b": [5, 2.5]}, r"row 1: score_b must be a whole number, 0 or more; you gave 2\.5"),
+        ({"score_b": [5, -1]}, "row 1: score_b must be a whole number, 0 or more; you gave -1"),
+        (
+            {"score_b": [5, "7-5"]},
+            "row 1: score_b must be a whole number, 0 or more; you gave '7-5'",
+        ),
+        ({"score_b": [5, None]}, "row 1: score_b must not be empty"),
+        ({"score_b": [5, True]}, "row 1: score_b must be a whole number, 0 or more; you gave True"),
+        (
+            {"score_b": [5, 10**30]},
+            "row 1: score_b must be a whole number, 0 or more; you gave 1000",
+        ),
+        ({"player_b": ["Bo", None]}, "row 1: player_b must not be empty"),
+        ({"player_b": ["Bo", 7]}, "row 1: player_b must"),
         ({"player_b": ["Bo", "Bo"]}, r"row 1: .*both sides|row 1: .*'Bo'"),
-        ({"date": ["2026-01-31", "31/1/2026"]}, r"row 1: date is '31/1/2026'"),
-        ({"date": ["2026-01-31", 20260131]}, r"row 1: date is 20260131"),
-        ({"winner": ["a", "Zoe"]}, r"row 1: winner is 'Zoe'"),
+        (
+            {"date": ["2026-01-31", "31/1/2026"]},
+            "row 1: date must be a date such as 2026-01-31; you gave '31/1/2026'",
+        ),
+        (
+            {"date": ["2026-01-31", 20260131]},
+            "row 1: date must be a date such as 2026-01-31; you gave 20260131",
+        ),
+        (
+            {"winner": ["a", "Zoe"]},
+            "row 1: winner must be a, b or the name of one of the players; you gave 'Zoe'",
+        ),
         ({"winner": ["a", "a"], "race_a": 7, "race_b": 7}, r"row 1: winner"),
-        ({"forfeit": [False, "perhaps"]}, r"row 1: forfeit is 'perhaps'"),
-        ({"forfeit": [False, []]}, r"row 1: forfeit is \[\]"),
-        ({"break_format": ["winner", "random"]}, r"row 1: break_format is 'random'"),
-        ({"racks": ["aaaaaaabbbbb", "abc"]}, r"row 1: racks is 'abc'"),
+        (
+            {"forfeit": [False, "perhaps"]},
+            "row 1: forfeit must be True or False, yes or no; you gave 'perhaps'",
+        ),
+        (
+            {"forfeit": [False, []]},
+            r"row 1: forfeit must be True or False, yes or no; you gave \[\]",
+        ),
+        (
+            {"break_format": ["winner", "random"]},
+            "row 1: break_format must be winner, loser, alternate, a or b; you gave 'random'",
+        ),
+        (
+            {"racks": ["aaaaaaabbbbb", "abc"]},
+            "row 1: racks must be text of a and b such as 'abba'; you gave 'abc'",
+        ),
         ({"race_a": [7, 7], "race_b": [7, 9]}, r"row 1: "),
     ],
 )

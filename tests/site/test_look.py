@@ -136,7 +136,7 @@ def test_a_dark_enough_color_stays_as_it_is() -> None:
 
 @pytest.mark.parametrize("color", ["red", "#12", "1b6e53", "#1b6e5g", "#1b6e53;}body{display:none"])
 def test_what_is_no_color_is_refused_with_a_remedy(color: str) -> None:
-    with pytest.raises(InputError, match="write one such as"):
+    with pytest.raises(InputError, match="Write one such as"):
         accent(color)
 
 
@@ -144,9 +144,9 @@ def test_a_logo_is_known_by_its_content() -> None:
     assert logo_name(b"\xff\xd8\xff\xe0", "club.png") == "logo.jpg"
     assert logo_name(b"RIFF1234WEBPVP8 ", "club") == "logo.webp"
     for wrong in (b"<svg onload=alert(1)>", b"RIFF1234WAVE", b""):
-        with pytest.raises(InputError, match="save it as one"):
+        with pytest.raises(InputError, match="Save it as one"):
             logo_name(wrong, "club.png")
-    with pytest.raises(InputError, match="save it smaller"):
+    with pytest.raises(InputError, match="Save it smaller"):
         logo_name(b"\x89PNG\r\n\x1a\n" + bytes(MOST_LOGO_BYTES), "club.png")
 
 

@@ -293,12 +293,12 @@ class TestShapes:
 @pytest.mark.parametrize(
     ("games", "p", "message"),
     [
-        (-1, 0.5, "games is -1"),
-        (2.5, 0.5, "games is 2.5"),
-        (10, 1.5, "p is 1.5, not a probability"),
-        (10, math.nan, "p is nan, not a probability"),
-        (10, "0.5", "p is '0.5', not a probability"),
-        (10, [0.5, 0.6], "p is .*number from 0 to 1"),
+        (-1, 0.5, "games must be a whole number, 0 or more; you gave -1"),
+        (2.5, 0.5, r"games must be a whole number, 0 or more; you gave 2\.5"),
+        (10, 1.5, r"gave 1\.5"),
+        (10, math.nan, "gave nan"),
+        (10, "0.5", r"gave '0\.5'"),
+        (10, [0.5, 0.6], "p must be .*number from 0 to 1"),
     ],
 )
 def test_wrong_parameters_are_refused(games: Any, p: Any, message: str) -> None:
@@ -309,11 +309,11 @@ def test_wrong_parameters_are_refused(games: Any, p: Any, message: str) -> None:
 @pytest.mark.parametrize(
     ("p", "m", "n", "message"),
     [
-        (0.5, -1, 2, "m is -1"),
-        (0.5, 1, 2.5, "n is 2.5"),
-        (1.5, 1, 2, "p is 1.5, not a probability"),
-        (Fraction(3, 2), 1, 2, "p is .*, not a probability"),
-        (Fraction(1, 2), -1, 2, "m is -1"),
+        (0.5, -1, 2, "m must be .*-1"),
+        (0.5, 1, 2.5, r"is 2\.5"),
+        (1.5, 1, 2, r"gave 1\.5"),
+        (Fraction(3, 2), 1, 2, "p must be a number from 0 to 1"),
+        (Fraction(1, 2), -1, 2, "m must be .*-1"),
         (0.5, [1, 2], [1, 2, 3], r"m has shape \(2,\), n has shape \(3,\)"),
     ],
 )
@@ -326,17 +326,17 @@ def test_a_score_that_cannot_be_is_refused(p: Any, m: Any, n: Any, message: str)
 def test_a_coverage_is_a_probability(coverage: Any) -> None:
     law = GamesWon(10, 0.5)
     for ask in (law.normal_range, law.exact_range, critical_value):
-        with pytest.raises(InputError, match=r"coverage is .*"):
+        with pytest.raises(InputError, match=r"coverage must be .*"):
             ask(coverage)
 
 
 def test_no_z_covers_everything() -> None:
     for ask in (GamesWon(10, 0.5).normal_range, critical_value):
-        with pytest.raises(InputError, match="coverage is 1"):
+        with pytest.raises(InputError, match="coverage must"):
             ask(1)
 
 
 @pytest.mark.parametrize("z", [-1, math.nan, "x", [1, -2]])
 def test_standard_units_are_not_negative(z: Any) -> None:
-    with pytest.raises(InputError, match=r"z (is|holds) .*"):
+    with pytest.raises(InputError, match=r"z must be .*"):
         coverage_within(z)

@@ -146,11 +146,31 @@ def test_welch_errs_as_often_as_said_where_student_does_not():
 @pytest.mark.parametrize(
     ("before", "after", "confidence", "remedy"),
     [
-        ([], [1, 2], 0.9, "before holds no scores"),
-        ([1, 2], [3], 0.9, "after holds 1 score"),
-        ([1, 2], [3, math.nan], 0.9, r"after holds nan"),
-        ([1, 2], ["x", 3], 0.9, "after is .*"),
-        ([1, 2], [3, 4], 1.0, "confidence is 1.0"),
+        (
+            [],
+            [1, 2],
+            0.9,
+            "before must hold two numbers or more, to show a spread; it holds no scores",
+        ),
+        (
+            [1, 2],
+            [3],
+            0.9,
+            "after must hold two numbers or more, to show a spread; it holds 1 score",
+        ),
+        (
+            [1, 2],
+            [3, math.nan],
+            0.9,
+            r"after must be a list of finite numbers, 1e\+09 at most; it holds nan",
+        ),
+        ([1, 2], ["x", 3], 0.9, "after must be .*"),
+        (
+            [1, 2],
+            [3, 4],
+            1.0,
+            r"confidence must be a number between 0 and 1, such as 0\.95; you gave 1\.0",
+        ),
     ],
 )
 def test_lists_that_cannot_be_compared(before, after, confidence, remedy):

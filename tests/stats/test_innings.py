@@ -175,10 +175,10 @@ def test_both_tails_keep_their_digits(p, innings, safety, scores):
     ("arguments", "remedy"),
     [
         ((0.5, 0), "innings must be"),
-        ((0.5, 2.5), "innings is 2.5"),
-        ((1, 3), "such a run never ends"),
+        ((0.5, 2.5), r"innings must be a whole number, 1 or more; you gave 2\.5"),
+        ((1, 3), "at 1 a run never ends"),
         ((0.99, 10_000), "fewer innings"),
-        ((0.9, 3, -0.1), "safety is -0.1"),
+        ((0.9, 3, -0.1), r"safety must be a number from 0 to 1; you gave -0\.1"),
     ],
 )
 def test_wrong_values_say_how_to_mend_them(arguments, remedy):

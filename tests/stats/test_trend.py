@@ -36,7 +36,11 @@ def test_a_slope_of_chance_is_called_one():
         ([0, 1], [5, 6, 7], "times holds 2 numbers, but scores 3"),
         ([1, 1, 1], [5, 6, 7], "times are all 1"),
         ([0, 1, 2], [5, 5, 5], "scores are all 5"),
-        ([1, 2, np.nan], [5, 6, 7], "times holds nan"),
+        (
+            [1, 2, np.nan],
+            [5, 6, 7],
+            r"times must be a list of finite numbers, 1e\+09 at most; it holds nan",
+        ),
     ],
 )
 def test_no_trend_without_time(times, scores, remedy):

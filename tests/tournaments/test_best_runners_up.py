@@ -133,7 +133,9 @@ def test_a_multiple_needs_no_runners_up() -> None:
     assert groups_then_knockout(16, 4, knockout_size=8) == groups_then_knockout(16, 4)
     with pytest.raises(InputError, match="fewer groups"):
         groups_then_knockout(13, 4, knockout_size=13)
-    with pytest.raises(InputError, match="knockout_size is 13"):
+    with pytest.raises(
+        InputError, match="knockout_size must be a whole number from 2 to 12; you gave 13"
+    ):
         groups_then_knockout(12, 4, knockout_size=13)
     with pytest.raises(InputError, match="knockout_size"):
         groups_then_knockout(12, 4, knockout_size=1)

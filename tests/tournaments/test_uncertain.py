@@ -87,7 +87,7 @@ def test_large_brackets_are_drawn_for_each_draw(monkeypatch) -> None:
 
 @pytest.mark.parametrize(
     ("spread", "named"),
-    [([1.0] * 7, "shape"), ([-1.0] * 8, "negative"), (-np.eye(8), "covariance")],
+    [([1.0] * 7, "shape"), ([-1.0] * 8, "deviations,"), (-np.eye(8), "covariance")],
 )
 def test_what_is_no_spread_is_refused(spread, named: str) -> None:
     with pytest.raises(InputError, match=named):

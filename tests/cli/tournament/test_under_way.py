@@ -223,7 +223,7 @@ def test_another_event_is_played_on_the_same_tables(begun, tmp_path):
     more.write_text("player,rating\nEd,90\nFlo,80\nGus,70\nHal,60\n")
     new = ("tournament", "new", str(more), "--format", "single", "--race", "3", "--beside")
     said = begun.run(*new, "--out", begun.file, "--text")
-    assert "It is event 2 of the night: give --event 2 to the other commands." in said.stdout
+    assert "It is event 2 of the night: use --event 2 with the other commands." in said.stdout
     first = begun("call", "1")["next"][0]
     begun("draw", "--event", "2")
     other = begun("call", "1", "--event", "2")["next"][0]

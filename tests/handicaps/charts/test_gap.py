@@ -128,7 +128,7 @@ def test_many_pairs_go_in_parts():
 @each_of(
     "call, remedy",
     [
-        (lambda: Gap(math.inf, 1.0).win(5, 5), "difference is inf"),
+        (lambda: Gap(math.inf, 1.0).win(5, 5), "difference must be a finite number; it is inf"),
         (lambda: Gap(0.0, -1.0).win(5, 5), "is -1"),
         (lambda: Gap(0.0, 301.0).win(5, 5), "is 301"),
         (lambda: Gap([0.0, 1.0], 1.0).win([1, 2, 3], 5), "m has shape"),

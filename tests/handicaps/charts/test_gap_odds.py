@@ -56,7 +56,12 @@ def test_ratings_that_are_sure_give_the_odds_of_the_match(match):
     ("match", "difference", "error", "named"),
     [
         (Race(5, 4, EVEN), "much", 10.0, "difference"),
-        (Race(5, 4, EVEN), 10.0, -1.0, "error is -1"),
+        (
+            Race(5, 4, EVEN),
+            10.0,
+            -1.0,
+            r"error must be 0 to 300 points \(10 doublings of the odds\); it is -1",
+        ),
         (Race(5, 4, EVEN), 10.0, [1.0, 2.0], "a single number"),
         ("5:4", 10.0, 10.0, "match"),
         (Race(5, 4, Rack(0.6, 0.5), breaks=winner_breaks), 10.0, 10.0, "break"),

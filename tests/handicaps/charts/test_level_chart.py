@@ -68,14 +68,14 @@ def test_shapes_that_do_not_go_together():
 @pytest.mark.parametrize(
     ("levels", "needs", "message"),
     [
-        ([], [], "levels is empty"),
-        ([4, 3], [[2, 2], [3, 3]], "level 3 comes after 4"),
-        ([3, 3], [[2, 2], [3, 3]], "level 3 comes after 3"),
-        ([3.5, 4], [[2, 2], [3, 3]], "level 1 is 3.5"),
-        ([3, 4], [[2, 2]], "not a square for 2 levels"),
-        ([3, 4], [[2, 2], [3]], "not a square for 2 levels"),
-        ([3, 4], [2, 3], "not a square for 2 levels"),
-        ([3, 4], [[2, 2], [0, 3]], "needs of level 4 against 3 is 0; .* 1 or more"),
+        ([], [], "levels must not be empty"),
+        ([4, 3], [[2, 2], [3, 3]], "level must increase; 3 comes after 4"),
+        ([3, 3], [[2, 2], [3, 3]], "level must increase; 3 comes after 3"),
+        ([3.5, 4], [[2, 2], [3, 3]], r"level 1 must be a whole number, 0 or more; you gave 3\.5"),
+        ([3, 4], [[2, 2]], "isn't a square for 2 levels"),
+        ([3, 4], [[2, 2], [3]], "isn't a square for 2 levels"),
+        ([3, 4], [2, 3], "isn't a square for 2 levels"),
+        ([3, 4], [[2, 2], [0, 3]], "needs of level 4 against 3 must be .* 1 or more"),
         ([3, 4], [[2, 3], [2, 3]], "level 4 needs 2 games against level 3, which needs 3"),
     ],
 )

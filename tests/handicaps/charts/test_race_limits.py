@@ -16,12 +16,12 @@ def test_the_races_are_all_within_the_limits():
     [
         ({"games": (7, 5)}, "games is .7, 5"),
         ({"games": 7}, "games is 7"),
-        ({"games": (0, 5)}, "games is 0"),
+        ({"games": (0, 5)}, "games must"),
         ({"games": (6, 6)}, "7 or more"),
         ({"games": (5, 7), "weaker_least": 5}, "9 or more"),
         ({"games": (5, 7), "stronger_least": 5}, "9 or more"),
-        ({"games": (5, 7), "weaker_least": 0}, "weaker_least is 0"),
-        ({"games": (5, 7), "games_p90": 0}, "games_p90 is 0"),
+        ({"games": (5, 7), "weaker_least": 0}, "weaker_least must"),
+        ({"games": (5, 7), "games_p90": 0}, "games_p90 must"),
     ],
 )
 def test_limits_that_leave_nothing_are_refused(wrong, remedy):

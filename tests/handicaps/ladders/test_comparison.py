@@ -79,5 +79,13 @@ def test_a_point_that_another_beats_is_not_on_the_front():
 
 
 def test_nonsense_is_refused():
-    with pytest.raises(InputError, match="system is 'nothing'"):
+    with pytest.raises(
+        InputError,
+        match=(
+            r"system must be npl, step UP \[DOWN\], margin \[MOST\], elo \[K\], fixed "
+            r"\[GAMES\], none \[GAMES\], fargo-like, level-review, apa-like, tap-like, "
+            r"level-steps \[STEPS\], averages, win-percent or napa-like; you gave "
+            r"'nothing'"
+        ),
+    ):
         compare_systems(["nothing"])

@@ -50,5 +50,5 @@ def test_drift_leaves_the_period_alone():
 @pytest.mark.parametrize("start", [11, 0.5, "x", None, float("nan")])
 def test_an_error_off_the_ladder_is_refused(start):
     assert error_on(10, np.int64(-10)) == -10
-    with pytest.raises(InputError, match="start is "):
+    with pytest.raises(InputError, match="start must"):
         error_on(10, start)

@@ -140,7 +140,17 @@ def test_who_is_near_from_the_beginning_need_not_wait():
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
-    [((61,), "start is 61"), ((0, 0.0), "eps is 0.0"), ((0, 1.0), "eps is 1.0")],
+    [
+        (
+            (61,),
+            (
+                "start must be a rating error in whole points from -60 to 60, or a larger "
+                "widest; you gave 61"
+            ),
+        ),
+        ((0, 0.0), r"eps must be a number between 0 and 1; you gave 0\.0"),
+        ((0, 1.0), r"eps must be a number between 0 and 1; you gave 1\.0"),
+    ],
 )
 def test_nonsense_is_refused(arguments, message):
     with pytest.raises(InputError, match=message):

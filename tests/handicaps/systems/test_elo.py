@@ -17,7 +17,7 @@ def test_a_winner_may_lose_points_by_elos_update():
 
 
 def test_k_is_a_whole_number():
-    with pytest.raises(InputError, match="k is 'x'"):
+    with pytest.raises(InputError, match="gave 'x'"):
         elo_system("x")
 
 

@@ -14,7 +14,10 @@ def test_fixed_length_matches_are_the_pool_leagues_but_for_the_chart():
     assert {sum(row[2:]) for row in nine.usual_chart().rows} == {10}
 
 
-@pytest.mark.parametrize(("games", "message"), [(8, "7 or 9"), (1001, "games is 1001")])
+@pytest.mark.parametrize(
+    ("games", "message"),
+    [(8, "7 or 9"), (1001, "games must be a whole number from 1 to 999; you gave 1001")],
+)
 def test_lengths_are_odd_and_not_too_long(games, message):
     with pytest.raises(InputError, match=message):
         fixed_length_system(games)

@@ -45,7 +45,9 @@ def test_the_margin_is_nearly_fair_where_the_race_is():
 
 
 def test_the_most_points_are_a_whole_number():
-    with pytest.raises(InputError, match=r"most is 1\.5"):
+    with pytest.raises(
+        InputError, match=r"most must be a whole number from 1 to 1000; you gave 1\.5"
+    ):
         margin_system(1.5)
 
 

@@ -18,5 +18,5 @@ def test_an_established_player_and_a_system_without_newcomers():
 
 
 def test_matches_are_counted_from_0():
-    with pytest.raises(InputError, match="played is -1"):
+    with pytest.raises(InputError, match="played must be a whole number, 0 or more; you gave -1"):
         step_after(-1)

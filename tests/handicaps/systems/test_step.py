@@ -18,7 +18,11 @@ def test_steps_may_differ_between_winner_and_loser():
 
 @pytest.mark.parametrize(
     ("numbers", "message"),
-    [((0,), "up is 0"), ((1, -1), "down is -1"), ((1001,), "up is 1001")],
+    [
+        ((0,), "up must"),
+        ((1, -1), "down must be a whole number from 0 to 1000; you gave -1"),
+        ((1001,), "up must be a whole number from 1 to 1000; you gave 1001"),
+    ],
 )
 def test_numbers_out_of_reach_are_refused(numbers, message):
     with pytest.raises(InputError, match=message):

@@ -33,5 +33,5 @@ def test_an_own_chart_is_listed_once():
 def test_points_are_whole_and_within_reach():
     assert points_of(7, "up") == 7
     for value in (0, 1001, 1.5, "x"):
-        with pytest.raises(InputError, match="up is "):
+        with pytest.raises(InputError, match="up must"):
             points_of(value, "up")

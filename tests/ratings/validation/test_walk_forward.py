@@ -150,8 +150,8 @@ def test_an_unfinished_race_has_no_winner():
     ("change", "words"),
     [
         ({"date": None}, "no dates"),
-        ({"date": ["2024-09-03"] * 2}, "1 date;"),
-        ({"date": ["NaT"] * 2}, "0 dates;"),
+        ({"date": ["2024-09-03"] * 2}, "1 date"),
+        ({"date": ["NaT"] * 2}, "0 dates"),
     ],
 )
 def test_without_an_order_in_time_nothing_can_be_validated(change, words):
