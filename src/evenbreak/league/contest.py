@@ -55,13 +55,7 @@ and two uniform numbers to the places of those who play, as many of each team.""
 
 
 class Doublings:
-    """How the numbers that a system publishes and the skills of a world go together.
-
-    Parameters
-    ----------
-    system, world
-        the system and the world.
-    """
+    """How the numbers that a system publishes and the skills of a world go together."""
 
     def __init__(self, system: System, world: World) -> None:
         self.system, self.world = system, world

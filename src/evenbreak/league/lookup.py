@@ -32,15 +32,9 @@ _AT_ONCE = 64
 class Lookup:
     """A system's matches, looked up by difference of skills and of ratings; `lookup_of` makes it.
 
-    Parameters
-    ----------
-    table
-        what it was made of.
-    gap
-        the largest skill difference, in whole points; larger ones are treated as this one.
-    wins
-        P(player 1 wins) in 2^32nds, flat, at 2 * ((skill difference + gap) * races + number of
-        the race) and the place after it, so that the winner can be added to the place.
+    Skill differences larger than `gap`, in whole points, count as this one. `wins` has P(player 1
+    wins) in 2^32nds, flat, at 2 * ((skill difference + gap) * races + number of the race) and the
+    place after it, so that the winner can be added to the place.
     """
 
     table: MatchTable

@@ -33,11 +33,8 @@ _MOST = 128
 class RaceTables:
     """The chances of all races that were asked for, by number and gap of skills.
 
-    Parameters
-    ----------
-    form
-        standard deviation of the form of a player, in doublings: chances given the true skills are
-        means over the form of both.
+    `form` is the standard deviation of a player's form, in doublings: chances given the true skills
+    are means over the form of both.
 
     >>> tables = RaceTables(0.0)
     >>> place = tables.places(np.array([5, 5]), np.array([5, 4]), np.array([0.0, 0.0]))

@@ -66,22 +66,14 @@ beginner would look like somebody who dumps most of their matches."""
 class SandbagEvidence:
     """The evidence against several players at once, match by match.
 
-    Parameters
-    ----------
-    prior
-        the distribution of each player's skill at the start, shape (players, skills): skills are
-        whole points from -WIDEST to WIDEST around the rating.
-    shares
-        the shares of dumped matches to average over.
-    kinds
-        the number of ways in which dumped matches may be played.
+    `prior` is the distribution of each player's skill at the start, shape (players, skills): skills
+    are whole points from -WIDEST to WIDEST around the rating. `shares` of dumped matches are
+    averaged over; `kinds` is the number of ways to dump.
 
-    Notes
-    -----
     The arrays `drifting` (players, gains, skills from -FARTHEST to FARTHEST), `steady` (players,
     skills) and `other` (players, shares, kinds, skills) hold the likelihoods of honest players of
-    any skill, of established players, and of sandbaggers. Each is scaled, with the logarithm of
-    its scale kept separately, so that nothing leaves the range of a float.
+    any skill, of established players, and of sandbaggers. Each is scaled, with the logarithm of its
+    scale kept separately, so that nothing leaves the range of a float.
     """
 
     def __init__(self, prior: Floats, shares: Sequence[float], kinds: int) -> None:
@@ -95,21 +87,10 @@ class SandbagEvidence:
         self._log = {name: np.zeros(players) for name in _HELD}
 
     def add(self, drifting: Floats, kinds: Floats, *, marked: bool = True) -> None:
-        """Add a match of each player.
+        """Add a match of each player, maybe dumped if `marked`.
 
-        Parameters
-        ----------
-        drifting
-            the chance of the result, shape (players, gains, 2 * FARTHEST + 1).
-        kinds
-            its chance in each way of dumping, shape (players, kinds, skills).
-        marked
-            whether the match may have been dumped.
-
-        Raises
-        ------
-        AccuracyError
-            if the result is all but impossible at every skill.
+        Chances of the result have shape (players, gains, 2 * FARTHEST + 1), and by way of dumping
+        (players, kinds, skills). An AccuracyError if it is all but impossible at every skill.
         """
         near = slice(FARTHEST - WIDEST, FARTHEST + WIDEST + 1)
         steady = drifting[:, GAINS.index(0.0), near]
@@ -175,18 +156,8 @@ def units(points: float, scale: Scale) -> int:
 class Result(NamedTuple):
     """A match as the watched player sees it.
 
-    Parameters
-    ----------
-    opponent
-        the opponent's rating, in whole points of which 30 double the odds.
-    games
-        games won and lost; None where only the winner is known.
-    race
-        games that the player and the opponent needed; None where that is not known.
-    won
-        whether the player won the match.
-    marked
-        whether the match is one of those that may have been dumped.
+    The opponent's rating is in whole points of which 30 double the odds; games and race, the
+    player's own first, are None where not known.
     """
 
     opponent: int
@@ -199,20 +170,8 @@ class Result(NamedTuple):
 class Likelihood:
     """The chance of a result, by how far the player's skill is above the opponent's rating.
 
-    Parameters
-    ----------
-    scale
-        what a difference of skill means for a game.
-    error
-        the distribution of a player's rating less skill, in points of the scale.
-    day_sd
-        standard deviation of every player's form, in points of the scale, drawn for each match.
-
-    >>> from evenbreak.ratings.scale import SCALES
-    >>> even = Likelihood(SCALES["npl"], Distribution((0,), (1.0,)))
-    >>> honest, feigned = even.of((5, 3), (5, 4), won=True, first=0, last=0)
-    >>> float(honest[0]) == 0.5**8, float(feigned[0])
-    (True, 0.0)
+    `error` is the distribution of a player's rating less skill, and `day_sd` the standard deviation
+    of everyone's form, drawn for each match, both in points of the scale.
     """
 
     def __init__(self, scale: Scale, error: Distribution, day_sd: float = 0.0) -> None:
@@ -234,19 +193,9 @@ class Likelihood:
     ) -> tuple[Floats, Floats]:
         """Return the chance of a result if it is honest, and if it is a feigned honest defeat.
 
-        The number of ways in which a score can come about is left out, since it does not depend
-        on the skills.
-
-        Parameters
-        ----------
-        games, race, won
-            as of `Result`.
-        first, last
-            the differences, skill less the opponent's rating, in points.
-
-        Returns
-        -------
-        two arrays of shape (last - first + 1,)
+        Arrays of shape (last - first + 1,): differences are skill less the opponent's rating, in
+        points. The number of ways in which a score can come about is left out, since it does not
+        depend on the skills.
         """
         points = np.arange(first + self.least, last + self.least + self.weights.size)
         p, q = _UNITS.win_probability(points), _UNITS.win_probability(-points)

@@ -269,10 +269,7 @@ def most_dumped(ladder: Ladder, start: int | Distribution = 0) -> int:
 def start_law(ladder: Ladder, start: int | Distribution) -> Floats:
     """Return the probability of each of the ladder's errors.
 
-    Raises
-    ------
-    InputError
-        if an error is not a whole number, or beyond the ladder's widest.
+    An InputError if an error is not a whole number, or beyond the ladder's widest.
 
     >>> from evenbreak.handicaps import Ladder
     >>> start_law(Ladder("npl", widest=10), -10)[:2]
@@ -290,15 +287,10 @@ def start_law(ladder: Ladder, start: int | Distribution) -> Floats:
 
 
 def earnest_matrix(ladder: Ladder, factor: int = 1) -> Floats:
-    """Return P(next error | error) of a match played in earnest, shape (errors, errors).
+    """Return P(next error | error) of a match that counts, shape (errors, errors).
 
-    Column-stochastic: v' = M v. A move beyond an end of the ladder is not made; a newcomer's
-    moves are multiplied by the factor.
-
-    Raises
-    ------
-    InputError
-        if the ladder's player drifts.
+    Column-stochastic: v' = M v. A move beyond an end of the ladder is not made; a newcomer's moves
+    are multiplied by the factor. An InputError if the ladder's player drifts.
     """
     refuse_drift(ladder)
     return move_matrix(ladder, factor).T

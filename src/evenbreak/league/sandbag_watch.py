@@ -249,30 +249,12 @@ def watch_player(
     *,
     shares: Sequence[float] = SHARES,
 ) -> tuple[Floats, Floats]:
-    """Return the logarithm of e after each match of a player.
+    """Return the logarithm of e after each match of a player, in the order played.
 
-    Parameters
-    ----------
-    rating
-        the rating at the start, in whole points of which 30 double the odds.
-    results
-        the matches, in the order in which they were played.
-    likelihood
-        of the scale and the rating errors.
-    shares
-        the shares of marked matches that a sandbagger may dump, to average over.
-
-    Returns
-    -------
-    two arrays of shape (results,)
-        against honest players of any skill; and against established ones, whose rating errors at
-        the start are those of `likelihood`.
-
-    >>> from evenbreak.ratings.scale import SCALES
-    >>> rightly = Likelihood(SCALES["npl"], Distribution((0,), (1.0,)))
-    >>> match = Result(80, (5, 4), (5, 5), True)
-    >>> watch_player(80, [match] * 3, rightly)[0].round(2).tolist()
-    [-0.34, -0.63, -0.89]
+    The rating at the start is in whole points of which 30 double the odds; the shares of marked
+    matches that a sandbagger may dump are averaged over. Of the two arrays of shape (results,), one
+    is against honest players of any skill, the other against established ones, whose rating errors
+    at the start are those of `likelihood`.
     """
     evidence = SandbagEvidence(skill_prior(likelihood), shares, len(DEPTHS) + 1)
     log_e = np.empty((2, len(results)))
@@ -309,16 +291,9 @@ def drift_room(place: int) -> tuple[int, int]:
 def at_skills(chance: Floats, feigned: Floats, place: int) -> tuple[Floats, Floats]:
     """Return a result's chance at each skill: for each honest gain, and for each way of dumping.
 
-    Parameters
-    ----------
-    chance, feigned
-        by difference along the last axis, from -FARTHEST less the room to fall.
-    place
-        how many matches came before.
-
-    Returns
-    -------
-    arrays of shape (..., gains, 2 * FARTHEST + 1) and (..., ways, 2 * WIDEST + 1)
+    Chances are by difference along the last axis, from -FARTHEST less the room to fall; `place` is
+    how many matches came before. Shapes (..., gains, 2 * FARTHEST + 1) and (..., ways, 2 * WIDEST +
+    1).
     """
     middle = FARTHEST + drift_room(place)[1]
 

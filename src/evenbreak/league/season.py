@@ -313,10 +313,7 @@ class Tally:
 def fifths_of(skill: NDArray[Any]) -> Ints:
     """Return each player's fifth by skill, 0 the weakest; equals go by their position.
 
-    Parameters
-    ----------
-    skill
-        players down, replicas across.
+    Players go down, replicas across.
 
     >>> fifths_of(np.array([[50.0], [90.0], [70.0], [60.0], [80.0]])).ravel()
     array([0, 4, 2, 1, 3])

@@ -30,26 +30,11 @@ DUMPED = 3.0
 class Night(NamedTuple):
     """What is drawn for a night, the same for every system.
 
-    Parameters
-    ----------
-    night
-        its number, from 1.
-    season
-        the number of its season, from 0.
-    a, b
-        positions of the players (or, in a team league, numbers of the teams) who meet, -1 for
-        an empty place; shape (matches, replicas) or (matches, 1).
-    here
-        who is there; shape (players, replicas).
-    skill
-        of the night, in doublings: form, drift and what a sandbagger holds back included.
-    luck
-        uniform numbers, one for each match.
-    pick
-        uniform numbers by which captains with a habit pick, one for each player; empty without
-        teams.
-    counts
-        whether its matches are those for which sandbaggers hold back in others.
+    Nights count from 1, seasons from 0. a and b are positions of players (or numbers of teams), -1
+    for an empty place, shape (matches, replicas) or (matches, 1); by player the shape is (players,
+    replicas). `skill` of the night, in doublings, includes form, drift and what a sandbagger holds
+    back; `luck` and `pick` are uniform numbers, by match, and by player for captains with a habit.
+    `counts`: sandbaggers hold back in other matches for these.
     """
 
     night: int
@@ -247,15 +232,6 @@ class World:
 
 class Play:
     """The draws of some replicas of a world, night by night.
-
-    Parameters
-    ----------
-    world
-        what is drawn.
-    replicas
-        how many leagues.
-    seed
-        of all draws.
 
     >>> world = World(LeaguePlayers.of([92, 80, 71, 64]), SCALES["npl"], weeks=3, newcomers=0)
     >>> [night.a.ravel().tolist() for night in Play(world, 2, np.random.SeedSequence(1))]

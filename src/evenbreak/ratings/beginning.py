@@ -39,15 +39,7 @@ from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
 
 class Known(NamedTuple):
-    """What a beginning says about the players of a file, in natural log-odds.
-
-    Parameters
-    ----------
-    information
-        J of each player, 0 where nothing is known.
-    pull
-        Jx of each player.
-    """
+    """What is known of a file's players beforehand: information J and pull Jx, in log-odds."""
 
     information: Floats
     pull: Floats
@@ -233,22 +225,11 @@ class Beginning:
 
 @dataclass(frozen=True, eq=False)
 class PriorMeans:
-    """The mean of each player's prior, and the levels that players share.
+    """The mean of each player's prior, and the levels that players share, in natural log-odds.
 
-    Attributes
-    ----------
-    mean
-        the known part of each player's mean, in natural log-odds.
-    design
-        how much of each level a player has, shape (players, levels).
-    level_sd
-        standard deviation of each level's own prior, which is about 0.
-    names
-        what each level is called, such as ('team', 'Cue Tips').
-    known
-        what earlier results say of the skills; None: nothing.
-    follow
-        what the means gain by the skills of others (see `at`); None: nothing.
+    `design` is each player's share of each level, shape (players, levels); `level_sd` is the
+    standard deviation of a level's own prior, about 0. `known` is what earlier results say of the
+    skills, `follow` what the means gain by the skills of others (see `at`).
     """
 
     mean: Floats
@@ -269,12 +250,9 @@ class PriorMeans:
         return np.asarray(self.level_sd**-2.0)
 
     def centered(self, among: Floats) -> PriorMeans:
-        """Return the same prior, shifted so that all means are 0 on average over some players.
+        """Return the same prior, shifted so that the means average 0 over some players, by weight.
 
-        Parameters
-        ----------
-        among
-            the weight of each player in the average; all 0 leaves the prior as it is.
+        If all weights are 0, nothing changes.
 
         >>> known = PriorMeans(np.array([0.0, 0.6]), np.array([[1.0], [0.0]]), np.array([0.5]))
         >>> known.centered(np.ones(2)).mean, known.centered(np.ones(2)).design.ravel()

@@ -37,12 +37,10 @@ def solve_columns(matrix: Any, diagonal: Floats, right: Floats, accuracy: float)
 
 
 def solve_unit(matrix: Any, right: Floats, accuracy: float) -> Floats:
-    """Return the solution of each column; the matrix has a unit diagonal.
+    """Return the solution for each column; the matrix has a unit diagonal.
 
-    Raises
-    ------
-    AccuracyError
-        if ten steps for each unknown are too few, as rounding makes the matrix nearly singular.
+    An AccuracyError if ten steps per unknown are too few, as rounding makes the matrix nearly
+    singular.
     """
     residual, direction = right.copy(), right.copy()
     solution = np.zeros_like(residual)
@@ -64,21 +62,13 @@ def solve_unit(matrix: Any, right: Floats, accuracy: float) -> Floats:
 
 
 def energies(matrix: Any, right: Any, accuracy: float) -> Floats:
-    """Return xᵀ A⁻¹ x for each column x, A symmetric and positive definite.
+    """Return xᵀ A⁻¹ x for each column x, A (or a product with it) symmetric, positive definite.
 
     Each step of conjugate gradients adds to it what lies in one more direction (Hestenes & Stiefel
     1952), so that neither the solution nor all of its digits are needed. What the further steps of
-    a column would add is estimated from the last two, which are about as far apart as the next.
-
-    Parameters
-    ----------
-    matrix
-        A, or what multiplies columns like it.
-    right
-        the columns.
-    accuracy
-        a column is done when a step adds no more than this part of the sum, and the square of what
-        is left over is no more than this part of that of x.
+    a column would add is estimated from the last two, which are about as far apart as the next. A
+    column is done when a step adds no more than `accuracy` of the sum, and the square of the
+    residual is no more than that part of that of x.
 
     >>> energies(np.diag([2.0, 4.0]), np.array([[1.0, 0.0], [1.0, 1.0]]), 1e-9).round(6)
     array([0.75, 0.25])

@@ -42,15 +42,7 @@ _SOLVED_UP_TO = 100
 
 
 class Pattern:
-    """Where a symmetric matrix has entries: for pairs that met, and on the diagonal.
-
-    Parameters
-    ----------
-    size
-        how many players there are.
-    low, high
-        the players of each pair, sorted by the low one and then the high one.
-    """
+    """The entries of a symmetric matrix: sorted pairs (low, high) that met, and the diagonal."""
 
     def __init__(self, size: int, low: Places, high: Places) -> None:
         starts = np.searchsorted(low, np.arange(size + 1))
@@ -71,22 +63,10 @@ class Pattern:
 class Curvature:
     """The Hessian of the negative log-posterior at its mode, in natural log-odds.
 
-    Attributes
-    ----------
-    size
-        how many players there are.
-    low, high, weight
-        the two players of each pair that met, sorted by the low player and then the high one,
-        and the pair's curvature, 0 or more.
-    precision
-        τ, the prior precision of a rating.
-    border, corner
-        the second derivatives in a rating and the break advantage, and in the advantage
-        twice; None where it is not estimated.
-    means
-        the levels that players share; None where there are none.
-    pattern
-        of the same pairs, to be used again; None: it is made where it is needed.
+    Pairs (low, high) are sorted, with their curvature, 0 or more, as weights; `precision` is τ, the
+    prior precision of a rating. `border` and `corner` are the second derivatives in a rating and
+    the break advantage, and in the advantage twice; None where it is not estimated. A `pattern` of
+    the same pairs is reused.
     """
 
     size: int
@@ -273,19 +253,10 @@ class Curvature:
         return whole
 
     def newton_step(self, gradient: Floats, slope: float, accuracy: float) -> tuple[Floats, float]:
-        """Return the step that Newton's method takes.
+        """Return Newton's step in ratings and levels, and in the break advantage.
 
-        Parameters
-        ----------
-        gradient, slope
-            the first derivatives in each rating and level, and in the break advantage.
-        accuracy
-            the relative residual of the linear systems.
-
-        Returns
-        -------
-        tuple
-            the step of the ratings and levels, and of the advantage.
+        `gradient` and `slope` are the first derivatives in these, `accuracy` is the relative
+        residual.
         """
         step = -self._for_step(gradient, accuracy)
         if self._border is None or self.corner is None:
@@ -338,16 +309,8 @@ def sums_by_player(
 ) -> Floats:
     """Return for each player the sum over their pairs, right to about one rounding.
 
-    A plain sum over 20,000 opponents moves in jumps: each term is rounded the same way.
-
-    Parameters
-    ----------
-    players
-        how many there are.
-    low, high
-        the two players of each pair.
-    for_low, for_high
-        what each pair adds to its low and its high player; the same where only one is given.
+    A plain sum over 20,000 opponents moves in jumps: each term is rounded the same way. Without
+    `for_high`, both players of a pair get the same.
 
     >>> sums_by_player(3, np.array([0, 0]), np.array([1, 2]), np.array([1.0, 10.0]))
     array([11., 1., 10.])

@@ -59,15 +59,8 @@ def form_variance(
 ) -> Estimate:
     """Return the variance of form that makes the scores of some matches most likely.
 
-    Parameters
-    ----------
-    difference, sd
-        what ratings that do not know the match say: the log-odds of a game, and how far they may
-        be off.
-    won, lost
-        the games of each match.
-    cluster
-        matches with the same number may depend on each other.
+    `difference` and `sd` are the log-odds of a game and their error by ratings that don't know the
+    match; matches of one cluster may depend on each other.
     """
     points, weights = normal_nodes(NODES)
 
@@ -150,12 +143,7 @@ def day_form(results: Results, ratings: Ratings) -> DayForm | None:
 
 
 def with_form(results: Results, ratings: Ratings) -> Ratings:
-    """Return ratings that allow for the form of the day, where it is established.
-
-    Parameters
-    ----------
-    results, ratings
-        the results, and what `fit` made of them.
+    """Return ratings that allow for day-to-day form, where it is established.
 
     >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5])
     >>> with_form(season, fit(season)).form is None

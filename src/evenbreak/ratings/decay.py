@@ -16,10 +16,7 @@ from evenbreak.ratings.results import Results
 def day_of(value: Any) -> np.datetime64:
     """Return a day: a date, a `numpy.datetime64`, or text such as '2026-01-31'.
 
-    Raises
-    ------
-    InputError
-        if it is none of these.
+    Anything else is an InputError.
 
     >>> day_of("2026-01-31")
     np.datetime64('2026-01-31')
@@ -41,13 +38,7 @@ def last_day(results: Results) -> np.datetime64 | None:
 
 
 def until(results: Results, as_of: np.datetime64) -> Bools:
-    """Return which matches were played by the end of a day.
-
-    Raises
-    ------
-    InputError
-        if a match has no date.
-    """
+    """Return which matches were played by the end of a day; an InputError if one has no date."""
     date = _dated(results)
     return np.asarray(date <= as_of)
 
@@ -55,28 +46,9 @@ def until(results: Results, as_of: np.datetime64) -> Bools:
 def match_weights(results: Results, half_life: float, as_of: np.datetime64 | None = None) -> Floats:
     """Return the weight of each match: 1 on the day `as_of`, 1/2 `half_life` days before.
 
-    A game of weight w enters the likelihood with the power w, so it counts as w games.
-
-    Parameters
-    ----------
-    results
-        matches that all have a date.
-    half_life
-        days, above 0.
-    as_of
-        the day from which ages are counted; None is the last date among the matches. A
-        later match has the weight 1.
-
-    Raises
-    ------
-    InputError
-        if half_life is not above 0, or a match has no date.
-
-    >>> season = Results.from_names(
-    ...     ["A", "A"], ["B", "B"], [7, 3], [5, 7], date=["2026-01-01", "2026-01-31"]
-    ... )
-    >>> match_weights(season, 30)
-    array([0.5, 1. ])
+    A game of weight w enters the likelihood with the power w, so it counts as w games. Without
+    `as_of` the last date counts; a later match has the weight 1. An InputError if half_life is not
+    above 0, or a match has no date.
     """
     days = positive(half_life, "half_life", wanted="a number of days above 0")
     date = _dated(results)

@@ -33,18 +33,8 @@ SEED = 1
 class DrawnDifferences:
     """Differences of skill, with signs drawn once for all ways to rate.
 
-    Parameters
-    ----------
-    players
-        how many there are.
-    low, high
-        the players of each pair that met, sorted by the low one and then the high one.
-    first, second
-        the players of each difference.
-    draws
-        K: a variance is off by √(2/K) of its second term.
-    accuracy
-        how exactly each draw is solved for, relative to its right side.
+    With K `draws`, a variance is off by √(2/K) of its second term; `accuracy` is the relative
+    residual of each draw.
     """
 
     def __init__(
@@ -84,13 +74,7 @@ class DrawnDifferences:
     ) -> Floats:
         """Return the variance of each difference; the parameters are those of a `Curvature`.
 
-        Parameters
-        ----------
-        matrix, diagonal
-            H and its diagonal.
-        weight, precision, means
-            what it is made of: of each pair that met, of every player's prior, and of what they
-            share.
+        `matrix` is H, with its diagonal.
         """
         moved = self._drawn(weight, precision, means)
         drawn = solve_columns(matrix, diagonal, moved, self._accuracy)

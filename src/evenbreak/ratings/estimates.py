@@ -35,15 +35,7 @@ That of the quantile of a normal distribution, from so many draws of it.
 
 
 class Estimate(NamedTuple):
-    """A figure with its 95% interval.
-
-    Parameters
-    ----------
-    value
-        the figure.
-    low, high
-        the ends of the interval.
-    """
+    """A figure with its 95% interval."""
 
     value: float
     low: float
@@ -75,14 +67,7 @@ def bootstrap_ratio(
 ) -> Estimate:
     """Return sum(above) / sum(below) with its percentile interval, resampling clusters.
 
-    Parameters
-    ----------
-    above, below
-        what each match adds.
-    cluster
-        the number of each match's cluster, from 0 up: matches of a cluster are drawn together.
-    rng
-        draws them.
+    Matches of a cluster, numbered from 0, are drawn together.
     """
     many = int(cluster.max()) + 1
     return ratio_over(above, below, cluster, samples(many, rng))
@@ -109,25 +94,13 @@ def logistic_coefficient(
 ) -> Estimate | None:
     """Return b where P(win) = 1 / (1 + exp(-(offset + b x))) fits best, with its interval.
 
-    With x the predicted log-odds, b is the calibration slope: 1 is right, below 1 the
-    predictions were too extreme. With x = 1 or -1, b is an advantage in log-odds.
+    With x the predicted log-odds, b is the calibration slope: 1 is right, below 1 the predictions
+    were too extreme. With x = 1 or -1, b is an advantage in log-odds. Rows are matches or games;
+    those of one cluster may depend on each other. None where they do not determine b: x is 0
+    throughout, or one side won everything.
 
-    Parameters
-    ----------
-    x, won, games, offset
-        a row a match (or a game).
-    cluster
-        rows of one cluster may depend on each other: the standard error is the sandwich's.
-
-    Returns
-    -------
-    Estimate or None
-        None where the rows do not determine b: x is 0 throughout, or one side won everything.
-
-    Notes
-    -----
-    Cox (1958), "Two further applications of a model for binary regression"; Liang & Zeger
-    (1986) for the standard error.
+    Cox (1958), "Two further applications of a model for binary regression"; Liang & Zeger (1986)
+    for the standard error, the sandwich's.
     """
     b = 0.0
     for _ in range(100):

@@ -27,23 +27,8 @@ _BEFORE, _NEVER = np.datetime64("0000-01-01", "D"), np.datetime64("9999-12-31", 
 class FirstEvenings:
     """The fields of the evenings on which players were first seen.
 
-    Parameters
-    ----------
-    results
-        the matches. Those at 0-0 from the last day of play on are still to be played; others at
-        0-0, forfeits, and matches without a date say nothing.
-    known
-        who is known before any of them; None: nobody.
-
-    >>> season = Results.from_names(
-    ...     ["Ann", "Cy", "Ann", "Cy"], ["Bo", "Di", "New", "Old"], [7] * 4, [5] * 4,
-    ...     event=["Open", "Novices"] * 2, date=["2026-01-01"] * 2 + ["2026-01-08"] * 2,
-    ... )
-    >>> skill = np.array([0.6, 0.0, -0.6, 0.0, 0.0, 0.0])
-    >>> evenings = FirstEvenings(season)
-    >>> evenings.see(slice(None))
-    >>> evenings.strength(skill)
-    array([ 0. ,  0. ,  0. ,  0. ,  0.3, -0.3])
+    Matches at 0-0 from the last day of play on are still to be played; others at 0-0, forfeits, and
+    matches without a date say nothing. `known` players are known before any of them.
     """
 
     def __init__(self, results: Results, known: Bools | None = None) -> None:

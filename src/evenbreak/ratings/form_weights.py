@@ -27,16 +27,9 @@ from evenbreak.ratings.results import Results
 
 
 def games_weight(difference: ArrayLike, games: ArrayLike, form: float) -> Floats:
-    """Return the weight of matches of which the games are known.
+    """Return the weight of matches whose games are known, played at some log-odds of a game.
 
-    Parameters
-    ----------
-    difference
-        log-odds of a game.
-    games
-        how many were played, 1 or more.
-    form
-        √v, the standard deviation of a game's log-odds.
+    `form` is √v, the standard deviation of a game's log-odds.
 
     >>> games_weight(0.0, [1, 12], 0.35).round(3)
     array([1.   , 0.748])
@@ -51,16 +44,8 @@ def form_weights(
 ) -> tuple[Floats, Floats]:
     """Return the weights of matches with games in them, and of those known by their winner alone.
 
-    A match known by its winner alone has the information of that instead of n p q.
-
-    Parameters
-    ----------
-    scored, won_only
-        the matches.
-    skill
-        of each player, in log-odds.
-    form
-        √v, the standard deviation of a game's log-odds.
+    The latter have the information of that instead of n p q. Skills are in log-odds; `form` is √v,
+    the standard deviation of a game's log-odds.
     """
     apart, raced = (skill[part.player_a] - skill[part.player_b] for part in (scored, won_only))
     race_a, race_b = won_only.races

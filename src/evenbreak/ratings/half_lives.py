@@ -19,15 +19,7 @@ HALF_LIVES = (90.0, 180.0, 365.0, 730.0, 1461.0)
 
 
 class HalfLifeGain(NamedTuple):
-    """What a half-life gains over games that never age.
-
-    Parameters
-    ----------
-    half_life
-        days after which a match counts half.
-    gain
-        how much log-loss a game it saves, in nats.
-    """
+    """The gain of a half-life, in days, over games that never age: log-loss per game, in nats."""
 
     half_life: float
     gain: Estimate
@@ -51,16 +43,8 @@ def half_life_gains(
 ) -> tuple[HalfLifeGain, ...]:
     """Return what each half-life gains in predicting a season from the days before.
 
-    Nothing is returned for a season of fewer than ten stretches.
-
-    Parameters
-    ----------
-    results, progress, share
-        as for `stretch_losses`.
-    prior_sd, levels
-        as for `fit`.
-    half_lives
-        days; None: those of `half_lives_for`.
+    A season of fewer than ten stretches has no gains. The options are those of `stretch_losses` and
+    `fit`; half-lives are in days, by default those of `half_lives_for`.
     """
     tried = half_lives_for(results) if half_lives is None else half_lives
     how = {"prior_sd": prior_sd, "levels": levels}

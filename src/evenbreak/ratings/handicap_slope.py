@@ -33,12 +33,7 @@ _BOX = [(-50.0, 50.0), (0.0, 3.0)]
 def handicap_slope(results: Results, x: Floats) -> Estimate | None:
     """Return k with its 95% interval; None where the matches do not determine it.
 
-    Parameters
-    ----------
-    results
-        matches with games in them.
-    x
-        by how much a is said to be stronger than b in each.
+    x is by how much a is supposed to be stronger than b in each match with games.
 
     >>> season = Results.from_names(["Ann"] * 4, ["Bo", "Cy"] * 2, [7, 5, 7, 6], [5, 7, 4, 7])
     >>> round(handicap_slope(season, np.ones(4)).value, 3)

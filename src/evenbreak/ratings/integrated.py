@@ -50,22 +50,11 @@ def normal_nodes(many: int = NODES) -> tuple[Floats, Floats]:
 
 @dataclass(frozen=True, eq=False)
 class Scores:
-    """The scores of matches, to be predicted.
+    """The scores of matches, to be predicted: those with known games first, then by winner alone.
 
-    Attributes
-    ----------
-    player_a, player_b
-        the players of each match: those whose games are known, then those known by their winner
-        alone.
-    broke
-        who broke: 0 not known, 1 a, -1 b; only the first where it does not matter.
-    won, lost
-        the games that a won and lost, by who broke: shape (len(broke), matches with games).
-    pattern, own_breaks
-        what is added where only the score says who broke (see `evenbreak.ratings.who_broke`):
-        the row of the term of each match, or -1.
-    a_won, race_a, race_b
-        of each match known by its winner alone.
+    `broke` is 0 for unknown, 1 for a, -1 for b, only the first where it doesn't matter; `won` and
+    `lost` have shape (len(broke), matches with games). `pattern` is each match's row in
+    `own_breaks`, or -1, where only the score shows who broke (see `evenbreak.ratings.who_broke`).
     """
 
     player_a: Places
@@ -103,19 +92,11 @@ class Scores:
         return float(self.won.sum() + self.lost.sum()) + len(self.a_won)
 
     def log_chances(self, mean: Floats, variance: Floats, advantage: Floats) -> Floats:
-        """Return ln P(score | how the players differ), for several ways to rate.
+        """Return ln P(score | how the players differ), in nats, for several ways to rate.
 
-        Parameters
-        ----------
-        mean, variance
-            of a's skill less b's, in natural log-odds: shape (ways, matches).
-        advantage
-            of the break, taken as known: shape (ways,).
-
-        Returns
-        -------
-        array
-            shape (ways, matches), in nats: of the games in some order, given how many there were.
+        It is of the games in some order, given how many there were. `mean` and `variance` are of
+        a's skill less b's, in natural log-odds, and the result, shape (ways, matches); the
+        advantage of the break, taken as known, has shape (ways,).
         """
         several = max(1, _AT_ONCE // (NODES * max(mean.shape[1], 1)))
         parts = [slice(k, k + several) for k in range(0, len(mean), several)]

@@ -49,28 +49,15 @@ _NOTHING = np.zeros((0, 0))
 
 
 def inverse_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> InverseDiagonal:
-    """Return the diagonal of the inverse of a diagonally dominant M-matrix.
+    """Return the diagonal of the inverse of a diagonally dominant M-matrix, shape (n, n).
 
-    Parameters
-    ----------
-    matrix
-        symmetric, positive on the diagonal, nowhere positive off it, shape (n, n).
-    row_sum
-        what every row sums to, above zero; None if they differ.
-
-    Returns
-    -------
-    InverseDiagonal
-        n values, with a relative error near rounding. For a matrix of 2,000 rows or more that
-        fills in they come from the cavity approximation (see the module) where that is within
-        0.2% at worst, 1e-5 as a rule. Failing that, for up to 5,000 rows they come from single
-        precision where the condition number is below 1000: within a few 1e-6 as a rule, and 1e-4
-        at worst. For more than 5,000 rows they are sampled, with the error stated.
-
-    Raises
-    ------
-    AccuracyError
-        if the matrix is not positive definite in floating point.
+    It is symmetric, positive on the diagonal, nowhere positive off it; `row_sum` is what every row
+    sums to, above zero; None if they differ. The n values have a relative error near rounding. For
+    a matrix of 2,000 rows or more that fills in they come from the cavity approximation (see the
+    module) where that is within 0.2% at worst, 1e-5 as a rule. Failing that, for up to 5,000 rows
+    they come from single precision where the condition number is below 1000: within a few 1e-6 as a
+    rule, and 1e-4 at worst. For more than 5,000 rows they are sampled, with the error stated. An
+    AccuracyError if the matrix is not positive definite in floating point.
 
     >>> path = sparse.csc_array([[2.0, -1.0, 0.0], [-1.0, 3.0, -1.0], [0.0, -1.0, 2.0]])
     >>> inverse_diagonal(path, 1.0).value
@@ -145,10 +132,10 @@ def _come_back(fronts: list[Front], roots: list[Floats], links: list[Floats]) ->
 
 
 def _without_traces(block: Floats) -> Floats:
-    """Return the block, written over, with zeros for entries too small to matter to anything.
+    """Return the block, overwritten, with zeros for entries too small to matter.
 
-    Along a chain of players they fade by a factor each; below the smallest normal float
-    arithmetic is a hundred times slower.
+    Along a chain of players they fade by a factor each; below the smallest normal float arithmetic
+    is a hundred times slower.
     """
     block[np.abs(block) < _TRACE] = 0.0
     return block

@@ -187,18 +187,9 @@ def met_as_newcomers(results: Results) -> Bools:
 
 
 class Knowledge:
-    """What is known about each player of a league so far.
+    """What is known about each player of a league so far; at first, nothing.
 
-    Parameters
-    ----------
-    results
-        the matches that will be seen and played, of which nothing is known yet.
-    levels
-        which of it matters.
-    stated
-        strengths by the same races; None: to be worked out.
-    evenings
-        the first evenings of the same players; None: to be looked for.
+    `levels` says which of it matters.
     """
 
     def __init__(
@@ -398,13 +389,7 @@ def has_handicaps(results: Results) -> bool:
 
 
 class StatedStrength:
-    """How strong players are by the races seen so far.
-
-    Parameters
-    ----------
-    results
-        the matches that will be seen.
-    """
+    """The strengths of players by the races seen so far."""
 
     def __init__(self, results: Results) -> None:
         self._players = len(results.players)

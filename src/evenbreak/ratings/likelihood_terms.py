@@ -42,21 +42,11 @@ from evenbreak.ratings.who_broke import BreakWinsTerms, count_broken
 class LikelihoodTerms:
     """What was played, as terms of the log-likelihood.
 
-    Attributes
-    ----------
-    players
-        how many there are.
-    low, high
-        the two players of each pair that met.
-    pair, broke, won, lost
-        of each term of games: its pair, who broke (1 the low player, -1 the high one, 0
-        not known), and the games the low player won and lost, weighted.
-    race_pair, race_side, race_m, race_n, race_weight
-        of each match known by its winner alone: its pair, who won (1 the low player, -1
-        the high one), the games that the winner and the loser needed, and its weight.
-    own_breaks, own_break_weight
-        how many racks players may have won on their own break, where only the score is known,
-        and the weight of each such term; the terms of games hold the middle of each.
+    Terms of games have a pair (low, high), who broke (1 the low player, -1 the high one, 0 not
+    known), and the games that the low player won and lost, weighted. Matches known by their winner
+    alone have the winner as `race_side` (1 or -1) and the games that winner and loser needed.
+    `own_breaks` is how many racks players may have won on their own break, where only the score is
+    known; the terms of games hold the middle of each.
     """
 
     players: int
@@ -164,17 +154,9 @@ class LikelihoodTerms:
 def likelihood_terms(
     scored: Results, won_only: Results, weights: tuple[Floats, Floats], *, breaks: bool
 ) -> LikelihoodTerms:
-    """Return results as terms of a likelihood.
+    """Return results as terms of a likelihood: with games, and with only race and winner.
 
-    Parameters
-    ----------
-    scored, won_only
-        matches with games in them, and matches known by race and winner alone, between the
-        same players.
-    weights
-        of the matches in `scored` and in `won_only`.
-    breaks
-        whether it matters who broke.
+    `weights` are those of the matches in both; `breaks`: it matters who broke.
     """
     players = len(scored.players)
     pairs, place = np.unique(

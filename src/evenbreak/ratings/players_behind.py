@@ -22,13 +22,7 @@ from evenbreak.arrays import Floats, Ints, Places
 
 
 class PlayersBehind(NamedTuple):
-    """The players of some matches.
-
-    Attributes
-    ----------
-    player_a, player_b
-        the two players of each match.
-    """
+    """The players of some matches."""
 
     player_a: Ints | Places
     player_b: Ints | Places

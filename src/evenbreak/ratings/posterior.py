@@ -56,24 +56,10 @@ class Mode(NamedTuple):
 def find_mode(pairs: PairCounts, precision: float) -> Mode:
     """Return the skills that are most likely a posteriori, in natural log-odds.
 
-    Each Newton system is solved by conjugate gradients, more exactly as the steps get
-    shorter.
+    Each Newton system is solved by conjugate gradients, more exactly as the steps get shorter. τ is
+    the prior precision 1/sd². An AccuracyError if the gradient's largest entry doesn't fall to 1e-8
+    min(1, τ), or to the rounding of the counts if that is more.
 
-    Parameters
-    ----------
-    pairs
-        what was played.
-    precision
-        τ, the prior precision 1/sd² in log-odds.
-
-    Raises
-    ------
-    AccuracyError
-        if the gradient's largest entry does not come down to 1e-8 min(1, τ), or to the
-        rounding of the counts if that is more.
-
-    Notes
-    -----
     The model: Bradley & Terry (1952).
     """
     # The prior weighs as much as 4τ games between equals: a start near the mode.
@@ -106,17 +92,11 @@ _ROUNDING = 1e-14
 
 
 def tolerance(precision: float, most: float, gradient: float = GRADIENT_TOLERANCE) -> float:
-    """Return how small the gradient of the negative log-posterior has to become, in games.
+    """Return how small the gradient of the negative log-posterior must be, in games.
 
-    Parameters
-    ----------
-    precision
-        τ, the prior precision of a skill. H >= τI, so a gradient g leaves the skills within
-        |g|/τ of the mode.
-    most
-        the most games of one player; their rounding limits what can be reached.
-    gradient
-        what is enough where τ is 1 or more.
+    H >= τI, τ the prior precision of a skill, so a gradient g leaves the skills within |g|/τ of the
+    mode. `most` are the most games of one player, whose rounding limits the result; `gradient` is
+    enough where τ is 1 or more.
     """
     return max(gradient * min(1.0, precision), _ROUNDING * most)
 
@@ -128,19 +108,8 @@ def find_zero(
 ) -> Mode:
     """Return the point at which a gradient is zero, within `enough` in each entry.
 
-    Parameters
-    ----------
-    start
-        where to begin.
-    gradient_at
-        the gradient at a point, and what returns the step to take from there.
-    enough
-        the largest entry of the gradient at which to stop.
-
-    Raises
-    ------
-    AccuracyError
-        if the gradient is still larger after `MOST_STEPS` steps.
+    `gradient_at` returns the gradient at a point, and a function for the step from there. An
+    AccuracyError after `MOST_STEPS` steps.
 
     >>> find_zero(np.zeros(2), lambda x: (x - 3.0, lambda: 3.0 - x), 1e-9)
     Mode(point=array([3., 3.]), gradient=0.0, iterations=1)
@@ -174,11 +143,9 @@ def step_accuracy(gradient: Floats) -> float:
 def damped(step: Floats, low: Places, high: Places) -> Floats:
     """Return a Newton step, shortened where it would change a skill difference by much.
 
-    Where the skills of opponents change by at most β, log(1 + β)/β of the step always goes
-    down, and so does all of it while β < 1.7. So no search for a step length is needed.
+    Where the skills of opponents change by at most β, log(1 + β)/β of the step always goes down,
+    and so does all of it while β < 1.7. So no search for a step length is needed.
 
-    Notes
-    -----
     Generalized self-concordance: Bach (2010); Sun & Tran-Dinh (2019), Theorem 2.
     """
     beta = float(np.abs(step[low] - step[high]).max(initial=0.0))
@@ -201,27 +168,10 @@ def find_mixed_mode(
 ) -> Mode:
     """Return the skills, levels and break advantage, in this order, most likely a posteriori.
 
-    Parameters
-    ----------
-    terms
-        what was played.
-    precision
-        τ, the prior precision of a skill, 1/sd² in log-odds.
-    advantage
-        the break advantage in log-odds: known, or where to begin.
-    break_precision
-        the prior precision of the advantage, about 0; None: it is known.
-    means
-        the means of the skills' priors and the levels that players share; None: all 0, and none.
-    start
-        skills from which to begin.
-    gradient
-        how small the gradient has to become, in games, times τ where that is below 1.
-
-    Raises
-    ------
-    AccuracyError
-        if the gradient does not come down to that, or to rounding.
+    Precisions, τ for skills, are 1/sd² in log-odds. Without a `break_precision` the advantage is
+    known; otherwise it's where to start, with a prior about 0. `gradient` is the size at which to
+    stop, in games, times τ where that is below 1; an AccuracyError if it isn't reached, nor
+    rounding.
     """
     players = terms.players
     beforehand = PriorMeans.none(players) if means is None else means
@@ -281,18 +231,7 @@ GRADIENT = 1e-6
 class WayToRate(NamedTuple):
     """What the skills of a season depend on, apart from its results.
 
-    Parameters
-    ----------
-    terms
-        what was played, in weights of its own.
-    precision
-        τ, the prior precision of a skill, 1/sd² in log-odds.
-    advantage
-        the break advantage in log-odds: known, or where to begin.
-    break_precision
-        the prior precision of the advantage, about 0; None: it is known.
-    means
-        where players are expected to be before any result; None: all at 0.
+    As for `find_mixed_mode`; the terms have weights of their own.
     """
 
     terms: LikelihoodTerms
@@ -305,17 +244,8 @@ class WayToRate(NamedTuple):
 def find_modes(ways: Sequence[WayToRate], start: Floats | None = None) -> tuple[Floats, Floats]:
     """Return the most likely skills, shape (ways, players), and break advantages, a posteriori.
 
-    Parameters
-    ----------
-    ways
-        one or more; their terms are of the same matches and differ in weights alone.
-    start
-        skills from which to begin.
-
-    Raises
-    ------
-    AccuracyError
-        if a gradient does not come down to what is wanted.
+    The terms of all ways are of the same matches and differ only in weights. An AccuracyError if a
+    gradient doesn't get small enough.
     """
     season = _Season(ways)
     skill = season.mean if start is None else np.broadcast_to(start, season.mean.shape)

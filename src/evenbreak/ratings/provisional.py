@@ -24,18 +24,7 @@ SHARE = 3.0
 
 
 def established_from(games: ArrayLike) -> int:
-    """Return from how many games a rating of a list is established: 200, or fewer in a small one.
-
-    Parameters
-    ----------
-    games
-        those that each rating rests on.
-
-    >>> established_from([400, 900, 12]), established_from([60] * 12 + [8] * 40)
-    (200, 20)
-    >>> established_from([11, 11]), established_from([0, 0])
-    (4, 1)
-    """
+    """Return from how many games a list's rating is established: 200, or fewer in a small one."""
     played = np.sort(np.asarray(games, dtype=float).clip(0.0))[::-1]
     total = played.cumsum()
     middle = played[np.searchsorted(total, total[-1] / 2.0)] if len(played) else 0.0
@@ -45,13 +34,8 @@ def established_from(games: ArrayLike) -> int:
 def is_provisional(games: ArrayLike, least: int | None = None) -> Bools:
     """Return which ratings rest on fewer games than a list asks for.
 
-    Parameters
-    ----------
-    games
-        those that each rating rests on; below 0 where that is not stated. Such a rating may rest
-        on none, unless it is stated for nobody, or only that players are new, by 0.
-    least
-        from how many games a rating is established; None: `established_from`.
+    Games below 0 are not stated: a rating may then rest on none, unless that is so for all, or the
+    list states only new players, by 0. `least` is by default `established_from`.
 
     >>> is_provisional([300, 12, -1]), is_provisional([-1, -1])
     (array([False,  True,  True]), array([False, False]))

@@ -29,12 +29,9 @@ _MOST_PROBLEMS = 20
 
 
 class FrameReader:
-    """Reads the columns of a frame and collects what is wrong in them.
+    """Reads the columns of a frame, one match per row, and collects what is wrong in them.
 
-    Parameters
-    ----------
-    frame
-        the matches, a row each; a row is called by its label in the index.
+    A row is called by its label in the index.
     """
 
     def __init__(self, frame: pd.DataFrame) -> None:
@@ -224,16 +221,10 @@ def folded(name: str) -> str:
 
 
 def usual_spellings(counts: Mapping[str, int], meant: Set[str] = frozenset()) -> dict[str, str]:
-    """Return the spelling to use of each name, by what `folded` makes of it.
+    """Return the spelling to use of each name, by its `folded` form.
 
-    It is the most frequent one; of several, one in mixed case, and with more blanks.
-
-    Parameters
-    ----------
-    counts
-        how often each name is written.
-    meant
-        spellings that come before all others.
+    It is the most frequent one, of several the one in mixed case and with more blanks; spellings in
+    `meant` come first.
 
     >>> usual_spellings({"ann lee": 1, "Ann Lee": 1, "BO": 2, "Bo": 1})
     {'annlee': 'Ann Lee', 'bo': 'BO'}

@@ -18,21 +18,12 @@ from evenbreak.ratings.scale import Scale, scale_of
 
 
 def error_of_games(games: ArrayLike, scale: Scale | str | float, most: float) -> Floats:
-    """Return how far off a rating may be of which only the games behind it are known.
+    """Return the standard error, at most `most`, of a rating of which only the games are known.
 
     A game between equals says p (1 - p) = 1/4 about the difference in log-odds, so n games against
     opponents whose ratings are known leave an error of 2 / sqrt(n): on the Fargo scale, on which
-    144 points are one unit of log-odds, 288.5 / sqrt(n) points. Until the games say more than
-    that, the error is the one of a new player.
-
-    Parameters
-    ----------
-    games
-        how many there are, 0 or more.
-    scale
-        of the ratings.
-    most
-        the error of a new player, in points.
+    144 points are one unit of log-odds, 288.5 / sqrt(n) points. Until the games say more than that,
+    the error is the one of a new player.
 
     >>> error_of_games([0, 1, 12, 200], "fargo", 100.0).round(1)
     array([100. , 100. ,  83.3,  20.4])

@@ -61,15 +61,10 @@ _MOST_STEPS = 5_000
 
 
 class InverseDiagonal(NamedTuple):
-    """The diagonal of an inverse.
+    """The diagonal of an inverse, n values.
 
-    Parameters
-    ----------
-    value
-        n values.
-    relative_error
-        the standard deviation of the relative error of the least certain of them; 0 where they
-        are not sampled.
+    `relative_error` is the standard deviation of the relative error of the least certain; 0 where
+    they aren't sampled.
     """
 
     value: Floats
@@ -79,15 +74,7 @@ class InverseDiagonal(NamedTuple):
 def sampled_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> InverseDiagonal:
     """Return the diagonal of the inverse of a diagonally dominant M-matrix, by blocks and draws.
 
-    Parameters
-    ----------
-    matrix, row_sum
-        as for `evenbreak.ratings.inverse_diagonal`.
-
-    Raises
-    ------
-    AccuracyError
-        if the matrix is singular to rounding.
+    As for `evenbreak.ratings.inverse_diagonal`; an AccuracyError if it is singular to rounding.
 
     >>> path = sparse.csc_array([[2.0, -1.0, 0.0], [-1.0, 3.0, -1.0], [0.0, -1.0, 2.0]])
     >>> sampled_diagonal(path, 1.0).value  # one block: exact
@@ -184,15 +171,7 @@ def _levels(
 
 
 class _Blocks:
-    """A matrix whose players are divided into blocks.
-
-    Parameters
-    ----------
-    matrix
-        as for `sampled_diagonal`.
-    block
-        the number of each player's block.
-    """
+    """A matrix whose players are divided into numbered blocks."""
 
     def __init__(self, matrix: sparse.csc_array, block: Ints) -> None:
         self._matrix = sparse.csr_array(matrix)

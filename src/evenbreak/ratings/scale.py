@@ -289,30 +289,8 @@ def unstated_scale(
 ) -> Scale:
     """Return the only scale that all ratings can be on; without a rating, the default one.
 
-    Parameters
-    ----------
-    ratings
-        of each player; NaN is no rating.
-    names
-        of the players.
-    remedy
-        how the user can state the scale, which ends the message.
-    source
-        where the ratings are from, which starts the message.
-
-    Raises
-    ------
-    InputError
-        if they fit no scale, or two; it says what the ratings would mean on each.
-
-    >>> unstated_scale([612, float("nan")], ["Ann", "Bo"], "say which").name
-    'fargo'
-    >>> unstated_scale([190, 140], ["Ann", "Bo"], "say which")
-    Traceback (most recent call last):
-    ...
-    evenbreak.errors.InputError: the ratings from 140 to 190 don't show their scale: Ann wins a game
-        against Bo 76% of the time by NPL ratings, 59% by Fargo ratings, 57% by Elo ratings. say
-        which
+    NaN is no rating. An InputError if they fit no scale, or two: it starts with their source, says
+    what they would mean on each, and ends with the remedy.
     """
     rated = [(rating, k) for k, rating in enumerate(ratings) if not math.isnan(rating)]
     if not rated:
@@ -345,27 +323,11 @@ def unstated_scale(
 def refuse_contradicted(
     scale: Scale, ratings: Iterable[float], names: Sequence[str], *, whose: str, remedy: str
 ) -> None:
-    """Refuse ratings that do not look like those of the scale by which something would read them.
+    """Refuse ratings that don't look like those of the known scale that would be used.
 
-    One rating is far off after a slip, so the one in the middle decides.
-
-    Parameters
-    ----------
-    scale
-        a known scale; what ratings of another look like is not known, so none is refused.
-    ratings
-        of each player; NaN is no rating.
-    names
-        of the players.
-    whose
-        what brings the scale along: 'the chart npl_10'.
-    remedy
-        how the user can state the scale, which ends the message.
-
-    Raises
-    ------
-    InputError
-        with what they would mean on this scale and on those that they look like.
+    One rating is far off after a typo, so the median decides (NaN is no rating). `whose` is where
+    the scale comes from, such as 'the chart npl_10'. The InputError says what the ratings would
+    mean on this scale and on those that they look like, and ends with the remedy.
 
     >>> refuse_contradicted(
     ...     SCALES["npl"], [612, 521], ["Ann", "Bo"], whose="the chart npl_10", remedy="Say which."

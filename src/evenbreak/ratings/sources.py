@@ -17,16 +17,9 @@ LEAST = 1e-3
 
 
 class RatingSource(NamedTuple):
-    """What one source says about a player's rating.
+    """What one source, 'prior', 'brought' or 'results', says about a player's rating.
 
-    Parameters
-    ----------
-    source
-        'prior', 'brought' or 'results'.
-    rating, standard_error
-        what it alone says, in points; None where it says next to nothing.
-    weight
-        its share of the rating.
+    Ratings, in points, are None where it says next to nothing; the weight is its share.
     """
 
     source: str

@@ -60,17 +60,9 @@ KEPT_UP_TO = 5_000
 class StretchLosses(NamedTuple):
     """What was lost in predicting each stretch.
 
-    Attributes
-    ----------
-    losses
-        shape (stretches, ways): the sum of -ln P(the score | the days before) over its matches.
-    predicted
-        shape (stretches,): how many games were predicted, and matches known by the winner
-        alone.
-    of_match
-        shape (matches, ways): the same of each match.
-    players
-        those of each match.
+    `losses`, shape (stretches, ways), is the sum of -ln P(the score | the days before) over
+    matches, and `of_match` the same by match; `predicted` counts games, and matches known by the
+    winner alone.
     """
 
     losses: Floats
@@ -93,29 +85,10 @@ def stretch_losses(
 ) -> StretchLosses:
     """Predict each stretch of a season from the days before it, in several ways.
 
-    Parameters
-    ----------
-    results
-        matches on at least two days, all with a date; forfeits and 0-0 may lack one.
-    ways
-        options of `fit`: all with a break advantage, or none.
-    progress
-        called with how many stretches are done, and of how many.
-    share
-        what gives the stretches of a large season to other processes (see `evenbreak.workers`),
-        for the same answer; None: there is only this one.
-
-    Raises
-    ------
-    InputError
-        if a date is missing, all matches are of one day, or an option is out of range.
-
-    >>> season = Results.from_names(
-    ...     ["A"] * 3, ["B"] * 3, [7] * 3, [4] * 3, date=["2026-01-0" + day for day in "123"]
-    ... )
-    >>> found = stretch_losses(season, [{"prior_sd": 0.1}, {"prior_sd": 0.5}])
-    >>> found.losses.shape, found.predicted, found.means.round(3)
-    ((2, 2), array([11., 11.]), array([0.688, 0.676]))
+    Matches are on at least two days; forfeits and 0-0 may lack a date. Ways are options of `fit`,
+    all with a break advantage or none. `share` gives stretches of a large season to other processes
+    (see `evenbreak.workers`), for the same answer. An InputError if a date is missing, all matches
+    are of one day, or an option is out of range.
     """
     return Stretches(results).losses(ways, progress=progress, share=share)
 
@@ -124,13 +97,7 @@ _OfStretch: TypeAlias = tuple[float, Floats, tuple[Places, Places]]
 
 
 class Stretches:
-    """A season to be predicted several times over, stretch by stretch.
-
-    Parameters
-    ----------
-    results
-        as for `stretch_losses`.
-    """
+    """A season to be predicted several times over, stretch by stretch."""
 
     def __init__(self, results: Results) -> None:
         self._played, self._date = _played(results)
@@ -272,14 +239,9 @@ In a league of 1,000 players and 10,000 matches they are then off by 2%, at the 
 
 
 class Differences(NamedTuple):
-    """How players differ, rated in several ways, in natural log-odds.
+    """How players differ (the first less the second), rated in several ways, in log-odds.
 
-    Attributes
-    ----------
-    mean, variance
-        of the first player's skill less the second's, shape (ways, differences).
-    advantage
-        the break advantage, shape (ways,).
+    Shape (ways, differences); the break advantage has shape (ways,).
     """
 
     mean: Floats
@@ -308,19 +270,7 @@ def _place(
 
 
 class SeasonSoFar:
-    """The matches before some day, to be rated in several ways.
-
-    Parameters
-    ----------
-    results
-        the matches; forfeits and those at 0-0 do not count.
-
-    >>> from evenbreak.ratings import fit
-    >>> season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [7, 7, 3], [4, 5, 7])
-    >>> (skill,), _ = SeasonSoFar(season).skills([{"prior_sd": 0.5}])
-    >>> skill.round(4), (fit(season, prior_sd=0.5).rating.round(2) - 80).round(2)
-    (array([ 0.3007, -0.0457, -0.255 ]), array([ 13.01,  -1.98, -11.04]))
-    """
+    """The matches before some day, to be rated in several ways; forfeits and 0-0 don't count."""
 
     def __init__(self, results: Results) -> None:
         self._results = results

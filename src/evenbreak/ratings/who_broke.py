@@ -79,17 +79,9 @@ class BreakWinsTerms(NamedTuple):
 def break_wins(form: str, first: int, games: tuple[int, int], last: int) -> BreakWins:
     """Return how many racks a may have won on their own break, and in how many ways.
 
-    Parameters
-    ----------
-    form
-        the break format: 'winner', 'loser' or 'alternate'.
-    first, last
-        who broke the first rack, and who won the last one: 1 for a, 2 for b.
-    games
-        the games that a and b won; the winner of the last rack won at least one.
+    Players are 1 for a, 2 for b; the form is 'winner', 'loser' or 'alternate'; the winner of the
+    last rack won at least one.
 
-    Notes
-    -----
     Sequences are counted by their runs: of t racks in r runs there are C(t - 1, r - 1).
 
     >>> wins = break_wins("winner", 1, (2, 1), 1)  # aba or baa: a won 1 of 2
@@ -162,28 +154,13 @@ class Broken(NamedTuple):
 
 
 def count_broken(results: Results) -> Broken:
-    """Return how many games of each match a broke, b broke, or somebody unknown.
+    """Return how many games of each match a broke, b broke, or an unknown player.
 
-    It is known who broke in matches where one player broke throughout (break format a or
-    b); rack by rack where `racks`, the break format and `first_break` are given, for the
-    first rack `first_break` alone; and in number where break format, `first_break` and a
-    race are given that one of the players reached (see `evenbreak.ratings.who_broke`).
-
-    Parameters
-    ----------
-    results
-        matches that were played.
-
-    Raises
-    ------
-    InputError
-        if racks do not fit the score (see `find_problems`).
-
-    >>> season = Results.from_names(
-    ...     ["Ann"], ["Bo"], [3], [1], racks=["abaa"], first_break=[1], break_format=[1]
-    ... )
-    >>> count_broken(season).won[:, 0], count_broken(season).lost[:, 0]  # winner breaks
-    (array([0., 2., 1.]), array([0., 1., 0.]))
+    It is known who broke in matches where one player broke throughout (break format a or b); rack
+    by rack where `racks`, the break format and `first_break` are given, for the first rack
+    `first_break` alone; and in number where break format, `first_break` and a race are given that
+    one of the players reached (see `evenbreak.ratings.who_broke`). An InputError if racks do not
+    fit the score.
     """
     rows = len(results)
     won, lost = np.zeros((3, rows)), np.zeros((3, rows))
@@ -215,14 +192,9 @@ def count_broken(results: Results) -> Broken:
 
 
 def breakers(racks: str, form: str, first: int) -> list[int]:
-    """Return who broke each rack: 1 for a, 2 for b, 0 where it is not known.
+    """Return who broke each rack, won by a or b: 1 for a, 2 for b, 0 where it is not known.
 
-    Parameters
-    ----------
-    racks
-        who won each rack, a or b.
-    form, first
-        the break format, one of `FORMATS`, and who broke first: 1, 2 or 0 where not known.
+    The form is one of `FORMATS`; who broke first is 1, 2 or 0 likewise.
 
     >>> breakers("abb", "winner", 2), breakers("abb", "alternate", 1), breakers("abb", "", 1)
     ([2, 1, 2], [1, 2, 1], [1, 0, 0])

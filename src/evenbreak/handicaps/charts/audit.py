@@ -43,8 +43,8 @@ class ChartFit:
         where in its band a race is even: 0 at the start, 1/2 in the middle, 1 at the end.
         With tilt 0 the stronger player is never the underdog, with tilt 1 the weaker never is.
     misfit
-        how far the chart's cuts are from those of scale and tilt (root mean square), in
-        points; rounding to whole points alone gives 0.29.
+        how far the chart's cuts are from those of scale and tilt (root mean square), in points;
+        rounding to whole points alone gives 0.29.
     """
 
     points_per_doubling: float
@@ -54,21 +54,21 @@ class ChartFit:
 
 @dataclass(frozen=True)
 class AuditRow:
-    """What one row of a chart is worth.
+    """One row of a chart: its race, and the chances over its band of differences.
 
     Parameters
     ----------
     difference_from, difference_to, stronger_needs, weaker_needs
-        the row; `difference_to` is None where it has no end.
+        the row; `difference_to` is None if it has no end.
     p_win_low, p_win_middle, p_win_high
         P(the stronger player wins the race | the ratings are right) at the first difference
         of the row, in its middle, and at its last; None where the row is open-ended.
     even_difference
         the difference in points at which the race is even.
     even_place
-        where in its band that is: 0 at the start of the band (half a point before its first
-        whole point), 1 at its end; below 0 or above 1 outside the band. None for a row that
-        begins at 0 or is open-ended.
+        where in its band that is: 0 at the start of the band (half a point before its first whole
+        point), 1 at its end; below 0 or above 1 outside the band. None for a row that starts at 0
+        or is open-ended.
     unfairness
         the larger `|P - 1/2|` of the two ends of the band.
     monotone
@@ -141,16 +141,14 @@ def audit(chart: Chart | ChartDraft | str, *, scale: Any = None) -> ChartAudit:
 
     Parameters
     ----------
-    chart
-        the chart or its name in `CHARTS`; a `ChartDraft` if its rows have gaps or overlaps.
     scale
-        what the ratings mean: 'npl', 'fargo', 'elo', a `Scale` or the points that double the
-        odds; None for the scale that fits the chart best.
+        'npl', 'fargo', 'elo', a `Scale` or the points that double the odds; None for the scale that
+        fits the chart best.
 
     Raises
     ------
     InputError
-        if there is no such chart, it has no rows, a row ends before it begins, or no scale is
+        if there is no such chart, it has no rows, a row ends before it starts, or no scale is
         given and the chart does not determine one (it has fewer than three rows, or its races
         do not get harder).
 
@@ -287,15 +285,13 @@ def win_matrix(
 ) -> pd.DataFrame:
     """Return the chance of every player against every other.
 
-    Each chance is averaged over the error of the difference of the two ratings, in which what
-    is uncertain for both cancels.
+    Each chance is averaged over the error of the difference of the two ratings, in which any
+    uncertainty that they share cancels.
 
     Parameters
     ----------
-    ratings
-        what `fit` returns.
     players
-        names; None: all of them.
+        default: everyone who is rated.
     race
         the games that the player of the row and the player of the column need; (1, 1) is a
         single game.

@@ -36,23 +36,9 @@ class CostedChart(NamedTuple):
 class Candidates:
     """The races within limits, the easiest for the stronger player first.
 
-    The first `evens` of them are even races, the shortest first; each of the others is even at
-    a larger difference than the one before.
-
-    Parameters
-    ----------
-    scale, limits, up_to
-        as for `design`.
-
-    Raises
-    ------
-    InputError
-        if `up_to` is not a whole number from 1 up, or there are too many races to try.
-
-    >>> from evenbreak.ratings import SCALES
-    >>> candidates = Candidates(SCALES["npl"], RaceLimits((3, 5), weaker_least=2), 30)
-    >>> list(zip(candidates.m.tolist(), candidates.n.tolist())), candidates.evens
-    ([(2, 2), (3, 3), (3, 2), (4, 2)], 2)
+    The first `evens` of them are even races, the shortest first; each of the others is even at a
+    larger difference than the one before. An InputError if `up_to` is not a whole number from 1 up,
+    or there are too many races to try.
     """
 
     def __init__(self, scale: Scale, limits: RaceLimits, up_to: int | None = None) -> None:
@@ -184,12 +170,8 @@ class NoChartError(InputError):
 def cheapest_path(cost: Floats, evens: int, rows: int | None = None) -> Ints:
     """Return the path of least total cost, as the place of a race for each difference.
 
-    It has at most `rows` different races; any number of them if that is None.
-
-    Raises
-    ------
-    NoChartError
-        if every path has an infinite cost.
+    It has at most `rows` different races; any number if that is None. A NoChartError if every path
+    has an infinite cost.
     """
     races, differences = cost.shape
     best = np.empty((differences, rows or 1, races))  # in that many rows, or fewer
@@ -249,20 +231,9 @@ def similar_limits(limits: RaceLimits, spread: Any) -> list[RaceLimits]:
 
 
 class SimilarLengths:
-    """The races within limits, in groups of similar length.
+    """The races within limits, in groups whose longest matches differ by at most `spread` games.
 
-    Parameters
-    ----------
-    scale, limits, up_to
-        as for `Candidates`; without `up_to` all groups go to where the hardest race of any of
-        them is even.
-    spread
-        how much the longest matches of a chart's races may differ, in games.
-
-    >>> from evenbreak.ratings import SCALES
-    >>> groups = SimilarLengths(SCALES["npl"], RaceLimits((5, 9), weaker_least=2), 2)
-    >>> [row[2:] for row in groups.fairest(rows=4).rows]
-    [(3, 3), (4, 3), (4, 2), (6, 2)]
+    Without `up_to` all groups go to where the hardest race of any of them is even.
     """
 
     def __init__(

@@ -26,10 +26,8 @@ class ChartRow(NamedTuple):
     Parameters
     ----------
     difference_from, difference_to
-        the first and the last difference in rating points, stronger minus weaker;
-        `difference_to` is None in the last row, which is open-ended.
-    stronger_needs, weaker_needs
-        the games that each player needs.
+        in rating points, stronger minus weaker; `difference_to` is None in the last row, which is
+        open-ended.
     """
 
     difference_from: int
@@ -43,10 +41,8 @@ class ChartDraft(NamedTuple):
 
     Parameters
     ----------
-    name
-        the name of the chart.
     rows
-        rows of whole numbers, in any order, none of which ends before it begins.
+        whole numbers, in any order; no row ends before it starts.
     """
 
     name: str
@@ -172,8 +168,8 @@ class Chart:
         Parameters
         ----------
         difference
-            rating of player 1 minus rating of player 2, in whole points; where it is
-            negative, player 2 is the stronger and the race is reversed.
+            rating of player 1 minus rating of player 2, in whole points; if negative, player 2 is
+            the stronger and the race is reversed.
 
         Raises
         ------

@@ -40,7 +40,7 @@ def design(
     scale
         what ratings mean: 'npl', 'fargo', 'elo', a `Scale` or the points that double the odds.
     limits
-        which races the chart may hold.
+        the races that the chart may hold.
     target
         the chance that the stronger player should have.
     tilt
@@ -53,12 +53,10 @@ def design(
         is even (W = 1/2). The mean cost over the whole-point differences from 0 to this one is
         as small as possible.
     rows
-        the most rows it may have; None for any number.
+        the largest number of rows; None for any number.
     spread
         how much the longest matches of its races may differ, in games; None for any length
         within the limits. Printed charts have a spread of 2.
-    name
-        the name of the chart.
 
     Returns
     -------
@@ -69,7 +67,7 @@ def design(
     Raises
     ------
     InputError
-        if a parameter is out of range, no chart keeps the limits, or there are too many races
+        if a parameter is out of range, no chart satisfies the limits, or there are too many races
         and differences to try.
 
     Notes

@@ -29,12 +29,8 @@ class FairRace:
 
     Parameters
     ----------
-    race_1, race_2
-        the games that player 1 and player 2 need.
     p_win_1
         P(player 1 wins the race).
-    mean_games
-        its mean length in games.
     games_p90
         the smallest number of games within which it ends with chance .9.
     """
@@ -87,19 +83,17 @@ def fair_races(
     games
         (lo, hi): the races m:n whose longest match, m + n - 1 games, has lo to hi games.
     race_to
-        instead: what the stronger player needs (player 1, if the two are equal); the weaker
-        player needs at most as many.
-    target
-        the P(player 1 wins the race) to aim at.
+        instead: the games that the stronger player needs (player 1, if the two are equal); the
+        weaker player needs at most as many.
     top
-        how many races to return; fewer if there are no more.
+        how many races to return at most.
     breaks
-        who breaks next; needed with Rack(p1, p2).
+        needed with Rack(p1, p2).
     first_breaker
-        who breaks the first game, 1 or 2.
+        1 or 2.
     via
-        the way to `p_win_1` of the races returned, as for `win_probability`; they are chosen by
-        the kernel.
+        how `p_win_1` of the returned races is calculated, as for `win_probability`; the default
+        method chooses them.
 
     Returns
     -------
@@ -168,15 +162,7 @@ def _stronger(rack: Rack) -> int:
 def longest_matches(games: tuple[int, int] | None, race_to: int | None) -> tuple[int, int]:
     """Return the fewest and the most games of the longest match in the races allowed.
 
-    Parameters
-    ----------
-    games, race_to
-        as for `fair_races`.
-
-    Raises
-    ------
-    InputError
-        if not exactly one of the two is given, or it is out of range.
+    An InputError unless exactly one of the two is given, in range.
 
     >>> longest_matches(None, 7), longest_matches((7, 13), None)
     ((7, 13), (7, 13))

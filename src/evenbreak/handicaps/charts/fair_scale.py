@@ -42,15 +42,13 @@ class FairScale(NamedTuple):
     Parameters
     ----------
     points
-        by the results, with their 95% interval.
+        from the results, with their 95% interval.
     assumed
-        by the races.
+        from the races.
     matches
-        the matches that show it.
+        the number of matches that this rests on.
     games
         the longest possible match of the shortest and of the longest race.
-    least
-        the fewest games that a stronger and a weaker player need.
     """
 
     points: Estimate
@@ -61,14 +59,14 @@ class FairScale(NamedTuple):
 
 
 class LeagueChart(NamedTuple):
-    """The chart that a league plays by, as far as its results show it.
+    """The chart that a league uses, as far as its results show it.
 
     Parameters
     ----------
     nearest
-        the nearest chart of the catalog; None where none is near.
+        the nearest chart of the catalog; None if none is near.
     scale
-        what a rating point is worth; None where ratings are not known.
+        None if ratings aren't known.
     """
 
     nearest: PlayedChart | None = None
@@ -76,7 +74,7 @@ class LeagueChart(NamedTuple):
 
 
 def league_chart(results: Results) -> LeagueChart:
-    """Return the chart that a league plays by, as far as its results show it.
+    """Return the chart that a league uses, as far as its results show it.
 
     >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[7])
     >>> league_chart(season)
@@ -88,14 +86,9 @@ def league_chart(results: Results) -> LeagueChart:
 
 
 def fair_scale(results: Results, played: PlayedChart | None) -> FairScale | None:
-    """Return what doubles the odds; None where ratings are not known, or too few races are unequal.
+    """Return what doubles the odds; None without ratings, or with too few unequal races.
 
-    Parameters
-    ----------
-    results
-        with ratings in `level_a` and `level_b`, or with races by a chart of the catalog.
-    played
-        what `played_chart` finds in them.
+    Ratings are `level_a` and `level_b`, or races are by a chart of the catalog, `played`.
     """
     season = results.played().results
     race_a, race_b = season.races

@@ -142,11 +142,6 @@ class Gap:
     def win(self, m: ArrayLike, n: ArrayLike) -> Any:
         """Return P(player 1 wins the race m:n | the ratings and their standard error).
 
-        Parameters
-        ----------
-        m, n
-            the games that player 1 and player 2 need, broadcast together with the gap.
-
         Returns
         -------
         float or numpy.ndarray
@@ -194,12 +189,12 @@ class Gap:
         return MatchLength(games, total, plain(mean), plain(sd), never, never, bounded=True)
 
     def odds(self, match: Match) -> MatchOdds:
-        """Return the odds of a match, averaged over how far the difference of one pair may be off.
+        """Return the odds of a match, averaged over the uncertainty of one pair's difference.
 
         Parameters
         ----------
         match
-            what is played; the chance in a game comes from the ratings, whatever its rack says.
+            the chance in a game comes from the ratings, whatever its rack says.
 
         Raises
         ------

@@ -19,11 +19,11 @@ AnyChart = Chart | LevelChart | PointsChart
 
 
 def broken_chart_laws(chart: AnyChart) -> list[str]:
-    """Return what a chart does not hold to, in sentences; empty if it holds to everything.
+    """Return the rules that a chart breaks, in sentences; empty if it breaks none.
 
-    Its shape is looked at when it is made. Tried are: the race of a pair is the same seen from
-    either side; no race is easier for the stronger player than one at a smaller difference, or
-    for the higher of two levels than against a higher one; and that it can be sent to other
+    Its shape was checked when it was made. Checked here: the race of a pair is the same seen from
+    either side; no race is easier for the stronger player than one at a smaller difference, or for
+    the higher of two levels than against a higher one; and the chart can be sent to other
     processes.
 
     >>> from evenbreak.handicaps import Chart, chart

@@ -26,12 +26,12 @@ from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
 @dataclass(frozen=True)
 class LevelCell:
-    """What the race between two skill levels is worth.
+    """The race between two skill levels, and its chances.
 
     Parameters
     ----------
     level, opponent_level, needs, opponent_needs
-        the two levels, the higher one first, and the games that each needs.
+        the two levels, the higher one first, and each player's games.
     p_win_low, p_win_middle, p_win_high
         P(the player of the higher level wins) if the two players are as close as their
         levels allow, in the middle of their levels, and as far apart as the levels allow.
@@ -39,8 +39,8 @@ class LevelCell:
     even_difference
         the difference in points at which the race is even.
     difference
-        the difference in points between the ratings of the two levels; if it is smaller than
-        `even_difference`, the chart favours the lower level, if larger the higher.
+        the difference in points between the ratings of the two levels; below `even_difference` the
+        chart favors the lower level, above it the higher.
     unfairness
         `|p_win_middle - 1/2|`; 0 for two players of the same level.
     monotone
@@ -67,8 +67,6 @@ class LevelAudit:
 
     Parameters
     ----------
-    name
-        the name of the chart.
     scale
         the scale of the ratings; the chart itself does not determine one.
     levels, ratings
@@ -96,13 +94,11 @@ class LevelAudit:
 def audit_levels(chart: LevelChart | str, *, scale: Any = DEFAULT_SCALE) -> LevelAudit:
     """Return how fair a chart by skill level is, and the ratings that fit it best.
 
-    Each level is assumed to reach halfway to its neighbors; the lowest and the highest reach
-    as far outwards as inwards.
+    Each level is assumed to reach halfway to its neighbors; the lowest and the highest extend as
+    far outwards as inwards.
 
     Parameters
     ----------
-    chart
-        the chart, or its name in `LEVEL_CHARTS`.
     scale
         the scale of the ratings: 'npl', 'fargo', 'elo', a `Scale` or the points that double
         the odds. The chances do not depend on it.
@@ -184,17 +180,10 @@ INNINGS = 25.0
 
 @dataclass(frozen=True)
 class PointsLevel:
-    """What a level of a chart of points is taken to play like.
+    """What a level of a chart of points is assumed to play like.
 
-    Parameters
-    ----------
-    level, points
-        the level and the points that it needs.
-    points_an_inning
-        what an average player of the level scores an inning.
-    p_win_as_next
-        P(a player of this level who scores like the next one wins against an average player
-        of this level); None for the highest.
+    `points_an_inning` is an average player's; `p_win_as_next` is P(a player of this level who
+    scores like the next one wins against an average player of this level), None for the highest.
     """
 
     level: int
@@ -216,16 +205,12 @@ class PointsPair:
 
 @dataclass(frozen=True)
 class PointsAudit:
-    """What a chart of points comes to, under the assumptions of this module.
+    """The levels and pairs of a chart of points, under the assumptions of this module.
 
     Parameters
     ----------
-    name
-        the name of the chart.
     innings
-        the innings that a player needs on average.
-    levels, pairs
-        the levels, and the pairs of different levels.
+        the mean number that a player needs.
     """
 
     name: str

@@ -58,11 +58,6 @@ class LevelChart:
     def race(self, level_1: Any, level_2: Any) -> tuple[int, int]:
         """Return (m, n): the games that player 1 and player 2 need.
 
-        Parameters
-        ----------
-        level_1, level_2
-            the skill levels of the two players.
-
         Raises
         ------
         InputError
@@ -87,11 +82,6 @@ class LevelChart:
 
     def races(self, levels_1: ArrayLike, levels_2: ArrayLike) -> tuple[Ints, Ints]:
         """Return (m, n), two arrays: the games that player 1 and player 2 need, elementwise.
-
-        Parameters
-        ----------
-        levels_1, levels_2
-            the skill levels of the two players, of shapes that broadcast together.
 
         Raises
         ------

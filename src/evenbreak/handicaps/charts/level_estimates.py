@@ -37,14 +37,7 @@ def estimated_levels(
 ) -> tuple[Floats, Floats, float]:
     """Return the levels' points on the Fargo scale, their covariance, and the spread inside them.
 
-    Parameters
-    ----------
-    usual
-        the points of the levels without the results.
-    results
-        matches with games.
-    places
-        which of the levels a and b have in each match.
+    `usual` are their points without the results; `places` the levels of a and b in each match.
     """
     season = _Season(usual, results, places)
     low, high = np.log([NARROWEST, WIDEST])

@@ -114,7 +114,7 @@ class LevelSkills:
         return self.gaps[self.places(level_1), self.places(level_2)]
 
     def error(self, level_1: ArrayLike, level_2: ArrayLike) -> Any:
-        """Return how far off that is for two players of the levels, in points; 0 if not known.
+        """Return the uncertainty of `points` for two players of the levels; 0 if not known.
 
         It joins the standard error of the difference and the spread of the players of a level.
         """
@@ -130,7 +130,7 @@ class LevelSkills:
         return FARGO.win_probability(self.difference(level_1, level_2))
 
     def gap(self, level_1: ArrayLike, level_2: ArrayLike, form: float = 0.0) -> Gap:
-        """Return how far apart players of these levels are: what all their chances come from.
+        """Return the gap between players of these levels, from which all their chances come.
 
         >>> round(float(level_skills("apa_8ball").gap(7, 5).win(5, 3)), 2)
         0.66
@@ -145,7 +145,7 @@ class LevelSkills:
         return points
 
     def places(self, levels: ArrayLike) -> Ints:
-        """Return where levels are in `levels`.
+        """Return the positions of levels in `levels`.
 
         Raises
         ------

@@ -38,7 +38,7 @@ class ChartMeasure:
     worst_difference
         the difference at which it is largest.
     mean_games
-        the mean length of a match.
+        over all differences.
     games_p90
         the number of games within which 9 of 10 matches end, at every difference.
     """

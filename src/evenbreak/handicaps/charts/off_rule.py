@@ -18,17 +18,9 @@ from evenbreak.ratings.scale import scale_of
 
 
 class OffRule(NamedTuple):
-    """A difference at which another race of the chart would be nearer to even.
+    """A difference, in points, at which another race of the chart would be nearer to even.
 
-    Parameters
-    ----------
-    difference
-        the rating difference, in whole points.
-    race, win
-        the games (m, n) that the stronger and the weaker player need by the chart, and
-        P(the stronger player wins) that race.
-    nearest, nearest_win
-        the same for the race of the chart with W nearest 1/2.
+    `win` is P(the stronger player wins) the chart's race, `nearest_win` that of the nearest to 1/2.
     """
 
     difference: int
@@ -41,23 +33,9 @@ class OffRule(NamedTuple):
 def off_rule(chart: Chart, scale: Any) -> tuple[OffRule, ...]:
     """Return the differences at which another race of the chart has W nearer to 1/2.
 
-    Parameters
-    ----------
-    chart
-        the chart; past the start of its last row nothing is looked at, as its hardest race stays.
-    scale
-        what ratings mean, as for `design`.
+    Nothing past the start of its last row counts, as its hardest race stays.
 
-    Notes
-    -----
     Source: the rule before Table 5.6.
-
-    >>> from evenbreak.handicaps import chart
-    >>> place, = off_rule(chart("npl_10"), "npl")
-    >>> place.difference, place.race, place.nearest
-    (46, (7, 3), (6, 2))
-    >>> round(place.win, 3), round(place.nearest_win, 3)
-    (0.582, 0.428)
     """
     races = [(row.stronger_needs, row.weaker_needs) for row in chart.rows]
     wins = _wins(chart, scale)

@@ -42,11 +42,11 @@ class PlayedCell(NamedTuple):
     where
         such as '29 to 36 points apart' or 'level 5 against 3'; '' where only races are known.
     chart, played
-        the games that the stronger and the weaker player need by the chart, and in most matches;
-        where only races are known, one of them is None: the league never plays a race of the
-        chart, or plays one that the chart does not have.
+        games of the stronger and the weaker player by the chart, and in most matches; where only
+        races are known, one of them is None: the league never plays a race of the chart, or plays
+        one that the chart does not have.
     matches
-        the matches there.
+        the number of matches there.
     """
 
     where: str
@@ -56,20 +56,14 @@ class PlayedCell(NamedTuple):
 
 
 class PlayedChart(NamedTuple):
-    """The chart that is nearest to the races of a league.
+    """The chart nearest to the races of a league.
 
     Parameters
     ----------
-    name, title
-        of the chart.
     by
         what was compared: ratings, skill levels, or the races alone.
     matches, agree
         the matches compared, and those whose race is the chart's.
-    cells
-        the places of the chart that were compared: its rows or pairs of levels, or its races.
-    changed
-        those where the league plays another race.
     """
 
     name: str

@@ -31,15 +31,10 @@ def even_doublings(m: float, n: float) -> float: ...
 @overload
 def even_doublings(m: ArrayLike, n: ArrayLike) -> Floats: ...
 def even_doublings(m: Any, n: Any) -> Any:
-    """Return how many times the odds of a game must double to make the race m:n even.
+    """Return by how many doublings of a game's odds the race m:n becomes even.
 
     Multiplied by the points that double the odds, this is the rating difference at which the
     race is even: positive where player 1 needs more games.
-
-    Parameters
-    ----------
-    m, n
-        the games that player 1 and player 2 need, 1 or more; numbers or arrays.
 
     Notes
     -----
@@ -57,18 +52,7 @@ def even_doublings(m: Any, n: Any) -> Any:
 def win_grid(scale: Scale, m: ArrayLike, n: ArrayLike, differences: ArrayLike) -> Floats:
     """Return P(player 1 wins m:n | player 1 is rated higher by each of the differences).
 
-    Parameters
-    ----------
-    scale
-        what rating differences mean.
-    m, n
-        the games that player 1 and player 2 need, shape (races,).
-    differences
-        rating points, shape (differences,).
-
-    Returns
-    -------
-    array of shape (races, differences)
+    m and n have shape (races,), the result (races, differences).
 
     >>> from evenbreak.ratings import SCALES
     >>> win_grid(SCALES["npl"], [4, 2], [2, 1], [0, 30]).round(3).tolist()
@@ -97,12 +81,7 @@ def ends_within_grid(
 def games_quantiles(
     scale: Scale, m: int, n: int, differences: ArrayLike, q: float
 ) -> NDArray[np.int64]:
-    """Return the smallest number of games within which m:n ends with chance q.
-
-    Returns
-    -------
-    array of shape (differences,)
-    """
+    """Return the smallest number of games within which m:n ends with chance q, by difference."""
     points = np.asarray(differences, dtype=float)
     return match_length(Race(m, n, scale.rack(points))).quantile(q).astype(np.int64)
 

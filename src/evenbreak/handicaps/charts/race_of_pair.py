@@ -34,14 +34,7 @@ Race: TypeAlias = int | Chart | Fairest
 def games_needed(points: Floats, race: Race, scale: Scale) -> tuple[Ints, Ints]:
     """Return the games that each of two players needs, for every two players.
 
-    Parameters
-    ----------
-    points
-        rating of player 1 minus rating of player 2.
-    race
-        the race.
-    scale
-        the scale of the ratings.
+    The points are those of player 1 minus those of player 2.
 
     >>> from evenbreak.ratings.scale import scale_of
     >>> games_needed(np.array([[0.0, 100.0]]), Fairest(7), scale_of("fargo"))

@@ -49,22 +49,20 @@ class SystemRow(NamedTuple):
 
     Parameters
     ----------
-    system, chart
-        their names.
     sd, sd_doublings
-        the standard deviation of the rating error in the long run, in points and in doublings
-        of the odds.
+        standard deviation of the rating error in the long run, in points and in doublings of the
+        odds.
     settling_mean, settling_p90
         matches that a rating takes from one doubling too low to within a sixth of a doubling:
         the mean, and the number that is enough for nine in ten.
     favorite
-        the mean chance to win of the player whom the errors favour; 0.5 is fair.
+        the mean chance of winning of the player favored by the rating errors; 0.5 is fair.
     clear_favorite
         the share of matches in which the favorite has a chance of 60% or more.
     games
-        the mean number of games in a match.
+        mean per match.
     inflation
-        how many points a match adds to the sum of the two ratings, on average.
+        points that a match adds to the sum of the two ratings, on average.
     """
 
     system: str
@@ -127,12 +125,12 @@ def compare_systems(
     systems
         for each row a `System` or its name, or a pair of it and a `Chart` (None: its own).
     opponents
-        who players meet; by default equally good players with rating errors like their own.
-        Their points are those of the National Pool League's scale, 30 of which double the odds,
-        and are converted to the scale of each system.
+        default: equally good players with rating errors like the player's own. Their points are
+        those of the National Pool League's scale, 30 of which double the odds, and are converted to
+        the scale of each system.
     day_sd, match_sd
-        how much every player's form varies, in *doublings of the odds*, so that it is the same
-        on all scales.
+        the variation of every player's form, in *doublings of the odds*, so that it is the same on
+        all scales.
 
     Raises
     ------
@@ -203,7 +201,7 @@ class NewcomerInflation(NamedTuple):
         what their longer steps are expected to add: the part of their moves that no opponent's
         move balances.
     left
-        brought + made: what the league is left with once they are established.
+        brought + made: what is left in the league once they are established.
     """
 
     brought: int
@@ -217,7 +215,7 @@ class Lag(NamedTuple):
     Parameters
     ----------
     drift
-        how many points the skill rises with each match, on average.
+        points that the skill rises with each match, on average.
     mean, sd
         of the rating error in the long run, in points; a negative mean is a rating that lags.
     """
@@ -242,15 +240,14 @@ def inflation(ladder: Ladder) -> float:
 
 
 def newcomer_inflation(ladder: Ladder, start: int) -> NewcomerInflation:
-    """Return what a newcomer does to the sum of the league's rating errors.
+    """Return the effect of a newcomer on the sum of the league's rating errors.
 
-    Each mean is conditional on the error on arrival, and on established opponents as the ladder
-    has them.
+    Each mean is conditional on the error on arrival, and on the ladder's established opponents.
 
     Parameters
     ----------
     ladder
-        how ratings move; its system defines the newcomer's steps.
+        its system defines the newcomer's steps.
     start
         the newcomer's rating less their skill, in whole points.
 

@@ -52,9 +52,9 @@ def unit_of(ladder: Ladder) -> int:
 def period_of(ladder: Ladder) -> int:
     """Return the period of the error away from the ends.
 
-    An error returns to itself only after a multiple of so many matches: 2 for moves of +-1 or
-    +-3, 3 for +2 and -1, 4 for +1 and -3, 1 for moves of one and two points either way. All moves
-    leave the same remainder modulo the common divisor of their differences. Drift of the skill is
+    An error returns to itself only after a multiple of so many matches: 2 for moves of +-1 or +-3,
+    3 for +2 and -1, 4 for +1 and -3, 1 for moves of one and two points either way. All moves leave
+    the same remainder modulo the common divisor of their differences. Drift of the skill is
     ignored: it breaks the period, but only slowly, by a point now and then.
     """
     if ladder.drift:
@@ -70,12 +70,6 @@ def _moves(ladder: Ladder) -> list[int]:
 
 
 def error_on(widest: int, start: Any, what: str = "rating error") -> int:
-    """Return `start` as an int if it is a whole number from -widest to widest.
-
-    Raises
-    ------
-    InputError
-        if it is none.
-    """
+    """Return `start` as an int from -widest to widest; an InputError if it isn't one."""
     wanted = f"a {what} in whole points from {-widest} to {widest}, or a larger widest"
     return whole(start, "start", at_least=-widest, at_most=widest, wanted=wanted)

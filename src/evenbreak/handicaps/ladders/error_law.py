@@ -38,16 +38,9 @@ class NightModel(NamedTuple):
 class LongRun(NamedTuple):
     """A ladder in the long run.
 
-    Parameters
-    ----------
-    steps, kernel
-        the moves, and P(move | error), shape (errors, steps).
-    wins
-        P(win | error), shape (errors,).
-    law, opponents
-        the distributions of the player's error and of the opponents', shape (errors,).
-    changes
-        the largest change of a probability in each round of the iteration.
+    `kernel` is P(move | error), shape (errors, steps); `wins` is P(win | error), `law` and
+    `opponents` the distributions of the player's and the opponents' error, shape (errors,).
+    `changes` has the largest change of a probability in each round of the iteration.
     """
 
     steps: Ints
@@ -61,29 +54,14 @@ class LongRun(NamedTuple):
 def long_run(night: NightModel, error: Floats | None, drift: float, *, conserving: bool) -> LongRun:
     """Return the long run of a player's errors, and of the opponents' if theirs is not given.
 
-    Parameters
-    ----------
-    night
-        the matches.
-    error
-        the distribution of the opponents' error; None: that of a player without drift, made
-        symmetric.
-    drift
-        how many points the player's skill rises with each match on average.
-    conserving
-        whether the winner gains what the loser loses.
+    Without `error` opponents have that of a player without drift, made symmetric. `drift` is how
+    many points the player's skill rises per match on average; `conserving`: the winner gains what
+    the loser loses. An AccuracyError if the iteration does not converge.
 
-    Raises
-    ------
-    AccuracyError
-        if the iteration does not converge.
-
-    Notes
-    -----
     Among symmetric distributions each round reduces the change to about a hundredth. But if the
-    opponents are slightly better on average than they are rated, the player falls below their
-    own skill by slightly more. Without the symmetry, rounding errors would grow in this way until
-    the iteration swings between two skewed distributions.
+    opponents are slightly better on average than they are rated, the player falls below their own
+    skill by slightly more. Without the symmetry, rounding errors would grow in this way until the
+    iteration swings between two skewed distributions.
 
     If opponents err as the player does and the system makes all ratings rise, errors are
     measured from the league's mean error; otherwise they would rise forever.

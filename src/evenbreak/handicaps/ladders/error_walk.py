@@ -52,13 +52,7 @@ class ErrorWalk:
         return 0
 
     def moves(self, state: int) -> Mapping[int, float]:
-        """Return the probability of each next error, given the error `state`.
-
-        Raises
-        ------
-        InputError
-            if the state is beyond an end.
-        """
+        """Return the probability of each next error; an InputError for a state beyond an end."""
         half = len(self.kernel) // 2
         if not -half <= state <= half:
             raise InputError(
@@ -92,16 +86,11 @@ class ErrorWalk:
     def law(self, *, via: Way | None = None) -> Distribution:
         """Return the distribution of the rating error in the long run: the stochastic limit.
 
-        If all moves are multiples of g points, no match takes an error from one remainder
-        modulo g to another. The skill has nothing to do with g, so each remainder is equally
-        likely at the start; the result is the average of the g limits.
-
-        Parameters
-        ----------
-        via
-            the way: the closed form or banded elimination of this room ('kernel', or None), or
-            the limit of the ladder as a game by 'elimination' or 'eigen' (see
-            `evenbreak.chains.limit_of`).
+        If all moves are multiples of g points, no match takes an error from one remainder modulo g
+        to another. The skill has nothing to do with g, so each remainder is equally likely at the
+        start; the result is the average of the g limits. By default, or with 'kernel', it is the
+        closed form or banded elimination here; otherwise the limit of the ladder as a game (see
+        `evenbreak.chains.limit_of`).
         """
         way = way_of_limit(via)
         chances = long_run_law(self.steps, self.kernel) if way is None else self._law_by_limit(way)
@@ -175,12 +164,7 @@ class RatingLadder(ErrorWalk):
 def long_run_law(steps: Ints, kernel: Floats) -> Floats:
     """Return the stationary distribution of a walk by these moves, shape (errors,).
 
-    Parameters
-    ----------
-    steps
-        the moves, shape (steps,).
-    kernel
-        P(move | error), shape (errors, steps).
+    The kernel is P(move | error), shape (errors, steps).
 
     >>> long_run_law(np.array([-1, 1]), np.array([[0.25, 0.75], [0.5, 0.5], [0.75, 0.25]]))
     array([0.28571429, 0.42857143, 0.28571429])
@@ -257,11 +241,6 @@ def walk_matrix(steps: Ints, kernel: Floats) -> Floats:
     """Return P(error j after the match | error i before it), shape (errors, errors).
 
     Rows are the errors before. A move that would lead beyond an end is not made.
-
-    Parameters
-    ----------
-    steps, kernel
-        as in `long_run_law`.
 
     >>> walk_matrix(np.array([-1, 1]), np.array([[0.25, 0.75], [0.5, 0.5], [0.75, 0.25]]))
     array([[0.25, 0.75, 0.  ],

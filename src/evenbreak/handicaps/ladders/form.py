@@ -76,10 +76,8 @@ def deviation_grid(law: Floats, doubling: float) -> tuple[Ints, Floats]:
 def averages(values: Floats, law: Floats) -> Floats:
     """Return sum over k of law[k] values[..., i + k] for each i at which all of them are known.
 
-    Notes
-    -----
-    Few terms are added up; many go through a Fourier transform, whose error is about 1e-16 of
-    the largest value.
+    Few terms are added up; many go through a Fourier transform, whose error is about 1e-16 of the
+    largest value.
 
     >>> averages(np.array([0.0, 1.0, 4.0, 9.0]), np.array([0.5, 0.5]))
     array([0.5, 2.5, 6.5])

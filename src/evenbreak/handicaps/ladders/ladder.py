@@ -210,9 +210,8 @@ class Ladder(ErrorWalk):
         Parameters
         ----------
         via
-            the way from the chances of each move to the limit: the closed form or banded
-            elimination of this room ('kernel', or None), or the limit of the ladder as a game by
-            'elimination' or 'eigen' (see `evenbreak.chains.limit_of`).
+            the default ('kernel', or None) is the closed form or banded elimination; 'elimination'
+            and 'eigen' take the limit of the ladder as a game (see `evenbreak.chains.limit_of`).
 
         Raises
         ------

@@ -170,20 +170,20 @@ class LevelLadder:
 
 
 class Dumping(NamedTuple):
-    """What losing a number of matches on purpose brings, compared with an honest player.
+    """The effect of losing some matches on purpose, compared with an honest player.
 
     Parameters
     ----------
     dumped
-        matches lost on purpose before the first in earnest.
+        matches lost on purpose before the first that counts.
     published
-        how much lower (below 0) the published number is than the honest player's, on average.
+        difference of the published number from the honest player's, below 0 if lower, on average.
     given_away
         matches that the honest player wins of those dumped, on average.
     p_first, p_in_a_row
-        P(the first match in earnest is won), and as many in a row as asked.
+        P(the first match that counts is won), and as many in a row as asked.
     extra_wins, error
-        matches in earnest won beyond the honest player's, on average, and its standard error: 0
+        wins beyond the honest player's in matches that count, on average, and the standard error: 0
         where it is exact.
     """
 

@@ -66,7 +66,7 @@ class Opponents:
     Notes
     -----
     If the skill is given, the rating is skill + error: two players of the same league, each rated
-    a bit wrong. If the rating is given, the skill is rating - error: the opponent was chosen by
+    slightly wrong. If the rating is given, the skill is rating - error: the opponent was chosen by
     rating, and how good they are is unknown.
 
     >>> from evenbreak.stats import Distribution
@@ -115,7 +115,7 @@ def opponents_of(
     ratings
         the ratings (or skills, if that is what is given) of the others, in points.
     about
-        the player's skill, in points on the same scale.
+        the player's skill, in points.
     given
         'rating' or 'skill': what `ratings` holds.
     error

@@ -35,19 +35,9 @@ _FEW = 1 << 20
 class Pairing(ABC):
     """The matches of a player of skill 0 on a line of errors.
 
-    Parameters
-    ----------
-    table
-        all that a match can come to, at all rating differences that occur.
-    widest
-        the largest error.
-    opponents
-        who the player meets.
-    blur
-        the distribution of the difference of the two players' match-to-match form, over
-        -k, ..., k.
-    days
-        the forms f that a player may have for the night, evenly spaced, symmetric.
+    `table` has all outcomes of a match at the rating differences that occur; `blur` is the
+    distribution of the difference of the two players' match-to-match form, over -k, ..., k; `days`
+    are the forms that a player may have for the night, evenly spaced, symmetric.
     """
 
     def __init__(
@@ -85,14 +75,8 @@ class Pairing(ABC):
     def moves(self, law: Floats) -> Floats:
         """Return P(move | error, form) for each step, and P(win | error, form) last.
 
-        Parameters
-        ----------
-        law
-            the joint distribution of the opponents' errors and forms, shape (errors, days).
-
-        Returns
-        -------
-        array of shape (steps + 1, errors, days)
+        `law` is the joint distribution of the opponents' errors and forms, shape (errors, days);
+        the result has shape (steps + 1, errors, days).
         """
 
     def scores(self, low: int, high: int) -> Floats:
@@ -114,12 +98,7 @@ class Pairing(ABC):
     ) -> None:
         """Add P(move) and P(win), `weight` times, to a total of shape (steps + 1, x, days).
 
-        Parameters
-        ----------
-        ratings
-            the rating differences x.
-        scores
-            P(final score) by race, shape (races, outcomes, days).
+        x are rating differences; scores are P(final score) by race, shape (races, outcomes, days).
         """
         place = np.clip(ratings, -self.table.widest, self.table.widest) + self.table.widest
         chances = weight * scores[self._race[place]]

@@ -260,8 +260,6 @@ def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
 
     Parameters
     ----------
-    ladder
-        how the rating moves.
     start
         the rating error before the first match, in whole points.
     eps

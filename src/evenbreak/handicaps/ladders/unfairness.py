@@ -29,11 +29,6 @@ def unfairness(ladder: Ladder) -> Distribution:
     over their form (`day_sd`, `match_sd`). Player and opponent are independent, and the player's
     error has the ladder's distribution.
 
-    Parameters
-    ----------
-    ladder
-        how the ratings move and who the player meets.
-
     Notes
     -----
     A fair match has the chance 1/2; every match would, if ratings were right and the chart had no
@@ -65,11 +60,6 @@ def better_off(unfair: Distribution) -> Distribution:
     Its mean less 1/2 is the mean of `|W - 1/2|`; `at_least(0.6)` is the share of matches
     with a clear favorite.
 
-    Parameters
-    ----------
-    unfair
-        the distribution of W, as `unfairness` returns it.
-
     >>> better_off(Distribution((0.375, 0.5, 0.75), (0.25, 0.5, 0.25)))
     Distribution(values=(0.5, 0.625, 0.75), probability=(0.5, 0.25, 0.25))
     """
@@ -98,20 +88,9 @@ _RARE = 1e-18
 class OpponentPairs:
     """The kinds of opponents on a ladder, as pairs of offsets, with their matches.
 
-    Parameters
-    ----------
-    ladder
-        the ladder.
-    table
-        the matches by rating difference, wide enough for all pairs.
-    skills
-        the differences of skill that occur, the player's less the opponent's, in points.
-    apart
-        for each kind of opponent: how much the rating difference exceeds the player's error.
-    ahead
-        for each kind of opponent: the place in `skills` of the difference of skill.
-    chance
-        of each kind of opponent.
+    `skills` are the differences of skill that occur, the player's less the opponent's, in points.
+    Each kind has a chance, a place `ahead` in `skills`, and `apart`, the rating difference less the
+    player's error.
     """
 
     ladder: Ladder
@@ -129,17 +108,9 @@ class OpponentPairs:
         return chances
 
     def mean_of(self, worth: NDArray[Any]) -> Floats:
-        """Return the mean of what a final score is worth, given the player's error.
+        """Return the mean worth of a final score, given the player's error, shape (errors,).
 
-        Parameters
-        ----------
-        worth
-            shape (differences, outcomes), as in `MatchTable`.
-
-        Returns
-        -------
-        numpy.ndarray
-            shape (errors,).
+        `worth` has shape (differences, outcomes), as in `MatchTable`.
         """
         by_pair = np.zeros((2 * self.table.widest + 1, len(self.skills)))
         for p, weight in self._forms():

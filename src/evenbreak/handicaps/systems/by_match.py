@@ -24,18 +24,18 @@ from evenbreak.ratings.scale import Scale
 
 
 class PlayedMatch(NamedTuple):
-    """A match as an update rule sees it, winner first.
+    """A match as an update rule sees it; the winner comes first.
 
     Parameters
     ----------
     rating
-        the two ratings before the match; a rule may use only their difference.
+        before the match; a rule may use only their difference.
     games
-        games won; None where only the winner is known.
+        games won; None if only the winner is known.
     race
-        games needed; None where that is not known.
+        games needed; None if not known.
     played
-        matches each had played before; None: an established player.
+        matches played before; None: an established player.
     """
 
     rating: tuple[float, float]
@@ -186,7 +186,7 @@ class StepSystem(System):
 
     @property
     def cycle(self) -> int:
-        """After how many even matches a rating can be where it was: 2 if it moves up or down alike.
+        """Number of even matches after which a rating can return: 2 if it moves up or down alike.
 
         Ratings that move a point either way are an even number of points off after one match and
         an odd number after the next, so shares of them swing from match to match. Their mean over
@@ -201,7 +201,7 @@ class StepSystem(System):
         return apart // gcd(won, apart) if apart > 0 else 1
 
     def usual_chart(self) -> Chart:
-        """Return the chart used if no other is named.
+        """Return the default chart.
 
         Raises
         ------

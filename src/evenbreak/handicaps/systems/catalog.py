@@ -25,18 +25,9 @@ _NUMBER = re.compile(r"[0-9]{1,9}")
 
 
 class _Family(NamedTuple):
-    """Systems that differ only in numbers.
+    """Systems that differ only in numbers, which `grammar` shows in their names.
 
-    Parameters
-    ----------
-    grammar
-        how their names are written.
-    make
-        the function that makes one of them from its numbers.
-    numbers
-        the fewest and the most numbers that it takes.
-    samples
-        the numbers of those that the contract tests try.
+    `numbers` are the fewest and the most that `make` takes, `samples` those of the contract tests.
     """
 
     grammar: str
@@ -81,15 +72,15 @@ def system_of(name: Any) -> System:
     Parameters
     ----------
     name
-        a name of `FAMILIES` and the numbers of its grammar, set apart by blanks or hyphens, in
-        any case: 'npl', 'step 2', 'step-2-1'. Systems with open parameters take them by name:
+        a name of `FAMILIES` and the numbers of its grammar, separated by spaces or hyphens, in any
+        case: 'npl', 'step 2', 'step-2-1'. Systems with open parameters take them by name:
         'level-review window=15 kept=.5'. The systems of installed packages (entry points
-        `evenbreak.systems`) are found by their own names. A `System` is returned as it is.
+        `evenbreak.systems`) are found by their own names. A `System` is returned unchanged.
 
     Raises
     ------
     InputError
-        if it names no system.
+        if there is no such system.
 
     >>> system_of("npl").charts
     ('npl_8', 'npl_10', 'npl_12', 'npl_20')

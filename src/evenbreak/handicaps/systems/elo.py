@@ -43,12 +43,12 @@ def elo_system(k: Any = 16) -> StepSystem:
     """Return the system in which each game of a match moves the ratings by Elo's update.
 
     No league's chart is on Elo's scale, so the system's own chart has the most even races of at
-    most nine games. Newcomers move like everybody else.
+    most nine games. Newcomers move like everyone else.
 
     Parameters
     ----------
     k
-        points for a game won against all expectation, a whole number from 1 to 1,000.
+        points for a game won against all expectations, a whole number from 1 to 1,000.
 
     Raises
     ------

@@ -26,14 +26,9 @@ _STATE = TypeVar("_STATE")
 
 @dataclass(frozen=True, eq=False)
 class Entries:
-    """The players as a list states them before the first night.
+    """The players as listed before the first night; NaN (or -1 games) where not stated.
 
-    Parameters
-    ----------
-    rating, level
-        points and skill level; NaN where not stated. Shape (players,) or (players, replicas).
-    matches, games
-        how many each has played before; -1 where not stated.
+    Shape (players,) or (players, replicas).
 
     >>> Entries.of([612.0, np.nan]).matches
     array([-1, -1])
@@ -64,27 +59,12 @@ class Entries:
 
 @dataclass(frozen=True, eq=False)
 class Matches:
-    """Matches in the order in which they were played, a row each; the replicas across.
+    """Matches in the order in which they were played, one per row; the replicas across.
 
-    Parameters
-    ----------
-    night
-        on which night, from 1, never falling; shape (matches,).
-    a, b
-        the positions of the two players; -1 for both where the match was not played.
-    score_a, score_b, race_a, race_b
-        games (or points) won and needed; who has won has the race. A race is 0 where it is not
-        known; the higher score has won then.
-    rating_a, rating_b
-        the published ratings (or levels) by which it was played.
-    innings_a, innings_b
-        innings less defensive shots of each player, None where nobody counted them.
-
-    All but `night` have the shape (matches, replicas), or (matches,) for one league.
-
-    >>> night = Matches.of_night(1, [0], [1], [5], [3], [5], [4], [620.0], [560.0])
-    >>> night.won_a, night.games_played()
-    (array([ True]), array([8]))
+    Nights count from 1 and never fall, shape (matches,). Players are positions, -1 for both where
+    the match was not played. The winner has reached their race; where it is not known, 0, the
+    higher score wins. Ratings (or levels) are those published then; innings, less defensive shots,
+    are None where not counted.
     """
 
     night: Ints
@@ -163,24 +143,10 @@ def joined(nights: Sequence[Matches]) -> Matches:
 class History:
     """All that was played up to and with a night, and what was published before it.
 
-    Parameters
-    ----------
-    entries
-        the players as the list states them.
-    initial
-        what the system published before the first night: shape (players, replicas), or
-        (players,) for one league.
-    ratings
-        what is published now, before the update.
-    night
-        the number of the last night, from 1. It may have had no match.
-    matches
-        all matches up to and with that night.
-    day
-        days from the first night to the last; None: nights are a week apart.
-    kept
-        where a system may keep sums from one update to the next; it is private to the system and
-        the run. Without it the system does the same from the matches alone.
+    `initial` was published before the first night, `ratings` before the update: shape (players,
+    replicas), or (players,) for one league. Nights count from 1, and may have no match; `day`
+    counts days from the first night, None: nights are a week apart. `kept` is where a system may
+    keep sums between updates, private to it and the run; without it the matches alone do.
     """
 
     entries: Entries
@@ -263,20 +229,9 @@ class History:
         return total
 
     def counts(self, name: str, of_a: Callable[[Matches], Any]) -> Floats:
-        """Return a sum over the matches of each player, shaped as `initial`.
+        """Return a sum over the matches of each player, shaped as `initial`, and kept by name.
 
-        Parameters
-        ----------
-        name
-            under which it is kept.
-        of_a
-            from matches to what player a adds; it is asked again for the other side.
-
-        >>> night = Matches.of_night(1, [0], [1], [5], [3], [5], [4], [620.0], [560.0])
-        >>> begun = np.array([620.0, 560.0])
-        >>> history = History(Entries.of(begun), begun, begun, 1, night)
-        >>> history.counts("games won", lambda matches: matches.score_a)
-        array([5., 3.])
+        `of_a` returns what player a adds; it is asked again for the other side.
         """
 
         def add(sums: Floats, matches: Matches) -> Floats:
@@ -292,26 +247,8 @@ class History:
     def last(self, most: int, name: str, of_a: Callable[[Matches], Any]) -> Floats:
         """Return the last scores of each player, the newest first; NaN where there are fewer.
 
-        Parameters
-        ----------
-        most
-            how many are wanted.
-        name, of_a
-            as in `counts`; a score that is NaN is left out.
-
-        Returns
-        -------
-        numpy.ndarray
-            shape (most,) followed by that of `initial`.
-
-        >>> night = Matches.of_night(1, [0, 0], [1, 1], [5, 2], [3, 4], [5, 5], [4, 4],
-        ...                          [620.0] * 2, [560.0] * 2)
-        >>> begun = np.array([620.0, 560.0])
-        >>> history = History(Entries.of(begun), begun, begun, 1, night)
-        >>> history.last(3, "games won", lambda matches: matches.score_a)
-        array([[ 2.,  4.],
-               [ 5.,  3.],
-               [nan, nan]])
+        As for `counts`, shape (most,) followed by that of `initial`; a score that is NaN is left
+        out.
         """
         size = self.initial.size
 

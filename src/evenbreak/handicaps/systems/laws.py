@@ -21,17 +21,15 @@ _PLAYERS, _REPLICAS, _NIGHTS = 8, 3, 5
 
 
 def broken_laws(system: System, *, seed: int = 1) -> list[str]:
-    """Return what a system does not hold to, in sentences; empty if it holds to everything.
+    """Return the rules that a system breaks, in sentences; empty if it breaks none.
 
-    Tried are: ratings are finite and races whole games; races of a pair are the same seen from
-    either side; a night leaves alone what it was given; sums that are kept change nothing; the
-    order of players, and replicas side by side, change nothing; a winner never falls, where the
-    system says so; and that it can be sent to other processes.
+    Checked: ratings are finite and races whole games; races of a pair are the same seen from either
+    side; a night doesn't change its input; stored sums change nothing; the order of players, and
+    replicas side by side, change nothing; a winner never falls, where the system says so; and it
+    can be sent to other processes.
 
     Parameters
     ----------
-    system
-        the system, an instance.
     seed
         of the league's draws.
 

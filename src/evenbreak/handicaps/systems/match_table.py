@@ -86,7 +86,7 @@ class MatchTable:
         Parameters
         ----------
         p
-            P(player 1 wins a game), a number or an array of any shape.
+            P(player 1 wins a game), of any shape.
 
         Returns
         -------
@@ -115,7 +115,7 @@ class MatchTable:
         Parameters
         ----------
         p
-            P(player 1 wins a game), a number or an array of any shape.
+            P(player 1 wins a game), of any shape.
 
         Returns
         -------
@@ -154,10 +154,8 @@ def match_table(
 
     Parameters
     ----------
-    system
-        whose rule moves the ratings.
     chart
-        which sets the races, or its name in `CHARTS`; None: the system's own.
+        default: the system's own.
     widest
         the largest difference in points, a whole number from 1 up; None: two doublings of the
         odds, 60 points in the National Pool League.
@@ -165,7 +163,7 @@ def match_table(
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have, or the rule does not return a pair of
+        if a parameter is invalid, or the rule does not return a pair of
         whole points.
 
     >>> from evenbreak.handicaps import system_of

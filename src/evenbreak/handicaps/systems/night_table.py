@@ -22,24 +22,11 @@ from evenbreak.ratings.roster import NOT_STATED, Roster
 
 
 class NightTable(NamedTuple):
-    """A night's results beside the list: arrays with an entry for each row.
+    """A night's results next to the list: arrays with an entry for each row.
 
-    Parameters
-    ----------
-    results
-        the results, with the chart's race where none was stated.
-    a, b
-        positions of the two players in the list; -1 for a player who is not on it.
-    rated
-        whether both have a rating.
-    counted
-        whether the row changes ratings: it is not a forfeit and not 0-0.
-    winner
-        1, 2, or 0 where it is not known.
-    chart_a, chart_b
-        the chart's race; 0 where no chart was looked up.
-    from_chart
-        whether `results` has the chart's race in this row.
+    Results have the chart's race where they state none (`from_chart`). Players are positions in the
+    list, -1 if not on it; `counted` rows change ratings: they are no forfeit and not 0-0. The
+    winner is 1, 2, or 0 where not known; a chart's race is 0 where none was looked up.
     """
 
     results: Results
@@ -107,15 +94,7 @@ def _winner(results: Results) -> NDArray[np.int8]:
 
 
 class SeasonSoFar:
-    """The nights of a league, as a system that looks at all of them needs them.
-
-    Parameters
-    ----------
-    system
-        the system.
-    roster
-        the list before the first night, as `listed` returns it.
-    """
+    """The nights of a league, as a system that looks at all of them needs them."""
 
     def __init__(self, system: System, roster: Roster) -> None:
         self.system, self.entries = system, _entries(roster)

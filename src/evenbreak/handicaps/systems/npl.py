@@ -23,7 +23,7 @@ The league published them; they are not in the source text.
 
 
 def step_after(played: int | None, steps: Sequence[tuple[int, int]] = NEWCOMER_STEPS) -> int:
-    """Return the factor by which a player moves in the next match: 1 is an established player.
+    """Return the factor for a player's steps in the next match; 1 for an established player.
 
     Parameters
     ----------

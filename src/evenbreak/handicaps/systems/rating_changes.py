@@ -30,25 +30,25 @@ from evenbreak.ratings.roster import NOT_STATED, Roster
 
 
 class MatchChange(NamedTuple):
-    """What one match did to the ratings.
+    """The effect of one match on the ratings.
 
     Parameters
     ----------
     row
-        its row in the results, from 0.
+        in the results, from 0.
     winner, loser
         positions in the roster.
     games
-        games won by the winner and by the loser; None where only the winner is known.
+        games of the winner and the loser; None where only the winner is known.
     race
-        the games that the winner and the loser needed; None where that is not known.
+        the same order; None where not known.
     by_chart
-        the race that the chart has for their ratings, in the same order; None without one.
+        the chart's race for their ratings, in the same order; None without one.
     points
-        how much the winner's and the loser's ratings change; None in a system that does not move
-        them match by match.
+        rating changes of the winner and the loser; None in a system that doesn't move them match by
+        match.
     ratings
-        the winner's and the loser's before the night.
+        the winner's and the loser's, before the night.
     """
 
     row: int
@@ -64,19 +64,15 @@ class MatchChange(NamedTuple):
 @array_values
 @dataclass(frozen=True, eq=False)
 class RatingChanges:
-    """How a night changed the ratings of a list.
+    """The changes of a list's ratings in a night.
 
     Parameters
     ----------
-    system
-        the system of the league.
     before, after
         the lists before and after the night, with the players in the same order. The games
         and matches of the night are added to those stated; standard errors stay as they were.
-    matches
-        what each match did, in the order of the results.
     won, lost
-        matches won and lost by each player of the list, without forfeits.
+        matches of each player of the list, without forfeits.
     forfeits, empty
         the number of rows that changed nothing: forfeits, and matches at 0-0.
     """

@@ -34,7 +34,7 @@ class _Step:
 def step_system(up: Any, down: Any = None) -> StepSystem:
     """Return the system in which the winner goes up by `up` points and the loser down by `down`.
 
-    Scale and charts are those of the National Pool League. Newcomers move like everybody else.
+    Scale and charts are those of the National Pool League. Newcomers move like everyone else.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ class _Margin:
 def margin_system(most: Any = 2) -> StepSystem:
     """Return the system whose steps depend on the margin of the score, up to `most` points.
 
-    Scale and charts are those of the National Pool League. Newcomers move like everybody else.
+    Scale and charts are those of the National Pool League. Newcomers move like everyone else.
 
     Parameters
     ----------

@@ -81,7 +81,7 @@ class System(ABC):
         return chart.races(a, b) if isinstance(chart, LevelChart) else chart.races(a - b)
 
     def strength(self, numbers: Any) -> Floats:
-        """Return what published numbers stand for, on the Fargo scale; differences matter only.
+        """Return what published numbers mean on the Fargo scale; only differences matter.
 
         Raises
         ------
@@ -128,7 +128,7 @@ class System(ABC):
 
 
 def updated(system: System, history: History) -> Floats:
-    """Return what a system publishes after a night, whether or not it takes replicas at once.
+    """Return what a system publishes after a night, replica by replica or all at once.
 
     Raises
     ------

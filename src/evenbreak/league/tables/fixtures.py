@@ -58,36 +58,20 @@ def round_robin(sides: int, times: int = 1) -> Ints:
 
 
 def clashes(schedule: Ints, venues: Sequence[str], room: Mapping[str, int]) -> int:
-    """Return how many matches of a schedule find no room at their venue, round by round.
+    """Return how many matches of a schedule don't fit at their venue, round by round.
 
-    Parameters
-    ----------
-    schedule
-        as `round_robin` returns it.
-    venues
-        the venue at which each side is at home; '' where it does not matter.
-    room
-        how many matches fit at each venue in a round; venues without a number have room.
+    A side's venue is '' where it doesn't matter; `room` is how many matches fit there in a round,
+    any number if not given.
     """
     at = Counter((week, venues[home]) for week, home, _ in schedule.tolist())
     return sum(max(0, many - room.get(venue, many)) for (_, venue), many in at.items() if venue)
 
 
 def seated(schedule: Ints, venues: Sequence[str], room: Mapping[str, int]) -> Ints:
-    """Return a schedule in which sides that share a venue with too little room are at home in turn.
+    """Return a schedule in which sides that share a full venue are at home in turn.
 
     They get numbers that are never at home in the same round, two by two; then sides change places
     as long as that leaves fewer clashes.
-
-    Parameters
-    ----------
-    schedule, venues, room
-        as for `clashes`.
-
-    >>> venues, room = ["Corner", "Corner", "", ""], {"Corner": 1}
-    >>> schedule = round_robin(4, 2)
-    >>> clashes(schedule, venues, room), clashes(seated(schedule, venues, room), venues, room)
-    (2, 0)
     """
     count = len(venues)
     number = list(range(count))

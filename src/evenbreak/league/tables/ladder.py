@@ -30,23 +30,11 @@ _FINE = 100.0  # points are compared to a hundredth
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """What a ladder reads: the matches played, and those to come with many endings at once.
+    """What a ladder reads: the matches played, and the remaining ones with many endings at once.
 
-    Parameters
-    ----------
-    sides
-        how many players or teams there are.
-    rules
-        the rules of the table.
-    pairs, outcomes
-        who met whom (positions), and how it ended.
-    start
-        the points that each has besides its matches.
-    counted
-        for which side of a match it counts: both, or 1 and 0 in a table of those at home.
-    to_come, kinds, ends
-        who will meet whom; how a match can end; and for each ending of the season the kind of each
-        match, shape (matches, endings).
+    `start` are points besides matches; `counted` is for which side a match counts: both, or 1 and 0
+    in a table of home matches. `kinds` are how a match can end, and `ends` the kind of each match
+    in each ending of the season, shape (matches, endings).
     """
 
     sides: int
@@ -156,20 +144,12 @@ def _dense(code: Ints) -> Ints:
 def by_meetings(
     met: NDArray[Any], ahead: NDArray[Any], meetings: Ints | None = None
 ) -> NDArray[Any]:
-    """Return how many are ahead of each once those who are level are told apart by their meetings.
+    """Return how many are ahead of each once equals are ranked by their meetings.
 
-    Those who are level are ranked by what they won from one another; those who are still level,
-    by what they won from one another, and so on until nothing changes.
-
-    Parameters
-    ----------
-    met
-        met[..., i, j]: what i won in the meetings with j.
-    ahead
-        how many are ahead of each so far; equal numbers are level.
-    meetings
-        how often each two met: those who are level are told apart only if all of them met one
-        another equally often, as in the middle of a season they may not have. None: they did.
+    Equals are ranked by what they won from one another, met[..., i, j] for i; those still equal, by
+    what they won from one another, and so on until nothing changes. `meetings` are how often each
+    two met: equals are ranked only if all of them met one another equally often, as they may not
+    have in the middle of a season. None: they did.
     """
     while True:
         level = ahead[..., :, None] == ahead[..., None, :]
@@ -200,10 +180,7 @@ def _equally_often(meetings: Ints, level: NDArray[np.bool_]) -> NDArray[np.bool_
 def places_by_wins(beats: NDArray[np.int16]) -> NDArray[np.int16]:
     """Return how many players are ahead of each in a round robin: by wins, then by meetings.
 
-    Parameters
-    ----------
-    beats
-        beats[..., i, j]: how often i beat j.
+    beats[..., i, j] is how often i beat j.
 
     >>> places_by_wins(np.array([[0, 1, 1], [0, 0, 1], [0, 0, 0]], dtype=np.int16)).tolist()
     [0, 1, 2]
@@ -212,14 +189,9 @@ def places_by_wins(beats: NDArray[np.int16]) -> NDArray[np.int16]:
 
 
 class Standings(NamedTuple):
-    """Where each side stands in each ending, shapes (sides, endings).
+    """How many are ahead of each side in each ending, shapes (sides, endings).
 
-    Parameters
-    ----------
-    ahead
-        how many are ahead of it.
-    level
-        how many no rule separates from it, itself included; lots decide among them.
+    `level` are those no rule separates from it, itself included; lots decide among them.
     """
 
     ahead: Ints

@@ -121,20 +121,10 @@ class TableRules:
 @array_values
 @dataclass(frozen=True, eq=False, init=False)
 class Outcomes:
-    """How matches ended, a row each.
+    """How matches ended, one per row.
 
-    Parameters
-    ----------
-    score
-        the games (or sets) of both, shape (matches, 2).
-    winner
-        1 or 2; 0: a draw. By the score, if None.
-    race
-        the games (or points) that both needed, 0 where not stated.
-    forfeit
-        whether the match was won by forfeit.
-    given
-        the points of both, where they are known already; for forfeits the rules have them.
+    Without `winner` (1 or 2; 0: a draw) the score decides; a race is 0 where not stated; `given`
+    are the points of both, where already known, otherwise the rules set them.
 
     >>> Outcomes([[3, 2], [2, 2]]).winner.tolist()
     [1, 0]

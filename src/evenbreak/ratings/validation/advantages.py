@@ -21,16 +21,9 @@ MOST_ADVANTAGE = 5.0
 
 
 class FirstBreaks(NamedTuple):
-    """How often the first breaker won the race, beside what was predicted.
+    """How often the first breaker won the race, against the sum of predicted chances.
 
-    Parameters
-    ----------
-    won, expected
-        races won by the first breaker, and the sum of their predicted chances.
-    p_value
-        the two-sided chance of as large a difference.
-    matches
-        races whose first breaker is known.
+    The p-value is two-sided; matches are races whose first breaker is known.
     """
 
     won: int
@@ -55,17 +48,15 @@ def first_breaks(forecasts: Forecasts) -> FirstBreaks | None:
 
 
 def break_advantage(forecasts: Forecasts) -> Estimate | None:
-    """Return the advantage of the breaker in log-odds, where it is known who broke each rack.
+    """Return the breaker's advantage in log-odds, where it is known who broke each rack.
 
-    None where no match states its racks, who broke first and who broke next, or where
-    the breaker won every rack, or none.
+    None where no match states its racks, who broke first and who broke next, or where the breaker
+    won every rack, or none.
 
-    Notes
-    -----
-    Under winner breaks the stronger player breaks more often, the more so the stronger they
-    are on that day. So the difference of each match is integrated out: normal about that of
-    the ratings, with their variance plus that of good and bad days, which is estimated too.
-    The standard error is the sandwich's, with each match a cluster.
+    Under winner breaks the stronger player breaks more often, the more so the stronger they are on
+    that day. So the difference of each match is integrated out: normal about that of the ratings,
+    with their variance plus that of good and bad days, which is estimated too. The standard error
+    is the sandwich's, with each match a cluster.
     """
     from scipy.optimize import minimize
 
@@ -125,23 +116,12 @@ UNLIKELY = 0.001
 
 
 class FirstColumn(NamedTuple):
-    """How often the player in the first column won the match.
+    """How often the player in the first column (a) won the match.
 
-    Parameters
-    ----------
-    matches, won
-        decided matches, and those that player a won.
-    expected
-        the sum of the predicted chances of player a.
-    favoured, with_favorite
-        matches in which player a was the favorite, and those in which one of the two was.
-    dates, dates_won
-        dates of three matches or more, and those on which player a won every match.
-    dates_expected
-        on how many dates that was to be expected.
-    varies
-        the chance that luck alone makes the share of player a differ so much between dates, or
-        between events, where it is the same on all of them but for the predicted chances.
+    `favoured` are matches in which a was the favorite, of `with_favorite`. `dates` have three
+    matches or more; on `dates_won` a won all, against `dates_expected`. `varies` is the chance that
+    luck alone makes a's share differ so much between dates, or events, apart from the predicted
+    chances.
     """
 
     matches: int
@@ -247,18 +227,9 @@ FEWEST = 30
 class ByExperience(NamedTuple):
     """Matches in which the player with fewer games had played about so many games before.
 
-    Parameters
-    ----------
-    fewest, most
-        the range of the games played before; `most` is None for the last group.
-    matches, games
-        the matches with a more experienced opponent, and the games in them.
-    predicted, seen
-        the share of the games that the less experienced player was predicted to win, and won.
-    stronger
-        how much stronger they are than their rating, compared with the opponent, in log-odds.
-    spread
-        the squared errors of scores over what they are on average where games are independent.
+    `most` is None for the last group. `predicted` and `seen` are the less experienced player's
+    shares of games; `stronger` is their strength over their rating, compared with the opponent, in
+    log-odds; `spread` is the squared errors of scores over their mean where games are independent.
     """
 
     fewest: int

@@ -29,19 +29,9 @@ TOSS_UP = 1e-9
 class CalibrationBin(NamedTuple):
     """Predictions of about the same chance for the favorite, and how often the favorite won.
 
-    Parameters
-    ----------
-    p_from, p_to
-        the range of the favorite's chances; the upper end belongs to the last bin only.
-    matches, games
-        how many matches, and the games in them (or matches again, where matches are
-        predicted).
-    predicted
-        the mean chance, every game counting alike.
-    seen
-        the share of them that the favorite won.
-    low, high
-        its 95% interval (Wilson's, for the number of independent games they are worth).
+    The upper end belongs to the last bin only; where matches are predicted, games are matches.
+    `predicted` is the mean chance over games; `low` to `high` is Wilson's 95% interval, for the
+    number of independent games they are worth.
     """
 
     p_from: float
@@ -81,21 +71,11 @@ def calibration(
     worth: float = 1.0,
     weight: ArrayLike = 1.0,
 ) -> list[CalibrationBin]:
-    """Return how often favorites won, by their predicted chance from 0.5 to 1.
+    """Return how often favorites won, by their predicted chance from 0.5 to 1, in equal bins.
 
-    Matches without a favorite, p = 0.5, are left out.
-
-    Parameters
-    ----------
-    p, won, games
-        the predictions, a row a match.
-    bins
-        how many ranges of equal width.
-    worth
-        how many independent games a game is worth: below 1 where the games of a match vary
-        together.
-    weight
-        of each match in the two shares.
+    Matches without a favorite, p = 0.5, are left out. `worth` is how many independent games a game
+    is worth: below 1 where the games of a match vary together. `weight` is each match's in both
+    shares.
 
     >>> rows = calibration(np.array([0.62, 0.39]), np.array([7.0, 3.0]), np.array([12.0, 10.0]))
     >>> [(r.p_from, r.games, round(r.predicted, 3), round(r.seen, 3)) for r in rows]
@@ -146,22 +126,12 @@ SUREST = 1e-12
 
 
 class Scored(NamedTuple):
-    """How good one kind of prediction was.
+    """How good one kind of prediction was, of a 'game' or a 'match'.
 
-    Parameters
-    ----------
-    of
-        'game' or 'match': what is predicted.
-    how
-        'plug-in': from the ratings at face value; 'integrated': averaged over their
-        uncertainty.
-    prior_sd
-        the prior that the ratings had.
-    log_loss, brier
-        the mean over games (or matches), in nats; a toss-up has ln 2 and 1/4.
-    slope
-        the calibration slope: 1 is right, below 1 the predictions are too extreme. None
-        with fewer than 30 matches with a favorite, or where its interval is wider than 4.
+    `how` is 'plug-in', from the ratings at face value, or 'integrated', averaged over their
+    uncertainty. Log-loss, in nats, and Brier score are means; a toss-up has ln 2 and 1/4. The
+    calibration slope is 1 if right, below 1 if predictions are too extreme; None with fewer than 30
+    matches with a favorite, or where its interval is wider than 4.
     """
 
     of: Of
@@ -176,17 +146,8 @@ class Scored(NamedTuple):
 class Predictions:
     """One kind of prediction of all matches, by a walk through the season.
 
-    Attributes
-    ----------
-    of, how
-        what is predicted, and how, as in `Scored`.
-    walk
-        the forecasts that they are taken from.
-    p, won, trials
-        the chance of player a, what a won, and how many games (or races) there were, by
-        match; no trials where there is no race.
-    weight
-        of each trial where it is judged whether chances are right.
+    By match: the chance of player a, what a won, and how many games (or races) there were, none
+    where there is no race; `weight` is for judging whether chances are right.
     """
 
     of: Of

@@ -36,16 +36,7 @@ AHEAD = 1.1
 class DailyRefit:
     """The skills of a league's players in natural log-odds, as results come in.
 
-    Parameters
-    ----------
-    players
-        how many there are, including those who have not played yet.
-    player_a, player_b
-        the players of each match that will come in, in that order.
-    precision
-        τ, the prior precision 1/sd² in log-odds.
-    means
-        where players are expected to be before any result.
+    Matches come in in the order given; τ is the prior precision 1/sd².
     """
 
     def __init__(
@@ -153,15 +144,7 @@ class DailyRefit:
 
 
 class _Graph:
-    """Who has met whom: which entries of a Hessian are not 0.
-
-    Parameters
-    ----------
-    low, high
-        the two players of each pair.
-    players
-        how many there are.
-    """
+    """Who has met whom: which entries of a Hessian are not 0."""
 
     def __init__(self, low: Ints, high: Ints, players: int) -> None:
         self.low, self.high, self.players = low, high, players
@@ -194,14 +177,8 @@ class _Graph:
 class _Hessian:
     """The Hessian of the negative log-posterior in skills and levels, for a unit diagonal.
 
-    Parameters
-    ----------
-    graph, weight
-        the pairs, and what each of them adds.
-    own
-        the diagonal in the skills.
-    across, levels
-        the rest: of players and levels, and of levels.
+    `own` is the diagonal in the skills, `across` and `levels` the rest: of players and levels, and
+    of levels.
     """
 
     def __init__(

@@ -34,20 +34,10 @@ MOST_CLASSES = 12
 
 
 class StartGroup(NamedTuple):
-    """Matches between players who are equally many classes apart, or with equal starts.
+    """Matches between players equally many classes, or games given, apart.
 
-    Parameters
-    ----------
-    apart
-        by how many classes one player is above the other, or how many games they give.
-    matches
-        how many there are.
-    race
-        the race that is played most: the games of the player above, and of the other.
-    stronger
-        by how much the player above is stronger, in log-odds.
-    taken
-        what the races take back of it on average.
+    `race` is the most frequent: the games of the player above first. `stronger` and `taken` are the
+    difference, in log-odds, and what the races take back of it on average.
     """
 
     apart: int
@@ -60,23 +50,9 @@ class StartGroup(NamedTuple):
 class Starts(NamedTuple):
     """What starts take back of the difference between players, in log-odds.
 
-    Parameters
-    ----------
-    matches
-        races that are not even.
-    stronger
-        by how much those who give games are stronger on average.
-    taken
-        what the races take back on average.
-    share
-        the difference between players for each unit that races take back: 1 where starts are
-        right, above 1 where they are too small.
-    classes
-        the names of the classes, the lowest first; empty where they are not known.
-    a_class
-        what a class is worth; None where classes are not known.
-    groups
-        by classes apart where classes are known, or else by games given.
+    `share` is the difference for each unit that races take back: 1 where starts are right, above 1
+    where they are too small. Classes, the lowest first, are empty where not known; `a_class` is the
+    worth of one.
     """
 
     matches: int
@@ -128,14 +104,7 @@ def starts(results: Results) -> Starts | None:
 
 
 def even_start(race: int, difference: float) -> int:
-    """Return the games that the weaker player should need where the stronger one needs `race`.
-
-    Parameters
-    ----------
-    race
-        the games of the stronger player.
-    difference
-        by how much they are stronger, in log-odds.
+    """Return the games that the weaker player should need; the difference is in log-odds.
 
     >>> even_start(7, 0.0), even_start(7, 0.53)
     (7, 4)

@@ -58,16 +58,9 @@ if TYPE_CHECKING:
 class HandicapFairness(NamedTuple):
     """The handicap races with one spot: how often the player with the longer race won.
 
-    Parameters
-    ----------
-    spot
-        the games that this player gave: their race less the opponent's; None: all spots together.
-    matches, won
-        races played to the end, and those that this player won.
-    share, low, high
-        won / matches with its 95% interval (Wilson's); with a fair chart it is 1/2.
-    expected
-        the mean chance that the ratings before each date gave this player.
+    `spot` is their race less the opponent's, None: all together. `share` has Wilson's 95% interval,
+    and should be 1/2 with a fair chart; `expected` is their mean chance by the ratings before each
+    date.
     """
 
     spot: int | None
@@ -105,18 +98,9 @@ def handicap_fairness(forecasts: Forecasts) -> list[HandicapFairness]:
 
 
 class RaceLengths(NamedTuple):
-    """Even races of similar length: how often the favorite won.
+    """Even races of similar length: how often the favorite won, with Wilson's 95% interval.
 
-    Parameters
-    ----------
-    shortest, longest
-        the games needed in the shortest and in the longest of them.
-    matches, won
-        races with a favorite, and those that the favorite won.
-    share, low, high
-        won / matches with its 95% interval (Wilson's).
-    predicted
-        the mean chance of the favorites, the uncertainty of ratings integrated out.
+    `predicted` is the favorites' mean chance, the uncertainty of ratings integrated out.
     """
 
     shortest: int
@@ -428,16 +412,9 @@ SEARCH = 0.25
 
 
 class _Done:
-    """How far a validation is, from how far its parts are.
+    """The progress of a validation, from that of its parts, which go through all dates.
 
-    Parameters
-    ----------
-    progress
-        what is called with it.
-    dates
-        how many there are; each part goes through all of them.
-    work
-        how long each part takes, in walks through the season; 0 for what there is none of.
+    `work` is the time of each part in walks through the season; 0 for what there is none of.
     """
 
     def __init__(self, progress: Progress, dates: int, work: tuple[float, ...]) -> None:

@@ -196,17 +196,7 @@ OF_MODE = 25
 
 
 class _Walk(NamedTuple):
-    """A season to be walked through, from any date on.
-
-    Attributes
-    ----------
-    season
-        the matches, in the order of their dates.
-    days, date_of
-        the dates, and the number of each match's.
-    precision, half_life, levels, form
-        how it is rated.
-    """
+    """A season, in the order of its dates, to be walked through from any date on."""
 
     season: Results
     days: NDArray[np.datetime64]
@@ -319,10 +309,7 @@ def even_races(results: Results) -> tuple[Ints, Ints, Floats]:
 def in_order(results: Results) -> tuple[Results, dict[str, int]]:
     """Return the played matches with a date, by date, and how many rows were left out.
 
-    Raises
-    ------
-    InputError
-        if there are not two dates with games.
+    An InputError if there are not two dates with games.
     """
     played, forfeits, empty = results.played()
     dates = played.date

@@ -36,19 +36,12 @@ LONGEST_SIMULATED = 1000
 
 
 class Dispersion(NamedTuple):
-    """How far scores are from what was predicted, compared with simulated seasons.
+    """How far scores are from the predictions, compared with simulated seasons.
 
-    Parameters
-    ----------
-    seen
-        the sum over races of (games won - p games)², over the sum of p (1 - p) games.
-    by_chance
-        its mean over seasons simulated from the model, each match at a rating difference
-        drawn from its posterior and with its own form: both spread scores too.
-    p_value
-        P(a simulated season is as far from `by_chance` as the real one), two-sided.
-    races
-        the races that were counted.
+    `seen` is the sum over races of (games won - p games)², over the sum of p (1 - p) games;
+    `by_chance` its mean over seasons simulated from the model, each match at a rating difference
+    drawn from its posterior and with its own form: both spread scores too. The p-value is
+    two-sided.
     """
 
     seen: float
@@ -60,15 +53,8 @@ class Dispersion(NamedTuple):
 class Streaks(NamedTuple):
     """The runs of racks won by one player, compared with the same racks in random order.
 
-    Parameters
-    ----------
-    runs, expected
-        runs seen, and their mean where every order is equally likely.
-    z, p_value
-        how many standard deviations apart the two are, and the two-sided chance of that;
-        fewer runs than expected, z below 0, mean streaks.
-    matches
-        those whose racks are known and were not all won by one player.
+    z below 0, fewer runs than expected, means streaks; the p-value is two-sided. Matches are those
+    whose racks are known and were not all won by one player.
     """
 
     runs: int
@@ -122,15 +108,13 @@ def _spread(won: Ints, games: Ints, p: Floats) -> float:
 def streaks(forecasts: Forecasts) -> Streaks | None:
     """Compare the runs in the racks with those of the same racks in random order.
 
-    If every rack of a match has the same chance, whatever it is, then given the score every
-    order of the racks that ends with the winner's is equally likely: so the last rack is
-    left out, and no rating is needed. If breaking is worth something, there are streaks under
-    winner breaks and the opposite under alternate breaks.
+    If every rack of a match has the same chance, whatever it is, then given the score every order
+    of the racks that ends with the winner's is equally likely: so the last rack is left out, and no
+    rating is needed. If breaking is worth something, there are streaks under winner breaks and the
+    opposite under alternate breaks.
 
-    Notes
-    -----
-    Wald & Wolfowitz (1940), "On a test whether two samples are from the same population",
-    within each match.
+    Wald & Wolfowitz (1940), "On a test whether two samples are from the same population", within
+    each match.
     """
     racks = forecasts.results.racks
     if racks is None:
@@ -152,19 +136,11 @@ def streaks(forecasts: Forecasts) -> Streaks | None:
 
 
 class ScoreShape(NamedTuple):
-    """How often something about scores was seen, and how often it was to be expected.
+    """How often something about scores was seen, and how often it was expected, mean over races.
 
-    Parameters
-    ----------
-    of
-        'deciders': races that went to the last possible game; 'sweeps': races whose loser won no
-        game; 'games': the games of a race.
-    seen
-        its mean over races.
-    said
-        what the forecasts say, the uncertainty of ratings integrated out.
-    said_with_form
-        what they say with form of the day.
+    'deciders' went to the last possible game, 'sweeps' had a loser without a game, 'games' is
+    length. `said` is by the forecasts, the uncertainty of ratings integrated out; `said_with_form`
+    with day-to-day form too.
     """
 
     of: str
@@ -175,13 +151,7 @@ class ScoreShape(NamedTuple):
 
 @dataclass(frozen=True)
 class MatchForm(DayForm):
-    """Form of the day, and what it means for scores.
-
-    Parameters
-    ----------
-    shapes
-        deciders, sweeps and games, seen and said.
-    """
+    """Day-to-day form, and its effect on scores: deciders, sweeps and games."""
 
     shapes: tuple[ScoreShape, ...]
 
@@ -189,20 +159,10 @@ class MatchForm(DayForm):
 def match_form(
     forecasts: Forecasts, form: DayForm | None, cluster: Ints, rng: np.random.Generator
 ) -> MatchForm | None:
-    """Return what form of the day means for scores; None if it was not estimated.
+    """Return the effect of day-to-day form on scores; None if it was not estimated.
 
-    None with fewer than 100 races of two games or more, too.
-
-    Parameters
-    ----------
-    forecasts
-        a walk through a season; its first date is left out.
-    form
-        as estimated from the whole season (see `evenbreak.ratings.day_form`).
-    cluster
-        matches of one cluster, such as those of a date, may depend on each other.
-    rng
-        resamples them.
+    None with fewer than 100 races of two games or more, too. The first date is left out; matches of
+    one cluster, such as those of a date, may depend on each other.
     """
     rows = _judged(forecasts)
     if form is None or rows.sum() < FEWEST:
