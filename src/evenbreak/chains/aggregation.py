@@ -43,15 +43,8 @@ class _Level(NamedTuple):
 class Aggregation:
     """A rough inverse of B; calling it on b, of shape (m,), returns roughly B^-1 b.
 
-    Parameters
-    ----------
-    B
-        sparse, shape (m, m): positive on the diagonal, nowhere else.
-
-    Raises
-    ------
-    RuntimeError
-        if the equations of the last groups are singular in floats.
+    B is sparse, shape (m, m): positive on the diagonal, nowhere else. A RuntimeError if the
+    equations of the last groups are singular in floats.
     """
 
     def __init__(self, B: csr_array) -> None:

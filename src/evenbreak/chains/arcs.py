@@ -29,16 +29,8 @@ _FEW_TERMS = 4
 class Arcs:
     """Arcs between different states, in the order of their sources.
 
-    Parameters
-    ----------
-    size
-        the number of states n.
-    indptr
-        shape (n + 1,): the arcs out of state j are those from indptr[j] to indptr[j + 1].
-    sources, targets
-        shape (number of arcs,): positions of the states.
-    chances
-        shape (number of arcs,): the probability of the target, given the source; positive.
+    The arcs out of state j are those from indptr[j] to indptr[j + 1]; states are positions; a
+    chance is the probability of the target, given the source; positive.
 
     >>> arcs = arcs_of(csc_array([[0.25, 0.0], [0.75, 1.0]]))
     >>> arcs.sources, arcs.targets, arcs.chances, arcs.outflow
@@ -59,10 +51,7 @@ class Arcs:
     def among(self, states: Places) -> tuple[Arcs, Floats]:
         """Return the arcs among some states, renumbered, and each state's chance to leave them.
 
-        Parameters
-        ----------
-        states
-            positions of the states, increasing; shape (m,).
+        States are increasing positions, shape (m,).
         """
         place = np.full(self.size, -1, dtype=np.int32)
         place[states] = np.arange(len(states), dtype=np.int32)
@@ -148,11 +137,8 @@ def reachable(size: int, sources: Places, targets: Places, seeds: Bools) -> Bool
 def tree_from(size: int, sources: Places, targets: Places, roots: Places) -> tuple[Places, Places]:
     """Return the states that can be reached from the `roots`, by distance, and a tree of arcs.
 
-    Returns
-    -------
-    array, array
-        the states; and the parent of each state in the tree, shape (size + 1,): `size` for the
-        roots, and negative where there is none.
+    The tree has the parent of each state, shape (size + 1,): `size` for the roots, and negative
+    where there is none.
     """
     # One search, from a state `size` with an arc to every root.
     near = np.concatenate((sources, np.full(len(roots), size)))

@@ -56,16 +56,9 @@ _HIGH = 900
 @array_values
 @dataclass(frozen=True, eq=False)
 class BirthDeath:
-    """A chain whose states stand in a line.
+    """A chain whose states are in a line.
 
-    Parameters
-    ----------
-    up
-        shape (n - 1,): the arc from i to i + 1.
-    down
-        shape (n - 1,): the arc from i + 1 to i.
-    loops
-        shape (n,): the self-loops.
+    `up` and `down`, shape (n - 1,), are the arcs from i to i + 1 and back; `loops` has shape (n,).
     """
 
     up: Floats
@@ -211,17 +204,9 @@ def line_of(matrix: csc_array) -> tuple[Places, BirthDeath] | None:
 def prefix_products(numerators: Floats, denominators: Floats) -> tuple[Floats, Places]:
     """Return, for each i, the first i numerators multiplied over the first i denominators.
 
-    Parameters
-    ----------
-    numerators, denominators
-        shape (n,); positive, at most 1.
-
-    Returns
-    -------
-    (value, exponent)
-        shape (n + 1,) each, beginning with the empty product: the quotients are
-        value * 2**exponent, scaled by a common power of 2 so that the largest lies in
-        [1/2, 1). Exponents below -5000 become -5000.
+    Both are positive, at most 1, shape (n,). The result, (value, exponent) of shape (n + 1,) each,
+    starts with the empty product: the quotients are value * 2**exponent, scaled by a common power
+    of 2 so that the largest lies in [1/2, 1). Exponents below -5000 become -5000.
 
     >>> value, exponent = prefix_products(np.full(1500, 0.5), np.full(1500, 1.0))
     >>> np.ldexp(value[[0, 10, 1000]], exponent[[0, 10, 1000]] + 1000)
@@ -310,16 +295,10 @@ def line_order(T: csc_array) -> Places | None:
 
 
 class LineElimination:
-    """(I - T) factored, for a class whose states stand in a line.
+    """(I - T) factored, for a class whose states are in a line, in the given order.
 
-    Parameters
-    ----------
-    T
-        sparse, shape (m, m): T[i, j] is the arc from j to i; no diagonal.
-    leak
-        shape (m,): the probability to leave the line, given the state; not all zero.
-    order
-        the order of the states along the line.
+    T is sparse, shape (m, m): T[i, j] is the arc from j to i; no diagonal. `leak`, not all zero, is
+    the probability of leaving the line, given the state.
     """
 
     def __init__(self, T: csc_array, leak: Floats, order: Places) -> None:

@@ -71,21 +71,9 @@ class NotCertifiedError(AccuracyError):
 class CertifiedSolve:
     """(I - T) solved for one class of states, each answer with a proved bound on its error.
 
-    Parameters
-    ----------
-    T
-        sparse, shape (m, m): the arcs within the class; no diagonal.
-    leak
-        shape (m,): the chance to leave the class, given the state; not all zero.
-    factored
-        whether a sparse factorization fits.
-
-    Attributes
-    ----------
-    error
-        the largest bound on a relative error of the answers so far.
-    pivots
-        shape (m,): of each state at most the chance of not returning, as proved so far.
+    T is sparse, shape (m, m), the arcs within the class; no diagonal. `leak`, not all zero, is the
+    chance of leaving the class, given the state. `error` is the largest bound on a relative error
+    so far; `pivots` bound each state's chance of not returning, as proved so far.
     """
 
     def __init__(self, T: csc_array, leak: Floats, *, factored: bool) -> None:
@@ -162,10 +150,7 @@ def spread(T: csc_array, outflow: Floats) -> Floats:
 def _factors(T: csc_array, diagonal: Floats) -> Callable[..., Floats]:
     """Return the function (b, "N" or "T") -> A^-1 b or A^-T b in floats, A = D - T.
 
-    Raises
-    ------
-    NotCertifiedError
-        if A is singular in floats.
+    A NotCertifiedError if A is singular in floats.
     """
     if T.nnz > _DENSE * T.shape[0] ** 2:
         dense = -T.toarray(order="F")
@@ -185,16 +170,9 @@ def _factors(T: csc_array, diagonal: Floats) -> Callable[..., Floats]:
 class Equations:
     """A x = b for any b >= 0, with A = diag(outflow) - arcs.
 
-    Parameters
-    ----------
-    arcs
-        sparse, shape (m, m), nonnegative, no diagonal.
-    outflow
-        shape (m,) each: the diagonal of A.
-    right, left
-        shape (m,), positive: about the vectors to which A is closest to singular.
-    factors
-        returns A^-1 b as floats give it; None if the factors do not fit.
+    The arcs are sparse, shape (m, m), nonnegative, no diagonal; `right` and `left`, positive, are
+    about the vectors to which A is closest to singular. `factors` returns A^-1 b as floats give it;
+    None if the factors do not fit.
     """
 
     def __init__(
@@ -230,13 +208,7 @@ class Equations:
         return best, np.ldexp(least, shift)
 
     def error(self, missed: Floats) -> Floats:
-        """Return at least |A^-1| `missed`.
-
-        Raises
-        ------
-        NotCertifiedError
-            if no bound is found.
-        """
+        """Return at least |A^-1| `missed`; a NotCertifiedError if no bound is found."""
         with np.errstate(all="ignore"):
             w = self._as_they_are.witness()
         return np.asarray(w * np.ldexp(missed, -self._as_they_are.shift).max())
@@ -248,12 +220,8 @@ class Equations:
     def solve(self, b: Floats) -> tuple[Floats, float, Floats]:
         """Return A^-1 b > 0, a bound on the relative error of every entry, and a witness.
 
-        No diagonal entry of A^-1 is larger than the witness over that of A.
-
-        Raises
-        ------
-        NotCertifiedError
-            if no answer could be proved to `GUARANTEED`.
+        No diagonal entry of A^-1 is larger than the witness over that of A. A NotCertifiedError if
+        no answer could be proved to `GUARANTEED`.
         """
         nothing = np.zeros(len(b))
         with np.errstate(all="ignore"):  # what overflows is not proved
@@ -287,17 +255,7 @@ class Equations:
 
 
 class _Scaled:
-    """The equations A x = b for x = 2^power y.
-
-    Parameters
-    ----------
-    system
-        the equations.
-    power
-        shape (m,): whole numbers.
-    about
-        shape (m,), positive: about what y is to be.
-    """
+    """The equations A x = b for x = 2^power y, whole powers, shape (m,), and y near `about`."""
 
     def __init__(self, system: Equations, power: Places, about: Floats) -> None:
         arcs = system.arcs
@@ -312,13 +270,7 @@ class _Scaled:
         self._system, self._about = system, about
 
     def witness(self) -> Floats:
-        """Return w > 0 with A w >= 1, proved.
-
-        Raises
-        ------
-        NotCertifiedError
-            if none is found.
-        """
+        """Return w > 0 with A w >= 1, proved; a NotCertifiedError if none is found."""
         w, two = np.zeros(len(self.shift)), np.full(len(self.shift), 2.0)
         residual = two
         for _ in range(_TRIES):
@@ -378,10 +330,7 @@ def _sum(y: Pair, more: Floats) -> Pair:
 def _moves(y: Floats) -> Places:
     """Return the powers of 2 that bring all unknowns near 1; all 0 if they are near already.
 
-    Raises
-    ------
-    NotCertifiedError
-        if an unknown is not a number.
+    A NotCertifiedError if an unknown is not a number.
     """
     exponent = np.frexp(y)[1]
     if not np.isfinite(y).all() or y.max() <= 0.0:

@@ -119,12 +119,8 @@ class Chain:
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
         """Return the matrix as a new dense array, column-stochastic; for `np.asarray(chain)`.
 
-        Raises
-        ------
-        ChainError
-            if the array would take more than 2 GB.
-        ValueError
-            if `copy` is False: nothing dense is kept that could be shared.
+        A ChainError if the array would take more than 2 GB; a ValueError if `copy` is False:
+        nothing dense is kept that could be shared.
 
         >>> from evenbreak.chains import chain_of
         >>> np.asarray(chain_of([("S", "W", 0.25), ("S", "S", 0.75)]))

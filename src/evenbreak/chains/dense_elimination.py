@@ -55,15 +55,10 @@ def is_dense(states: int, arcs: int) -> bool:
 
 
 def split(A: Floats, size: int) -> tuple[Factors, Floats]:
-    """Eliminate the first states of a front; return their factors and the rest.
+    """Eliminate the first `size` states of a front; return their factors and the rest.
 
-    Parameters
-    ----------
-    A
-        shape (n + 1, n): the arcs with a minus sign, the leak as the last row; the diagonal does
-        not count.
-    size
-        the number of states to eliminate.
+    A has shape (n + 1, n): the arcs with a minus sign, the leak as the last row; the diagonal does
+    not count.
     """
     B = np.empty((size + 1, size), order="F")
     B[:size] = A[:size, :size]
@@ -77,11 +72,8 @@ def split(A: Floats, size: int) -> tuple[Factors, Floats]:
 def factored(B: Floats) -> Floats:
     """Return L and U in one array, of a block with the sums of what leaves it as the last row.
 
-    Parameters
-    ----------
-    B
-        shape (n + 1, n), in Fortran order; the diagonal does not count. Used up. Without the last
-        row, nothing leaves it.
+    B has shape (n + 1, n), in Fortran order; the diagonal does not count. Used up. Without the last
+    row, nothing leaves it.
     """
     size = B.shape[1]
     if size <= _ONE_BY_ONE:

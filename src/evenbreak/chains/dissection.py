@@ -86,10 +86,7 @@ def bandwidth(graph: csc_array) -> int:
 def dissect(graph: csc_array) -> tuple[Places, list[Front]]:
     """Return the states in an order of elimination, and the fronts in this order.
 
-    Parameters
-    ----------
-    graph
-        the `neighbors` among the states.
+    The graph has the `neighbors` among the states.
 
     >>> path = csc_array([[0.0, 0.5, 0.0], [1.0, 0.0, 1.0], [0.0, 0.5, 0.0]])
     >>> dissect(neighbors(path))[1]
@@ -159,10 +156,8 @@ def _groups(graph: csc_array) -> Iterator[Places]:
 def _crossing(earliest: Places) -> Places:
     """Return how many states from each place on have a neighbor before it.
 
-    Parameters
-    ----------
-    earliest
-        the place of the first neighbor of the state in each place, or that of the state itself.
+    `earliest` is the place of the first neighbor of the state in each place, or that of the state
+    itself.
     """
     size = len(earliest)
     return np.cumsum(np.bincount(earliest + 1, minlength=size + 1)[:size]) - np.arange(size)
@@ -179,16 +174,10 @@ def _cut(crossing: Places, begin: int, end: int) -> int | None:
 
 
 class FrontElimination:
-    """(I - T) factored, for one class of states.
+    """(I - T) factored, for one class of states; for order and fronts see `dissection`.
 
-    Parameters
-    ----------
-    T
-        sparse, shape (m, m): T[i, j] is the arc from j to i; no diagonal.
-    leak
-        shape (m,): the probability of leaving the class, given the state; not all zero.
-    order, fronts
-        the order of elimination, and its fronts (see `dissection`).
+    T is sparse, shape (m, m): T[i, j] is the arc from j to i; no diagonal. `leak`, not all zero, is
+    the probability of leaving the class, given the state.
     """
 
     def __init__(self, T: csc_array, leak: Floats, order: Places, fronts: list[Front]) -> None:

@@ -76,12 +76,7 @@ class Rows:
     """Sums over the rows of a sparse matrix, in twice the precision of doubles.
 
     Rows of about the same number of terms are added up together, one half of their terms to the
-    other half, again and again.
-
-    Parameters
-    ----------
-    indptr
-        shape (m + 1,): row i holds the entries from indptr[i] to indptr[i + 1].
+    other half, again and again. Row i holds the entries from indptr[i] to indptr[i + 1].
     """
 
     def __init__(self, indptr: Places) -> None:
@@ -125,14 +120,8 @@ def _added_up(some: Floats, lost: Floats) -> Pair:
 class Balance:
     """The equations A x = b, A = diag(outflow) - arcs, and by how much they are missed.
 
-    Parameters
-    ----------
-    arcs
-        sparse, shape (m, m), nonnegative, no diagonal.
-    outflow
-        shape (m,) each: the diagonal of A.
-    rows
-        the sums over the rows of `arcs`.
+    The arcs are sparse, shape (m, m), nonnegative, no diagonal; `rows` are the sums over their
+    rows.
     """
 
     def __init__(self, arcs: csr_array, outflow: Pair, rows: Rows) -> None:

@@ -61,15 +61,9 @@ TOLERANCE = 1e-8
 class Eigenpairs(NamedTuple):
     """Eigenvalues, those of conjugate pairs one after the other, the upper first; real vectors.
 
-    The right vectors x + iy and x - iy of a conjugate pair stand as x and y, its left vectors
-    x + iy and x - iy as 2x and -2y, so that products L R stay what they are.
-
-    Parameters
-    ----------
-    values
-        shape (k,).
-    left, right
-        shapes (k, n) and (n, k).
+    The right vectors x + iy and x - iy of a conjugate pair are kept as x and y, its left vectors x
+    + iy and x - iy as 2x and -2y, so that products L R stay what they are. `left` has shape (k, n),
+    `right` (n, k).
     """
 
     values: NDArray[Any]
@@ -125,12 +119,8 @@ def _whole_pairs(values: NDArray[Any], order: Places, k: int) -> Places:
 def leading_pairs(chain: Chain, units: UnitPairs, k: int) -> tuple[Eigenpairs, float]:
     """Return the k leading pairs of a chain, or one more, and by how much they are missed.
 
-    Those of eigenvalue 1 come first.
-
-    Raises
-    ------
-    AccuracyError
-        if there are no k independent vectors, or the iteration does not converge.
+    Those of eigenvalue 1 come first. An AccuracyError if there are no k independent vectors, or the
+    iteration does not converge.
     """
     n, ones = units.right.shape
     M = chain.matrix
@@ -294,17 +284,9 @@ _FEW, _MUCH_WORK = 1000, 1e11
 
 
 class UnitPairs:
-    """The vectors of eigenvalue 1 of a chain.
+    """The vectors of eigenvalue 1 of a chain with n states.
 
-    Parameters
-    ----------
-    chain
-        the chain, n states.
-
-    Raises
-    ------
-    AccuracyError
-        from all that is asked of it, if no bound on the errors is found.
+    An AccuracyError from all that is asked of it, if no bound on the errors is found.
     """
 
     def __init__(self, chain: Chain) -> None:
@@ -414,10 +396,7 @@ class UnitPairs:
     def _equations(self, states: Places) -> CertifiedSolve:
         """Return the equations of some states, factored.
 
-        Raises
-        ------
-        AccuracyError
-            if that would take too long, or floats take the factors for singular.
+        An AccuracyError if that would take too long, or floats take the factors for singular.
         """
         arcs, leak = self._chain.arcs.among(states)
         T, m = arcs.matrix(), len(states)

@@ -46,21 +46,9 @@ MOST_ARCS = 3e6
 class Elimination:
     """(I - T) factored, where T holds the arcs of transient states among themselves.
 
-    Parameters
-    ----------
-    arcs
-        `arcs[j][i]`: the probability of i, given j, for i other than j. Used up.
-    leaks
-        `leaks[j]`: the probability of leaving for good, given j.
-    most
-        give up after making this many arcs.
-    core
-        makes the solver of the states that are left then, of their arcs and leaks.
-
-    Raises
-    ------
-    AccuracyError
-        if more than `most` arcs have to be made, and there is no `core`.
+    `arcs[j][i]` is the probability of i, given j, for i other than j (used up); `leaks[j]` is the
+    probability of leaving for good, given j. After making `most` arcs, `core` makes the solver of
+    the states that are left, of their arcs and leaks; without it that is an AccuracyError.
     """
 
     def __init__(
@@ -151,17 +139,9 @@ def limit_in(
 ) -> dict[int, Any]:
     """Return the stochastic limit of the states that it reaches, in any kind of numbers.
 
-    Parameters
-    ----------
-    structure
-        the classes of the states.
-    rows
-        the arcs between different states, by source.
-    v
-        the start density, by position.
-    visits_of
-        returns the visits to some states, given all arcs and the density on the states, until
-        they are left.
+    `rows` are the arcs between different states, by source; v is the start, by position.
+    `visits_of` returns the visits to some states, given all arcs and the probabilities on the
+    states, until they are left.
     """
     limit: dict[int, Any] = {}
     for label, mass in masses_in(structure, rows, v, visits_of).items():
@@ -217,19 +197,8 @@ def rows_of(arcs: Arcs, number: Callable[[float], Any] = float) -> Rows:
 class PlainElimination:
     """(I - T) factored with a dictionary for each state: the fastest for a few dozen states.
 
-    Parameters
-    ----------
-    arcs
-        the arcs of m states among themselves.
-    leak
-        shape (m,): the probability of leaving them, given the state.
-    most
-        the number of arcs to make at most.
-
-    Raises
-    ------
-    AccuracyError
-        if the elimination would take too long.
+    `leak`, shape (m,), is the probability of leaving them, given the state. An AccuracyError if the
+    elimination would make more than `most` arcs.
     """
 
     bound, is_proved = None, False
@@ -262,14 +231,10 @@ class DecimalElimination(PlainElimination):
 
 
 def decimal_masses(structure: Structure, v: Floats) -> Floats:
-    """Return the probability of ending in each class from the density v; shape (classes,).
+    """Return the probability of ending in each class from the vector v; shape (classes,).
 
-    Expected visits that are larger than any float may be on the way.
-
-    Raises
-    ------
-    AccuracyError
-        if the elimination would take too long.
+    Expected visits that are larger than any float may be on the way. An AccuracyError if the
+    elimination would take too long.
     """
     with localcontext(_CONTEXT):
         rows, density = rows_of(structure.arcs, Decimal), dict(enumerate(map(Decimal, v.tolist())))
@@ -278,12 +243,9 @@ def decimal_masses(structure: Structure, v: Floats) -> Floats:
 
 
 def decimal_law(arcs: Arcs) -> Floats:
-    """Return the stationary law of the one closed class that the arcs make; shape (m,).
+    """Return the stationary distribution of the one closed class that the arcs make; shape (m,).
 
-    Raises
-    ------
-    AccuracyError
-        if the elimination would take too long.
+    An AccuracyError if the elimination would take too long.
     """
     with localcontext(_CONTEXT):
         rows, rest = rows_of(arcs, Decimal), range(1, arcs.size)

@@ -118,11 +118,8 @@ def exact_chance(value: Any) -> Fraction:
 def exact_rows(chain: Chain) -> Rows:
     """Return the arcs between different states, by source.
 
-    Raises
-    ------
-    ChainError
-        if the arcs of a state without a self-loop do not sum to exactly 1, or those of a state
-        with one sum to more.
+    A ChainError if the arcs of a state without a self-loop do not sum to exactly 1, or those of a
+    state with one sum to more.
     """
     rows: Rows = [
         {i: chain.given.get((j, i)) or exact_chance(p) for i, p in row.items()}
@@ -187,17 +184,8 @@ _MOST_STATES = 1000
 class Lifting:
     """(I - T) for fractions, where T holds the arcs of transient states among themselves.
 
-    Parameters
-    ----------
-    arcs
-        `arcs[j][i]`: the probability of i, given j, for i other than j.
-    leaks
-        `leaks[j]`: the probability of leaving for good, given j.
-
-    Raises
-    ------
-    AccuracyError
-        if there are more than 1000 states.
+    `arcs[j][i]` is the probability of i, given j, for i other than j; `leaks[j]` that of leaving
+    for good, given j. An AccuracyError if there are more than 1000 states.
     """
 
     def __init__(self, arcs: Sequence[Mapping[int, Fraction]], leaks: Sequence[Fraction]) -> None:

@@ -142,13 +142,7 @@ class _Piece:
         return dissect(neighbors(self._arcs))
 
     def _eliminated(self, reason: str) -> _Solver:
-        """Return the factors without subtraction, which there is a reason for.
-
-        Raises
-        ------
-        AccuracyError
-            if they would be too many.
-        """
+        """Return the factors without subtraction; an AccuracyError if they are too many."""
         if self._bandwidth <= _NARROW:
             return DecimalElimination(arcs_of(self._arcs), self._leaks, _MOST_ARCS)
         order, fronts = self._fronts
@@ -166,17 +160,8 @@ class _Piece:
 class Factorization:
     """I - T factored, where T holds the arcs of m states among themselves.
 
-    Parameters
-    ----------
-    arcs
-        the arcs among m states.
-    leak
-        shape (m,): the probability of leaving them, given the state. From each state a state
-        with a leak can be reached.
-    outflow
-        shape (m,): the sum of all arcs out of each state and its leak.
-    structure
-        the classes of the arcs, if they are known already.
+    `leak`, shape (m,), is the probability of leaving them, given the state; from each state a state
+    with a leak can be reached. `outflow` is the sum of all arcs out of each state and its leak.
     """
 
     def __init__(
@@ -277,19 +262,9 @@ _FEW_TERMS = 256
 class TriangularSolve:
     """(I - T) factored for consecutive classes, all of them small.
 
-    Parameters
-    ----------
-    arcs
-        sources, targets and chances of the arcs among the states, which are numbered class by
-        class, upstream first.
-    leak
-        shape (m,): the chance of leaving all these states, given the state; only read for
-        classes of several states.
-    outflow
-        shape (m,): the chance of leaving the state; only read for states alone in their
-        class.
-    offsets
-        shape (classes + 1,): the first state of each class, and m.
+    States are numbered class by class, upstream first; `offsets` has the first state of each class,
+    and m. `leak`, the chance of leaving all these states, given the state, is only read for classes
+    of several states; `outflow`, the chance of leaving the state, for states alone in their class.
     """
 
     def __init__(self, arcs: Triples, leak: Floats, outflow: Floats, offsets: Places) -> None:
@@ -398,21 +373,11 @@ def _unit_lower(size: int, columns: Places, rows: Places, entries: Floats) -> cs
 
 
 def eliminate_together(A: Floats, size: int) -> Floats:
-    """Eliminate the first states of all graphs of a stack in place; return the pivots.
+    """Eliminate the first `size` states of all graphs of a stack in place; return the pivots.
 
-    Parameters
-    ----------
-    A
-        shape (m, n, graphs), m >= n >= size: A[i, j] is the arc from the j-th to the i-th state; a
-        leak may be the last row. It becomes the arcs onward below the diagonal, and above it those
-        back divided by the pivot of their target.
-    size
-        the number of states to eliminate.
-
-    Returns
-    -------
-    numpy.ndarray
-        shape (size, graphs).
+    A has shape (m, n, graphs), m >= n >= size: A[i, j] is the arc from the j-th to the i-th state;
+    a leak may be the last row. It becomes the arcs onward below the diagonal, and above it those
+    back divided by the pivot of their target. Pivots have shape (size, graphs).
     """
     pivot = np.empty((size, A.shape[2]))
     for k in range(size):

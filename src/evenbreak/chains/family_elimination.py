@@ -41,35 +41,10 @@ def family_limits(
 ) -> tuple[dict[int, Numbers | float], Bools | None]:
     """Return the limits from state 0, and which of them have to be calculated one by one.
 
-    Parameters
-    ----------
-    structure
-        the classes of the graph, all of which can be reached from state 0.
-    sources, targets
-        the arcs, which may include self-loops.
-    chances
-        for each arc, the positive chance of the target, given the source: k numbers, or one
-        for all chains.
-    count
-        the number of chains k.
-
-    Returns
-    -------
-    dict, array
-        the limit of each state that is reached; and, of shape (k,), whether it spans so many
-        decades that underflow may have touched it. None: no limit does, nor one of other chains
-        that give the same answers.
-
-    >>> from scipy.sparse import csc_array
-    >>> from evenbreak.chains.arcs import arcs_of
-    >>> from evenbreak.chains.structure import structure_of
-    >>> sources, targets = [0, 0, 2, 2], [1, 2, 3, 0]
-    >>> one_ball = structure_of(arcs_of(csc_array((np.ones(4), (targets, sources)), shape=(4, 4))))
-    >>> p1, p2 = np.array([0.5, 0.25]), 0.5
-    >>> p1 = Numbers(p1)
-    >>> limits, doubtful = family_limits(one_ball, sources, targets, [p1, 1 - p1, p2, 1 - p2], 2)
-    >>> limits[1].values, limits[3].values, doubtful
-    (array([0.66666667, 0.4       ]), array([0.33333333, 0.6       ]), None)
+    All classes of the structure can be reached from state 0; arcs may include self-loops. An arc's
+    positive chance of the target, given the source, is `count` numbers, or one for all chains. The
+    array, shape (count,), is whether a limit spans so many decades that underflow may have touched
+    it. None: no limit does, nor one of other chains that give the same answers.
     """
     rows: Rows = [{} for _ in structure.label]
     for j, i, chance in zip(sources, targets, chances, strict=True):

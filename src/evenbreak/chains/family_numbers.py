@@ -38,10 +38,7 @@ not."""
 class Disagreement(Exception):  # noqa: N818  it is an answer, not a failure
     """The entries of `Numbers` do not answer alike.
 
-    Parameters
-    ----------
-    true
-        shape (k,): where the answer is True; None if there is no answer for many at once.
+    `true` is where the answer is True; None if there is no answer for many at once.
     """
 
     def __init__(self, true: Bools | None) -> None:
@@ -84,21 +81,7 @@ class Record:
 class Numbers(NDArrayOperatorsMixin, ManyAsOne):
     """Several numbers, or several truth values, that go through arithmetic as one.
 
-    Parameters
-    ----------
-    values
-        shape (k,).
-    record
-        where it is kept what is done with them; all numbers that meet have the same.
-
-    >>> p = Numbers(np.array([0.25, 0.5]))
-    >>> (1.0 - p).values, bool(p < 0.75)
-    (array([0.75, 0.5 ]), True)
-    >>> try:
-    ...     bool(p < 0.5)
-    ... except Disagreement as who:
-    ...     print(who.true)
-    [ True False]
+    What is done with them is kept in `record`, the same for all numbers that meet.
     """
 
     __slots__ = ("place", "record", "values")
@@ -177,14 +160,7 @@ _SHORTEST, _LONGEST = 4096, 32_000
 class Program:
     """The operations of a record, to be repeated with other numbers, `size` or fewer at a time.
 
-    Parameters
-    ----------
-    record
-        what was done.
-    outputs
-        the numbers to return: some of the record's, or floats.
-    answers
-        whether the answers must be the same.
+    `outputs` are some of the record's numbers, or floats; `answers`: the answers must be the same.
     """
 
     def __init__(self, record: Record, outputs: Iterable[Any], *, answers: bool = True) -> None:

@@ -36,11 +36,8 @@ def is_matrix(source: object) -> bool:
 def read_matrix(source: Any, rows: Rows | None) -> tuple[list[Hashable], csc_array]:
     """Return the states of a square matrix, its labels or 0, 1, 2, ..., and the M that is meant.
 
-    Raises
-    ------
-    ChainError
-        if the matrix is not square and stochastic, its labels differ or repeat, or both
-        readings are possible and `rows` does not say which is meant.
+    A ChainError if the matrix is not square and stochastic, its labels differ or repeat, or both
+    readings are possible and `rows` does not say which is meant.
 
     >>> import numpy as np
     >>> states, matrix = read_matrix(np.array([[0.9, 0.1], [0.5, 0.5]]), None)
@@ -123,10 +120,7 @@ def _labeled(frame: Any) -> tuple[list[Hashable], csc_array]:
 def csc_of(matrix: Any) -> csc_array:
     """Return a matrix of numbers in CSC form, its columns sorted and without duplicates.
 
-    Raises
-    ------
-    ChainError
-        if it is neither a sparse matrix nor a two-dimensional array of numbers.
+    A ChainError if it is neither a sparse matrix nor a two-dimensional array of numbers.
 
     >>> from scipy.sparse import coo_array
     >>> csc_of(coo_array(([0.25, 0.25], ([0, 0], [1, 1])))).toarray()
@@ -151,13 +145,8 @@ def csc_of(matrix: Any) -> csc_array:
 def adding_up(matrix: csc_array, states: Sequence[Hashable]) -> csc_array:
     """Return the matrix with columns that sum to 1 to about one rounding.
 
-    Where one does not, its self-loop becomes what the other arcs leave over; without one the arcs
-    are scaled.
-
-    Raises
-    ------
-    ChainError
-        if one misses 1 by more than 1e-9; the message names the state and its sum.
+    Where one does not, its self-loop becomes the remainder of the other arcs; without one the arcs
+    are scaled. A ChainError if one misses 1 by more than 1e-9; it names the state and its sum.
 
     >>> adding_up(csc_array([[0.3, 0.0], [0.7 + 1e-10, 1.0]]), "AB").toarray()
     array([[0.3, 0. ],

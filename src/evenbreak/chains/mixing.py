@@ -89,18 +89,8 @@ def apparent_period(chain: Chain) -> int:
     """Return the period of a chain as far as anyone can see: the least common one of its classes.
 
     It is the period, or a multiple d of it where the d-th roots of 1 have eigenvalues within 1e-8
-    of them: what these carry goes round for a hundred million steps.
-
-    Raises
-    ------
-    AccuracyError
-        as for `spectral_gap`.
-
-    >>> from evenbreak.chains import chain_of
-    >>> rare = 1e-12
-    >>> chain = chain_of([(1, 2, 1.0), (2, 1, 1.0 - rare), (2, 2, rare)])
-    >>> int(chain.structure.periods[0]), apparent_period(chain)
-    (1, 2)
+    of them: what these carry goes round for a hundred million steps. An AccuracyError as for
+    `spectral_gap`.
     """
     seen = [seen for _, _, seen in _classes(chain, chain.structure.closed)]
     # In Python's integers: the least common multiple of a dozen periods may exceed 64 bits.

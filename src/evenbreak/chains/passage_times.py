@@ -290,10 +290,7 @@ def conditioned(chain: Chain, target: Any) -> Chain:
 def target_of(chain: Chain, target: Any) -> Bools:
     """Return which states are the target, given as a state or a list or set of states.
 
-    Raises
-    ------
-    ChainError
-        if a state is unknown, or there is none.
+    A ChainError if a state is unknown, or there is none.
     """
     targets = target if isinstance(target, (list, set, frozenset)) else [target]
     if isinstance(target, Hashable) and target in chain.position:
@@ -308,10 +305,7 @@ def target_of(chain: Chain, target: Any) -> Bools:
 def approach(chain: Chain, ends: Bools, met: Bools) -> tuple[Places, TransientPart, Floats]:
     """Return those of the states `met` that can reach the `ends`, before they do.
 
-    Returns
-    -------
-    array, TransientPart, array
-        their positions, their solves, and the chance of stepping into the ends, given each.
+    Their positions, their solves, and the chance of stepping into the ends, given each.
     """
     n, arcs = len(chain), chain.arcs
     before = ~ends[arcs.sources]

@@ -241,17 +241,10 @@ _SAMPLE = 1000
 class SymmetricForm:
     """One reversible class: S and D.
 
-    Parameters
-    ----------
-    states
-        positions of the m states in the chain, increasing.
-    matrix
-        S, sparse, shape (m, m), in the order of `states`.
-    roots
-        shape (m,): the diagonal of D, the square roots of weights that sum to 1 (the stationary
-        law, if the class is closed); 0 where it is smaller than any float.
-    line
-        the order in which the states stand in a line, or None.
+    `states` are m increasing positions; `matrix` is S, sparse, in their order. `roots` is the
+    diagonal of D, the square roots of weights that sum to 1 (the stationary distribution, if the
+    class is closed); 0 where it is smaller than any float. `line` is the order in which the states
+    are in a line, or None.
     """
 
     states: Places
@@ -262,12 +255,8 @@ class SymmetricForm:
     def pairs(self, k: int) -> tuple[Floats, Floats]:
         """Return k eigenvalues of S, ascending, and their orthonormal vectors as columns.
 
-        All m of them up to `ALL_REVERSIBLE` states; beyond that those nearest to 1.
-
-        Raises
-        ------
-        AccuracyError
-            if the iteration for a large class does not converge.
+        All m of them up to `ALL_REVERSIBLE` states; beyond that those nearest to 1. An
+        AccuracyError if the iteration for a large class does not converge.
         """
         m = len(self.states)
         if self.line is not None:
@@ -301,18 +290,7 @@ class SymmetricForm:
 def symmetric_form(chain: Chain, states: Places) -> SymmetricForm | None:
     """Return the symmetric form of one class, or None if the class is not reversible.
 
-    Parameters
-    ----------
-    chain
-        the chain.
-    states
-        positions of the states of the class, increasing.
-
-    >>> from evenbreak.chains import chain_of
-    >>> walk = chain_of([(0, 1, 1.0), (1, 0, 0.2), (1, 2, 0.8), (2, 1, 1.0)])
-    >>> form = symmetric_form(walk, np.arange(3))
-    >>> (form.roots**2).round(15), abs(form.pairs(3)[0].round(12))
-    (array([0.1, 0.5, 0.4]), array([1., 0., 1.]))
+    States are increasing positions.
     """
     there = chain.arcs.matrix()
     if len(states) < len(chain):
@@ -395,17 +373,9 @@ def reversible_pairs(
 ) -> tuple[Eigenpairs, Floats, float]:
     """Return k eigenpairs of a chain from the symmetric forms of its classes, closed ones first.
 
-    Returns
-    -------
-    (pairs, orthonormal, missed)
-        the pairs, in which an entry of a left vector that no float can hold is infinite; the
-        vectors Q of the symmetric forms, shape (n, k); and the largest entry of
-        S Q - Q diag(values) and of Q^T Q - I.
-
-    Raises
-    ------
-    AccuracyError
-        if the iteration for a large class does not converge.
+    In the pairs, an entry of a left vector that no float can hold is infinite. The vectors Q of the
+    symmetric forms, shape (n, k), follow, and the largest entry of S Q - Q diag(values) and of Q^T
+    Q - I. An AccuracyError if the iteration for a large class does not converge.
     """
     n = len(chain)
     recurrent, periods = chain.structure.recurrent, chain.structure.periods

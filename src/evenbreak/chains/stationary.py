@@ -347,11 +347,8 @@ def _means_among(chain: Chain, states: Places, root: int = -1) -> Floats:
 def _by_halves(A: Floats) -> Floats:
     """Return the means among all states of a chain; shape (n, n).
 
-    Parameters
-    ----------
-    A
-        shape (n + 1, n): the arcs, and the time of a step as the last row, all with a minus sign;
-        the diagonal does not count.
+    A has shape (n + 1, n): the arcs, and the time of a step as the last row, all with a minus sign;
+    the diagonal does not count.
     """
     n = A.shape[1]
     if n <= _FEW:

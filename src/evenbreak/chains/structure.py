@@ -154,17 +154,10 @@ class Structure:
 
 
 def structure_of(arcs: Arcs, loops: Bools | None = None) -> Structure:
-    """Return the communicating classes of the graph that `arcs` make.
+    """Return the communicating classes of the graph that `arcs`, between different states, make.
 
-    Time is linear in the number of arcs. If all arcs lead forward in the given order, or
-    all lead backward, no search is needed.
-
-    Parameters
-    ----------
-    arcs
-        the arcs between different states.
-    loops
-        shape (n,): whether the state has a self-loop; only the periods depend on it.
+    Time is linear in the number of arcs. If all arcs lead forward in the given order, or all lead
+    backward, no search is needed. Self-loops (`loops`) matter only for the periods.
     """
     n = arcs.size
     if loops is None:

@@ -15,10 +15,7 @@ WAYS: tuple[Way, ...] = ("kernel", "elimination", "eigen")
 def way_of_limit(via: Way | None, *, exact: bool = False) -> Way | None:
     """Return a way that leads over the limit of a chain; None where a function's kernel answers.
 
-    Raises
-    ------
-    InputError
-        if it is not a way, or is given together with `exact`.
+    An InputError if it is not a way, or is given together with `exact`.
 
     >>> way_of_limit("eigen"), way_of_limit("kernel"), way_of_limit(None)
     ('eigen', None, None)

@@ -51,12 +51,7 @@ BREAK_FORMATS: dict[str, BreakFormat] = {
 
 
 def checked_format(breaks: Any) -> BreakFormat:
-    """Return `breaks` if it gives the next breaker after every rack.
-
-    Raises
-    ------
-    InputError
-        if it is not a function, or returns anything but 1 or 2.
+    """Return `breaks` if it gives the next breaker, 1 or 2, after every rack (else InputError).
 
     >>> checked_format(lambda breaker, winner: winner - 1)
     Traceback (most recent call last):

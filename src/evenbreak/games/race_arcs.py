@@ -23,19 +23,8 @@ from evenbreak.games.rack import Rack
 class ScoreStates(Sequence[tuple[int, ...]]):
     """The states (a, b) or (a, b, breaker) of a race, made only when they are read.
 
-    Parameters
-    ----------
-    a, b
-        the score of each cell.
-    place
-        the number of each state: its cell, or 2 cell + breaker - 1 with breakers.
-    with_breaker
-        whether the breaker is part of a state.
-
-    >>> cells = np.array([0, 0, 1]), np.array([0, 1, 0])
-    >>> states = ScoreStates(*cells, np.array([0, 1, 3, 4]), with_breaker=True)
-    >>> states[-1], states.index((0, 1, 2)), (1, 0, 2) in states
-    ((1, 0, 1), 2, False)
+    a and b are the score of each cell; a state's place is its cell, or 2 cell + breaker - 1 with
+    breakers.
     """
 
     def __init__(
@@ -96,28 +85,8 @@ def race_arcs(
 ) -> ArcArrays:
     """Return the states and arcs of the race to `need` from `score`, winning by one.
 
-    Parameters
-    ----------
-    need
-        the games that player 1 and player 2 need.
-    rack, breaks, first_breaker, score
-        as in `Race`.
-
-    Returns
-    -------
-    ArcArrays
-        the states that can be reached, sorted by racks played; the arcs sorted by source,
-        each with the probability of its target, given the source.
-
-    Raises
-    ------
-    InputError
-        if the rack holds arrays.
-
-    >>> from evenbreak.games import winner_breaks
-    >>> arcs = race_arcs((1, 1), Rack(0.6, 0.5), winner_breaks, 2, (0, 0))
-    >>> list(arcs.states), arcs.probabilities
-    ([(0, 0, 2), (0, 1, 2), (1, 0, 1)], array([0.5, 0.5]))
+    The states that can be reached are sorted by racks played, the arcs by source, each with the
+    probability of its target, given the source. An InputError if the rack holds arrays.
     """
     breakers = (1, 2) if rack.break_matters else (1,)
     count = len(breakers)

@@ -45,18 +45,9 @@ def ahead_chances(
 ) -> tuple[dict[tuple[int, int], Any], Any] | None:
     """Return the chance of each (winner, next breaker), and P(the match never ends).
 
-    None if the break format is not one that keeps the closed form.
-
-    Parameters
-    ----------
-    m, n
-        by how many games player 1 and player 2 still have to pull ahead.
-    breaker
-        who breaks the first rack.
-    racks
-        by who breaks, the chances that player 1 and player 2 win the rack.
-    after
-        by who breaks, who breaks next if player 1 and if player 2 has won.
+    None if the break format does not keep the closed form. m and n are by how many games player 1
+    and player 2 still have to pull ahead; `racks` has, by breaker, the chances that each wins the
+    rack, and `after` who breaks next if player 1 and if player 2 has won.
 
     >>> chances, never = ahead_chances(2, 2, 1, {1: (0.75, 0.25)}, {1: (1, 1)})
     >>> round(chances[1, 1], 15), never

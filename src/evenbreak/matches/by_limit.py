@@ -21,17 +21,7 @@ if TYPE_CHECKING:
 
 
 class LimitOdds(NamedTuple):
-    """Who wins, by the limit of the game's chain.
-
-    Parameters
-    ----------
-    limit
-        the limit.
-    by_winner
-        P(the game ends with this winner), by the player; None stands for no winner.
-    p_never_ends
-        P(the game goes on for ever).
-    """
+    """Who wins, by the limit of the game's chain; None as a player is no winner."""
 
     limit: Limit
     by_winner: dict[int | None, float]
@@ -43,28 +33,10 @@ class LimitOdds(NamedTuple):
 
 
 def odds_by_limit(game: Game, via: Way, start: Any = None) -> LimitOdds:
-    """Return who wins a game, from its stochastic limit by a way.
+    """Return who wins a game, from its stochastic limit by 'elimination' or 'eigen'.
 
-    Parameters
-    ----------
-    game
-        the game; in a match, the chances are plain numbers.
-    via
-        'elimination' or 'eigen' (see `limit_of`).
-    start
-        the state from which it is played; None: its own start.
-
-    Raises
-    ------
-    InputError
-        if the chances in a match are arrays.
-    AccuracyError, ChainError, GameError
-        as `limit_of` and `game_odds` do.
-
-    >>> from evenbreak.games import Race
-    >>> odds = odds_by_limit(Race(2, 2, Rack(0.5)), "eigen")
-    >>> odds.p_win(1), odds.limit[2, 0], odds.p_never_ends
-    (0.5, 0.25, 0.0)
+    An InputError if the chances in a match are arrays; other errors as of `limit_of` and
+    `game_odds`.
     """
     rack = game.innermost_rack if isinstance(game, Match) else None
     if isinstance(rack, Rack):

@@ -41,16 +41,9 @@ def is_bounded(match: Match) -> bool:
 def endings_of(match: Match, never: Any, tail: float) -> Endings:
     """Return P(player 1, 2 wins after exactly k racks), k = 0, 1, ... along the first axis.
 
-    Parameters
-    ----------
-    match
-        a match whose p1 and p2 have the same shape.
-    never
-        P(the match never ends), of that shape.
-    tail
-        for a match without a longest length: follow it until P(it is still going on, but will
-        end) is at most this, for 100,000 racks at most, and fewer where so many parameters
-        would not fit in memory.
+    p1, p2 and `never`, P(the match never ends), have the same shape. A match without a longest
+    length is followed until P(it is still going on, but will end) is at most `tail`, for 100,000
+    racks at most, and fewer where so many parameters would not fit in memory.
     """
     winner = match.decided(*match.score)
     rack = rack_in(match)
@@ -117,19 +110,9 @@ def race_endings(
 ) -> Endings:
     """Return who wins a race, and after how many racks.
 
-    Parameters
-    ----------
-    need_1, need_2
-        the racks that player 1 and player 2 still need, 1 or more.
-    rack
-        the rack; its chances may be arrays, which are broadcast together.
-    breaks
-        who breaks next; needed if the break matters.
-    first_breaker
-        who breaks the first rack, 1 or 2.
+    The chances may be arrays, which are broadcast together; `breaks` is needed if the break
+    matters.
 
-    Notes
-    -----
     Source: problems P5.5 and P5.24.
 
     >>> endings = race_endings(2, 1, Rack(0.5), None, 1)

@@ -26,10 +26,7 @@ _Outcomes = dict[tuple[int, int], Fraction]
 def exact_win(match: Match, player: int) -> Fraction:
     """Return P(`player` wins the match) from its start score on, as a fraction.
 
-    Raises
-    ------
-    InputError
-        if the chances in a rack are arrays.
+    An InputError if the chances in a rack are arrays.
 
     >>> from evenbreak.games import Ahead
     >>> exact_win(Ahead(2, 2, Rack(0.6)), 1)

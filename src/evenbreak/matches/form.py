@@ -50,17 +50,9 @@ def form_of(form: Any) -> float:
 def normal_rule(sd: float, longest: int, most: int) -> tuple[Floats, Floats]:
     """Return nodes and weights of N(0, 1) that average chances to 1e-9, unless `most` are too few.
 
-    Parameters
-    ----------
-    sd
-        the largest standard deviation of log-odds.
-    longest
-        the games that both players together need.
-
-    Notes
-    -----
-    The number of nodes depends on the deviation compared with the width of W's rise, about
-    2 / sqrt(m + n) in log-odds; it was found by trial against adaptive quadrature.
+    `sd` is the largest standard deviation of log-odds, `longest` the games that both players
+    together need. The number of nodes depends on the deviation compared with the width of W's rise,
+    about 2 / sqrt(m + n) in log-odds; it was found by trial against adaptive quadrature.
     """
     if sd == 0.0:
         return np.zeros(1), np.ones(1)
@@ -80,14 +72,7 @@ def _hermite(number: int) -> tuple[Floats, Floats]:
 def center_of_form(mean: ArrayLike, sd: ArrayLike, form: float) -> Floats:
     """Return the c for which a game is won as often with form as without.
 
-    That is, E expit(N(c, sd² + form²)) = E expit(N(mean, sd²)), to rounding.
-
-    Parameters
-    ----------
-    mean, sd
-        the log-odds of a game, and how far they may be off (standard deviation).
-    form
-        the standard deviation of form.
+    That is, E expit(N(c, sd² + form²)) = E expit(N(mean, sd²)), to rounding, in log-odds of a game.
 
     >>> center_of_form([0.0, 1.0], 0.0, 0.5).round(4)
     array([0.    , 1.0552])
@@ -130,17 +115,9 @@ def chance_in_form(
 ) -> Callable[[ArrayLike], Floats]:
     """Return a function from the log-odds of a game to P(player 1 wins a race).
 
-    It is the same as averaging each of many chances over form, to 1e-6, but takes no longer than
-    without form.
-
-    Parameters
-    ----------
-    needs
-        the games that both players need in all.
-    form
-        the standard deviation of form, more than 0.
-    score
-        the games played, which show some of it.
+    It is the same as averaging each of many chances over form, a standard deviation above 0, to
+    1e-6, but takes no longer than without form. `needs` are in all; the score shows some of the
+    form.
 
     >>> chance_in_form((5, 5), 0.5)([0.0, 1.0]).round(4)
     array([0.5   , 0.8987])
@@ -161,28 +138,9 @@ def chance_in_form(
 def on_days(match: AnyMatch, form: float) -> tuple[AnyMatch, Floats]:
     """Return a match on many days, and how likely each day is given the score.
 
-    Parameters
-    ----------
-    match
-        what is played from its start score on; its chances may be arrays.
-    form
-        the standard deviation of form, more than 0.
-
-    Returns
-    -------
-    tuple
-        the match with another axis at the end of its chances, one entry a day, and the weights of
-        the days, which sum to 1 over the last axis.
-
-    Raises
-    ------
-    InputError
-        if games were played and the chances depend on who broke them.
-
-    >>> from evenbreak.games import Race
-    >>> days, weights = on_days(Race(1, 1, Rack(0.6)), 0.5)
-    >>> round(float(days.rack.p1 @ weights), 12)
-    0.6
+    Its chances get another axis at the end, one entry per day; the weights of the days sum to 1
+    over the last axis. `form` is a standard deviation above 0. An InputError if games were played
+    and the chances depend on who broke them.
     """
     match = checked_match(match)
     rack = rack_in(match)
@@ -212,12 +170,7 @@ def rule_for(match: Match, sd: float) -> tuple[Floats, Floats]:
 def given_score(match: Match, weights: Floats) -> Floats:
     """Return how likely each day is, given the games or sets that were played.
 
-    Parameters
-    ----------
-    match
-        the match on each day, one along the last axis of its chances.
-    weights
-        how likely each day is beforehand.
+    The days are the last axis of the match's chances; `weights` are their chances beforehand.
     """
     won, lost = match.score
     if won == lost == 0:

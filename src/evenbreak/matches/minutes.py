@@ -147,14 +147,9 @@ class End(NamedTuple):
 
 
 def one_after_another(lengths: Sequence[Floats], pace: Pace, turnover: Turnover) -> End:
-    """Return when matches on one table end, with the turnovers between them.
+    """Return when matches on one table end, with the turnovers between them, at the usual pace.
 
-    Parameters
-    ----------
-    lengths
-        P(the match takes k games), k = 0, 1, ..., for each match.
-    pace, turnover
-        how fast matches are played, and the time between two; of evenings of the usual pace.
+    Lengths are P(the match takes k games), k = 0, 1, ..., for each match.
 
     >>> once = one_after_another([np.array([0.0, 0.0, 1.0])] * 3, Pace(4, 6, 0, 0), Turnover(5))
     >>> once.mean
@@ -185,12 +180,7 @@ def one_after_another(lengths: Sequence[Floats], pace: Pace, turnover: Turnover)
 
 
 def all_at_once(lengths: Sequence[Floats], pace: Pace) -> End:
-    """Return when the last of some matches ends that all begin at once.
-
-    Parameters
-    ----------
-    lengths, pace
-        as for `one_after_another`.
+    """Return when the last of some matches ends that all start at once.
 
     >>> all_at_once([np.array([0.0, 0.5, 0.5])] * 2, Pace(0, 8, 0, 0)).mean.__round__(1)
     14.0

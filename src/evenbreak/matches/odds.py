@@ -98,17 +98,8 @@ def match_odds(match: Match, *, via: Way | None = None, form: float = 0.0) -> Ma
 
 
 def mixed_odds(match: Match, weights: Floats | list[float]) -> MatchOdds:
-    """Return the odds of a match whose chances are drawn from some that may be right.
+    """Return the odds of a match whose chances are drawn from arrays, by weights that sum to 1.
 
-    Parameters
-    ----------
-    match
-        the match, with arrays of chances of the length of `weights`.
-    weights
-        how likely each of them is; they sum to 1.
-
-    Notes
-    -----
     The lengths are mixed, and mean, standard deviation and quantiles are those of the mixture.
 
     >>> from evenbreak.games import Race, Rack

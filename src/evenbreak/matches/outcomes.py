@@ -45,15 +45,7 @@ class Outcome(NamedTuple):
 
 @dataclass(frozen=True)
 class Outcomes:
-    """All outcomes of a match from one start.
-
-    Parameters
-    ----------
-    by_result
-        the `Outcome` of each (winner, next breaker).
-    never
-        P(the match never ends).
-    """
+    """All outcomes of a match from one start, by (winner, next breaker), and P(it never ends)."""
 
     by_result: dict[tuple[int, int], Outcome]
     never: Any
@@ -73,12 +65,7 @@ class Outcomes:
 def outcomes_of(match: Match, *, lengths: bool = True) -> Outcomes:
     """Return the outcomes of `match` from its start score and first breaker.
 
-    Parameters
-    ----------
-    match
-        a race or an n-ahead match, of racks or of sets to any depth; floats or arrays.
-    lengths
-        whether to work out means and standard deviations too; if not, they are 0.
+    Without `lengths`, means and standard deviations are 0.
 
     >>> from evenbreak.games import Race, Rack
     >>> round(outcomes_of(Race(3, 1, Race(3, 3, Rack(2 / 3)))).p_win(1), 12)
@@ -281,11 +268,8 @@ def ratio(x: Any, y: Any) -> Any:
 class ScoreChain:
     """The absorbing chain of a match's scores, solved for any rewards.
 
-    Parameters
-    ----------
-    rows
-        for each state that is not final, the probability of each next state, with the start
-        first; states without a row are final.
+    `rows` are the probabilities of each next state, with the start first; states without a row are
+    final.
 
     >>> walk = ScoreChain({0: {1: 0.5, -1: 0.5}, 1: {2: 0.5, 0: 0.5}})
     >>> round(walk.solve({2: 1.0})[0], 12)
@@ -311,20 +295,10 @@ class ScoreChain:
         final: Mapping[Hashable, Any] | None = None,
         reward: Callable[[Hashable], Any] | None = None,
     ) -> dict[Hashable, Any]:
-        """Return the expected total of rewards from each state on.
+        """Return the expected total of rewards from each state on, final ones included.
 
-        Parameters
-        ----------
-        final
-            the reward of each final state, paid once; 0 for states that are not listed.
-            `NEVER` stands for play that does not end.
-        reward
-            the reward of each visit to a state that is not final.
-
-        Returns
-        -------
-        dict
-            the expected total, given the state; final states with a reward included.
+        `final` rewards are paid once, 0 where not listed; `NEVER` means play that does not end.
+        `reward` is that of each visit to a state that is not final.
         """
         final = final or {}
         own = [0 if reward is None else reward(state) for state in self._place]

@@ -119,23 +119,10 @@ class Ends(NamedTuple):
 def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) -> Ends:
     """Return how a game ends: in which states, and who has won in each of them.
 
-    Parameters
-    ----------
-    game
-        any object with start, moves and winner, or a directed graph whose arcs have a
-        `probability` and whose final nodes have a `winner`.
-    start
-        the state from which it is played; None: its own start.
-
-    Raises
-    ------
-    InputError
-        if it is not a game.
-    GameError
-        if a winner is not the number of a player, somebody has won in a state that has moves,
-        or a probability is not one.
-    ChainError
-        if the probabilities of a state do not sum to 1, or the start is unknown.
+    A directed graph has a `probability` on its arcs and a `winner` on final nodes. An InputError if
+    it is not a game; a GameError if a winner is not the number of a player, someone has won in a
+    state that has moves, or a probability is not one; a ChainError if the probabilities of a state
+    do not sum to 1, or the start is unknown.
 
     >>> from evenbreak.games import OneBall
     >>> ends_of_game(OneBall(0.5, 0.5)).by_winner
@@ -166,10 +153,7 @@ def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) ->
 def rack_of_game(game: Game) -> Rack[float]:
     """Return the rack that each player wins with the same chance as the game.
 
-    Raises
-    ------
-    GameError
-        if the game has other players, or may end without a winner or not at all.
+    A GameError if the game has other players, or may end without a winner or not at all.
 
     >>> from evenbreak.games import OneBall
     >>> rack_of_game(OneBall(0.5, 0.0))

@@ -18,17 +18,7 @@ TIE = 1e-12
 def quantile_of(probability: Sequence[float], q: float) -> int:
     """Return the first position whose cumulative probability reaches `q`.
 
-    Parameters
-    ----------
-    probability
-        P(position k), in order; they sum to 1.
-    q
-        the level, 0 to 1.
-
-    Raises
-    ------
-    InputError
-        if q is not a probability.
+    An InputError if q is not a probability.
 
     >>> quantile_of([0.5, 0.3, 0.2], 0.5), quantile_of([0.5, 0.3, 0.2], 0.9)
     (0, 2)

@@ -36,21 +36,9 @@ def racks_within(
 ) -> list[int | None]:
     """Return the least k with P(the match is over within k racks) >= q, for each (state, q).
 
-    Parameters
-    ----------
-    moves
-        for each state that goes on, the next states with their probabilities; states that are
-        not listed are final.
-    asked
-        states, each with a probability q.
-    never
-        P(the match never ends), by state; 0 for states that are not listed.
-
-    Returns
-    -------
-    list of int or None
-        None if the match never ends with that probability, or if it takes more than 100,000
-        racks and has more than 1,000 states.
+    States without `moves` are final; `never` is P(the match never ends), by state, 0 where not
+    listed. None if the match never ends with that probability, or if it takes more than 100,000
+    racks and has more than 1,000 states.
 
     >>> moves = {"on": [("on", 0.9), ("over", 0.1)]}
     >>> racks_within(moves, [("on", 0.1), ("on", 0.5), ("over", 0.9)], {})
@@ -145,13 +133,6 @@ def rack_moves(match: Match, start: Any = None) -> RackMoves:
 
     The entry for player 1 comes first. Both are listed, even with a chance of 0, as people win
     racks in which a model gives them no chance. States that are not listed are final.
-
-    Parameters
-    ----------
-    match
-        a race or an n-ahead match, of racks or of sets; its chances may be arrays.
-    start
-        the state from which the others are reached; None: the match's own start.
 
     >>> from evenbreak.games import Race
     >>> rack_moves(Race(2, 1, Rack(0.75)))

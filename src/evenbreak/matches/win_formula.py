@@ -173,8 +173,6 @@ WinForms = tuple[Form, Form]
 def win_forms(played: MatchFormat) -> WinForms:
     """Return the forms F1 and F2 of a match: P(player 1 wins) = F1 / (F1 + F2).
 
-    Notes
-    -----
     Source: problems P5.5, P5.8 and P5.27.
 
     >>> from evenbreak.matches.formats import match_format

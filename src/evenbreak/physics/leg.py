@@ -192,14 +192,7 @@ def leg_until(
 ) -> Leg:
     """Return the path of a ball until it stops, or meets the first thing in its way.
 
-    Parameters
-    ----------
-    name, slide, begin
-        as for `Leg`; the ball starts inside the cushions.
-    table
-        whose cushions and pockets end the path.
-    hit
-        the seconds after which the ball hits the other ball.
+    The ball starts inside the cushions; `hit` is the seconds after which it hits the other ball.
     """
     radius = slide.ball.radius
     walls = {
@@ -224,12 +217,8 @@ def leg_until(
 def time_to(slide: Slide, normal: Floats, level: float) -> float:
     """Return when a ball first crosses a line, in seconds; infinity if it never does.
 
-    Parameters
-    ----------
-    slide
-        one ball, on the near side of the line.
-    normal, level
-        the line: the points whose product with `normal` is `level`, in meters.
+    The ball starts on the near side of the line: the points whose product with `normal` is `level`,
+    in meters.
     """
     start, rolls, rests = 0.0, float(slide.slide_time), float(slide.stop_time)
     for begin, end in ((start, rolls), (rolls, rests)):

@@ -256,12 +256,7 @@ def sound_strike(strike: Strike) -> None:
 def travel_for(cut: float, distance: float, diameter: float) -> float:
     """Return how far the cue ball travels to the hit, in the unit of the two lengths.
 
-    Parameters
-    ----------
-    cut
-        cut angle in radians.
-    distance, diameter
-        between the centers, and of the balls, in any unit of length.
+    The cut angle is in radians, the distance between centers.
 
     >>> travel_for(0.0, 10.0, 2.0)
     8.0

@@ -112,14 +112,9 @@ MORE = 0.05
 def chances_seen(attempts: Ints, successes: Ints) -> Floats:
     """Return the success rate at each level, with a convention for levels that were not tried.
 
-    Untried levels below all those tried count as always succeeding: a player who begins at
-    level 4 and never falls below 3 would not get stuck at level 1. All others count as never
-    succeeding.
-
-    Parameters
-    ----------
-    attempts, successes
-        shape (..., n): the counts at each level, one log per row.
+    Untried levels below all those tried count as always succeeding: a player who starts at level 4
+    and never falls below 3 would not get stuck at level 1. All others count as never succeeding.
+    Counts have shape (..., n), one log per row.
 
     >>> chances_seen(np.array([0, 2, 4, 0]), np.array([0, 2, 1, 0]))
     array([1.  , 1.  , 0.25, 0.  ])
@@ -130,22 +125,9 @@ def chances_seen(attempts: Ints, successes: Ints) -> Floats:
 
 
 def level_laws(success: Floats) -> Floats:
-    """Return the stochastic limits of drills that begin at level 1.
+    """Return the stochastic limits of drills that start at level 1: the share of each level.
 
-    Parameters
-    ----------
-    success
-        shape (..., n): P(success | an attempt at level i), one drill per row.
-
-    Returns
-    -------
-    numpy.ndarray
-        shape (..., n): the long-run fraction of attempts at each level.
-
-    >>> level_laws(np.array([[0.5, 0.5], [0.5, 1.0], [0.0, 0.5]]))
-    array([[0.5, 0.5],
-           [0. , 1. ],
-           [1. , 0. ]])
+    `success` is P(success | an attempt at level i), shape (..., n), one drill per row.
     """
     n = success.shape[-1]
     level = np.arange(n)
@@ -168,13 +150,9 @@ def level_laws(success: Floats) -> Floats:
 def level_gains(success: Floats, law: Floats) -> Floats:
     """Return the derivative of the mean level with respect to the chance at each level.
 
-    At a chance of 0 or 1 it is one-sided. It is inf where the mean jumps (level i never
-    succeeds and level i + 1 always does), and 0 at levels not visited in the long run.
-
-    Parameters
-    ----------
-    success, law
-        shape (..., n), as in `level_laws`.
+    At a chance of 0 or 1 it is one-sided. It is inf where the mean jumps (level i never succeeds
+    and level i + 1 always does), and 0 at levels not visited in the long run. Shapes as in
+    `level_laws`.
 
     >>> success = np.array([0.5, 0.5])
     >>> level_gains(success, level_laws(success))
@@ -201,12 +179,7 @@ def level_lifts(success: Floats) -> Floats:
     """Return by how much the mean level rises with five more successes in 100 at each level.
 
     Each entry is the rise if only the chance at that level is 0.05 higher (or 1, if it is above
-    0.95 already); so a level that always succeeds has none.
-
-    Parameters
-    ----------
-    success
-        shape (..., n), as in `level_laws`.
+    0.95 already); so a level that always succeeds has none. Shape as in `level_laws`.
 
     >>> level_lifts(np.array([1.0, 0.5])).round(6)
     array([0.      , 0.022989])

@@ -57,16 +57,9 @@ def difference_test(log: DrillLog, played: Ints) -> PlayedAgainTest:
     """Test the levels visited against the long run of the chances observed.
 
     The figure is half the sum of the absolute differences of the two distributions. It is large
-    where sessions are short, so it must be compared with `by_chance`; a figure that chance does
-    not reach comes from how sessions begin and end.
-
-    Parameters
-    ----------
-    log
-        the log.
-    played
-        shape (replicas, levels, 3, 2): logs that `play_again` simulated with the chances
-        observed.
+    where sessions are short, so it must be compared with `by_chance`; a figure that chance does not
+    reach comes from how sessions start and end. `played` is what `play_again` simulated with the
+    chances observed.
     """
     return _larger(_distance(log.outcomes), _distance(played))
 
@@ -74,14 +67,9 @@ def difference_test(log: DrillLog, played: Ints) -> PlayedAgainTest:
 def memory_test(log: DrillLog, played: Ints) -> PlayedAgainTest | None:
     """Test whether success is as likely after a success as after a miss, at the same level.
 
-    The figure is the difference of the two success rates, with the levels weighted as by
-    Mantel and Haenszel; the test is two-sided about its mean by chance. None where no level was
-    attempted after both.
-
-    Parameters
-    ----------
-    log, played
-        as in `difference_test`.
+    The figure is the difference of the two success rates, with the levels weighted as by Mantel and
+    Haenszel; the test is two-sided about its mean by chance. None where no level was attempted
+    after both.
     """
     seen, by_chance = float(_memory(log.outcomes)), _memory(played)
     by_chance = by_chance[~np.isnan(by_chance)]
@@ -111,20 +99,11 @@ def _error_about_mean(seen: float, by_chance: Floats) -> float:
 def model_test(
     log: DrillLog, p: float, *, replicas: int, rng: np.random.Generator
 ) -> PlayedAgainTest | None:
-    """Test the model p_i = p^(i - 1) against a separate chance for each level.
+    """Test the model p_i = p^(i - 1), p fitted, against a separate chance for each level.
 
-    The figure is the deviance, twice the logarithm of the likelihood ratio. Logs are simulated
-    with the model's chances, except at level 1, which the fit ignores: there with the chance
-    observed. None unless two levels above the first were attempted.
-
-    Parameters
-    ----------
-    log
-        the log.
-    p
-        the p that fits the log best.
-    replicas, rng
-        as in `play_again`.
+    The figure is the deviance, twice the logarithm of the likelihood ratio. Logs are simulated with
+    the model's chances, except at level 1, which the fit ignores: there with the chance observed.
+    None unless two levels above the first were attempted.
     """
     if np.count_nonzero(log.attempts[1:]) < 2:
         return None
@@ -173,30 +152,10 @@ _AT_ONCE = 500_000
 def play_again(log: DrillLog, success: Floats, *, replicas: int, rng: np.random.Generator) -> Ints:
     """Return the outcomes of simulated logs that have the starts and lengths of a log.
 
-    Each stretch of the log, from one start to the next, is simulated from its first level for
-    the same number of attempts, each independent of those before it, given its level.
-
-    Parameters
-    ----------
-    log
-        where the stretches begin, and how long they are.
-    success
-        shape (levels,): P(success | an attempt at level i).
-    replicas
-        how many logs to simulate.
-    rng
-        the source of the random draws.
-
-    Returns
-    -------
-    numpy.ndarray
-        shape (replicas, levels, 3, 2): as `DrillLog.outcomes`, one log per row.
-
-    >>> from evenbreak.practice import DrillLog
-    >>> log = DrillLog([1, 2, 1], [True, False, True])
-    >>> always = np.array([1.0, 1.0])
-    >>> play_again(log, always, replicas=1, rng=np.random.default_rng(1)).sum((2, 3))
-    array([[1, 2]])
+    Each stretch of the log, from one start to the next, is simulated from its first level for the
+    same number of attempts, each independent of those before it, given its level. `success` is
+    P(success | an attempt at level i); the result has shape (replicas, levels, 3, 2), as
+    `DrillLog.outcomes`.
     """
     ends = np.append(log.starts[1:], len(log))
     lengths = ends - log.starts
@@ -316,17 +275,9 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
 
 
 def likeliest_p(successes: Ints, failures: Ints) -> FloatOrArray:
-    """Return the maximum-likelihood p of each of many logs.
+    """Return the maximum-likelihood p of each of many logs, of shape (..., levels).
 
-    Parameters
-    ----------
-    successes, failures
-        shape (..., levels); level 1 is ignored.
-
-    Returns
-    -------
-    numpy.ndarray
-        shape (...): NaN where there is no attempt above level 1.
+    Level 1 is ignored; NaN where there is no attempt above it.
 
     >>> likeliest_p(np.array([[9, 3], [9, 0]]), np.array([[0, 1], [0, 0]])).round(9)
     array([0.75,  nan])

@@ -11,18 +11,11 @@ _CONVERGED = 1e-17
 
 
 def beta_tail(a: Any, b: Any, x: Any) -> Any:
-    """Return I_x(a, b), the regularised incomplete beta function, elementwise.
+    """Return I_x(a, b), the regularized incomplete beta function, elementwise.
 
-    For whole a and b it is the chance of at least a successes in a + b - 1 tries that succeed
-    with chance x each: of winning a games before losing b.
-
-    Parameters
-    ----------
-    a, b
-        above 0.
-    x
-        from 0 to 1; small values keep their digits, so pass 1 - x as a small number instead of
-        taking a result near 1 from 1.
+    For whole a and b it is the chance of at least a successes in a + b - 1 tries that succeed with
+    chance x each: of winning a games before losing b. Small x keep their digits, so pass 1 - x as a
+    small number instead of taking a result near 1 from 1.
 
     >>> f"{beta_tail(19, 10, 1e-16):.10e}"
     '6.9069000000e-298'

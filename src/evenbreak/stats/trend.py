@@ -33,13 +33,6 @@ class TrendLine(NamedTuple):
 def trend_line(times: Any, scores: Any, at: Any, confidence: float = 0.95) -> TrendLine:
     """Return the line of `trend` at some times, with its interval.
 
-    Parameters
-    ----------
-    times, scores, confidence
-        as for `trend`.
-    at
-        the times.
-
     >>> found = trend_line([0, 1, 2, 3], [50, 52, 51, 53], [0, 1.5])
     >>> [column.round(2).tolist() for column in found]
     [[50.3, 51.5], [46.88, 49.46], [53.72, 53.54]]
