@@ -77,14 +77,7 @@ class Text(Kind):
 
 @dataclass(frozen=True)
 class File(Kind):
-    """The name of a file, or of what comes with the program.
-
-    Parameters
-    ----------
-    names
-        returns what may be named in place of a file, such as the charts; other computers name only
-        these.
-    """
+    """The name of a file, or one of `names`, which are all that other computers may give."""
 
     metavar: str = "FILE"
     names: Callable[[], Iterable[str]] | None = None
@@ -152,17 +145,7 @@ class Whole(Kind):
 
 @dataclass(frozen=True)
 class Number(Kind):
-    """A number from `low` to `high`.
-
-    Parameters
-    ----------
-    low, high
-        the limits.
-    wanted
-        completes the message that refuses a value, in place of what it would say.
-    example
-        a number that would do, for that message.
-    """
+    """A number from `low` to `high`; `wanted` and `example` complete the error message."""
 
     low: float = 0.0
     high: float = 1.0
@@ -245,18 +228,8 @@ class NumberOr(Kind):
 class TwoWhole(Kind):
     """Two whole numbers with a sign between them, such as 7:5.
 
-    Parameters
-    ----------
-    sign
-        what stands between them, as a regular expression.
-    low, high
-        the limits of each.
-    wanted
-        how to write them, which completes the message that refuses a value.
-    one
-        whether one number may stand for both.
-    rising
-        whether the second may not be below the first.
+    `sign` is a regular expression; `one` number may stand for both; `rising`: the second isn't
+    below the first.
     """
 
     sign: str = BETWEEN
@@ -336,16 +309,8 @@ class Choice(Kind):
 class Named(Kind):
     """What a function reads, such as a scale or a system by its name.
 
-    Parameters
-    ----------
-    reader
-        returns the value of a text, or raises an `InputError`.
-    offers
-        what a shell offers for it: the name of a function of `cli.kit.completion`.
-    spelled
-        returns a value as it is typed.
-    number
-        whether it may be a number, which JSON has without quotes.
+    `reader` raises an `InputError`; `offers` is a function of `cli.kit.completion` for the shell;
+    `spelled` returns a value as typed; `number`: JSON may have it without quotes.
     """
 
     reader: Callable[[str], Any] = str

@@ -49,38 +49,13 @@ from evenbreak.words import Parameter, Sentence, say
 class Field:
     """What an annotation says of a field.
 
-    Parameters
-    ----------
-    kind
-        the kind of its values, with their limits.
-    help
-        what it is, in a sentence or two.
-    usual
-        what applies if it is left out, in words, where the default does not say so.
-    metavar
-        what stands for a value in help texts; that of the kind if left out.
-    section
-        the heading under which help texts list it; those without come first.
-    rare
-        whether only `--help-all` lists it.
-    formats
-        the tournament formats that have it; all if left out.
-    argument
-        whether its values are typed on the terminal without the name of an option.
-    many
-        whether it takes several values: all that are typed, or an option that is repeated.
-    words
-        how many words make one of its values, such as 2 for a pair of names.
-    option
-        how the terminal calls it, where that is not its name; a short form may follow a slash.
-    old
-        the names of options it had before: accepted for one version, with a note.
-    label
-        what a form calls it: a sentence; the help if left out.
-    titles
-        what a form calls the words of a choice, '' being the one that leaves it out.
-    more
-        what the reference adds, in Markdown.
+    `usual` is the default in words, where the value doesn't show it; `section` is the heading in
+    help texts, `rare` shows it only with `--help-all`; `formats` are the tournament formats that
+    have it, by default all. `argument` values are typed without the name of an option; `many`:
+    several values, or a repeated option; `words` make up one value. `option` is the terminal's
+    name, where different, with a short form after a slash; `old` names are accepted for one
+    version, with a note. `label` is for forms, `titles` for the words of a choice ('': none
+    chosen), `more` for the reference, in Markdown.
     """
 
     kind: Kind

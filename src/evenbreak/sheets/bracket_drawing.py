@@ -48,20 +48,10 @@ class Heading(NamedTuple):
 
 @dataclass(frozen=True)
 class Drawing:
-    """A bracket, or a part of one, as a drawing.
+    """A bracket, or a part of one, as a drawing; `wide` and `high` in rounds and matches.
 
-    Parameters
-    ----------
-    wide, high
-        its size, in rounds and in matches.
-    boxes
-        its matches.
-    lines
-        the corners of the lines between them.
-    headings
-        what stands above rounds and matches.
-    onward
-        the ends of lines that lead to a match that is not in it, and that match's number.
+    `lines` are by corners; `onward` are the ends of lines that lead out of it, with the match's
+    number.
     """
 
     wide: float
@@ -176,14 +166,9 @@ def _lines(parts: list[list[Placed]]) -> tuple[list[Corners], list[tuple[float, 
 
 
 def pages(panels: Sequence[Panel], high: float, wide: int) -> list[list[Panel]]:
-    """Return the parts of a bracket that go on each page.
+    """Return the parts of a bracket that go on each page of so many matches and rounds.
 
-    Parameters
-    ----------
-    panels
-        the bracket.
-    high, wide
-        how many matches, headings among them, and how many rounds a page has room for.
+    Headings count as matches.
     """
     whole = drawing(panels)
     if whole.high <= high and whole.wide <= wide:

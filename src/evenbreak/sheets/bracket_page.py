@@ -81,20 +81,9 @@ def bracket_svg(
     chosen: str = "",
     within: float = 0.0,
 ) -> Markup:
-    """Return the drawing of a bracket as inline SVG.
+    """Return the drawing of a bracket as inline SVG, with each match linked and one chosen.
 
-    Parameters
-    ----------
-    panels
-        the parts of the bracket.
-    words
-        says a sentence in the reader's language.
-    link
-        the address of a match.
-    chosen
-        a match that was tapped, by name.
-    within
-        the width of the room by its height, where the drawing is to fill it; 0: as wide as usual.
+    `within` is the width by the height of the space to fill; 0: as wide as usual.
 
     >>> "<svg" in bracket_svg([Panel("winners", "", (), ())])
     True
@@ -223,16 +212,9 @@ def bracket_rounds(
     chosen: str = "",
     sight: bool = True,
 ) -> Markup:
-    """Return a bracket for a phone: a round at a time, the next one in sight.
+    """Return a bracket for a phone: one round at a time.
 
-    Parameters
-    ----------
-    panels
-        the parts of the bracket.
-    words, link, chosen
-        as in `bracket_svg`.
-    sight
-        whether the next round is in sight, which takes a third more bytes.
+    With `sight` the next round is in sight, which takes a third more bytes.
     """
     say_it = partial(_said, words)
     card = partial(_card, words=words, chosen=chosen, written=_small(panels))
@@ -351,14 +333,7 @@ def _card(
 
 
 def bracket_html(panels: Sequence[Panel], heading: Sequence[str]) -> bytes:
-    """Return the bracket as a page of HTML in UTF-8.
-
-    Parameters
-    ----------
-    panels
-        the parts of the bracket.
-    heading
-        its name, and what else stands above it.
+    """Return the bracket as a page of HTML in UTF-8; the heading starts with its name.
 
     >>> page = bracket_html([Panel("", "", (), ())], ["Tuesday"])
     >>> b"<h1>Tuesday</h1>" in page
@@ -394,15 +369,7 @@ _TITLE, _ABOUT = 50.0, 18.0  # heights above the drawing, the line below the tit
 
 
 def bracket_picture(panels: Sequence[Panel], title: str = "", about: str = "") -> bytes:
-    """Return the drawing of a bracket as an SVG file, dark letters on white.
-
-    Parameters
-    ----------
-    panels
-        the parts of the bracket.
-    title, about
-        the name of the tournament, and what is played; '' for none.
-    """
+    """Return the drawing of a bracket as an SVG file, dark letters on white."""
     above = _TITLE * bool(title) + _ABOUT * bool(about)
     style = (
         f"svg{{{_on_white()}font-family:system-ui,'Segoe UI',Roboto,'Noto Sans',"

@@ -43,18 +43,10 @@ _TWO_LINES = 2.0 * _LINE * SMALLEST / (0.97 * 0.5 * BOX_HIGH * POINTS)  # of one
 
 
 class Sheet(NamedTuple):
-    """What stands around a bracket on paper.
+    """What surrounds a bracket on paper.
 
-    Parameters
-    ----------
-    title, about
-        the name of the tournament, and what is played.
-    foot
-        when it was printed.
-    champion
-        who has won; '' where a line is left for the name; None for neither.
-    live
-        the address of the live page, as a QR code; '' for none.
+    `champion` is '' to leave a line for the name, None for neither; `live` is the address of the
+    live page, as a QR code.
     """
 
     title: str
@@ -68,16 +60,7 @@ def bracket_pdf(panels: Sequence[Panel], sheet: Sheet, *, paper: str = "a4") -> 
     """Return the bracket as a PDF, on one page if its names can be read there, else on more.
 
     No name is cut or shortened: it is written smaller, down to 8 points, or on two lines, and
-    else the bracket goes on more pages.
-
-    Parameters
-    ----------
-    panels
-        the parts of the bracket.
-    sheet
-        what stands around it.
-    paper
-        'a4' or 'letter'.
+    otherwise the bracket takes more pages. The paper is 'a4' or 'letter'.
     """
     return pdf_bytes(bracket_pages(panels, sheet, paper), sheet.title)
 
@@ -242,15 +225,7 @@ def _line(page: Paper, line: Line, x: float, y: float, wide: float, high: float)
 
 
 def written(line: Line, room: float, high: float) -> list[tuple[str, float, float]]:
-    """Return a name as it is written: each line with its offset from the middle, and its size.
-
-    Parameters
-    ----------
-    line
-        a player.
-    room, high
-        the room for the name, in inches.
-    """
+    """Return a name as written in a space (inches): lines with offset from the middle, and size."""
     largest = min(LARGEST if line.known else 9.0, _ON_ONE_LINE * high * POINTS)
     text, size = fitted(line.text, largest, room, bold=line.won)
     halves = _halves(line.text)

@@ -30,25 +30,11 @@ if TYPE_CHECKING:
 def html_page(
     *, search: bool = False, more_style: str = "", drawings: bool = False, **values: Any
 ) -> bytes:
-    """Return a page that asks no other host for anything.
+    """Return a self-contained HTML page in UTF-8; the same values give the same bytes.
 
-    Its Content-Security-Policy allows its own style and, if there is one, its own script.
-
-    Parameters
-    ----------
-    search
-        whether players can be searched for, which takes a script; without it, the box is hidden.
-    more_style
-        the page's own style, after that of all.
-    drawings
-        whether it has drawings that bring styles of their own.
-    values
-        what the page shows; every text in it is escaped.
-
-    Returns
-    -------
-    bytes
-        UTF-8; the same values give the same bytes.
+    Its Content-Security-Policy allows its own style and, if there is one, its own script, which
+    `search` for players needs. `more_style` follows that of all pages; `drawings` may have styles
+    of their own. Every text is escaped.
     """
     style = own_file("sheet.css") + more_style
     script = own_file("search.js") if search else ""
@@ -149,18 +135,9 @@ def drawn_page(
 ) -> bytes:
     """Return an answer as a page whose tables are drawn in their own way.
 
-    Parameters
-    ----------
-    answer
-        what the page says. What stands before a table belongs to the table's section; what
-        stands after the last one comes last, with the remarks of the details and the warnings.
-        The other details are at the foot of the page.
-    drawings
-        for each table of the answer the sections that stand for it.
-    notes
-        the last section: its id, its title, and what it says if there is nothing else to say.
-    made_of, file
-        what the page was made from, in words, and the file.
+    What precedes a table belongs to its section; what follows the last one comes last, with the
+    remarks of the details and the warnings. The other details are at the foot of the page. `notes`
+    is the last section: its id, its title, and its text if there is nothing else.
     """
     tables = iter(drawings)
     sections, said = [], Markup()

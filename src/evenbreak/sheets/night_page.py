@@ -25,20 +25,9 @@ def night_html(
     name: str,
     face: Face = PYTHON,
 ) -> bytes:
-    """Return a night as one page of HTML in UTF-8, which asks no other host for anything.
+    """Return a night as one self-contained page of HTML in UTF-8.
 
-    Parameters
-    ----------
-    state
-        the night.
-    places
-        who finished where, and what that is paid.
-    story
-        the story of the night; None leaves it out.
-    name
-        what the night is called, where its plan has no name.
-    face
-        how the page says a sentence.
+    Places have names and pay; `name` is for a plan without one.
     """
 
     def said(text: str) -> str:

@@ -14,17 +14,7 @@ _TOP = MARGIN + 0.75
 
 
 class FirstMatch(NamedTuple):
-    """A player of the draw list.
-
-    Parameters
-    ----------
-    name, seed
-        the player.
-    match, other
-        the number of the first match, and who is met there; 0 and '' if there is none.
-    table
-        where it is played; '': not called yet.
-    """
+    """A player of the draw list; `match` is 0 without a first match, `table` '' before the call."""
 
     name: str
     seed: int
@@ -36,18 +26,7 @@ class FirstMatch(NamedTuple):
 def draw_list_pdf(
     players: Sequence[FirstMatch], event: str, about: str = "", *, paper: str = "a4"
 ) -> bytes:
-    """Return the draw as a PDF of upright pages, the players by name.
-
-    Parameters
-    ----------
-    players
-        everybody in the draw.
-    event
-        the name of the tournament.
-    about
-        what is played.
-    paper
-        'a4' or 'letter'.
+    """Return the draw as a PDF of upright pages ('a4' or 'letter'), the players by name.
 
     >>> draw_list_pdf([FirstMatch("Ann", 1, 1, "Bo", "3")], "Tuesday")[:5]
     b'%PDF-'
@@ -99,22 +78,10 @@ def score_cards_pdf(
     codes: Mapping[str, str] | None = None,
     address: str = "",
 ) -> bytes:
-    """Return score cards as a PDF.
+    """Return score cards as a PDF, 1 or 4 per page ('a4' or 'letter').
 
-    Parameters
-    ----------
-    cards
-        the cards.
-    event
-        the name of the tournament, on each card.
-    per_page
-        1 or 4.
-    paper
-        'a4' or 'letter'.
-    codes
-        the short code by which each player's phone is claimed.
-    address
-        what a code is put after to open it on a phone, such as 'http://192.168.1.7:8000/c/'.
+    A player's code claims a phone for them; after `address`, such as 'http://192.168.1.7:8000/c/',
+    it opens on it.
 
     >>> card = Card(1, "winners’ side, round 1", ("Ann", "Bo"), (7, 5), "3", "")
     >>> score_cards_pdf([card], "Tuesday")[:5]

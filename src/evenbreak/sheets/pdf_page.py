@@ -203,16 +203,7 @@ def shortened(text: str, size: float, width: float) -> str:
 
 
 def fitted(text: str, size: float, width: float, *, bold: bool = False) -> tuple[str, float]:
-    """Return a text that is never cut, and the size at which all of it fits a width in inches.
-
-    Parameters
-    ----------
-    text, size
-        what is written, and the size of its letters in points where there is room.
-    width
-        the room.
-    bold
-        whether the letters are bold.
+    """Return a text, never cut, and the size, in points, at which it fits a width in inches.
 
     >>> fitted("Ann Lee", 10, 2.0), fitted("Maximiliane Lee", 10, 0.5)[1] < 6.0
     (('Ann Lee', 10.0), True)

@@ -45,18 +45,7 @@ class Tick(NamedTuple):
 
 
 class Bars:
-    """The axis that the bars of some ratings share.
-
-    Parameters
-    ----------
-    rated
-        with the columns rating and standard_error (NaN: not stated).
-
-    >>> import pandas as pd
-    >>> bars = Bars(pd.DataFrame({"rating": [60.0, 100.0], "standard_error": [5.0, float("nan")]}))
-    >>> bars.place(80.0), [tick.label for tick in bars.ticks()]
-    (59.26, ['60', '70', '80', '90'])
-    """
+    """The axis that the bars of some ratings share; standard errors are NaN where not stated."""
 
     def __init__(self, rated: pd.DataFrame) -> None:
         error = rated["standard_error"].fillna(0.0)
@@ -97,19 +86,9 @@ def player_lines(
 ) -> list[PlayerLine]:
     """Return the lines of a list of ratings, in its order.
 
-    Parameters
-    ----------
-    rated
-        with the columns player, rating, standard_error (NaN: not stated), games (below 0: not
-        stated), component (0: not stated) and provisional; perhaps won and lost.
-    scale
-        of the ratings, which says how many decimals they need.
-    bars
-        their axis.
-    grouped
-        whether to say to which group a player belongs.
-    places
-        the place of each row of a longer list, in which the index is the row; None: these are all.
+    `rated` has the columns player, rating, standard_error (NaN: not stated), games (below 0: not
+    stated), component (0: not stated) and provisional; perhaps won and lost. `grouped` shows a
+    player's group; `places` are those in a longer list, by row.
     """
     places = places_in_list(rated["provisional"]) if places is None else places
     # Ratings in whole points are shown as the league knows them.
@@ -146,16 +125,8 @@ _NAME = 26
 class Plot(NamedTuple):
     """The plot in units of its own box, 360 wide and 230 high.
 
-    Attributes
-    ----------
-    curves
-        the stronger player's chance over each band of the chart, as points of a polyline.
-    names
-        the race of each band that has room for it: x, y and the race.
-    dots
-        the pairs.
-    x, y
-        the marks on the axes.
+    `curves` are the stronger player's chance over each band of the chart, as points of a polyline;
+    `names` the races of bands wide enough, with x and y.
     """
 
     curves: Sequence[str]

@@ -59,25 +59,10 @@ def story_svg(
     letters: float = 17.0,
     alone: bool = True,
 ) -> str:
-    """Return the title odds of a night as an SVG, which fills the box that it is put in.
+    """Return the title odds of a night, with a draw, as an SVG that fills its box.
 
-    Parameters
-    ----------
-    story
-        the story of the night; of one without a draw there is no picture.
-    face
-        how it says a sentence.
-    size
-        its width and height, in units of the drawing.
-    letters
-        the size of its type, in the same units.
-    alone
-        whether it brings its colors with it (`story_style`), for a file or a page without them.
-
-    >>> from evenbreak.tournaments.evening.story import Step
-    >>> start = Step("2025-03-01T19:30:00", None, None, {"Ann": 0.5, "Bo": 0.5})
-    >>> story_svg(Story((start, start._replace(at="2025-03-01T20:30:00")))).count("<polyline")
-    2
+    Size and letters are in units of the drawing; `alone`, it brings its colors along
+    (`story_style`).
     """
     style = f"<style>{story_style()}</style>" if alone else ""
     return _Drawing(story, face, size, letters, style).svg() if story.steps else ""

@@ -27,13 +27,7 @@ _WRITTEN = dt.datetime(2000, 1, 1)
 
 
 def check_workbook() -> None:
-    """Refuse if workbooks cannot be written, before any work is done for one.
-
-    Raises
-    ------
-    InputError
-        if XlsxWriter is not installed.
-    """
+    """Refuse (InputError), before any work, if XlsxWriter is not installed."""
     _xlsxwriter()
 
 

@@ -61,12 +61,7 @@ _OURS = re.compile(
 
 
 def files_of(manifest: bytes) -> set[str]:
-    """Return the files of the site to which a manifest belongs.
-
-    Raises
-    ------
-    ValueError
-        if it is no manifest.
+    """Return the files of the site to which a manifest belongs (ValueError: it is none).
 
     >>> sorted(files_of(b'{"files": {"races.csv": {}}, "pages": ["index.html", "../x.html"]}'))
     ['data/races.csv', 'index.html']

@@ -68,21 +68,8 @@ class Rated(NamedTuple):
 class PublishedLeague:
     """A league whose players have their public names.
 
-    Parameters
-    ----------
-    title
-        the league's name.
-    results, ratings
-        the matches, and what was made of them.
-    races
-        how races are set.
-    names
-        what the players are called, and how that was chosen.
-    accent, logo
-        the color if it is not the usual one, and the name and the content of the logo.
-    rules, head_start, count_games
-        those of the standings, the points that sides have besides their matches, and whether a
-        team's score is the games of its players.
+    `accent` is the color if it isn't the usual one; `head_start` are points besides matches;
+    `count_games`: a team's score is the games of its players.
     """
 
     title: str

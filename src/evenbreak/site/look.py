@@ -70,10 +70,7 @@ def tokens(*, dark: bool) -> dict[str, str]:
 def accent(color: str) -> Accent:
     """Return a color that can be read on all pages: darker by day, lighter by night.
 
-    Raises
-    ------
-    InputError
-        if it is not a color like #1b6e53.
+    An InputError if it is not a color like #1b6e53.
 
     >>> accent("#1b6e53").light, accent("#ffee00").light, accent("#ffee00").changed
     ('#1b6e53', '#736b00', True)
@@ -143,12 +140,9 @@ def _on(color: str) -> str:
 
 
 def logo_name(content: bytes, source: str) -> str:
-    r"""Return what a site calls a logo, by what is in it: logo.png, logo.jpg or logo.webp.
+    r"""Return a logo's name on a site, by its content: logo.png, logo.jpg or logo.webp.
 
-    Raises
-    ------
-    InputError
-        if it is no such picture, or too large; the message says what to do.
+    An InputError, with the remedy, if it is no such picture, or too large.
 
     >>> logo_name(b"\x89PNG\r\n\x1a\n...", "club.png")
     'logo.png'

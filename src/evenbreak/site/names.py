@@ -27,18 +27,10 @@ _RESERVED = {"con", "prn", "aux", "nul", *(f"{d}{n}" for d in ("com", "lpt") for
 
 @dataclass(frozen=True)
 class PublicNames:
-    """What a site calls players.
+    """What a site calls players: the public name by the private one.
 
-    Parameters
-    ----------
-    names
-        the public name of each player, by the private one.
-    ways
-        how each is named.
-    means
-        the names of players by other names that they have in some file (see `same_name`).
-    stranger
-        how a player is named who is in none of the league's lists, such as a guest of a tournament.
+    `means` are names by other spellings (see `same_name`); `stranger` is the way to name a player
+    in none of the league's lists, such as a tournament's guest.
 
     >>> names = PublicNames.of(["Ann Lee", "Bo Diaz", "Al Lum"], by_player={"Bo Diaz": "hidden"})
     >>> names["Ann Lee"], names["bo  diaz"]
@@ -60,23 +52,11 @@ class PublicNames:
         aliases: Mapping[str, str] | None = None,
         where: str = "",
     ) -> PublicNames:
-        """Return the public names of players, given in an order that new players do not change.
+        """Return the public names of players, in an order that new players do not change.
 
-        Parameters
-        ----------
-        players
-            the players of all lists; those whose names differ in case or blanks alone are one.
-        usual, by_player
-            how all are named, and how some are.
-        aliases
-            the names of players by others that they have.
-        where
-            what names `by_player`, for errors.
-
-        Raises
-        ------
-        DataError
-            if a name of `by_player` is nobody's: a slip would show what should be hidden.
+        Names that differ only in case or blanks are one player's; `where` is where `by_player` is,
+        for errors. A DataError if one of its names is nobody's: a typo would show what should be
+        hidden.
         """
         others = {same_name(name): meant for name, meant in (aliases or {}).items()}
         means: dict[str, str] = {}

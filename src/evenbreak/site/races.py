@@ -27,23 +27,9 @@ from evenbreak.ratings.scale import Scale
 class LeagueRaces:
     """How a league sets its races.
 
-    Parameters
-    ----------
-    roster
-        everybody's rating with its error; with a chart of skill levels, the levels.
-    scale
-        what the ratings mean.
-    rule
-        the races among which the fairest is taken, or the chart that sets them.
-    skills
-        how strong the levels are, with a chart of levels.
-    form
-        how much the log-odds of a game vary from match to match.
-
-    >>> club = Roster(["Ann", "Bo"], [612.0, 521.0], [20.0, 30.0])
-    >>> from evenbreak.ratings import scale_of
-    >>> LeagueRaces(club, scale_of("fargo"), OfferedRaces(race_to=7)).by_pair["Bo", "Ann"][:2]
-    (4, 7)
+    With a chart of skill levels, the roster has levels, and `skills` their strengths. `rule` is the
+    races among which the fairest is taken, or the chart. `form` is the standard deviation of a
+    game's log-odds from match to match.
     """
 
     roster: Roster

@@ -25,14 +25,7 @@ class Tournament(NamedTuple):
 def tournament_of(name: str, state: Evening, names: PublicNames) -> Tournament | None:
     """Return a tournament under public names; None unless it is over and has a bracket.
 
-    Parameters
-    ----------
-    name
-        that of its file.
-    state
-        what was played.
-    names
-        what players are called; guests of the tournament are named as the strictest rule has it.
+    Guests of the tournament are named as the strictest rule has it.
     """
     if not state.drawn or state.plan.form == "chips" or state.standing.to_play:
         return None

@@ -35,10 +35,7 @@ DERIVED: Derived = {key: rows for part in SECTION_5 for key, rows in part.DERIVE
 def compute(problem: str, quantity: str, inputs: str) -> Any:
     """Return a quantity of the text, computed from the inputs as the text states them.
 
-    Raises
-    ------
-    KeyError
-        if the text has no such quantity.
+    A KeyError if the text has no such quantity.
 
     >>> compute("P5.5", "P(3:0)", "p=2/3"), round(compute("P4.17", "theta, deg", "alpha=30deg"), 2)
     (Fraction(8, 27), 33.67)

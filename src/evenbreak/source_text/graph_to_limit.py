@@ -39,19 +39,7 @@ PLACES = 10
 
 
 class Asked(NamedTuple):
-    """A game, and the number that is asked of it.
-
-    Parameters
-    ----------
-    words
-        what the game is.
-    game
-        the game.
-    question
-        what the number is.
-    answer
-        the number, by the way `via`.
-    """
+    """A game, and a question about it, which `answer` answers by each method (`via`)."""
 
     words: str
     game: Game
@@ -235,13 +223,7 @@ def small(value: float, decimals: int = PLACES) -> Decimal | str:
 
 
 def graph_to_limit_page(tables: Tables) -> str:
-    """Return the page in Markdown.
-
-    Parameters
-    ----------
-    tables
-        those of `game_tables`.
-    """
+    """Return the page in Markdown, from `game_tables`."""
     return filled(
         "graph_to_limit",
         {

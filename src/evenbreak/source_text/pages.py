@@ -118,15 +118,7 @@ _SHOWN_ELSEWHERE = {"mean of two", "W(1/2;n,n)", "W infinite look-ahead", "W two
 
 
 def section_5_page(findings: Sequence[Finding], tables: Tables) -> str:
-    """Return the page in Markdown.
-
-    Parameters
-    ----------
-    findings
-        all printed numbers with what is computed.
-    tables
-        the tables of section 5, by the name of their file.
-    """
+    """Return the page in Markdown, from all printed numbers and the tables by file name."""
     return filled("section5", _blocks(findings, tables))
 
 
@@ -207,15 +199,7 @@ _PROBLEM = re.compile(r"(\d)\.(\d+)")
 
 
 def physics_page(findings: Sequence[Finding], tables: Iterable[str]) -> str:
-    """Return the page in Markdown.
-
-    Parameters
-    ----------
-    findings
-        all numbers of sections 1 to 4 with what is computed.
-    tables
-        the names of the tables of sections 1 to 4, which are linked under their figures.
-    """
+    """Return the page in Markdown, from all numbers and names of tables of sections 1 to 4."""
     names, slips = list(tables), physics_errata()
     return filled(
         "physics",

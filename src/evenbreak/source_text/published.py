@@ -142,17 +142,9 @@ _UNITS = {"deg": DEGREE, "in": INCH, "in/s": INCH, "oz": OUNCE}
 class Inputs:
     """The inputs of a quantity, by name.
 
-    Parameters
-    ----------
-    numbers
-        exact, in the units in which they are written; `;` and `:` stand between several of one
-        name, and "" is the name of those that follow none.
-    units
-        the factor that turns such a number into SI units or radians, where it is not 1.
-    texts
-        the values that are not numbers.
-    words
-        the words without a value.
+    Numbers are exact, in the units in which they are written; `;` and `:` separate several of one
+    name, and "" names those that follow none. `units` has the factors to SI units or radians, where
+    not 1; `words` have no value.
     """
 
     numbers: dict[str, tuple[Fraction, ...]] = field(default_factory=dict)
@@ -217,16 +209,9 @@ def parse_inputs(text: str) -> Inputs:
 class Finding(NamedTuple):
     """A printed number, what is computed in its place, and the verdict.
 
-    Parameters
-    ----------
-    published
-        the number in the package data.
-    computed
-        what the library computes, or has where the text takes a number from elsewhere; None if
-        it has no such number.
-    verdict
-        'agrees', 'formula', 'given', 'erratum' or 'derived' as for `PublishedNumber`; or
-        'differs', which should never happen.
+    `computed` is None if the library has no such number. The verdict is 'agrees', 'formula',
+    'given', 'erratum' or 'derived' as for `PublishedNumber`; or 'differs', which should never
+    happen.
     """
 
     published: PublishedNumber
@@ -261,10 +246,10 @@ def verdict_of(published: PublishedNumber, computed: float | None) -> str:
 
 
 def deciding_tolerance(published: PublishedNumber) -> Decimal:
-    """Return how far apart a printed and a computed number may be and still agree.
+    """Return the largest difference at which a printed and a computed number agree.
 
-    That is the tolerance of the number. A known erratum agrees only within half of its last
-    printed place, as rounding would leave it.
+    That is the tolerance of the number. A known erratum agrees only within half of its last printed
+    place, as rounding would leave it.
 
     >>> known = PublishedNumber("P5.17", "", "", Decimal("0.457"), Decimal("0.0006"), "erratum", "")
     >>> deciding_tolerance(known), deciding_tolerance(known._replace(verdict="agrees"))
@@ -322,17 +307,7 @@ def row_of(finding: Finding) -> dict[str, Any]:
 
 
 class Row(NamedTuple):
-    """One part of an answer.
-
-    Parameters
-    ----------
-    quantity, inputs
-        the quantity, and the inputs for which it is computed.
-    computed
-        a number, or a formula or an enumeration as text.
-    note
-        a comment, or ''.
-    """
+    """One part of an answer: a number, or a formula or an enumeration as text."""
 
     quantity: str
     inputs: str

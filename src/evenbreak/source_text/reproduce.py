@@ -84,10 +84,8 @@ def physics_tables() -> Tables:
 def figures() -> Mapping[str, Callable[[], Figure]]:
     """Return every figure by name, each as a function that draws it.
 
-    Notes
-    -----
-    Source: Figs. 1.1 to 5.11 and the diagrams of problem P5.24. In sections 1 to 4 only
-    Figs. 3.1 to 3.4, 4.4, 4.5, 4.7 and 4.8 are plots, the others sketches;
+    Source: Figs. 1.1 to 5.11 and the diagrams of problem P5.24. In sections 1 to 4 only Figs. 3.1
+    to 3.4, 4.4, 4.5, 4.7 and 4.8 are plots, the others sketches;
     `evenbreak.source_text.physics.section_3_plots` and `section_4_plots` have the values chosen
     where the text lost its own.
 

@@ -147,15 +147,10 @@ def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
 
 
 def worth_at(solution: SolvedNight, point: Point) -> float:
-    """Return what the night is worth at a point, even if nobody can be named there.
+    """Return the value of the night at a point, even if no one can be named there.
 
     That is so once all sets have their players, and while the set is being played whose winner or
-    loser names first in the next one.
-
-    Raises
-    ------
-    InputError
-        if the night cannot come to this point.
+    loser names first in the next one. An InputError if the night can't get to this point.
 
     >>> from evenbreak.teams import Squad, TeamNight, solved
     >>> law = np.zeros((1, 1, 2, 3))
@@ -318,16 +313,9 @@ def _last_won(point: Point, letter: str) -> bool:
 
 
 def leads_of(point: Point, reach: int, k: int) -> tuple[Floats, Ints]:
-    """Return the chances of the leads that the matches in play may bring.
+    """Return the chances of the leads that the matches in play may bring, of `k` sets named.
 
-    Parameters
-    ----------
-    point
-        the point.
-    reach
-        by how much a set can change the lead at most.
-    k
-        the sets that have been named.
+    A set can change the lead by at most `reach`.
     """
     chances = np.ones(1)
     for law in point.in_play:

@@ -25,26 +25,9 @@ SEALED = "sealed"
 class Meeting:
     """Two squads that meet tonight, and what they play.
 
-    Parameters
-    ----------
-    ours, theirs
-        the rosters, with a rating for everybody.
-    squads
-        the same players with their caps.
-    race
-        what is played in each set.
-    scale
-        the scale of the ratings.
-    sizes
-        the players a side in each set.
-    order
-        who names first, or `SEALED`.
-    count
-        what decides the night.
-    form
-        how much the log-odds of a game vary from set to set (standard deviation).
-    levels
-        how strong skill levels are, if the chances come from those in place of ratings.
+    Everyone has a rating; `sizes` are the players per side in each set; `order` is who names first,
+    or `SEALED`. `form` is the standard deviation of a game's log-odds from set to set; with
+    `levels`, chances come from their strengths, not ratings.
     """
 
     ours: Roster

@@ -307,17 +307,8 @@ def law_in_play(
 def brought(needs: tuple[int, int], score: tuple[int, int], count: Count) -> tuple[int, int]:
     """Return what a set that has been played brings both teams.
 
-    Parameters
-    ----------
-    needs, score
-        the games that both needed, and won; or points, by a chart of points.
-    count
-        what decides the night.
-
-    Raises
-    ------
-    InputError
-        if the score does not end the set.
+    `needs` and `score` are games, or points by a chart of points. An InputError if the score
+    doesn't end the set.
 
     >>> brought((5, 4), (5, 3), "sets"), brought((5, 4), (5, 3), Points())
     ((1, 0), (2, 1))

@@ -199,13 +199,7 @@ def steps_of(night: TeamNight) -> float:
 
 
 def refuse_large(night: TeamNight) -> None:
-    """Refuse a night that has too many points.
-
-    Raises
-    ------
-    InputError
-        if it has.
-    """
+    """Refuse (InputError) a night that has too many points."""
     if steps_of(night) > MOST_STEPS:
         raise InputError(
             "squads of {ours} and {theirs} players allow too many line-ups of {sets} "

@@ -143,16 +143,9 @@ class Squad:
 class LineUps(NamedTuple):
     """All line-ups of a squad that keep its caps, set by set.
 
-    Parameters
-    ----------
-    picks
-        for each set, who may be put up: the players' positions, one or a pair of them.
-    used
-        used[k]: the counts of the players that are possible after k sets.
-    after
-        after[k][state, pick]: the state after set k, in which the pick plays; -1 if not allowed.
-    moves
-        moves[k][pick]: the states in which the pick is allowed in set k, and those after it.
+    `picks` are positions, one or a pair, by set; used[k] the possible counts of the players after k
+    sets; after[k][state, pick] the state after set k, -1 if not allowed; moves[k][pick] the states
+    in which the pick is allowed, and those after it.
     """
 
     picks: list[list[tuple[int, ...]]]
@@ -162,12 +155,9 @@ class LineUps(NamedTuple):
 
 
 def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
-    """Return the line-ups of a squad for sets of so many players a side.
+    """Return the line-ups of a squad for sets of so many players per side.
 
-    Raises
-    ------
-    InputError
-        if the squad has too few or too many players, or no line-up keeps its caps.
+    An InputError if the squad has too few or too many players, or no line-up keeps its caps.
 
     >>> found = line_ups(Squad(("Ann", "Bo", "Cy"), (Cap((7, 5, 3), 10),)), (1, 1))
     >>> found.used[2]

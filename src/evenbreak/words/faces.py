@@ -21,22 +21,9 @@ def _command_line(name: str, words: Sequence[str]) -> str:
 class Face:
     """How sentences are said in one place: a terminal, a page in German, Python.
 
-    Parameters
-    ----------
-    language
-        its code, such as 'de'.
-    translations
-        what is said in place of each English template.
-    decimal, group
-        what separates decimals, and thousands.
-    percent
-        a number in percent, with {n} for the number.
-    parameter
-        the name of a parameter, such as '--win-by' for 'win_by'.
-    command
-        what a reader does in place of a command, which is given by its name and its words.
-    file
-        the name of a file, given by its path.
+    `percent` has {n} for the number; `parameter` returns a name such as '--win-by' for 'win_by';
+    `command` what a reader does instead of a command, given its name and words; `file` a path's
+    name.
 
     >>> Face(decimal=",", group=".").number(1234.5, ",.2f")
     '1.234,50'

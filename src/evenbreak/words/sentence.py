@@ -41,21 +41,10 @@ class _Wording(NamedTuple):
 
 
 class Sentence(str):
-    """A text in English that keeps its parts, so that a face can say it in its own way.
+    """A text in English that keeps its parts, so that each output format can say it in its own way.
 
-    Parameters
-    ----------
-    wording
-        the template; a template of one and of many with the number that decides; its meaning.
-    values
-        what fills it in. Sentences among them are said by the face too, all else stays.
-
-    Attributes
-    ----------
-    template
-        the sentence with `{name}` for each value.
-    values
-        the values by name.
+    `wording` is the template; a template of one and of many with the number that decides; its
+    meaning. Sentences among the values are said by the format too, all else stays.
     """
 
     wording: _Wording
@@ -190,15 +179,6 @@ class _Thing(Sentence):
 class Figure(_Thing):
     """A number by itself: `Figure(0.0005, ".1%", sign="<")`.
 
-    Parameters
-    ----------
-    value
-        the number.
-    spec
-        how it is written, as for `format`.
-    sign
-        what is put in front.
-
     >>> Figure(1234.5, ",.1f"), Figure(0.001, ".1%", sign="<")
     ('1,234.5', '<0.1%')
     """
@@ -302,7 +282,7 @@ def say(template: str, /, **values: Any) -> Sentence:
     """Return a sentence, with what it holds filled in.
 
     A name that has no value is that of a parameter: `say("{games} is {n}", n=3)`. Without any value
-    the template is the text as it stands.
+    the template is the text itself.
 
     >>> sentence = say("{player} goes to {match}.", player="Player and Son", match="W2.1")
     >>> sentence, sentence.template, dict(sentence.values)["player"]

@@ -255,18 +255,9 @@ def _tip_line() -> Records:
 
 
 class MarkedPoint(NamedTuple):
-    """A point of Fig. 4.7: a cut angle, and the curve on which it is special.
+    """A point of Fig. 4.7: a cut angle, in radians, and the curve on which it is special.
 
-    Parameters
-    ----------
-    letter
-        beside the point.
-    name
-        what is special there.
-    topspin
-        J_y of the curve: 1 in natural roll, 0 for stun, -1 in reverse natural roll.
-    cut
-        cut angle in radians.
+    `topspin` is J_y of the curve: 1 in natural roll, 0 for stun, -1 in reverse natural roll.
     """
 
     letter: str

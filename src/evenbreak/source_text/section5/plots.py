@@ -153,11 +153,9 @@ def ahead_matches() -> Axes:
 def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
     """Return the graphs behind the diagrams, by name.
 
-    An arc carries its symbol as `label`, a node its `place` (x, y), its `kind` and,
-    where someone has won there, the `winner`.
+    An arc carries its symbol as `label`, a node its `place` (x, y), its `kind` and, where someone
+    has won there, the `winner`.
 
-    Notes
-    -----
     Source: Figs. 5.2, 5.4, 5.5, 5.7 and 5.10, and the diagrams of problem P5.24.
 
     >>> graph = diagram_graphs()["figure_5_5"]

@@ -23,12 +23,9 @@ _SIZE = 10
 
 
 def table_rows(findings: Iterable[Finding], table: str) -> Rows:
-    """Return one of Tables 5.1 to 5.5: its inputs, each quantity and the printed one beside it.
+    """Return one of Tables 5.1 to 5.5: its inputs, each quantity and the printed one next to it.
 
-    Raises
-    ------
-    KeyError
-        if no number of that table is among the findings.
+    A KeyError if no number of that table is among the findings.
     """
     rows: dict[tuple[Any, ...], dict[str, Any]] = {}
     for published, computed, _ in findings:

@@ -42,17 +42,8 @@ Whole: TypeAlias = Annotated[int, Meta(ge=-(10**9), le=10**9)]
 class TeamSheet:
     """A team as it came in.
 
-    Parameters
-    ----------
-    name
-        of the team.
-    players
-        their names.
-    ratings, errors
-        of the players, and how far off a rating may be (0: not stated).
-    weights
-        what each player counts for under a cap: their skill level, or their rating. A chart by
-        skill level reads them too.
+    Errors are 0 where not stated; weights are what each player counts for under a cap, the skill
+    level or the rating, which a chart by skill level reads too.
     """
 
     name: str
@@ -73,13 +64,7 @@ Unknown: TypeAlias = Points | None
 
 @dataclass(frozen=True)
 class LevelsTonight:
-    """How strong skill levels are on a night, as it was known when the night began.
-
-    Parameters
-    ----------
-    gaps, errors, points, standard_error, spread, source, matches
-        as of `LevelSkills`.
-    """
+    """The `LevelSkills` of a night, as known when it started."""
 
     gaps: tuple[tuple[Points, ...], ...]
     errors: tuple[tuple[Unknown, ...], ...]
@@ -108,13 +93,7 @@ class LevelsTonight:
         )
 
     def skills(self, chart: LevelChart) -> LevelSkills:
-        """Return how strong the levels of a chart are.
-
-        Raises
-        ------
-        InputError
-            if they are not those of the chart.
-        """
+        """Return the strengths of a chart's levels; an InputError if these aren't its levels."""
         many = len(chart.levels)
 
         def each(values: Sequence[Unknown], name: str) -> Any:
@@ -141,43 +120,14 @@ class LevelsTonight:
 class NightPlan:
     """What is played on a team night, and by whom.
 
-    Parameters
-    ----------
-    teams
-        team A and team B.
-    sets
-        how many are played.
-    race
-        the games of a race; 0 where a chart says it.
-    handicapped
-        whether the stronger player needs that many games, and the weaker as many as is fairest.
-    chart
-        the chart that comes with the package by which races are played; '' if there is none.
-    order
-        who names first, as `order_of` reads it, or 'sealed'.
-    count
-        what decides the night: sets, games or points.
-    doubles
-        the numbers of the sets that are doubles.
-    cap
-        the largest sum of the weights of a line-up; None: no limit.
-    at_most
-        how many players of this weight or more may play; None: any number.
-    times
-        how often a player may be put up.
-    scale
-        of the ratings, as `scale_of` reads it.
-    match_form
-        the form of the day of the ratings: how much the log-odds of a game vary from set to set.
-    discipline
-        the game, for how long sets take.
-    tables
-        how many sets can be played at once.
-    by_level
-        whether the chances come from skill levels, and not from ratings.
-    levels
-        how strong those are by a chart of races; None in the file of an earlier version, whose
-        chances are those of `level_skills` without results.
+    `handicapped`: the stronger player needs `race` games, the weaker gets the fairest number; with
+    one of the package's charts, `race` is 0. `order` is as `order_of` reads it, or 'sealed';
+    `count` is sets, games or points; `doubles` are numbers of sets. `cap` is the largest sum of a
+    line-up's weights; `at_most` is how many players of a weight or more may play; `times` is how
+    often a player may be put up. `match_form` is the standard deviation of a game's log-odds from
+    set to set. `by_level`: chances come from skill levels, whose strengths by a chart of races are
+    `levels`; None in the file of an earlier version, whose chances are those of `level_skills`
+    without results.
     """
 
     teams: tuple[TeamSheet, TeamSheet]
@@ -201,20 +151,7 @@ class NightPlan:
 
 @lru_cache(maxsize=8)
 def meeting_of(plan: NightPlan) -> Meeting:
-    """Return the meeting that a plan describes, as team A sees it.
-
-    Raises
-    ------
-    InputError
-        if the plan makes no sense.
-
-    >>> def team(name, *players):
-    ...     many = len(players)
-    ...     return TeamSheet(name, players, (500.0,) * many, (0.0,) * many, (5.0,) * many)
-    >>> plan = NightPlan((team("Racks", "Ann", "Bo"), team("Cues", "Cy", "Di")), 2, race=5)
-    >>> meeting_of(plan).sizes, meeting_of(plan).order
-    ((1, 1), 'AB')
-    """
+    """Return the meeting of a plan, as team A sees it; an InputError if the plan makes no sense."""
     first, second = (team.roster for team in plan.teams)
     race = _race(plan)
     return meeting_by(
@@ -259,27 +196,9 @@ def meeting_by(
 ) -> Meeting:
     """Return the meeting of two rosters by the rules of a night.
 
-    Parameters
-    ----------
-    rules
-        the rules.
-    sides
-        team A and team B.
-    weights
-        what each player counts for under a cap, by team.
-    race, scale
-        what is played in each set, and the scale of the ratings.
-    sets
-        how many are played.
-    form
-        how much the log-odds of a game vary from set to set.
-    levels
-        how strong skill levels are, if the chances come from those in place of ratings.
-
-    Raises
-    ------
-    InputError
-        if the rules make no sense.
+    Weights are what each player counts for under a cap; `form` is the standard deviation of a
+    game's log-odds from set to set; with `levels`, chances come from their strengths, not ratings.
+    An InputError if the rules make no sense.
     """
     whole(sets, "sets", at_least=1)
     wrong = [k for k in rules.doubles if not 1 <= k <= sets]
@@ -306,12 +225,10 @@ def meeting_by(
 
 
 def check_plan(plan: NightPlan) -> None:
-    """Refuse a plan that cannot be played, or is too large to be worked out.
+    """Refuse a plan that can't be played, or is too large to calculate.
 
-    Raises
-    ------
-    InputError
-        if a team cannot fill its sets within the caps, two names are one, or no race is given.
+    An InputError if a team cannot fill its sets within the caps, two names are one, or no race is
+    given.
     """
     first, second = (team.name for team in plan.teams)
     if first.casefold() == second.casefold():

@@ -31,22 +31,10 @@ EVERYBODY = None
 
 @dataclass(frozen=True)
 class SetLine:
-    """A set of the night.
+    """A set of the night, by number from 1.
 
-    Parameters
-    ----------
-    number
-        counted from 1.
-    picks
-        who plays for each team; () if nobody has been put up yet.
-    said
-        how each team says that it ended; None: it has not said.
-    score
-        how it ended; None: it has not.
-    hidden
-        which team's pick is in, but left out here.
-    named_at, over_at
-        when both picks were in, and when the result first counted; '' if that is to come.
+    `picks` are () before the nomination; `said` is each team's result, and `hidden` the team whose
+    pick is in, but left out here. Times are '' until then.
     """
 
     number: int
@@ -70,18 +58,9 @@ class SetLine:
 
 @dataclass(frozen=True, eq=False)
 class TeamEvening:
-    """The state of a team night.
+    """The state of a team night; `began` is the number, from 1, of its first event.
 
-    Parameters
-    ----------
-    plan
-        what is played, and by whom.
-    began
-        the number of the event with which it began, counted from 1.
-    sets
-        all sets, whether played or not.
-    last
-        the event that an undo would take back.
+    `last` is the event that an undo would take back.
     """
 
     plan: NightPlan

@@ -39,13 +39,7 @@ def begin(state: TeamEvening | None, plan: NightPlan) -> list[What]:
 
 
 def put_up(state: TeamEvening, team: int, number: int, pick: Pick) -> list[What]:
-    """Put somebody up in a set.
-
-    Raises
-    ------
-    InputError
-        if it is not this team's turn, or the pick is not allowed.
-    """
+    """Put someone up in a set; an InputError if it isn't this team's turn, or not allowed."""
     if state.sealed:
         raise InputError("line-ups are sealed tonight; hand in the whole line-up")
     line = _line(state, number)
@@ -99,10 +93,7 @@ def _check_turn(state: TeamEvening, team: int, number: int, *, replaces: bool) -
 def hand_in(state: TeamEvening, team: int, picks: tuple[Pick, ...]) -> list[What]:
     """Hand in a whole line-up; it may be changed until the other one is in too.
 
-    Raises
-    ------
-    InputError
-        if line-ups are not sealed, both are in, or it does not fill the sets within the caps.
+    An InputError if line-ups aren't sealed, both are in, or it breaks the caps.
     """
     if not state.sealed:
         raise InputError("line-ups aren't sealed tonight. Put up one player after another.")
@@ -117,13 +108,7 @@ def hand_in(state: TeamEvening, team: int, picks: tuple[Pick, ...]) -> list[What
 
 
 def propose(state: TeamEvening, team: int, number: int, score: Score) -> list[What]:
-    """Say for one team how a set ended.
-
-    Raises
-    ------
-    InputError
-        if that cannot be, or another result counts already.
-    """
+    """Enter one team's result of a set; an InputError if impossible, or another counts already."""
     line = _checked(state, number, score)
     if line.score == score or (line.score is None and line.said[team] == score):
         return []
@@ -138,13 +123,7 @@ def propose(state: TeamEvening, team: int, number: int, score: Score) -> list[Wh
 
 
 def result(state: TeamEvening, number: int, score: Score) -> list[What]:
-    """Enter how a set ended, or correct it.
-
-    Raises
-    ------
-    InputError
-        if it cannot have ended so.
-    """
+    """Enter a set's result, or correct it; an InputError if it can't be."""
     line = _checked(state, number, score)
     return [] if line.score == score else [Result(number, score)]
 
@@ -166,16 +145,7 @@ def _line(state: TeamEvening, number: int) -> SetLine:
 
 
 class CapNow(NamedTuple):
-    """How far a cap is used up.
-
-    Parameters
-    ----------
-    name
-        what is limited.
-    total, most
-        what those count who have been put up, the other side having answered or not, and the
-        largest sum allowed.
-    """
+    """How far a cap is used up: `total` is what all put up count, answered or not."""
 
     name: str
     total: float
@@ -185,16 +155,8 @@ class CapNow(NamedTuple):
 class Choices(NamedTuple):
     """Who can be put up for the next set that has no players yet.
 
-    Parameters
-    ----------
-    picks
-        the players, or pairs of them, that are allowed.
-    used_up
-        who has played as often as they may.
-    barred
-        who could still play, but the caps or the sets to fill keep them out now.
-    caps
-        how far each cap is used up.
+    `used_up` have played as often as they may; `barred` could still play, but the caps or the
+    remaining sets keep them out now.
     """
 
     picks: tuple[Pick, ...]
@@ -204,15 +166,7 @@ class Choices(NamedTuple):
 
 
 def choices(state: TeamEvening, team: int) -> Choices:
-    """Return who can be put up for the next set without players.
-
-    Parameters
-    ----------
-    state
-        the state of the night.
-    team
-        whose players: 0 for A, 1 for B.
-    """
+    """Return who can be put up for the next set without players, for team 0 (A) or 1 (B)."""
     squad = state.meeting.squads[team]
     found = _of(squad, state.meeting.sizes)
     counts = _counts(squad, state.used(team))
@@ -235,13 +189,7 @@ def choices(state: TeamEvening, team: int) -> Choices:
 
 
 def check_line_up(state: TeamEvening, team: int, picks: Sequence[Pick]) -> None:
-    """Refuse a whole line-up that does not fill its sets within the caps.
-
-    Raises
-    ------
-    InputError
-        if it does not.
-    """
+    """Refuse (InputError) a whole line-up that does not fill its sets within the caps."""
     squad = state.meeting.squads[team]
     named = [name for pick in picks for name in pick]
     for name in named:

@@ -15,16 +15,9 @@ from evenbreak.teams.solve import SolvedNight, solved
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """A night solved as one of the teams sees it.
+    """A night solved as team 0 (A) or 1 (B) sees it, that team as `ours`.
 
-    Parameters
-    ----------
-    team
-        0 for A, 1 for B.
-    meeting
-        what is played, with that team as `ours`.
-    solution
-        of every point of the night; where line-ups are sealed, of the time before they are in.
+    The solution has every point of the night; of sealed line-ups, the time before they are in.
     """
 
     team: int
