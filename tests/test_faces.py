@@ -70,7 +70,7 @@ ASKED = {
     "chart_audit": "chart audit npl_10",
     "chart_audit_house": "chart audit data/house_chart.csv --scale npl",
     "chart_audit_levels": "chart audit apa_8ball",
-    "chart_audit_favours": "chart audit fargo_r6_hot --scale fargo",
+    "chart_audit_favors": "chart audit fargo_r6_hot --scale fargo",
     "chart_audit_points": "chart audit apa_9ball",
     "chart_show_points": "chart show apa_9ball",
     "chart_team": "chart team 417 447",

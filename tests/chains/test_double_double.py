@@ -21,7 +21,7 @@ def test_sums_and_products_of_two_are_exact():
 
 
 def test_rows_are_summed_in_twice_the_precision():
-    """Empty rows, short ones and one of all the entries, with nearly everything cancelling."""
+    """Empty rows, short ones and one of all the entries, with nearly everything canceling."""
     rng = np.random.default_rng(2)
     dense = np.where(rng.random((40, 300)) < 0.02, numbers(rng, (40, 300)), 0.0)
     dense[7], dense[8] = numbers(rng, 300), 0.0

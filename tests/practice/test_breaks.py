@@ -114,7 +114,7 @@ def test_a_break_that_never_passes_on_leaves_all_to_the_start():
 
 
 @given(INNER, INNER)
-def test_alternate_breaks_lie_between_and_favour_the_same_player(p1, p2):
+def test_alternate_breaks_lie_between_and_favor_the_same_player(p1, p2):
     winner, loser, alternate = (
         long_run_share(p1, p2, breaks) for breaks in (winner_breaks, loser_breaks, alternate_breaks)
     )

@@ -35,7 +35,7 @@ def exact(matrix):
 @pytest.mark.parametrize("row_sum", [1e-6, 1.0, 50.0])
 def test_cavities_of_a_well_mixed_league_keep_three_digits(row_sum):
     matrix = hessian(np.random.default_rng(5), 600, 120_000, row_sum)
-    league = module._Levelled.of(matrix, row_sum)
+    league = module._Leveled.of(matrix, row_sum)
     by_cavities = module._by_cavities(league) * league.scale**2 + league.level
     np.testing.assert_allclose(by_cavities, exact(matrix), rtol=2e-4)
     assert (inverse_diagonal(matrix, row_sum).value == by_cavities).all()
@@ -52,7 +52,7 @@ def test_cavities_know_more_than_how_many_games_a_player_has():
 @pytest.mark.parametrize("row_sum", [1e-6, 1.0])
 def test_single_precision_keeps_six_digits_whatever_the_prior(row_sum):
     matrix = hessian(np.random.default_rng(5), 600, 12_000, row_sum)
-    league = module._Levelled.of(matrix, row_sum)
+    league = module._Leveled.of(matrix, row_sum)
     assert module._by_cavities(league) is None  # too few games to be sure
     found = inverse_diagonal(matrix, row_sum).value
     assert (found != module._in_double_precision(matrix)).any()
@@ -62,7 +62,7 @@ def test_single_precision_keeps_six_digits_whatever_the_prior(row_sum):
 def test_two_halves_that_hardly_met_take_double_precision():
     # Without a prior their difference is all but unknown.
     matrix = hessian(np.random.default_rng(5), 400, 60_000, 1e-4, halves=True)
-    league = module._Levelled.of(matrix, 1e-4)
+    league = module._Leveled.of(matrix, 1e-4)
     assert module._by_cavities(league) is None
     assert module._in_single_precision(league) is None
     np.testing.assert_allclose(inverse_diagonal(matrix, 1e-4).value, exact(matrix), rtol=1e-8)

@@ -1,4 +1,4 @@
-"""Renames, substitutes, swaps, redo: what a director changes afterwards changes nothing else."""
+"""Renames, substitutes, swaps, redo: what a director changes afterward changes nothing else."""
 
 import json
 from collections.abc import Mapping

@@ -139,7 +139,7 @@ def chip_audit(asked: questions.ChipAudit) -> Answer:
     )
     by_row = _row_table(chart, found)
     between = _heads_up_table(chart, field.scale)
-    parts: list[Part] = [_favour_words(field, found), _fairness(found), by_row, between]
+    parts: list[Part] = [_favor_words(field, found), _fairness(found), by_row, between]
     parts.append(_luck_words(found.odds.runs, found.odds.error[:, 0]))
     if chart.source:
         parts.append(f"Chart: {chart.source}.")
@@ -163,7 +163,7 @@ def chip_design(asked: questions.ChipDesign) -> Answer:
     rows = [[_start(row), row.chips] for row in chart.rows]
     columns = columns_of("rating_from chips")
     table = Table("chart", columns, rows, title="The chart")
-    parts: list[Part] = [_favour_words(field, found), _fairness(found), table]
+    parts: list[Part] = [_favor_words(field, found), _fairness(found), table]
     parts += [_row_table(chart, found), _luck_words(found.odds.runs, found.odds.error[:, 0])]
     return Answer(f"A fairer chip chart: {field.words}", parts, warnings=warnings, csv=table)
 
@@ -194,7 +194,7 @@ def _chart_of(ratings: Floats, found: ChipFairness, starts: Sequence[float]) -> 
     return ChipChart("designed", rows)
 
 
-def _favour_words(field: ChipField, found: ChipFairness) -> str:
+def _favor_words(field: ChipField, found: ChipFairness) -> str:
     title, order = found.odds.title, np.argsort(-field.ratings, kind="stable")
     upper = upper_half(field.ratings, title)
     if abs(upper - 0.5) < 0.03:

@@ -13,7 +13,7 @@ nothing is subtracted. The graph gives the order, and the kernel suits the numbe
 | a stack of small graphs | `factorization` | small classes, and families of games (`families`) |
 | a class, in fronts | `dissection` | some hundreds of states |
 | a line | `birth_death` | closed forms and solves in linear time |
-| a class too large for that | `certified` | any approximation, proved afterwards |
+| a class too large for that | `certified` | any approximation, proved afterward |
 
 `factorization` chooses for each class and `transient` watches for underflow. On their two solves,
 visits and values, stand `limits`, `absorption`, `passage_times`, `rewards` and `sensitivity`. The

@@ -72,7 +72,7 @@ class OneBallLookAhead:
     Notes
     -----
     Source: P5.21, Figs. 5.2 and 5.4. State Si: shot i is next; Wi, Li: player 1 has won or
-    lost by it; W, L: won or lost afterwards.
+    lost by it; W, L: won or lost afterward.
 
     >>> OneBallLookAhead([0.4, 0.8]).moves("S2")
     {'L2': 0.8, 'W': 0.09999999999999998, 'L': 0.09999999999999998}

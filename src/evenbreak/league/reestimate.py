@@ -169,9 +169,7 @@ def _summed_up(plan: _Plan, courses: list[_Course]) -> Reestimated:
     sds = sd[:, first // 2 :].mean(axis=1)
     means = np.array([course.settled.mean() for course in courses])
     matches = np.concatenate([course.settled for course in courses])
-    favoured = np.concatenate(
-        [np.maximum(course.chances, 1 - course.chances) for course in courses]
-    )
+    favored = np.concatenate([np.maximum(course.chances, 1 - course.chances) for course in courses])
     row = SystemRow(
         system="refit" if plan.half_life is None else f"refit, half-life {plan.half_life / 7:g}",
         chart=plan.chart.name,
@@ -179,8 +177,8 @@ def _summed_up(plan: _Plan, courses: list[_Course]) -> Reestimated:
         sd_doublings=float(sds.mean()) / plan.scale.points_per_doubling,
         settling_mean=float(means.mean()),
         settling_p90=int(Distribution.of(matches.tolist()).quantile(0.9)),
-        favorite=float(favoured.mean()),
-        clear_favorite=float((favoured >= CLEAR_FAVORITE).mean()),
+        favorite=float(favored.mean()),
+        clear_favorite=float((favored >= CLEAR_FAVORITE).mean()),
         games=float(np.concatenate([course.games for course in courses]).mean()),
         inflation=0.0,
     )

@@ -132,7 +132,7 @@ def sandbagging(
     dumped
         the most matches dumped; there is a row for each number from 0.
     earnest
-        matches played in earnest afterwards, all of which count.
+        matches played in earnest afterward, all of which count.
     start
         the rating error before, in points: a whole number, or a distribution such as
         `ladder.law()`.

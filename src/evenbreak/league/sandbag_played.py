@@ -52,7 +52,7 @@ def dumping_played(
     dumped
         the numbers of matches lost on purpose.
     earnest
-        the matches played in earnest afterwards.
+        the matches played in earnest afterward.
     in_a_row
         the matches won in a row that win a tournament.
     replicas

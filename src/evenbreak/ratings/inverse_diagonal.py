@@ -66,7 +66,7 @@ def inverse_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Inverse
     size = matrix.shape[0]
     if size < _LARGE:
         return InverseDiagonal(_in_double_precision(matrix))
-    league = None if row_sum is None else _Levelled.of(matrix, row_sum)
+    league = None if row_sum is None else _Leveled.of(matrix, row_sum)
     if league is not None and (well_mixed := _by_cavities(league)) is not None:
         return InverseDiagonal(league.whole(well_mixed))
     fronts = fronts_of(matrix)
@@ -170,7 +170,7 @@ _ROUNDS = 6
 
 
 @dataclass(frozen=True, eq=False)
-class _Levelled:
+class _Leveled:
     """S (H + αuuᵀ) S = I - W, where W is `pull` - r rᵀ off the diagonal and 0 on it."""
 
     pull: sparse.csc_array
@@ -179,7 +179,7 @@ class _Levelled:
     level: float
 
     @classmethod
-    def of(cls, matrix: sparse.csc_array, row_sum: float) -> _Levelled:
+    def of(cls, matrix: sparse.csc_array, row_sum: float) -> _Leveled:
         size = matrix.shape[0]
         degree = matrix.diagonal()
         alpha = float(degree.mean()) / size
@@ -194,7 +194,7 @@ class _Levelled:
         return diagonal * self.scale**2 + self.level
 
 
-def _by_cavities(league: _Levelled) -> Floats | None:
+def _by_cavities(league: _Leveled) -> Floats | None:
     """Return the diagonal of (I - W)⁻¹, or None if it is not known within 0.2%."""
     r, pull = league.r, league.pull
     rr, size = r * r, len(r)
@@ -219,7 +219,7 @@ def _by_cavities(league: _Levelled) -> Floats | None:
     return diagonal
 
 
-def _in_single_precision(league: _Levelled) -> Floats | None:
+def _in_single_precision(league: _Leveled) -> Floats | None:
     """Return the diagonal of (I - W)⁻¹, or None if single precision may not be enough."""
     r = league.r.astype(np.float32)
     block = np.multiply.outer(r, r).T

@@ -26,7 +26,7 @@ LINES = 5
 """How many players have a line of their own color."""
 
 _LETTER = 0.6  # the width of a letter at the most, on average, in sizes of type
-_SHORTEST = timedelta(minutes=10)  # of a night that was not typed in afterwards
+_SHORTEST = timedelta(minutes=10)  # of a night that was not typed in afterward
 _SHAPES = (
     '<circle r="{r}"/>',
     '<path d="M-{r}-{r}h{d}v{d}h-{d}z"/>',
@@ -95,7 +95,7 @@ class _Drawing:
         self.by_clock = self.at[-1] - self.at[0] >= _SHORTEST
 
     def x(self, step: int) -> float:
-        """Return where a step is: by the clock, or by number if all was typed in afterwards."""
+        """Return where a step is: by the clock, or by number if all was typed in afterward."""
         if self.by_clock:
             share = (self.at[step] - self.at[0]) / (self.at[-1] - self.at[0])
         else:

@@ -53,7 +53,7 @@ def test_the_least_fair_race_with_the_end_of_its_band_that_is_worse():
 
 
 @pytest.mark.parametrize(("tilt", "who"), [(0.0, "stronger"), (0.5, "neither"), (1.0, "weaker")])
-def test_whom_a_chart_favours(tilt, who):
+def test_whom_a_chart_favors(tilt, who):
     made = design("npl", RaceLimits((9, 11), weaker_least=2), tilt=tilt)
     assert f"favors {'the ' * (who != 'neither')}{who} player" in words(
         chart_audit_answer(audit(made))
@@ -61,7 +61,7 @@ def test_whom_a_chart_favours(tilt, who):
 
 
 @pytest.mark.parametrize("name", CHARTS)
-def test_whom_it_favours_is_counted_over_its_differences(name):
+def test_whom_it_favors_is_counted_over_its_differences(name):
     report = audit(name)
     chances = [
         race_win_probability(report.scale.win_probability(d), *chart(name).race(d))

@@ -56,7 +56,7 @@ def test_an_advantage_of_the_first_column_may_be_that_of_home(play_season, side,
     [
         ({"dates_won": 12}, "winners first there"),
         ({"varies": 1e-4}, "from date to date"),
-        ({"favoured": 800, "with_favorite": 1200}, "stronger player first"),
+        ({"favored": 800, "with_favorite": 1200}, "stronger player first"),
     ],
 )
 def test_the_order_of_the_file_is_not_taken_for_an_advantage(sided, changed, word):

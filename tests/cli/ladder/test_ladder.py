@@ -66,7 +66,7 @@ def test_how_long_a_wrong_rating_takes(ladder):
     assert told["after"] == {str(many): found.after(many) for many in (10, 20, 50, 100, 200)}
 
 
-def test_who_is_favoured_and_by_how_much(ladder):
+def test_who_is_favored_and_by_how_much(ladder):
     # Opponents are rated rightly: the player's own error says who is the favorite.
     told = ladder("--chart", "npl_10")["unfairness"]
     built = Ladder("npl", chart("npl_10"))

@@ -78,12 +78,12 @@ def test_unfairness_is_the_same_for_both_sides(opponents):
 
 def test_better_off_is_the_favorite():
     law = unfairness(Ladder(TEN, opponents=EQUAL_SKILL))
-    favoured = better_off(law)
+    favored = better_off(law)
     away = sum(chance * abs(w - 0.5) for w, chance in items(law))
-    assert favoured.mean - 0.5 == pytest.approx(away, abs=1e-9)
+    assert favored.mean - 0.5 == pytest.approx(away, abs=1e-9)
     share = sum(chance for w, chance in items(law) if max(w, 1 - w) > 0.6)
-    assert 1 - favoured.between(0, 0.6) == pytest.approx(share, abs=1e-12)
-    assert favoured.values[0] == 0.5
+    assert 1 - favored.between(0, 0.6) == pytest.approx(share, abs=1e-12)
+    assert favored.values[0] == 0.5
 
 
 def test_form_takes_the_edge_off_a_wrong_race():
@@ -98,6 +98,6 @@ def test_a_simulation_of_nights_agrees():
     many = 40_000
     i, j = rng.choice(ladder.errors, p=law / law.sum(), size=(2, many))
     wins = np.array([win(x) for x in range(-120, 121)])[i - j + 120]
-    favoured = better_off(unfairness(ladder))
+    favored = better_off(unfairness(ladder))
     simulated = np.maximum(wins, 1 - wins)
-    assert abs(simulated.mean() - favoured.mean) < 4.5 * favoured.sd / np.sqrt(many)
+    assert abs(simulated.mean() - favored.mean) < 4.5 * favored.sd / np.sqrt(many)

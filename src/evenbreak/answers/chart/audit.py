@@ -57,7 +57,7 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
     return Answer(
         f"Chart {report.name}, {where}{points:.4g} points double the odds of winning a game",
         [
-            " ".join((*_favoured(report), *_least_fair(report), *_beyond(report))),
+            " ".join((*_favored(report), *_least_fair(report), *_beyond(report))),
             " ".join((*_order(report), *_made_for(report))),
             Table(
                 "rows",
@@ -81,7 +81,7 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
     )
 
 
-def _favoured(report: ChartAudit) -> Iterator[str]:
+def _favored(report: ChartAudit) -> Iterator[str]:
     """Yield whom the chart favors as a whole, if any row has an end."""
     chances = report.p_win
     if not chances.size:

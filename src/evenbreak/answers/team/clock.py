@@ -30,7 +30,7 @@ from evenbreak.tournaments.odds.play import stratified_uniforms
 from evenbreak.words import Sentence, say
 
 RUNS = 2000
-_TYPED = 1.0  # minutes; sets that took less were typed in afterwards
+_TYPED = 1.0  # minutes; sets that took less were typed in afterward
 
 
 class Band(NamedTuple):

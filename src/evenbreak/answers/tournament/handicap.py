@@ -35,13 +35,13 @@ _WORTH_IT = 0.95  # of the unfairness of the races by side
 _SHOWN = 5
 
 
-def favours_words(ratings: Floats, odds: PlaceOdds) -> str:
+def favors_words(ratings: Floats, odds: PlaceOdds) -> str:
     """Return whom the races of a handicapped tournament favor.
 
     >>> import numpy as np
     >>> from evenbreak.tournaments import single_elimination, title_odds
     >>> odds = title_odds(single_elimination(2), [[0.5, 0.6], [0.4, 0.5]])
-    >>> favours_words(np.array([600.0, 500.0]), odds)
+    >>> favors_words(np.array([600.0, 500.0]), odds)
     'The races favor the stronger half of the field: it wins the title 60% of the time, where
      50% would be fair.'
     """
@@ -56,7 +56,7 @@ def favours_words(ratings: Floats, odds: PlaceOdds) -> str:
     return f"The races {verdict} wins the title {often} of the time, where 50% would be fair."
 
 
-def favours(ratings: Floats, odds: PlaceOdds) -> list[Quantity]:
+def favors(ratings: Floats, odds: PlaceOdds) -> list[Quantity]:
     """Return the same as numbers."""
     return quantities_of(
         {

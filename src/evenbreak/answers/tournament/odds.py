@@ -14,7 +14,7 @@ from evenbreak.answers.kit.columns import column_of, quantities_of, table_by_col
 from evenbreak.answers.kit.parts import Part, Quantities, Table
 from evenbreak.answers.kit.scales import form_used_words
 from evenbreak.answers.kit.wording import count_of, percent, share_at_a_glance
-from evenbreak.answers.tournament.handicap import fairer_races, favours, favours_words
+from evenbreak.answers.tournament.handicap import fairer_races, favors, favors_words
 from evenbreak.answers.tournament.tournament import Tournament
 from evenbreak.arrays import Floats
 from evenbreak.tournaments.brackets.bracket import Place
@@ -91,8 +91,8 @@ def tournament_odds_answer(
         words += f" {_matches_words(odds, rematches)}"
     handicapped = not isinstance(tournament.races.race, int)
     if handicapped:
-        words += f"\n{favours_words(tournament.ratings, odds)}"
-        quantities += favours(tournament.ratings, odds)
+        words += f"\n{favors_words(tournament.ratings, odds)}"
+        quantities += favors(tournament.ratings, odds)
     table = odds_table(tournament.ratings, plug_in, odds, prizes, bands, shares=handicapped)
     parts: list[Part] = [words, Quantities(quantities), table]
     if fairest:

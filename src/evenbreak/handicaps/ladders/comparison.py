@@ -94,7 +94,7 @@ def _row(ladder: Ladder) -> SystemRow:
     points = ladder.system.scale.points_per_doubling
     sd = ladder.law().sd
     settled = settling(ladder, -round(points), round(NEAR * points))
-    favoured = better_off(unfairness(ladder))
+    favored = better_off(unfairness(ladder))
     return SystemRow(
         system=ladder.system.name,
         chart=ladder.chart.name,
@@ -102,8 +102,8 @@ def _row(ladder: Ladder) -> SystemRow:
         sd_doublings=sd / points,
         settling_mean=settled.mean,
         settling_p90=int(settled.matches.quantile(0.9)),
-        favorite=favoured.mean,
-        clear_favorite=favoured.at_least(CLEAR_FAVORITE),
+        favorite=favored.mean,
+        clear_favorite=favored.at_least(CLEAR_FAVORITE),
         games=mean_games(ladder),
         inflation=inflation(ladder),
     )

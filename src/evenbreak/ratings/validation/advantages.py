@@ -118,7 +118,7 @@ UNLIKELY = 0.001
 class FirstColumn(NamedTuple):
     """How often the player in the first column (a) won the match.
 
-    `favoured` are matches in which a was the favorite, of `with_favorite`. `dates` have three
+    `favored` are matches in which a was the favorite, of `with_favorite`. `dates` have three
     matches or more; on `dates_won` a won all, against `dates_expected`. `varies` is the chance that
     luck alone makes a's share differ so much between dates, or events, apart from the predicted
     chances.
@@ -127,7 +127,7 @@ class FirstColumn(NamedTuple):
     matches: int
     won: int
     expected: float
-    favoured: int
+    favored: int
     with_favorite: int
     dates: int
     dates_won: int
@@ -150,7 +150,7 @@ class FirstColumn(NamedTuple):
         """1 where the favorite is clearly more often in the first column, -1 in the second."""
         half = self.with_favorite / 2.0
         far = ndtri(1.0 - UNLIKELY / 2.0) * math.sqrt(half / 2.0)
-        return int(self.favoured - half > far) - int(half - self.favoured > far)
+        return int(self.favored - half > far) - int(half - self.favored > far)
 
     @property
     def winners_first_on_some_dates(self) -> bool:

@@ -17,7 +17,7 @@ def night_played(state: Evening) -> EarlierNight | None:
 
     None if it doesn't show the pace: it isn't over, no match was called, tables or races were
     changed, it is a chip tournament, or it took less than half or more than twice as long as usual,
-    as when results were typed in afterwards.
+    as when results were typed in afterward.
     """
     calls = [k for k, one in enumerate(state.events) if isinstance(one.what, Called)]
     if not state.drawn or not calls or state.plan.form == "chips":

@@ -476,6 +476,6 @@ class Outlook:
             if began is None or not ends or not any(result.score):
                 continue
             minutes = self.minutes(ends[0]) - self.minutes(began)
-            if minutes >= 1.0:  # shorter ones were typed in afterwards
+            if minutes >= 1.0:  # shorter ones were typed in afterward
                 found.append(Timed(sum(result.score), minutes))
         return found
