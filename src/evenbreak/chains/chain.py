@@ -188,7 +188,7 @@ class Chain:
         return TransientPart(self.arcs, np.flatnonzero(~self.structure.recurrent))
 
     def density(self, start: Any = None) -> Floats:
-        """Return the start as a density: a vector of length n that sums to 1.
+        """Return the start as a probability vector: length n, sum 1.
 
         Parameters
         ----------
@@ -199,8 +199,8 @@ class Chain:
         Raises
         ------
         ChainError
-            if a state is unknown, no start is known, or the density has a negative entry
-            or does not sum to 1 within 1e-9.
+            if a state is unknown, no start is known, or a probability is negative, or they don't
+            sum to 1 within 1e-9.
         """
         v = self.vector(self._own_start() if start is None else start, "start")
         if (v < 0.0).any():
@@ -252,14 +252,10 @@ class Chain:
 
         Parameters
         ----------
-        steps
-            the number of steps of each path.
         rng
             the random numbers: a generator or a seed.
         start
-            as in `density`; each path draws its own first state from a density.
-        paths
-            the number of independent paths.
+            as in `density`; each path draws its own first state.
 
         Returns
         -------

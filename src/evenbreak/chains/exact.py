@@ -47,7 +47,7 @@ _FILL = 8
 
 
 class ExactPassage(NamedTuple):
-    """How many steps it takes to reach a target, in fractions.
+    """The number of steps to a target, in fractions.
 
     Parameters
     ----------

@@ -70,7 +70,7 @@ def chain_of(
         graphs it may be a `Fraction`, or text such as "0.6" or "3/5"; `exact=True` then
         calculates with just that.
     start
-        the state in which to begin. If None: the start of the game, or the graph's node of
+        the starting state. If None: the start of the game, or the graph's node of
         `kind` 'start' if it has one; the others have no start of their own.
     rows
         how to read a matrix. 'from': a row holds the chances out of its state. 'to': a row
@@ -138,14 +138,14 @@ def chain_from_arrays(
     Parameters
     ----------
     states
-        the n states, distinct.
+        n distinct states.
     sources, targets
         positions in `states`, one for each arc, in any order.
     probabilities
         the probability of each arc's target, given its source; numbers, fractions, or text
         such as "0.6" or "3/5".
     start
-        the state in which to begin, or None.
+        the starting state, or None.
 
     Raises
     ------

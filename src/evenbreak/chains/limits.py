@@ -163,18 +163,15 @@ def stochastic_limit(
 
     Parameters
     ----------
-    chain
-        the chain.
     start
-        a state, a density (see `Chain.density`), or None for the chain's own start.
+        a state, a probability vector (see `Chain.density`), or None for the chain's own start.
     via
-        the way to the limit. 'kernel': the closed form for states in a line, from a state.
-        'elimination': elimination of states without subtraction, for any chain. 'eigen': the
-        eigenvectors of eigenvalue 1 (see `spectrum`). None: the kernel where there is one,
-        otherwise elimination.
+        'kernel': the closed form for states in a line, from a state. 'elimination': elimination of
+        states without subtraction, for any chain. 'eigen': the eigenvectors of eigenvalue 1 (see
+        `spectrum`). None: the kernel where there is one, otherwise elimination.
     exact
         whether to calculate in fractions and return a dict of them, by state. A chance that
-        `chain_of` got as a `Fraction` or as text is taken as it is, a float as the decimal that it
+        `chain_of` got as a `Fraction` or as text is used unchanged, a float as the decimal that it
         prints. Matches, series and one-ball games keep a `Fraction`; drills and ladders hold
         floats. Time and the length of the fractions grow with the number of states: a thousand
         states take a second or two, and so do some thousands of scores of a race.
@@ -187,10 +184,10 @@ def stochastic_limit(
         eigenvectors, if the sum of the absolute errors may be above 1e-12. With `exact`, if more
         than 1000 states have many arcs among them.
     ChainError
-        if the start is neither a state nor a density, or the chain has no kernel; with
+        if the start is neither a state nor a probability vector, or the chain has no kernel; with
         `exact`, if the arcs of a state do not sum to exactly 1.
     InputError
-        if `via` is not a way, or is given together with `exact`.
+        if `via` is unknown, or given together with `exact`.
 
     Notes
     -----
@@ -251,12 +248,12 @@ def limit_of(
     Parameters
     ----------
     game
-        any game (see `evenbreak.game`), or a `networkx.DiGraph` as `chain_of` takes it.
+        see `evenbreak.game`, or a `networkx.DiGraph` as `chain_of` takes it.
     start
-        the state to start in; None: its own start.
+        None: the game's own start.
     via
-        the way, as in `stochastic_limit`. With 'eigen' the game becomes a `networkx.DiGraph`
-        first. None: the closed form where there is one, otherwise elimination.
+        as in `stochastic_limit`. With 'eigen' the game becomes a `networkx.DiGraph` first. None:
+        the closed form where there is one, otherwise elimination.
 
     Raises
     ------

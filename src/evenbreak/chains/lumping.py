@@ -40,10 +40,10 @@ def lumped(chain: Chain, by: Labels) -> Chain:
     Parameters
     ----------
     chain
-        the chain; its start becomes the label of the start.
+        its start becomes the label of the start.
     by
-        the label of each state, as a function or a mapping. Chances count as equal if they
-        differ by rounding only, no more than 1e-12 of themselves.
+        the label of each state, as a function or a mapping. Chances count as equal if they differ
+        only by rounding, no more than 1e-12 of themselves.
 
     Raises
     ------
@@ -85,8 +85,6 @@ def coarsest_lumping(chain: Chain, by: Labels) -> dict[Hashable, Hashable]:
 
     Parameters
     ----------
-    chain
-        the chain.
     by
         the label of each state, as in `lumped`. States with different labels are kept apart,
         such as those in which different players have won.

@@ -119,8 +119,6 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
 
     Parameters
     ----------
-    chain
-        the chain, n states.
     weights
         what is summed: a state (its limit probability), a mapping from states to weights
         (0 for those not named), or an array of shape (n,).

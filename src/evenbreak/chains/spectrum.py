@@ -167,8 +167,6 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
 
     Parameters
     ----------
-    chain
-        the chain, n states.
     k
         how many eigenvalues: at least the number of closed classes, at most n. By
         default all of them up to 1000 states (2000 where the classes are reversible),
@@ -194,7 +192,7 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     are solved for class by class. The others come from LAPACK's geev up to 1000 states;
     beyond that, those nearest to 1 come from ARPACK in shift-invert mode. For chains of
     reversible classes all of them come from similar symmetric matrices, of which LAPACK finds
-    every eigenvector to the last digits, whatever the stationary law.
+    every eigenvector to the last digits, whatever the stationary distribution.
 
     >>> from evenbreak.chains import Chain
     >>> from scipy.sparse import csc_array

@@ -74,21 +74,16 @@ _FAR = 1e290
 
 
 def stationary_laws(chain: Chain) -> Floats:
-    """Return the stationary law of every closed class in one vector; shape (n,).
+    """Return the stationary distribution of every closed class in one vector; shape (n,).
 
     Each entry is conditional on being in the closed class of its state, so the entries of
     a class sum to 1. Transient states have 0.
 
-    Parameters
-    ----------
-    chain
-        the chain.
-
     Raises
     ------
     AccuracyError
-        if a law cannot be guaranteed: it spans more decades than floats do and its class is
-        too large for decimal numbers, or its class is too large and mixes too slowly.
+        if a distribution cannot be guaranteed: it spans more decades than floats do and its class
+        is too large for decimal numbers, or its class is too large and mixes too slowly.
 
     >>> from evenbreak.chains import chain_of
     >>> stationary_laws(chain_of([(1, 2, 0.5), (1, 1, 0.5), (2, 1, 1.0), (0, 1, 1.0)]))
@@ -249,10 +244,10 @@ def mean_first_passages(chain: Chain) -> pd.DataFrame:
 
 
 def kemeny_constant(chain: Chain) -> float:
-    """Return the mean number of steps to a state drawn from the stationary law.
+    """Return the mean number of steps to a state drawn from the stationary distribution.
 
-    It does not depend on the recurrent state in which the chain begins, and counts 0 steps if
-    that state itself is drawn. It is small where the chain soon visits all that matters.
+    It doesn't depend on the recurrent state in which the chain starts, and counts 0 steps if that
+    state itself is drawn. It is small where the chain soon visits all that matters.
 
     Raises
     ------

@@ -41,7 +41,7 @@ def symbolic_limit(
         arcs absorbs. `OneBall` takes expressions too; `evenbreak.matches.win_formula` has
         the formulas of races and n-ahead matches.
     start
-        the state in which the game begins; by default the game's own start, the graph's
+        the starting state; by default the game's own start, the graph's
         node of kind 'start', or the source of the first arc.
 
     Returns

@@ -80,13 +80,12 @@ class TransientPart:
         return None if factor is None else factor.bound
 
     def visits(self, b: Floats) -> Floats:
-        """Return (I - T)^-1 b: the expected visits to each state, given the start density b.
+        """Return (I - T)^-1 b: the expected visits to each state, given starting chances b.
 
         Parameters
         ----------
         b
-            shape (m,) or (m, k), in the order of `states`; nonnegative, not necessarily a
-            density.
+            shape (m,) or (m, k), in the order of `states`; nonnegative, not necessarily with sum 1.
 
         Raises
         ------

@@ -46,9 +46,9 @@ def probability(value: Any, name: str) -> Any:
     Parameters
     ----------
     value
-        a number, or something that numpy can make a float array of.
+        anything that numpy can make a float array of.
     name
-        what the value is called where the caller wrote it.
+        the value's name in the error.
 
     Raises
     ------
@@ -146,16 +146,13 @@ def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = flo
 
     Parameters
     ----------
-    values
-        the `count` values.
     name
-        what they are called where the caller wrote them.
+        their name in the error.
     count, each
         how many values there must be, and of what: 3, 'players'.
     dtype
-        their type: float, int (floats pass if they are whole numbers), bool (0 and 1 pass),
-        days (as dates or as text such as 2026-01-31, NaT or None for no date), or object,
-        which stands for text.
+        float, int (floats pass if they are whole numbers), bool (0 and 1 pass), days (as dates or
+        as text such as 2026-01-31, NaT or None for no date), or object, for text.
 
     Raises
     ------

@@ -15,12 +15,8 @@ def kind_of(value: Any, name: str, kind: type[Kind]) -> Kind:
 
     Parameters
     ----------
-    value
-        what was given.
     name
-        what the value is called where the caller wrote it.
-    kind
-        the class that it must be of.
+        the value's name in the error.
 
     Raises
     ------
@@ -46,7 +42,7 @@ def kind_of(value: Any, name: str, kind: type[Kind]) -> Kind:
 
 
 def kind_or_usual(value: Any, name: str, kind: type[Kind]) -> Kind:
-    """Return `value` if it is of this kind, and the usual thing of this kind for None.
+    """Return `value` if it is of this kind, and the default of this kind for None.
 
     >>> kind_or_usual(None, "size", int)
     0

@@ -43,15 +43,15 @@ def number(
     Parameters
     ----------
     value
-        a number; text is refused, and so are arrays with dimensions.
+        text is refused, and so are arrays with dimensions.
     name
-        what the value is called where the caller wrote it.
+        the value's name in the error.
     low, high
         the limits, included.
     above, below
         the limits, excluded.
     wanted
-        what to give, for the error message; by default the limits say it.
+        what to give, for the error message; by default the limits.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def number_probability(value: Any, name: str) -> float:
 def exact_probability(value: Any, name: str) -> Any:
     """Return one probability as exact answers need it: a `Fraction` or a formula as it is.
 
-    A formula is an expression of sympy in some symbols, whose values nobody knows yet.
+    A formula is an expression of sympy in symbols.
 
     >>> from fractions import Fraction
     >>> exact_probability(Fraction(1, 3), "p1"), exact_probability(1, "p1")

@@ -48,7 +48,7 @@ MOST_MEGABYTES = 64
 def read_chain(
     path: str | Path, *, states: str | Path | None = None, rows: Rows | None = None
 ) -> ArcsFile:
-    r"""Read a chain; the end of its name says its form.
+    r"""Read a chain; the end of the file's name shows its format.
 
     Parameters
     ----------

@@ -30,10 +30,8 @@ def to_csv(frame: pd.DataFrame, *, excel: bool = False) -> bytes:
 
     Parameters
     ----------
-    frame
-        the table; the order of its columns and rows is kept.
     excel
-        whether to begin with a byte order mark and end lines with CRLF, as Excel prefers.
+        start with a byte order mark and end lines with CRLF, as Excel prefers.
 
     >>> import pandas as pd
     >>> frame = pd.DataFrame({"player": ["Ann", "=1+1"], "p_win_a": [0.5, -1e-9]})

@@ -186,11 +186,11 @@ class DrillLogFile:
     Parameters
     ----------
     log
-        its attempts, in the order of the file.
+        in the order of the file.
     source
         the name of the file in messages.
     warnings
-        what to check although the file can be used, a line each.
+        one per line: the file can be used all the same.
     """
 
     log: DrillLog
@@ -205,18 +205,16 @@ def read_drill_log(
 
     Encoding, separator and header are handled by `evenbreak.files.tables.table`; the columns are
     those of `DRILL_LOG`, with one row for each attempt, in the order in which they
-    were made. A new session begins where session, date or drill differ from the row above; an
+    were made. A new session starts where session, date or drill differ from the row above; an
     empty cell means the same as the cell above. A row that breaks the rule of the drill within a
     session counts as a new start, with a warning.
 
     Parameters
     ----------
-    path
-        the file.
     levels
-        how many levels the drill has; None takes the highest one in the file.
+        of the drill; None: the highest one in the file.
     drill
-        whose attempts are read, if the file has several drills.
+        needed if the file has several drills.
 
     Raises
     ------

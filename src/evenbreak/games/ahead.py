@@ -18,7 +18,7 @@ class Ahead(Match[ChanceT]):
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have; it says which.
+        if a parameter is invalid; it says which.
 
     >>> from evenbreak.games import Rack
     >>> match = Ahead(5, 3, Rack(0.75))

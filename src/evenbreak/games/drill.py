@@ -55,10 +55,10 @@ class Drill:
     def eight_ball(cls, p: float, levels: int = 7) -> Drill:
         """Return a model of the progressive 8-ball drill: level i succeeds with p^i.
 
-        Level i begins with i balls of each group and the 8-ball on the table and ball in hand.
-        The player runs one group and the 8-ball; the first of these i + 1 balls counts as
-        certain, as in the 9-ball drill. At level 7 all 15 balls are on the table. How much the
-        other group is in the way is part of p.
+        Level i starts with i balls of each group and the 8-ball on the table and ball in hand. The
+        player runs one group and the 8-ball; the first of these i + 1 balls counts as certain, as
+        in the 9-ball drill. At level 7 all 15 balls are on the table. How much the other group is
+        in the way is part of p.
 
         Raises
         ------

@@ -21,12 +21,12 @@ _Tried: TypeAlias = Callable[[], list[Any]]
 
 
 def broken_laws(game: Game) -> list[str]:
-    """Return what a game does not hold to, in sentences; empty if it holds to everything.
+    """Return the rules that a game breaks, in sentences; empty if it breaks none.
 
-    Tried, on the first 2,000 states from its start: moves have chances that sum to 1, and are the
-    same each time; nobody has won while there are moves, and a winner is 1, 2, ... or None; states
-    can be told apart in print; arcs that it gives as arrays are its moves; and that it can be sent
-    to other processes.
+    Checked, on the first 2,000 states from its start: moves have chances that sum to 1, and are the
+    same each time; no one has won while there are moves, and a winner is 1, 2, ... or None; states
+    can be told apart in print; arcs given as arrays are its moves; and it can be sent to other
+    processes.
 
     >>> from evenbreak.games import OneBall
     >>> broken_laws(OneBall(0.4, 0.8))

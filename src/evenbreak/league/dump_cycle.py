@@ -41,16 +41,16 @@ class DumpCycle(NamedTuple):
     Parameters
     ----------
     dumped, earnest
-        matches of a cycle.
+        matches of a cycle: dumped, and played to win.
     rating_error
-        rating less skill when the matches in earnest begin, on average, in points.
+        rating less skill when the matches that count start, on average, in points.
     p_win
-        P(a match in earnest is won), averaged over those of a cycle.
+        P(a match that counts is won), averaged over those of a cycle.
     profit
-        per match, dumped ones included, beyond a player who always plays in earnest (and wins
-        half of the matches, if the system takes as much as it gives).
+        per match, including dumped ones, beyond a player who always plays to win (and wins half of
+        the matches, if the system takes as much as it gives).
     held
-        P(before a match in earnest the rating is at the lower end of the ladder, or so near that
+        P(before a match that counts the rating is at the lower end of the ladder, or so near that
         another defeat would pass it); above a millionth the end, and not the chart, decides.
     """
 
@@ -65,16 +65,16 @@ class DumpCycle(NamedTuple):
 def dump_cycle(
     ladder: Ladder, dumped: int, earnest: int, *, stake: float = 10.0, dumped_stake: float = 1.0
 ) -> DumpCycle:
-    """Return what it pays to dump matches and play in earnest in turn, forever.
+    """Return the profit of dumping matches and playing to win in turn, forever.
 
     Parameters
     ----------
     ladder
-        the ladder; at its lower end a rating falls no further.
+        at its lower end a rating falls no further.
     dumped, earnest
-        how many matches are dumped and then played, again and again.
+        matches dumped and then played to win, again and again.
     stake, dumped_stake
-        what a match won is worth more than one lost: in earnest, and where it is dumped.
+        difference in value between winning and losing a match that counts, and one that is dumped.
 
     Raises
     ------
@@ -146,13 +146,11 @@ def best_cycle(
 
     Parameters
     ----------
-    ladder
-        the ladder.
     lengths
         the matches of a cycle, dumped ones included.
     lowest
-        the lowest mean rating error, in points and below 0, at which the player is willing to
-        start playing in earnest; None: any that the chart allows.
+        the lowest mean rating error, in points and below 0, at which the player is willing to start
+        playing to win; None: any that the chart allows.
     stake, dumped_stake
         as of `dump_cycle`.
 

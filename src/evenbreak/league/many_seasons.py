@@ -53,14 +53,12 @@ def run_chunk(
 
     Parameters
     ----------
-    season
-        what is played.
     replicas
-        the replicas in each batch, 1 or more.
+        in each batch, 1 or more.
     seed
         of all draws of the chunk; the same seed gives the same tally.
     batches
-        the number of batches, 1 or more.
+        1 or more.
 
     Raises
     ------

@@ -52,13 +52,13 @@ class PlayedSeason:
     week
         of each match, from 1.
     rating_a, rating_b
-        the two ratings before each match, in points.
+        before each match, in points.
     skill
-        true skill of each player before the first week, in points.
+        true skill before the first week, in points.
     rating
-        of each player after the last week, in points.
+        after the last week, in points.
     skill_after
-        true skill of each player after the last week, in points, drift included.
+        true skill after the last week, in points, drift included.
     """
 
     results: Results
@@ -73,14 +73,12 @@ class PlayedSeason:
 def season_matches(season: Season, seed: int | np.random.Generator) -> PlayedSeason:
     """Play one season rack by rack and return its matches.
 
-    In each week everybody who is present plays at their skill of the day. The ratings before the
+    In each week everyone who is present plays at their skill of the day. The ratings before the
     week set its races, and its moves are added at its end, as `apply_results` does for a night.
-    A match of somebody who is absent is not played.
+    A match of an absent player is not played.
 
     Parameters
     ----------
-    season
-        what is played.
     seed
         a whole number from 0, which always gives the same season, or a generator.
 

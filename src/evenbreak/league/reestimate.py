@@ -37,21 +37,21 @@ _NEWCOMERS = (1, -1, 1, -1)
 @array_values
 @dataclass(frozen=True, eq=False)
 class Reestimated:
-    """How far off refitted ratings are, by simulation, with Monte Carlo standard errors.
+    """The uncertainty of refitted ratings, by simulation, with Monte Carlo standard errors.
 
     Parameters
     ----------
     row
-        the row that `compare_systems` would have for it. The error, the favorite's chance and
-        the length of a match are from the second half of the weeks before newcomers come;
-        settling is the newcomers'. The sum of all ratings is fixed, so there is no inflation.
+        the row that `compare_systems` would have for it. The error, the favorite's chance and the
+        length of a match are from the second half of the weeks before newcomers arrive; settling is
+        the newcomers'. The sum of all ratings is fixed, so there is no inflation.
     sd_error
         standard error of `row.sd`, in points, from the differences between the leagues.
     settling_error
-        standard error of `row.settling_mean`, in matches, found in the same way.
+        standard error of `row.settling_mean`, in matches, from the same differences.
     unsettled
-        the share of newcomers who had not settled by the end. They count as if they settled
-        then, so if it is not 0, settling takes longer than the row says.
+        share of newcomers who had not settled by the end. They count as if they settled then, so if
+        it is not 0, settling takes longer than the row shows.
     sd_by_week
         shape (leagues, weeks): standard deviation of rating less skill after each week.
     """
@@ -94,7 +94,7 @@ def reestimate(
     leagues: int = 4,
     seed: int | np.random.Generator = 0,
 ) -> Reestimated:
-    """Return how far off ratings stay that are refitted to all results, with old ones fading.
+    """Return the uncertainty of ratings refitted to all results, with old ones fading.
 
     Players with the given skills, which do not change, are paired at random each week (with an
     odd number of players one rests). The chart gives the race for the current ratings, rounded
@@ -111,21 +111,20 @@ def reestimate(
     scale
         what a difference means, as in `fit`.
     weeks
-        how many weeks are played before newcomers come, 2 or more.
+        played before newcomers arrive, 2 or more.
     newcomer_weeks
-        how many weeks the four newcomers are followed.
+        weeks for which the four newcomers are followed.
     half_life
         weeks after which a match counts half; None: age does not matter.
     leagues
-        how many leagues are simulated, 2 or more.
+        simulated leagues, 2 or more.
     seed
-        of the random numbers: a whole number, which always gives the same answer, or a
-        generator.
+        a whole number, which always gives the same answer, or a generator.
 
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter is invalid.
 
     Notes
     -----

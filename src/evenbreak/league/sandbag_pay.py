@@ -41,25 +41,25 @@ _MOST = 1000
 
 
 class DumpRow(NamedTuple):
-    """What losing some number of matches on purpose brings, compared with an honest player.
+    """The effect of losing some matches on purpose, compared with an honest player.
 
     Parameters
     ----------
     dumped
-        matches lost on purpose before the first in earnest.
+        matches lost on purpose before the first that counts.
     rating
-        how many points lower the rating is than the honest player's, on average.
+        points by which the rating is lower than the honest player's, on average.
     given_away
         matches that the honest player wins of those dumped, on average.
     p_first
-        P(the first match in earnest is won).
+        P(the first match that counts is won).
     extra_wins
-        matches in earnest won beyond the honest player's, on average.
+        wins beyond the honest player's in matches that count, on average.
     for_the_last
-        extra wins that the last dumped match added.
+        extra wins from the last dumped match.
     break_even
-        how many times the stake of a dumped match must be at stake in earnest for dumping to
-        pay; infinite if it brings no extra win.
+        multiple of a dumped match's stake that must be at stake in matches that count for dumping
+        to pay; infinite if it brings no extra win.
     p_in_a_row
         P(the next matches are won, as many in a row as asked, at the rating after dumping).
     profit
@@ -212,12 +212,10 @@ def entering_low(
 
     Parameters
     ----------
-    ladder
-        the ladder.
     by
-        how many points too low the rating is.
+        points by which the rating is too low.
     matches
-        how many matches are played, all in earnest.
+        all of them played to win.
     newcomer
         whether the first matches move by the system's newcomer schedule.
 

@@ -131,17 +131,15 @@ def simulate(
 
     Parameters
     ----------
-    season
-        what is played.
     replicas
-        how many, 1 or more; 20 or more for good standard errors.
+        1 or more; 20 or more for good standard errors.
     seed
         a whole number from 0, which gives the same tally to the last bit, or a generator.
     executor
-        who works: any executor of `concurrent.futures`, or a `distributed.Client` for a dask
-        cluster; None: as many processes as `jobs` says.
+        any executor of `concurrent.futures`, or a `distributed.Client` for a dask cluster; None: as
+        many processes as `jobs`.
     jobs
-        number of processes where there is no executor; 1 works in this one.
+        processes where there is no executor; 1 works in this one.
     progress
         called with the replicas done and `replicas`, at the start and after each parcel.
 

@@ -67,8 +67,8 @@ class Crossings(NamedTuple):
     points
         the points, by rising p1.
     better
-        which match is better for player 1, 1 or 2: below the first point, between each two
-        points, and above the last; 0 if the matches are worth the same everywhere.
+        the better match for player 1, 1 or 2: below the first point, between each two points, and
+        above the last; 0 if the matches are worth the same everywhere.
     exact
         whether the points were counted exactly, so that none is missed. If not, two points
         closer together than a hundredth in the log-odds of p1 may be missed, as may curves
@@ -93,7 +93,7 @@ def even_probability(
     Parameters
     ----------
     played
-        the match, or a text such as "9:5" (see `match_format`).
+        or a text such as "9:5" (see `match_format`).
     p2
         P(player 2 wins a rack | player 2 breaks it), which stays fixed as p1 varies.
     break_odds
@@ -104,7 +104,7 @@ def even_probability(
     breaks
         who breaks, if the break matters and the format does not say.
     first_breaker
-        who breaks the first rack, 1 or 2.
+        of the first rack, 1 or 2.
 
     Returns
     -------
@@ -114,7 +114,7 @@ def even_probability(
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have, both `p2` and `break_odds` are
+        if a parameter is invalid, both `p2` and `break_odds` are
         given, or the break matters and the break format is missing.
 
     Notes
@@ -151,7 +151,7 @@ def crossings(
     Parameters
     ----------
     format_1, format_2
-        the matches, or texts such as "2:1" (see `match_format`).
+        or texts such as "2:1" (see `match_format`).
     p2, break_odds, breaks, first_breaker
         as for `even_probability`.
 

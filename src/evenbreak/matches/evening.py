@@ -102,16 +102,14 @@ def evening(
         the length of each match in games, in the order of the list: a `Length`, a
         `MatchLength` or a `RaceOdds`.
     pace
-        how fast matches are played: a `Pace`, or the name of a discipline in `PACES`.
+        a `Pace`, or the name of a discipline in `PACES`.
     turnover
         the time between two matches on a table; None: the usual one.
-    tables
-        how many tables there are.
     players
-        the two players of each match, so that nobody plays two matches at once; None: no
-        player is on the list twice.
+        the two players of each match, so that no one plays two matches at once; None: no player is
+        on the list twice.
     rng
-        the source of random numbers, if any are needed: a generator or a seed; None: seed 0.
+        a generator or a seed, if any are needed; None: seed 0.
     runs
         how often to simulate the evening; None: calculate the end if there is one table, or
         one for each match and no player twice, else simulate 50,000 evenings, fewer for more

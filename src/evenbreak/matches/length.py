@@ -226,11 +226,6 @@ class MatchLength(Generic[ChanceT, MeanT]):
     def quantile(self: MatchLength[Any, Any], q: float) -> Any:
         """Return the smallest k with P(length <= k) >= q; ties within rounding count.
 
-        Parameters
-        ----------
-        q
-            the level, 0 to 1.
-
         Returns
         -------
         int, None or numpy.ndarray
@@ -340,7 +335,7 @@ def game_odds(
     start
         the state now; None: the start of the game.
     tail
-        how much probability may be left out of the law of the length if there is no longest
+        probability that may be left out of the distribution of the length if there is no longest
         length. It is cut off after 100,000 moves in any case.
 
     Raises
@@ -348,15 +343,15 @@ def game_odds(
     InputError
         if `game` is not a game, or `tail` is not a probability.
     GameError
-        if a winner is not the number of a player, somebody has won in a state that has moves,
+        if a winner is not the number of a player, someone has won in a state that has moves,
         or a probability is not one.
     ChainError
         if the probabilities of a state do not sum to 1, or the start is unknown.
 
     Notes
     -----
-    Chances, mean and standard deviation come from the absorbing chain of the game, not from
-    the law of the length. Source: Kemeny & Snell, Finite Markov Chains, chapter III.
+    Chances, mean and standard deviation come from the absorbing chain of the game, not from the
+    distribution of the length. Source: Kemeny & Snell, Finite Markov Chains, chapter III.
 
     Three players shoot in turn at one ball, and whoever makes it wins:
 

@@ -23,21 +23,21 @@ from evenbreak.words import Parameter, say
 
 
 class Standing(NamedTuple):
-    """Where a match stands at one moment; all probabilities are given that moment.
+    """A match at one moment; all probabilities are conditional on it.
 
     Parameters
     ----------
     scores
-        the score of the match, then that of the set under way, and so on inwards.
+        the score of the match, then of the set under way, and so on inwards.
     breaker
-        who breaks the next rack; None if the break does not matter or the match is over.
+        of the next rack; None if the break does not matter or the match is over.
     p_win_1, p_win_2
         P(player 1, 2 wins the match); they add up to 1 minus P(it never ends).
     p_win_1_after
         P(player 1 wins the match), given that player 1, player 2 wins the next rack; None
         if the match is over.
     mean_racks
-        the mean number of racks still to be played; None if the match may never end.
+        mean of the racks still to be played; None if the match may never end.
     racks_p90
         the smallest number of racks within which the match ends with probability .9; None
         in a comeback table, if the match never ends with that probability, or if it takes
@@ -113,16 +113,16 @@ def live_odds(
     ----------
     match
         a race or an n-ahead match, of racks or of sets, with plain numbers as probabilities.
-        The course begins at its start score; its first breaker breaks the first rack.
+        The course starts at its start score; its first breaker breaks the first rack.
     winners
         who won each rack since then, 1 or 2.
     set_score
-        in a match of sets of racks, the score of the set under way at the beginning of the
-        course; None: the set's own start score. If the match has its own break format for
-        sets, the first breaker is taken to have begun that set too.
+        in a match of sets of racks, the score of the set under way at the start of the course;
+        None: the set's own start score. If the match has its own break format for sets, the first
+        breaker is assumed to have broken first in that set too.
     form
-        how much the log-odds of a game vary from match to match (standard deviation), for races of
-        racks in which the break does not matter. Each rack played shows how well both play today.
+        standard deviation of a game's log-odds from match to match, for races of racks in which the
+        break does not matter. Each rack played shows something of today's form.
 
     Raises
     ------

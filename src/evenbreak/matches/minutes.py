@@ -91,11 +91,9 @@ def match_minutes(games: ArrayLike, probability: ArrayLike, pace: Pace) -> Match
     Parameters
     ----------
     games
-        its lengths in games, shape (k,).
+        lengths of the match, shape (k,).
     probability
-        the chance of each, shape `(*parameters, k)`.
-    pace
-        how fast matches are played.
+        of each length, shape `(*parameters, k)`.
 
     >>> from evenbreak.matches import PACES, race_odds
     >>> race = race_odds(7, 5, 0.55)

@@ -27,7 +27,7 @@ class MatchOdds(NamedTuple):
     p_win_1, p_win_2
         P(player 1, 2 wins).
     p_never_ends
-        P(the match goes on for ever).
+        P(the match goes on forever).
     mean_games, sd_games
         mean and standard deviation of the number of racks still to be played, in all sets;
         None if the match may never end, or the number is too large for a float.
@@ -64,17 +64,16 @@ def match_odds(match: Match, *, via: Way | None = None, form: float = 0.0) -> Ma
         a race or an n-ahead match, of racks, of sets or of a game of your own, with plain
         numbers as probabilities. For other games see `game_odds`.
     via
-        the way to the chances (see `win_probability`). By 'elimination', mean and standard
-        deviation of the length come from the same chain; no eigenvector of eigenvalue 1 gives
-        a length, so with 'eigen' they come from the kernel, as the quantiles always do.
+        for the chances (see `win_probability`). By 'elimination', mean and standard deviation of
+        the length come from the same chain; no eigenvector of eigenvalue 1 gives a length, so with
+        'eigen' they come from the kernel, as the quantiles always do.
     form
-        how much the log-odds of a game vary from match to match (standard deviation); see
-        `final_scores`.
+        standard deviation of a game's log-odds from match to match; see `final_scores`.
 
     Raises
     ------
     InputError
-        if the probabilities are arrays, `match` is another game, there is no such way, form is not
+        if the probabilities are arrays, `match` is another game, `via` is unknown, form is not
         in 0 to 3, or it is combined with `via`.
 
     Notes

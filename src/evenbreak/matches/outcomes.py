@@ -356,7 +356,7 @@ def shutout_probability(match: Match, score: Score | None = None, *, player: int
     score
         the score now (see `win_probability`); None: the match's own start score.
     player
-        who wins, 1 or 2.
+        1 or 2.
 
     Returns
     -------

@@ -106,9 +106,9 @@ def pace_of(discipline: str) -> Pace:
 
 
 def own_pace(minutes_per_game: float) -> Pace:
-    """Return the pace of matches that take so many minutes a game on average, all included.
+    """Return the pace of matches that take so many minutes per game on average, all included.
 
-    They vary as matches of the three disciplines do on average.
+    They vary like matches of the three disciplines, on average.
 
     >>> own_pace(8).mean_minutes([5, 9]).tolist()
     [40.0, 72.0]

@@ -32,7 +32,7 @@ class FinalScores(Generic[ChanceT]):
         P(the match ends a:b) by (a, b): racks, or sets for a match of sets. The wins of
         player 1 come first, then those of player 2, each with the shortest matches first.
     p_never_ends
-        P(the match goes on for ever).
+        P(the match goes on forever).
     tail_mass
         P(the match ends with a score that is not listed); 0 if there is a longest length.
     span
@@ -66,13 +66,12 @@ def final_scores(
     score
         the score now (see `win_probability`); None: the match's own start score.
     tail
-        how much probability may be left out if there is no longest length.
+        probability that may be left out if there is no longest length.
     form
-        how much the log-odds of a game vary from match to match (standard deviation): form of
-        the day. A player in form wins more of all games of the match, so there are more clear
-        scores and fewer close ones; the chance of the first game stays what it is. The games of
-        `score` count as played and show the form of the day; where games are given on the wire,
-        take a shorter race instead.
+        day-to-day form: standard deviation of a game's log-odds from match to match. A player in
+        form wins more of all games of the match, so there are more clear scores and fewer close
+        ones; the chance of the first game stays what it is. The games of `score` count as played
+        and show the day's form; where games are given on the wire, use a shorter race instead.
 
     Raises
     ------

@@ -72,7 +72,7 @@ class AimedShot:
 
     @property
     def miss(self) -> float:
-        """How far the unaided shot would miss the target, in meters.
+        """Miss distance of the unaided shot, in meters.
 
         Above 0 on the thick side, where throw usually takes it; 0 without a hit.
         """

@@ -145,7 +145,7 @@ class Collision:
 
     @property
     def energy_lost(self) -> Any:
-        """The energy that friction turns into heat, in joules, vertical friction included.
+        """The energy that friction turns into heat, in joules, including vertical friction.
 
         Notes
         -----

@@ -61,7 +61,7 @@ def deflection(cut: FloatOrArray, topspin: FloatOrArray = 1.0) -> FloatOrArray:
 
 
 def deflection_slope(cut: FloatOrArray, topspin: FloatOrArray = 1.0) -> FloatOrArray:
-    """Return d theta / d cut, how the cue ball's path depends on the size of the cut (P4.15).
+    """Return d theta / d cut, the cue ball's sensitivity to the size of the cut (P4.15).
 
     In natural roll it falls from 5/2 at small cut angles (P4.18) to -5/7; for stun it is -1 at
     every cut.

@@ -63,9 +63,9 @@ def friction_of_speeds(first: Any, second: Any, distance: Any, *, gravity: float
     Parameters
     ----------
     first, second
-        its speeds at the two points, in m/s; it cannot be faster at the second.
+        speeds in m/s; it cannot be faster at the second point.
     distance
-        between the points, in meters.
+        in meters.
     gravity
         meters per second squared.
 

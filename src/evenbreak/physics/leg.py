@@ -33,19 +33,7 @@ _INSTANT = 1e-12
 
 
 class State(NamedTuple):
-    """A ball at a time in seconds: position in meters, velocity in m/s, spin in rad/s.
-
-    Parameters
-    ----------
-    time
-        seconds on the clock of the shot.
-    position
-        in meters; shape (2,).
-    velocity
-        in m/s; shape (2,).
-    spin
-        angular velocity in rad/s; shape (3,).
-    """
+    """A ball at a time in seconds: position in meters, velocity in m/s, spin in rad/s."""
 
     time: float
     position: Floats
@@ -70,7 +58,7 @@ class Phase(NamedTuple):
     begin, end
         the states at its two ends.
     length
-        of that part of the path, in meters.
+        in meters.
     """
 
     ball: str
@@ -148,8 +136,7 @@ class Leg:
         Parameters
         ----------
         points
-            how many for each phase, evenly spaced in time, 2 or more; a point shared by two
-            phases appears once.
+            per phase, evenly spaced in time, 2 or more; a point shared by two phases appears once.
         motion
             'slides' or 'rolls' for that part alone; shape (0, 3) if there is none.
 
@@ -338,7 +325,7 @@ class Pocket(NamedTuple):
         return beside <= 0.5 * self.width_from(along_x, along_y) - radius + 1e-9
 
     def width_from(self, along_x: float, along_y: float) -> float:
-        """Return how wide the mouth is for a ball coming in this direction, in meters.
+        """Return the width of the mouth for a ball coming in this direction, in meters.
 
         At an angle it is as narrow as it looks from there; from behind it is below 0.
 

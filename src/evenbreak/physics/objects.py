@@ -185,7 +185,7 @@ class BallSet(NamedTuple):
     Parameters
     ----------
     diameters
-        the diameters in use, in meters.
+        those in use, in meters.
     masses
         the smallest and the largest mass, in kilograms.
     tolerance
@@ -225,11 +225,6 @@ sugar is too high)."""
 def volume_range(balls: BallSet) -> tuple[float, float]:
     """Return the volumes of the smallest and the largest ball of a set, in cubic meters (P1.1).
 
-    Parameters
-    ----------
-    balls
-        the rules of the set: diameters and tolerance in meters.
-
     >>> low, high = volume_range(BALL_SETS["pool"])
     >>> round(low / INCH**3, 3), round(high / INCH**3, 3)
     (5.924, 6.004)
@@ -245,11 +240,6 @@ def volume_range(balls: BallSet) -> tuple[float, float]:
 def density_range(balls: BallSet) -> tuple[float, float]:
     """Return the smallest and the largest density that the rules allow, in kg/m^3 (P1.2).
 
-    Parameters
-    ----------
-    balls
-        the rules of the set: diameters in meters, masses in kilograms.
-
     >>> [round(density / 1000.0, 2) for density in density_range(BALL_SETS["pool"])]
     [1.58, 1.75]
     """
@@ -259,13 +249,6 @@ def density_range(balls: BallSet) -> tuple[float, float]:
 
 def floats_in(balls: BallSet, liquid: str) -> bool:
     """Return whether every ball of a set floats in a liquid, one of `LIQUIDS` (P1.2).
-
-    Parameters
-    ----------
-    balls
-        the rules of the set.
-    liquid
-        its name, one of `LIQUIDS`.
 
     Raises
     ------

@@ -272,7 +272,7 @@ def gearing_tip(cut: Any, z: Any = 1.0 + NATURAL_ROLL_OFFSET) -> ContactPoint:
 
 
 def stun_offset(speed: FloatOrArray, distance: FloatOrArray, cloth: Cloth) -> FloatOrArray:
-    """Return how far below the center to strike so that the backspin is gone after a distance.
+    """Return the offset below the center at which the backspin is gone after a distance.
 
     Parameters
     ----------

@@ -52,7 +52,7 @@ def kinetic_energy(ball: Ball, speed: Any, rim_speed: Any) -> Energy:
     Parameters
     ----------
     ball
-        its mass in kilograms counts.
+        only its mass, in kilograms, counts.
     speed
         V, in m/s.
     rim_speed

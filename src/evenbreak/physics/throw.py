@@ -152,11 +152,6 @@ def gearing_side(cut: FloatOrArray) -> FloatOrArray:
 
     The cut angle is in radians, to the left below 0.
 
-    Parameters
-    ----------
-    cut
-        cut angle in radians, to the left below 0.
-
     >>> round(gearing_side(math.radians(20.0)), 4)
     -0.342
     """
@@ -189,7 +184,7 @@ def throw_sensitivity(cut: FloatOrArray, topspin: FloatOrArray, side: FloatOrArr
 
 
 class Aim(NamedTuple):
-    """How to allow for throw.
+    """The allowance for throw.
 
     Parameters
     ----------
@@ -199,7 +194,7 @@ class Aim(NamedTuple):
         the throw at that cut, in radians, above 0 toward a fuller hit; the object ball then
         leaves at the angle wanted.
     offset
-        how far beside the target the line of centers points, toward the thinner cut, in the
+        distance from the target at which the line of centers points, toward the thinner cut, in the
         unit of the distance.
     offset_of_text
         the offset by the rule of P4.6, mu D cos(gamma) at the angle wanted.

@@ -156,10 +156,8 @@ def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Picture:
 
     Parameters
     ----------
-    rack
-        the chances with the break, as plain numbers.
     first_breaker
-        who breaks the first rack, as in `evenbreak.practice.long_run_share`.
+        as in `evenbreak.practice.long_run_share`.
 
     Raises
     ------
@@ -209,12 +207,8 @@ def draw_shots(
 
     Parameters
     ----------
-    shots
-        the shots that player 1 may choose from.
     look_ahead
         as in `evenbreak.practice.one_ball_win`.
-    ax
-        the axes to draw on; None: those of a new figure.
 
     Raises
     ------

@@ -48,13 +48,13 @@ def long_run_share(
     p2
         P(player 2 wins the rack | player 2 breaks it). p1 and p2 are broadcast together.
     breaks
-        who breaks next: any break format (see `evenbreak.games.breaks`).
+        any break format (see `evenbreak.games.breaks`).
     first_breaker
-        who breaks the first rack, 1 or 2. It matters only if the break never passes on: with
-        p1 = p2 = 1 and winner breaks, for example, the first breaker wins every rack.
+        of the first rack, 1 or 2. It matters only if the break never passes on: with p1 = p2 = 1
+        and winner breaks, for example, the first breaker wins every rack.
     via
-        the way to a fraction in plain numbers: the formula ('kernel', or None), or the stochastic
-        limit of a `Series` by 'elimination' or 'eigen' (see `evenbreak.chains.limit_of`).
+        the formula ('kernel', or None), or the stochastic limit of a `Series` by 'elimination' or
+        'eigen' (see `evenbreak.chains.limit_of`), for plain numbers.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def long_run_share(
     ------
     InputError
         if p1 or p2 is not a probability, their shapes do not broadcast, `breaks` is not a
-        break format, `first_breaker` is not 1 or 2, or there is no such way.
+        break format, `first_breaker` is not 1 or 2, or `via` is unknown.
 
     Notes
     -----
@@ -147,7 +147,7 @@ def long_run_sd(
 
 
 def first_break_worth(p1: FloatOrArray, p2: FloatOrArray, breaks: BreakFormat) -> FloatOrArray:
-    """Return how many more racks player 1 wins in all by breaking first instead of second.
+    """Return the extra racks that player 1 wins in all by breaking first instead of second.
 
     This head start stays the same however long the session is; it is infinite if the break
     never passes on. In alternate breaks it is the mean over even and odd numbers of racks.
@@ -201,16 +201,16 @@ def compare_break_formats(
     first_breaker: int = 1,
     via: Way | None = None,
 ) -> tuple[BreakFormatValue, ...]:
-    """Return what each break format is worth, the best for player 1 first.
+    """Return the value of each break format, the best for player 1 first.
 
     Parameters
     ----------
     rack
-        the chances with the break, as plain numbers.
+        with plain numbers.
     win, lose
         the points that player 1 gains for each rack won, and loses for each rack lost.
     first_breaker
-        who breaks the first rack; in formats where one player always breaks, that player does.
+        of the first rack; in formats where one player always breaks, that player does.
     via
         the way to the share of racks won, and so to the points, as for `long_run_share`.
 
@@ -224,7 +224,7 @@ def compare_break_formats(
     ------
     InputError
         if `rack` is not a rack or holds arrays, or a stake is not a number, 0 or more,
-        or there is no such way.
+        or `via` is unknown.
 
     Notes
     -----

@@ -29,12 +29,10 @@ from evenbreak.stats.summary import Distribution
 
 @dataclass(frozen=True)
 class DrillStatistics:
-    """Where a drill that begins at level 1 settles in the long run.
+    """The long run of a drill that starts at level 1.
 
     Parameters
     ----------
-    drill
-        the drill.
     distribution
         the distribution of the level attempted: the stochastic limit of the drill, with its
         mean, median, mode and standard deviation.
@@ -48,7 +46,7 @@ class DrillStatistics:
         0.05 higher (or 1, if it is above 0.95 already).
     period
         1 where the distribution is also that of a single late attempt; 2 where odd-numbered
-        and even-numbered attempts differ for ever and it is the average of both.
+        and even-numbered attempts differ forever and it is the average of both.
     """
 
     drill: Drill
@@ -64,20 +62,20 @@ class DrillStatistics:
 
 
 def drill_statistics(drill: Drill, *, via: Way | None = None) -> DrillStatistics:
-    """Return where a drill settles, and what practice at each level is worth.
+    """Return the long run of a drill, and the value of practice at each level.
 
     Parameters
     ----------
     drill
-        P(success | an attempt at level i) for each level; the player begins at level 1.
+        P(success | an attempt at level i) for each level; the player starts at level 1.
     via
-        the way to the distribution: the closed form for levels in a line ('kernel', or None),
-        'elimination' or 'eigen' (see `evenbreak.chains.limit_of`).
+        the closed form for levels in a line ('kernel', or None), 'elimination' or 'eigen' (see
+        `evenbreak.chains.limit_of`).
 
     Raises
     ------
     InputError
-        if there is no such way.
+        if `via` is unknown.
 
     Notes
     -----

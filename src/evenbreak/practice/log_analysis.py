@@ -32,7 +32,7 @@ class LevelReport(NamedTuple):
     Parameters
     ----------
     level, attempts, successes
-        the level, the number of attempts, and how many of them succeeded.
+        the level, and its attempts and successes in the log.
     p, p_low, p_high
         P(success | an attempt at this level): the fraction observed (None without attempts)
         and its 95% interval (Wilson).
@@ -135,20 +135,18 @@ class LogAnalysis:
 def analyse_log(
     log: DrillLog, *, rng: np.random.Generator | int, replicas: int = 1999
 ) -> LogAnalysis:
-    """Return what a drill log says, and how certain that is.
+    """Return what a drill log shows, and with what certainty.
 
     Statements about the long run assume that the chances stay as they are, and that untried
     levels always succeed if they are below all those tried, and never succeed otherwise.
 
     Parameters
     ----------
-    log
-        the attempts.
     rng
-        the source of the random draws: a generator or a seed.
+        a generator or a seed.
     replicas
-        how many logs to simulate for each test, and how many sets of chances to draw for the
-        intervals of the lifts and of the mean.
+        simulated logs for each test, and draws of chances for the intervals of the lifts and of the
+        mean.
 
     Raises
     ------

@@ -33,18 +33,16 @@ from evenbreak.stats.confidence import open_share
 
 
 class PlayedAgainTest(NamedTuple):
-    """A figure of a log beside the same figure of simulated logs.
+    """A figure of a log, and the same figure of simulated logs.
 
     Parameters
     ----------
-    seen
-        the figure of the log.
     by_chance
         its mean over the simulated logs.
     p_value
         the probability that chance alone gives a figure at least as extreme.
     p_error
-        its standard error, for want of more simulated logs.
+        its standard error, as the number of simulated logs is finite.
     """
 
     seen: float
@@ -207,8 +205,6 @@ class ProgressiveFit(NamedTuple):
         none did.
     low, high
         the likelihood-ratio interval for p.
-    confidence
-        how often such an interval contains the true p.
     attempts
         the attempts above level 1, from which p is estimated.
     level_1_attempts, level_1_misses
@@ -227,13 +223,6 @@ class ProgressiveFit(NamedTuple):
 
 def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFit:
     """Return the p of the model p_i = p^(i - 1) that fits a log best.
-
-    Parameters
-    ----------
-    log
-        the attempts of a drill.
-    confidence
-        of the interval, between 0 and 1.
 
     Raises
     ------

@@ -51,14 +51,14 @@ def one_ball_win(
         "infinite": the first two shots are repeated until one is made; "two shots": after two
         misses each player wins with probability 1/2.
     via
-        the way to a chance in plain numbers: the formula ('kernel', or None), or the stochastic
-        limit of the game's graph by 'elimination' or 'eigen' (see `evenbreak.chains.limit_of`).
+        the formula ('kernel', or None), or the stochastic limit of the game's graph by
+        'elimination' or 'eigen' (see `evenbreak.chains.limit_of`), for plain numbers.
 
     Returns
     -------
     float or numpy.ndarray
-        a float for plain numbers. With infinite look-ahead and p1 = p2 = 0 it is 0, as nobody
-        ever wins; nearby it takes any value between 0 and 1.
+        a float for plain numbers. With infinite look-ahead and p1 = p2 = 0 it is 0, as no one ever
+        wins; nearby it takes any value between 0 and 1.
 
     Raises
     ------
@@ -97,13 +97,6 @@ def _win_by_limit(game: Game, via: Way) -> float:
 
 def look_ahead_win(game: OneBallLookAhead, *, via: Way | None = None) -> float:
     """Return P(player 1 wins), given the chances of the next n shots and what follows them.
-
-    Parameters
-    ----------
-    game
-        the chances.
-    via
-        the way, as for `one_ball_win`.
 
     Notes
     -----
@@ -278,7 +271,7 @@ def compare_shots(
     Parameters
     ----------
     shots
-        the shots that player 1 may choose from, at least one.
+        at least one.
     look_ahead
         as for `ShotChoice.win`. With infinite look-ahead the best shot is also the best for a
         player who may choose again after every miss, as the chances stay the same.

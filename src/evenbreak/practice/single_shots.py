@@ -84,20 +84,20 @@ class ShotLog:
 
 
 class ShotReport(NamedTuple):
-    """What a log says about one shot.
+    """One shot in a log.
 
     Parameters
     ----------
     name, made, tried
-        the shot, and how often it was made and tried.
+        the shot, and its balls made and tries.
     low, high
         the exact interval of its chance by these tries alone (Clopper & Pearson 1934).
     chance
         its chance, drawn toward those of the other shots.
     p_weakest
-        the probability that it is the one that is missed most.
+        the probability that it is the shot missed most.
     change
-        what became of it from the earlier to the later half; None if it is not in both.
+        from the earlier to the later half; None if it is not in both.
     """
 
     name: str
@@ -118,9 +118,9 @@ class Change(NamedTuple):
     before, after
         the share made, at the same mix of shots in both halves.
     ratio, low, high
-        by what the odds of making a shot were multiplied, and the exact interval of that.
+        the factor on the odds of making a shot, and its exact interval.
     p_value
-        how often luck alone makes a change at least as large, up or down, if nothing has changed.
+        chance of a change at least as large, up or down, if nothing has changed.
     """
 
     before: float
@@ -133,12 +133,12 @@ class Change(NamedTuple):
 
 @dataclass(frozen=True)
 class ShotAnalysis:
-    """What a log of single shots says.
+    """The analysis of a log of single shots.
 
     Parameters
     ----------
     shots
-        what it says about each, the weakest first.
+        the weakest first.
     since
         the first day of the later half; None without two days.
     change

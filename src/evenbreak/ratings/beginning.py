@@ -197,7 +197,7 @@ class Beginning:
         Parameters
         ----------
         half_life
-            days after which results count half; None: they always count in full.
+            in days; None: results always count in full.
         results
             the new results, before the first of which the ratings are taken to be, if they
             have no day.

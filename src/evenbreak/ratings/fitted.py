@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Group(NamedTuple):
-    """How far a team or division is above the average one, before its players' results.
+    """The level of a team or division relative to the average one, before its players' results.
 
     Parameters
     ----------

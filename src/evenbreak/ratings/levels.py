@@ -49,31 +49,29 @@ GROUPS = {"team": ("team_a", "team_b"), "division": ("division", "division")}
 
 @dataclass(frozen=True)
 class Levels:
-    """How much is known about players before their results, in natural log-odds.
+    """What is known about players before their results, in natural log-odds.
 
     Parameters
     ----------
     newcomers
-        how far below an experienced player somebody without a game is expected to be. Of this
-        the part 1 / (1 + games / 50) is left after some games.
+        how far below an experienced player a player without a game is expected to be. Of this the
+        part 1 / (1 + games / 50) is left after some games.
     joined
-        how far below those who were there from the start somebody is expected to be who joins
-        later than in the first four weeks; it does not shrink with games.
+        how far below the first players someone who joins after the first four weeks is expected to
+        be; it does not shrink with games.
     race
-        by how much players differ for each unit that their stated races take back: 1 where the
+        the difference between players for each unit that their stated races take back: 1 where the
         races are right (see `evenbreak.ratings.handicap_slope`).
     field
-        what part of the strength of the field on their first evening newcomers are expected to
-        have themselves (see `evenbreak.ratings.first_evenings`); it does not shrink with games.
+        newcomers' expected share of the strength of the field on their first evening (see
+        `evenbreak.ratings.first_evenings`); it does not shrink with games.
     team_sd, division_sd
-        how far apart teams, or divisions, are on average (standard deviation); 0 where they
-        do not matter.
+        standard deviation between teams, or divisions; 0 where they do not matter.
     brought_sd
-        how far off ratings are that players bring along, where these do not say it themselves
-        (standard deviation), besides what the games behind them leave open; 0: those ratings are
-        not used.
+        standard deviation of the error of ratings from elsewhere, where these do not state it, in
+        addition to what their games leave open; 0: those ratings are not used.
     beginning
-        the ratings that players bring along; None: there are none.
+        the ratings from elsewhere; None: there are none.
 
     Raises
     ------

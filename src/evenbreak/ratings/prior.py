@@ -92,7 +92,7 @@ Progress = Callable[[int, int], None]
 
 
 class Evidence(NamedTuple):
-    """What it gains to let one more thing count.
+    """The gain from letting one more thing count.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ class Evidence(NamedTuple):
     value
         the size that predicts best.
     standard_error
-        how far off that may be; None where it is not used, or only a few sizes were compared.
+        None where it is not used, or only a few sizes were compared.
     players
         how many players the gain rests on: without the matches of the so many who show it most
         there is none. Of those who joined late, or did not, no more than are in the smaller group
@@ -150,13 +150,13 @@ class PriorChoice(NamedTuple):
     low, high
         the ends of the range of widths that predict as well as the best (95%).
     learned
-        whether that range is narrow enough to choose by, and 100 results were predicted.
+        whether the range is narrow enough to choose by, and 100 results were predicted.
     as_it_went
         the log-loss where each stretch has the width that did best before it.
     levels
         what the file knows about players, as far as it clearly helps.
     half_life
-        days after which a match counts half; None: old games count in full.
+        in days; None: old games count in full.
     evidence
         what each of these gains.
     part

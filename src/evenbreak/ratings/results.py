@@ -184,18 +184,18 @@ class Results:
 
     @classmethod
     def from_frame(cls, frame: pd.DataFrame) -> Results:
-        """Return the results in a DataFrame, a match a row.
+        """Return the results in a DataFrame, one match per row.
 
         Parameters
         ----------
         frame
-            with the columns of a results file: `player_a`, `player_b`, `score_a` and
-            `score_b`, and those of `date`, `race_a`, `race_b`, `winner`, `first_break`,
-            `break_format`, `racks`, `event`, `team_a`, `team_b`, `division`, `level_a`, `level_b`
-            and `forfeit` that are known. `winner` and `first_break` are a, b or a name. A forfeit
-            may leave its scores empty, and so may a match of which the races and the winner are
-            known. Other columns are not used, and names that differ in case or blanks
-            alone are one player's; warnings say so.
+            with the columns of a results file: `player_a`, `player_b`, `score_a` and `score_b`, and
+            those of `date`, `race_a`, `race_b`, `winner`, `first_break`, `break_format`, `racks`,
+            `event`, `team_a`, `team_b`, `division`, `level_a`, `level_b` and `forfeit` that are
+            known. `winner` and `first_break` are a, b or a name. A forfeit may leave its scores
+            empty, and so may a match of which the races and the winner are known. Other columns are
+            not used, and names that differ only in case or blanks are one player's; warnings say
+            so.
 
         Raises
         ------

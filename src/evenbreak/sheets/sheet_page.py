@@ -98,16 +98,14 @@ MOST_MATCHES = 500
 
 
 def round_html(tonight: Round, *, warnings: Sequence[str] = ()) -> bytes:
-    """Return the races of a round as one HTML file that asks no other host for anything.
+    """Return the races of a round as one self-contained HTML file.
 
-    A list of matches becomes a table with the races in large letters and room for the
-    scores; all pairs of a roster become a table with names on both sides, on a narrow page
-    each player's races, and the ratings below it. All else is what `matchups_answer` says.
+    A list of matches becomes a table with the races in large letters and space for the scores; all
+    pairs of a roster become a table with names on both sides, on a narrow page each player's races,
+    and the ratings below it. Everything else is from `matchups_answer`.
 
     Parameters
     ----------
-    tonight
-        the round.
     warnings
         as for `matchups_answer`.
 

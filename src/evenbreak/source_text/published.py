@@ -65,9 +65,9 @@ class Erratum(NamedTuple):
         'slip' if the text is wrong; 'remark' if it is right but easy to misread; 'copy' for
         what is missing from the copy that was read.
     printed
-        what it says, in short.
+        in short.
     correct
-        what it should say, or for a remark what is true; '' if there is nothing to say.
+        what it should say, or for a remark what is true; '' if there is nothing to add.
     kind
         the kind of slip or remark, such as 'cut off' for truncated digits.
     why

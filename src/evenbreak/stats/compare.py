@@ -39,7 +39,7 @@ class Significance(NamedTuple):
 
 
 class Effect(NamedTuple):
-    """How large the difference is, whether or not chance explains it.
+    """The size of the difference, whether or not chance explains it.
 
     `g` is Hedges' g: the difference of the means in pooled standard deviations, corrected for
     the bias of few scores, with its interval from `low` to `high`; all three are None where
@@ -55,17 +55,13 @@ class Effect(NamedTuple):
 
 @dataclass(frozen=True)
 class Comparison:
-    """What two lists of scores say about a change.
+    """Two lists of scores, compared.
 
     Parameters
     ----------
-    before, after
-        summaries of the two lists.
     difference, low, high
         mean after minus mean before, and its interval by Welch; low and high are None where
         neither list has a spread.
-    confidence
-        of every interval here.
     welch
         are the two means equal? The test that was chosen; the spreads may differ.
     student
@@ -82,10 +78,8 @@ class Comparison:
         that median are left out; without Yates' correction.
     counts
         what chi-squared rests on: (below, above) before, (below, above) after.
-    ties
-        whether any two of the scores are equal.
     effect
-        how large the difference is.
+        the size of the difference.
 
     Notes
     -----

@@ -30,9 +30,7 @@ def sd_of_mean(sd: float, n: int, *, population: int | None = None) -> float:
     Parameters
     ----------
     sd
-        population standard deviation of the values that are drawn from.
-    n
-        how many are drawn.
+        of the values that are drawn from (population standard deviation).
     population
         how many values there are, if each is drawn at most once (without replacement);
         None if every draw is from all of them (with replacement, or from so many that it
@@ -133,15 +131,15 @@ class Reading(NamedTuple):
 
 
 class Luck(NamedTuple):
-    """How unusual one new score is beside earlier ones, read in three ways and by its rank.
+    """How unusual one new score is compared with earlier ones, read in three ways and by its rank.
 
     Parameters
     ----------
     score, n, mean
         the new score; number and mean of the earlier ones.
     normal
-        by the normal distribution, with mean and population standard deviation of the
-        earlier scores taken for the true ones.
+        by the normal distribution, with mean and population standard deviation of the earlier
+        scores treated as exact.
     t
         by Student's t with n - 1 degrees of freedom and the standard deviation
         s sqrt(1 + 1/n) of a new score about an estimated mean: the better choice.
@@ -165,7 +163,7 @@ class Luck(NamedTuple):
 
 
 def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
-    """Return how often chance alone gives a score like a new one.
+    """Return the chance that luck alone gives a score like a new one.
 
     Parameters
     ----------

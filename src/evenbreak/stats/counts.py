@@ -28,12 +28,14 @@ _NEAR = 1e-9
 class FairLine(NamedTuple):
     """The line at which a bet on a score is fair, for three kinds of bet.
 
-    `mean`: the bet pays an amount for every point above the line and costs as much for every
-    point below it.
+    `mean`: the bet pays an amount for every point above the line and costs as much for every point
+    below it.
+
     `median`: the bet wins if the score is over the line and loses otherwise; the median is the
     smallest number that the score does not exceed at least half of the time.
-    `mode`: everybody names a score, and whoever names it exactly wins; the mode is the best
-    score to name.
+
+    `mode`: everyone names a score, and whoever names it exactly wins; the mode is the best score to
+    name.
     """
 
     mean: float
@@ -172,10 +174,10 @@ def exact(p: Any, name: str = "p") -> Fraction:
     Parameters
     ----------
     p
-        a number from 0 to 1: a `Fraction` or an int is taken as it is, a float as the
-        shortest decimal that reads back as the same float, so that .9 is 9/10.
+        a `Fraction` or an int from 0 to 1 is used unchanged, a float as the shortest decimal that
+        reads back as the same float, so that .9 is 9/10.
     name
-        what to call the value in a message.
+        the value's name in the error.
 
     Raises
     ------

@@ -61,7 +61,7 @@ class RunLength(CountLaw):
 
     @classmethod
     def of_mean(cls, mean: Any, safety: Any = 1) -> RunLength:
-        """Return the distribution for a player who runs `mean` balls an inning on average.
+        """Return the distribution for a player who runs `mean` balls per inning on average.
 
         Parameters
         ----------

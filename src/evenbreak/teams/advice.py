@@ -21,7 +21,7 @@ from evenbreak.teams.squad import Counts, LineUps, Squad
 @own_arrays
 @dataclass(frozen=True)
 class Point:
-    """A point in a night: a nomination to come.
+    """A point in a night: an upcoming nomination.
 
     Parameters
     ----------
@@ -32,10 +32,10 @@ class Point:
     last_won
         whether we won the last set; needed where the winner or the loser names first.
     named
-        whom the team that names first in the next set has named; () if nobody yet.
+        who the team that names first in the next set has named; () if no one yet.
     in_play
-        the matches of `used` that are still being played: their laws, shape (2, 2 reach + 1), as in
-        `TeamNight.laws`. What they bring is not in `lead`.
+        the distributions of the matches of `used` that are still being played, shape (2, 2 reach +
+        1), as in `TeamNight.laws`. What they bring is not in `lead`.
     """
 
     used_ours: tuple[str, ...] = ()
@@ -52,12 +52,12 @@ class Option(NamedTuple):
     Parameters
     ----------
     names
-        who plays: one player, or the pair of a doubles set.
+        one player, or the pair of a doubles set.
     worth
-        what the night is worth to us if this pick is made and all else is played as well as it can
-        be; see `SolvedNight`.
+        our value of the night if this pick is made and everything else is played as well as
+        possible; see `SolvedNight`.
     answer
-        the best reply of the other team, by name; () if there is none to come.
+        the other team's best reply, by name; () if there is none left.
     mix
         how often to pick it where both teams name at once; 1 for the best pick otherwise, else 0.
     """
@@ -69,14 +69,14 @@ class Option(NamedTuple):
 
 
 class Advice(NamedTuple):
-    """What each pick is worth, for whoever names now.
+    """The value of each pick, for the team that names now.
 
     Parameters
     ----------
     worth
-        what the night is worth to us at this point.
+        our value of the night at this point.
     ours
-        whether it is our pick that is due (or both teams').
+        whether it is our pick (or both teams').
     blind
         whether both teams name at once.
     options
@@ -98,14 +98,12 @@ class Advice(NamedTuple):
 
 
 def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
-    """Return what each pick is worth at a point of a night.
+    """Return the value of each pick at a point of a night.
 
     Parameters
     ----------
-    solution
-        the solved night.
     point
-        the point; None: before the first nomination.
+        None: before the first nomination.
 
     Raises
     ------
@@ -345,22 +343,18 @@ def best_by_skills(
     draws: int = 100,
     rng: np.random.Generator,
 ) -> dict[tuple[str, ...], float]:
-    """Return how often each pick would be the best if the ratings are off as they may be.
+    """Return how often each pick would be the best, given the uncertainty of the ratings.
 
     Parameters
     ----------
-    night
-        the night.
     laws
-        from the skills of both squads to the laws of the sets, as `TeamNight` takes them.
+        from the skills of both squads to the sets' distributions, as `TeamNight` takes them.
     ours, theirs
-        the ratings and their standard errors; where none is stated, the rating is taken as right.
+        ratings with standard errors; one without is treated as exact.
     point
-        the point of the night; None: before the first nomination.
+        None: before the first nomination.
     draws
-        how many times the skills are drawn. Each draw is solved as if everybody knew them.
-    rng
-        numpy's random generator.
+        of the skills. Each draw is solved as if everyone knew them.
 
     Returns
     -------

@@ -25,7 +25,7 @@ class MatrixGame(NamedTuple):
     Parameters
     ----------
     value
-        what the row player gets on average if both play as well as possible.
+        the row player's mean payoff if both play as well as possible.
     rows, columns
         the mixtures: the chance with which each row and each column is chosen, last axis.
     """

@@ -30,7 +30,7 @@ class Pairs:
     Parameters
     ----------
     points, errors
-        by how much our pick is rated above theirs, and its standard error, in points of the scale.
+        our pick's rating less theirs, and its standard error, in points of the scale.
     needs_1, needs_2
         the games (or, by a chart of points, the points) that both need.
     """

@@ -29,11 +29,11 @@ class SealedLineUp(NamedTuple):
     Parameters
     ----------
     names
-        those who play, in the squad's order; twice those who play two sets.
+        in the squad's order; twice for two sets.
     worth
-        what the night is worth to us with them against the other team's best mixture.
+        our value of the night with them against the other team's best mixture.
     mix
-        how often to hand it in.
+        probability of handing it in.
     """
 
     names: tuple[str, ...]
@@ -66,12 +66,12 @@ class SealedNight(NamedTuple):
 
 
 def sealed(night: TeamNight) -> SealedNight:
-    """Return what a night is worth if both line-ups are handed in before it.
+    """Return the value of a night if both line-ups are handed in before it.
 
     Parameters
     ----------
     night
-        the night; its order of nomination does not matter.
+        its order of nomination does not matter.
 
     Raises
     ------

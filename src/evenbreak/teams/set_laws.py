@@ -109,34 +109,31 @@ def set_laws(
     form: float = 0.0,
     levels: LevelSkills | None = None,
 ) -> Floats:
-    """Return what each of our picks can bring against each of theirs.
+    """Return the possible results of each of our picks against each of theirs.
 
     Parameters
     ----------
     ours, theirs
-        the squads with their ratings. Where they state standard errors, chances are averaged
-        over how far the ratings may be off.
+        with ratings. Where these have standard errors, chances are averaged over them.
     race
-        what is played: an even race to so many games, a `Chart`, the `Fairest` of a length, a
-        `LevelChart` or a `PointsChart`.
-    scale
-        the scale of the ratings.
+        an even race to so many games, a `Chart`, the `Fairest` of a length, a `LevelChart` or a
+        `PointsChart`.
     count
         what decides the night.
     size
         1, or 2 for doubles: a pair plays like a player with the mean of the two ratings.
     skills
-        how our players and theirs really play, where it is not as their ratings say.
+        true skills of our players and theirs, where they differ from the ratings.
     form
-        how much the log-odds of a game vary from set to set (standard deviation).
+        standard deviation of a game's log-odds from set to set.
     levels
-        how strong skill levels are, if the chances come from those in place of ratings; the scale
-        is then Fargo's. By a chart of points they always come from the levels.
+        strengths of skill levels, if the chances come from those and not from ratings; the scale is
+        then Fargo's. By a chart of points they always come from the levels.
 
     Returns
     -------
     numpy.ndarray
-        a law for `TeamNight`: shape (our picks, their picks, 2, 2 reach + 1).
+        a distribution for `TeamNight`: shape (our picks, their picks, 2, 2 reach + 1).
 
     Raises
     ------

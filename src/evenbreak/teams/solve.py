@@ -222,11 +222,12 @@ def league_nights(
     Parameters
     ----------
     squads
-        the teams, with the caps that they must keep.
+        with the caps that they must keep.
     laws
-        laws(i, j) is what a set of team i against team j can bring, as `set_laws` returns it.
+        laws(i, j) has the possible results of a set of team i against team j, as `set_laws` returns
+        it.
     sets
-        how many sets a night has.
+        per night.
     order
         of nomination; the team of the row is A.
 
@@ -273,7 +274,7 @@ def against_all(nights: Floats) -> Floats:
 
 
 def first_edges(nights: Floats) -> Floats:
-    """Return what being A is worth to each team against each other: shape (teams, teams).
+    """Return the value of being A to each team against each other: shape (teams, teams).
 
     P(the team of the row wins | it is A) - P(it wins | it is B); NaN on the diagonal.
 

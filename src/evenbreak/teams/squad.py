@@ -28,8 +28,8 @@ class Cap:
     Parameters
     ----------
     weights
-        what each player adds when they play a set, in the order of the squad: a skill level, a
-        rating, or 1 for those of whom only so many may play.
+        per set that a player plays, in the order of the squad: a skill level, a rating, or 1 for
+        players of a limited number.
     most
         the largest sum allowed.
     name
@@ -63,8 +63,6 @@ def caps_of(
 
     Parameters
     ----------
-    weights
-        the level of each player.
     most
         the largest sum of the levels; None: no limit.
     at_most

@@ -94,10 +94,8 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRac
 
     Parameters
     ----------
-    ratings
-        how strong everybody is.
     players
-        who is paired: positions in `ratings.players`.
+        who to pair: positions in `ratings.players`.
     offered
         the races to choose from.
 

@@ -33,7 +33,7 @@ APART = 0.5
 
 
 def read_entrants(path: str | Path) -> RosterFile:
-    r"""Read who has entered: a player on each line, or a table with the columns of a roster.
+    r"""Read the entrants: a player on each line, or a table with the columns of a roster.
 
     A line is a name, or a name and a rating, such as `Ann Lee,612`; lines without a name are
     skipped. In a table all columns but the name may be missing.
@@ -76,7 +76,7 @@ class Entered:
     places
         of each in the list, -1 for those who are not on it.
     warnings
-        who is not on the list, with the names that may be meant, and whose rating differs.
+        entrants who are not on the list, with the names that may be meant, or whose rating differs.
     """
 
     names: tuple[str, ...]
@@ -95,11 +95,9 @@ def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered
     Parameters
     ----------
     entrants
-        as `read_entrants` reads them.
-    players
-        the players of the list.
+        from `read_entrants`.
     whose
-        what the list is called in warnings.
+        the name of the list in warnings.
 
     >>> file = RosterFile(Roster(["ann lee", "Bo Dias"], [80, 70]), np.array([1, 2]), "e", (), "")
     >>> found = entered(file, ["Ann Lee", "Bo Diaz"], "r.csv")

@@ -40,7 +40,7 @@ SEASON = ROSTER.but(rating={"least": -FARTHEST, "most": FARTHEST}) | WRITTEN | O
 @array_values
 @dataclass(frozen=True, eq=False)
 class SeasonPlayers:
-    """What a league's roster contains.
+    """The players of a league's roster.
 
     Parameters
     ----------
@@ -51,18 +51,19 @@ class SeasonPlayers:
     source
         the name of the file in messages.
     warnings
-        what to check although the file can be used, a line each.
+        one per line: the file can be used all the same.
     drawn
-        for how many players the skill is drawn, from rating and standard error.
+        number of players whose skill is drawn, from rating and standard error.
     exact
-        for how many the rating is taken as the skill, for lack of a skill and a standard error.
+        number of players whose rating is used as the skill, for lack of a skill and a standard
+        error.
     scale
-        the scale of the ratings; None if the file does not state it.
+        of the ratings; None if the file does not state it.
     levels
         whether the title of the ratings says that they are skill levels.
     teams, team_names
-        the number of each player's team, from 0, and what the teams are called; None and nobody
-        in a league of single players.
+        each player's team, from 0, and the teams' names; None and empty in a league of single
+        players.
     """
 
     players: LeaguePlayers
@@ -343,7 +344,7 @@ def _read(schema: Schema, path: str | Path, roster: Roster) -> tuple[TextTable, 
 
 @dataclass(frozen=True, eq=False)
 class ScheduleFile:
-    """What a list of fixtures contains.
+    """The content of a file of fixtures.
 
     Parameters
     ----------
@@ -352,7 +353,7 @@ class ScheduleFile:
     source
         the name of the file in messages.
     warnings
-        what to check although the file can be used, a line each.
+        one per line: the file can be used all the same.
     """
 
     schedule: FixedSchedule

@@ -217,11 +217,11 @@ class TeamMatches:
     pairs
         home and away: positions in the list of teams, a row each.
     scores
-        the sets that each won, a row each; no columns for matches to come.
+        the sets that each won, one match per row; no columns for upcoming matches.
     rounds
-        what the file says of the round, the week or the date; '' where nothing.
+        the round, week or date in the file; '' if there is none.
     warnings
-        what to check, a line each.
+        one per line: the file can be used all the same.
     """
 
     pairs: Ints
@@ -334,7 +334,7 @@ def read_team_results(
 
 
 def read_fixtures(path: str | Path, teams: TeamNames) -> TeamMatches:
-    """Read the matches to come: home and away, and the round if the file has it.
+    """Read the upcoming matches: home and away, and the round if the file has it.
 
     Raises
     ------

@@ -40,11 +40,11 @@ class AliasesFile:
     Parameters
     ----------
     means
-        from a name as it is written to the name that is meant, which is never itself an alias.
+        from a name as written to the name that is meant, which is never itself an alias.
     source
-        what the file is called in messages.
+        the name of the file in messages.
     warnings
-        what to check although the file can be used, a line each.
+        one per line: the file can be used all the same.
     """
 
     means: dict[str, str]

@@ -49,27 +49,27 @@ class ResultsFile:
     Parameters
     ----------
     results
-        its matches, in the order of the file; players in the order of their names.
+        in the order of the file; players in the order of their names.
     source
-        what the file is called in messages.
+        the name of the file in messages.
     warnings
-        what to check although the file can be used, a line each.
+        one per line: the file can be used all the same.
     similar_names
         groups of names that may mean one player.
     sha256
         fingerprint of the bytes that were read.
     lines
-        the line in which each match begins; empty where the matches did not come from a file.
+        the line in which each match starts; empty where the matches did not come from a file.
     ties
         a warning if matches have neither a winner nor a race; a chart may still say who won.
     skipped
-        how many rows were left out because of `skip_bad`.
+        number of rows left out because of `skip_bad`.
     left_out
-        these rows, and those of byes and matches not played, each with why.
+        these rows, and those of byes and matches not played, each with the reason.
     renamed
-        names as they are written that are read as another, each with that.
+        names as written, each with the name as which it is read.
     titles
-        what the file calls the columns that it has.
+        the file's titles of its columns.
     read
         the name and the fingerprint of each file that was read, where there are several.
     """

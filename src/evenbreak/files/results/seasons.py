@@ -15,17 +15,15 @@ from evenbreak.files.results.results_file import ResultsFile, in_a_row, read_res
 def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
     r"""Read several files of results as one career of each player.
 
-    Titles in `columns` are those of the files that have them.
+    Titles in `columns` are those of the files that have them. A league's file, `league.toml`, may
+    replace a file of results: it names files, the titles of their columns and aliases.
 
-    In place of a file may stand that of a league, `league.toml`: it names files, the titles of
-    their columns and aliases.
-
-    Names that differ in case or spaces alone are one player's, by the name in the first file.
+    Names that differ only in case or spaces are one player's, spelled as in the first file.
 
     Parameters
     ----------
     paths
-        the files, in any order: matches go by their dates.
+        in any order: matches go by their dates.
     reading
         as for `read_results`.
 

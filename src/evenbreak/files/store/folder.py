@@ -62,10 +62,8 @@ def write_files(folder: str | Path, files: Mapping[str, bytes | None]) -> None:
 
     Parameters
     ----------
-    folder
-        where to write.
     files
-        the content of each file by name, None to remove it; they take their places in this order.
+        the content of each file by name, None to remove it; they are written in this order.
         A name may lead into a folder, as in data/a.csv, which is created if needed.
 
     Raises

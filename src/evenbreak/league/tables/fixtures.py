@@ -172,22 +172,20 @@ def nights(
 
 @dataclass(frozen=True)
 class Fixture:
-    """A match to come.
+    """An upcoming match.
 
     Parameters
     ----------
     round
         from 1.
-    home, away
-        who plays who.
     date
-        when; None where no dates are set.
+        None if no dates are set.
     venue
-        where; '' where that is not known.
+        '' if not known.
     table
-        the (first) table; 0 where tables are not given out.
+        the (first) table; 0 if tables are not assigned.
     turn
-        1 if it starts when the night does, 2 after the matches that do, and so on.
+        1 if it starts with the night, 2 after the matches that do, and so on.
     """
 
     round: int
@@ -281,10 +279,8 @@ def still_to_play(names: Sequence[str], times: int, played: Ints) -> Ints:
 
     Parameters
     ----------
-    names
-        the teams or players.
     times
-        how often every two meet.
+        meetings of every two.
     played
         the matches played: home, away. Who was home does not matter.
 

@@ -162,7 +162,7 @@ BINS = 10
 
 @dataclass(frozen=True, eq=False)
 class Validation:
-    """What a season says about the ratings that were predicted from it.
+    """What a season shows about the ratings that were predicted from it.
 
     Attributes
     ----------

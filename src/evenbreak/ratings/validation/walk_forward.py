@@ -125,14 +125,14 @@ def walk_forward(
     prior_sd
         standard deviation of the prior in natural log-odds.
     half_life
-        days after which a game counts half; None: games never age.
+        in days; None: games never age.
     levels
         how far newcomers are behind, how much teams and divisions differ, and the ratings that
         players bring along.
     form
-        how much players vary from match to match: the standard deviation of a game's log-odds.
+        day-to-day form: the standard deviation of a game's log-odds.
     progress
-        called with how many dates are done, of how many, and what part of the work that is.
+        called with the dates done, all dates, and the share of the work done.
     share
         what gives spans of dates to other processes (see `evenbreak.workers`), for the same
         answer; None: there is only this one.

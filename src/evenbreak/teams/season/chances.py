@@ -44,14 +44,14 @@ _MOST_COVARIANCE = 1e-12  # added to the diagonal, so that its root exists
 
 
 def scores_of(*, sets: int | None = None, race: int | None = None) -> Ints:
-    """Return the scores that a match can have, home first.
+    """Return the possible scores of a match, home first.
 
     Parameters
     ----------
     sets
-        how many sets are played, all of them; or
+        number of sets, all of them played; or
     race
-        how many a team needs to win.
+        sets that a team needs to win.
 
     Raises
     ------
@@ -96,16 +96,14 @@ class TeamStrengths:
 def team_strengths(
     teams: Sequence[str], played: Ints, *, prior_sd: float = PRIOR_SD
 ) -> TeamStrengths:
-    """Return how strong the teams are, given the matches played.
+    """Return the strengths of the teams, given the matches played.
 
     Parameters
     ----------
-    teams
-        the names.
     played
-        the matches: home, away, sets won by each, as in `TeamSeason`.
+        home, away, sets won by each, as in `TeamSeason`.
     prior_sd
-        how much teams differ before there are results, in log-odds of a set.
+        standard deviation between teams before there are results, in log-odds of a set.
 
     >>> found = team_strengths(["Acers", "Bankers"], np.array([[0, 1, 5, 0]]))
     >>> found.estimate.round(2).tolist()
@@ -121,16 +119,16 @@ def team_strengths(
 
 
 def score_chances(skills: Floats, to_come: Ints, scores: Ints) -> Floats:
-    """Return P(each score) for each match to come.
+    """Return P(each score) for each upcoming match.
 
     Parameters
     ----------
     skills
         log-odds of a set against an average team, shape (draws, teams).
     to_come
-        the matches: home, away.
+        home, away.
     scores
-        as `scores_of` returns them.
+        from `scores_of`.
 
     Returns
     -------

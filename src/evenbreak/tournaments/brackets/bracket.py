@@ -63,13 +63,11 @@ class Match:
     Parameters
     ----------
     name
-        the match's name: 'W1.1' is the first match of round 1 on the winners' side.
+        'W1.1' is the first match of round 1 on the winners' side.
     side
         the part of the bracket: 'winners', 'losers', 'final', 'group A'.
     round
         the round on that side, from 1 on.
-    slots
-        the two slots.
     winner_place, loser_place
         the place of a winner or loser with no next match; None if there always is one.
     """
@@ -84,19 +82,17 @@ class Match:
 
 @dataclass(frozen=True)
 class Group:
-    """A group in which everybody plays everybody.
+    """A group in which everyone plays everyone.
 
     Players are ranked by matches won. Ties are broken by matches won among the tied players,
     again among those who are still tied, and finally by lot.
 
     Parameters
     ----------
-    name
-        the group's name.
     members
-        its players, by position.
+        by position.
     matches
-        the names of its matches.
+        their names.
     pairs
         the two players of each match, by position.
     places
@@ -112,7 +108,7 @@ class Group:
 
 @dataclass(frozen=True)
 class RunnersUp:
-    """The players of one rank in all groups, of whom the best go on.
+    """The players of one rank in all groups, of whom the best advance.
 
     They are compared by the share of matches won, which counts alike in groups of any size. Ties
     are broken by lot.
@@ -124,10 +120,10 @@ class RunnersUp:
     weights
         the groups by name, and what a match won counts in each: the same for all shares.
     places
-        the place of each, best first; None for those who go on.
+        the place of each, best first; None for those who advance.
     settled
-        in a tournament under way: who has the rank in the groups that are over, and what that
-        player's matches won count.
+        in a tournament under way: the player of this rank in finished groups, and the weight of
+        their matches won.
     """
 
     rank: int

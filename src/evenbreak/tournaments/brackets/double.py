@@ -154,7 +154,7 @@ def double_elimination(
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter is invalid.
 
     >>> bracket = double_elimination(8)
     >>> bracket.match("L2.1").slots[0], bracket.match("F").slots[1].match

@@ -26,14 +26,14 @@ from evenbreak.words import Parameter
 
 
 def round_robin(players: Sequence[str] | int, *, times: int = 1) -> Bracket:
-    """Return a round robin: everybody plays everybody.
+    """Return a round robin: everyone plays everyone.
 
     Parameters
     ----------
     players
-        the names, or the number of players.
+        names, or their number.
     times
-        how often each pair plays.
+        matches of each pair.
 
     >>> [match.name for match in round_robin(4).matches]
     ['R1.1', 'R1.2', 'R2.1', 'R2.2', 'R3.1', 'R3.2']

@@ -33,14 +33,10 @@ class SwissRank(NamedTuple):
 
     Parameters
     ----------
-    player
-        the name.
     score
         matches won; a bye counts as one.
     buchholz
         the sum of the opponents' scores, the usual tie-break.
-    lost
-        matches lost.
     """
 
     player: str
@@ -90,9 +86,7 @@ def swiss(players: Sequence[str] | int, rounds: int, *, system: System = "dutch"
     Parameters
     ----------
     players
-        the names in seed order, or the number of players.
-    rounds, system
-        as in `Swiss`.
+        names in seed order, or their number.
 
     >>> swiss(["Ann", "Bo", "Cy", "Di"], 3).rounds
     3

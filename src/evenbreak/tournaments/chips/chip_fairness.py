@@ -67,12 +67,10 @@ def chip_fairness(
     runs: int = 10_000,
     seed: int = 0,
 ) -> ChipFairness:
-    """Return how fair a chip chart is to a field of players.
+    """Return the fairness of a chip chart to a field of players.
 
     Parameters
     ----------
-    ratings
-        each player's rating.
     chips
         the chart, its name, or each player's chips.
     scale, break_advantage
@@ -80,7 +78,7 @@ def chip_fairness(
     tables, runs
         as in `play_chips`.
     seed
-        the seed of the simulation; the same seed gives two charts the same luck.
+        the same seed gives two charts the same luck.
 
     >>> found = chip_fairness([650, 500, 400, 350], "hoboken")
     >>> found.chips, found.edge.round(1)

@@ -29,14 +29,12 @@ _MOST_STATES = 400_000
 
 
 def heads_up(p: float, chips: int, other_chips: int) -> float:
-    """Return player 1's chance when two are left.
+    """Return player 1's chance when two players are left.
 
     Parameters
     ----------
     p
         P(player 1 wins a rack).
-    chips, other_chips
-        what player 1 and player 2 have left.
 
     >>> round(heads_up(0.5, 2, 1), 3)
     0.75

@@ -36,9 +36,9 @@ class ChipOdds:
     racks_mean
         the mean number of racks, before the last two players unless they were played out too.
     runs
-        how many tournaments were played.
+        number of tournaments played.
     lengths
-        how long each tournament lasts, if all racks last equally long: in racks one after another.
+        of each tournament, if all racks last equally long: in racks one after another.
     by_sample
         P(each player wins) by each sample of the ratings, a column each.
     """
@@ -258,14 +258,12 @@ class _Room:
 def rack_chances(
     ratings: ArrayLike, *, scale: Scale | str | float = "fargo", break_advantage: float = 0.0
 ) -> Floats:
-    """Return P(i, who stays at the table, beats the challenger j), by rating.
+    """Return P(i, at the table, beats the challenger j), by rating.
 
     Parameters
     ----------
-    ratings
-        each player's rating.
     scale
-        the scale: a name, or the points that double the odds.
+        a name, or the points that double the odds.
     break_advantage
         by how many points the breaker plays better; the player who stays breaks. Negative
         where the challenger breaks.

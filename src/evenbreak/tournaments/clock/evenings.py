@@ -29,15 +29,13 @@ class InPlay(NamedTuple):
 
     Parameters
     ----------
-    match
-        its name.
     started
-        when it began, in minutes since the first start of the event.
+        in minutes since the first start of the event.
     games
         the games played so far, if its score is known. The odds of the match must then be those
         from this score (`from_score`).
     scored
-        when it had this score; None: none is known.
+        when it had this score; None: not known.
     """
 
     match: str

@@ -33,7 +33,7 @@ SLOWEST = 2.0
 
 @dataclass(frozen=True)
 class EarlierNight:
-    """A tournament that was played at the same venue.
+    """An earlier tournament at the same venue.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class EarlierNight:
     discipline
         8-ball, 9-ball or 10-ball.
     ratio
-        how long it took, over the middle of what was to be expected at the usual pace.
+        its duration over the median expected at the usual pace.
     """
 
     at: str
@@ -77,7 +77,7 @@ def event_pace(pace: Pace | str, earlier: Iterable[EarlierNight] = ()) -> Pace:
     earlier
         nights at the same venue. With y the logarithms of the ratios of the n nights of this
         discipline, the venue's matches take exp(sum y / (n + 2)) times as long as usual, and
-        2 / (n + 2) of the variance between venues is left in `evening_sd`.
+        2 / (n + 2) of the variance between venues remains in `evening_sd`.
 
     Raises
     ------
@@ -120,9 +120,9 @@ def learned_pace(pace: Pace | str, played: Sequence[Timed]) -> Pace:
     Parameters
     ----------
     pace
-        what was known before: a discipline, or a `Pace`.
+        the pace before: a discipline, or a `Pace`.
     played
-        the matches of this evening with their games and minutes.
+        this evening's matches with their games and minutes.
 
     Returns
     -------

@@ -37,14 +37,12 @@ _WORK = 7e7  # what trying them may cost: calls x evenings x matches x matches
 
 
 class Start(NamedTuple):
-    """When a match begins, in minutes: in 10, 50 and 90 of 100 evenings it has begun by then.
+    """When a match starts, in minutes: in 10, 50 and 90 of 100 evenings it has started by then.
 
     Parameters
     ----------
     p10, p50, p90
-        the times, given that the match is played.
-    p_played
-        the chance that it is.
+        given that the match is played.
     """
 
     p10: float
@@ -58,12 +56,10 @@ class Call(NamedTuple):
 
     Parameters
     ----------
-    match
-        its name.
     finish_mean
-        when the evening ends on average, if it is called next.
+        mean end of the evening, if it is called next.
     later
-        by how many minutes that is later than with the best call, on average.
+        minutes by which that is later than with the best call, on average.
     error
         the standard error of `later`.
     """
@@ -190,7 +186,7 @@ class Finish:
         tables
             how many are free: the second match is the best with the first on a table, and so on.
         ready
-            the matches that can be called; None: those of the tournament.
+            matches that can be called; None: those of the tournament.
         """
         if ready is None:
             ready = [name for name in self.standing.to_play if name not in self.room.on_tables]
@@ -292,43 +288,36 @@ def finish(
     runs: int = 2000,
     seed: int = 0,
 ) -> Finish:
-    """Return when a tournament ends and when each match begins.
+    """Return when a tournament ends and when each match starts.
 
-    Whenever a table is free, the match with the longest way to the end begins on it.
+    Whenever a table is free, the match with the longest way to the end starts on it.
 
     Parameters
     ----------
-    bracket
-        the tournament.
     laws
         who wins each match and in how many games, as `pair_odds` gives it.
     tables
-        how many tables there are, or from when on each of them is free, in minutes since the
-        first start. The tables of matches under way are among them.
+        their number, or when each is free, in minutes since the first start. The tables of matches
+        under way are among them.
     pace
-        how long matches take: a discipline, calibrated to whole events, or a `Pace`.
+        a discipline, calibrated to whole events, or a `Pace`.
     turnover
         the time between two matches on a table with both players free; None: none in 62 of 100
         cases, as in real events, and otherwise the usual one.
     wait_for_rounds
-        whether a round begins only when the rounds that feed it are over, as it does on most
+        whether a round starts only when the rounds that feed it are over, as it does on most
         evenings; the pace of a discipline is calibrated for that.
-    results
-        the results so far.
     played
-        the games and minutes of the matches played so far: they say how fast this evening is.
-    playing
-        the matches under way.
+        games and minutes of the matches played so far, which show this evening's pace.
     now
-        what time it is, in minutes since the first start.
+        in minutes since the first start.
     runs, seed
-        how many evenings are played out, and the seed of their luck: the same seed gives a
-        changed evening the same luck.
+        of the simulated evenings: the same seed gives a changed evening the same luck.
 
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter is invalid.
 
     >>> from evenbreak.tournaments import double_elimination, pair_odds
     >>> bracket = double_elimination(8)

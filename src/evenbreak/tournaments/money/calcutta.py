@@ -28,13 +28,11 @@ class Lot:
 
     Parameters
     ----------
-    player
-        who is sold.
     fair_share
-        the share of the pot that the lot is expected to win.
+        expected share of the pot.
     break_even
-        the bid at which it wins back what it costs, on average; None where nothing has been
-        sold yet: nobody knows then what the lots will bring.
+        the bid at which it wins back its cost, on average; None where nothing has been sold yet: no
+        one knows then what the lots will bring.
     """
 
     player: str
@@ -47,8 +45,6 @@ def fair_shares(odds: PlaceOdds, shares: Sequence[float]) -> dict[str, float]:
 
     Parameters
     ----------
-    odds
-        the odds of the places.
     shares
         the part of the pot for first place, second, ...
 
@@ -68,7 +64,7 @@ def calcutta(
     *,
     paid_out: float = 1.0,
 ) -> list[Lot]:
-    """Return what the lots still to be sold are worth now.
+    """Return the present value of the lots still to be sold.
 
     Each is valued as if it came next, and the others after it went for their fair shares of
     the pot.
@@ -80,7 +76,7 @@ def calcutta(
     sold
         the winning bids so far.
     paid_out
-        the part of the pot that is paid out; the rest is the house's.
+        share of the pot that is paid out; the rest is the house's.
 
     Raises
     ------

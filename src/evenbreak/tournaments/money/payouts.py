@@ -20,7 +20,7 @@ class PayoutRow(NamedTuple):
     Parameters
     ----------
     entrants_from, entrants_to
-        the numbers of entrants; None for no upper limit.
+        None for no upper limit.
     shares
         the part of the prize money for first place, second, ...; they sum to 1 at most, and
         what is left is the house's.
@@ -224,9 +224,9 @@ class PrizeMoney:
         Parameters
         ----------
         entrants
-            how many play, which says how many places are paid.
+            decides how many places are paid.
         payers
-            how many have paid the fee; None: all who play.
+            who have paid the fee; None: all entrants.
         """
         pot = _hundredths(self.pot(entrants if payers is None else payers))
         step = max(1, round(self.unit * 100))

@@ -202,13 +202,12 @@ def blind_draw_odds(
     samples: int = 400,
     rng: np.random.Generator | None = None,
 ) -> PlaceOdds:
-    """Return who finishes where before the draw, if everybody may be drawn to any line.
+    """Return who finishes where before the draw, if everyone may be drawn to any line.
 
     Parameters
     ----------
     bracket
-        the bracket into which the players are drawn: who is on which line of it does not
-        matter.
+        who is on which line of it does not matter.
     win
         as in `title_odds`. Tables may have a third axis for samples of the ratings, an even number
         of which the second half may mirror the first; then each sample has a draw of its own.

@@ -33,18 +33,13 @@ class Fairness:
 
     Parameters
     ----------
-    races
-        what is played.
-    odds
-        the title odds.
     edge
-        for each player, how many times an equal share their title odds are, less 1: 0 is
-        fair, 1 is twice the share.
+        for each player, title odds in equal shares, less 1: 0 is fair, 1 is twice the share.
     upper_half
         P(the title goes to the upper half by rating), of which a fair share is 1/2; a
         player in the middle counts half.
     games_mean
-        the expected number of games of the whole tournament.
+        expected games of the whole tournament.
     """
 
     races: Races
@@ -72,7 +67,7 @@ def upper_half(ratings: Floats, title: Floats) -> float:
 
 
 def unfairness(title: Floats) -> float:
-    """Return how far title odds are from equal: the root mean square, in equal shares.
+    """Return the distance of title odds from equal: the root mean square, in equal shares.
 
     >>> unfairness(np.array([0.75, 0.25]))
     0.5
@@ -89,14 +84,12 @@ def tournament_fairness(
     break_advantage: float = 0.0,
     form: float = 0.0,
 ) -> Fairness:
-    """Return how fair the races of a tournament are to its players.
+    """Return the fairness of a tournament's races to its players.
 
     Parameters
     ----------
     bracket
-        the tournament, with the players on their lines.
-    ratings, races, scale, break_advantage, form
-        as in `pair_odds`.
+        with the players on their lines.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> found = tournament_fairness(double_elimination(4), [620, 560, 500, 440], Races(7))

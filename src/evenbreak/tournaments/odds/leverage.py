@@ -37,23 +37,21 @@ MOST_STATES = 2e7
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class Leverage:
-    """What the result of a match would change, for each player.
+    """The effect of a match's result on each player.
 
     Parameters
     ----------
-    match
-        the match.
     players
-        the two players, by position, where they are known.
+        by position, where they are known.
     p_first
         P(the player in slot 1 wins).
     now
-        what each player can expect now: the chance of the title, or the prize.
+        each player's expectation now: the chance of the title, or the prize.
     if_first, if_second
         the same given that the player in slot 1, in slot 2 wins; None where the two are
         not known yet.
     swing
-        by how much the result is expected to change it, up or down.
+        expected change by the result, up or down.
     """
 
     match: str

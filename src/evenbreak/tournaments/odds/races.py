@@ -115,21 +115,16 @@ def pair_odds(
 
     Parameters
     ----------
-    bracket
-        the tournament.
     ratings
-        each player's rating, in the bracket's order.
-    races
-        what is played in each match.
+        in the bracket's order.
     scale
-        the scale of the ratings: a name, or the points that double the odds.
+        a name, or the points that double the odds.
     break_advantage
-        by how many points the breaker of a game plays better.
+        points by which the breaker of a game plays better.
     breaks
-        who breaks next; either player may win the lag. It matters with a break advantage only.
+        matters only with a break advantage; either player may win the lag.
     form
-        how much the log-odds of a game vary from match to match (standard deviation); see
-        `final_scores`.
+        standard deviation of a game's log-odds from match to match; see `final_scores`.
 
     Raises
     ------

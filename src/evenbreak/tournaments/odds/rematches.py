@@ -39,7 +39,7 @@ _Met: TypeAlias = dict[frozenset[Slot], Floats]
 
 @dataclass(frozen=True, eq=False)
 class Rematches:
-    """How many rematches there will be.
+    """The expected number of rematches.
 
     Parameters
     ----------
@@ -67,12 +67,10 @@ def expected_rematches(
     results: Results | None = None,
     rng: np.random.Generator | None = None,
 ) -> Rematches:
-    """Return how many rematches are to be expected.
+    """Return the expected number of rematches.
 
     Parameters
     ----------
-    bracket
-        the tournament.
     win
         as in `title_odds`; None: all players are equal.
     results

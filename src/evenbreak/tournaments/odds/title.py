@@ -190,15 +190,13 @@ def title_odds(
 
     Parameters
     ----------
-    bracket
-        the tournament.
     win
         P(i beats j) for every two players, in the bracket's order: a table of shape (n, n), or
         a function of two names; or a mapping with one of these for each match, by match name,
         such as `pair_odds` returns.
     results
-        the winner of each decided match. The result of a match whose players are not known
-        yet is a what-if: the odds are conditional on it.
+        the winner of each decided match. The result of a match whose players are not known yet is a
+        what-if: the odds are conditional on it.
     live
         P(the player in slot 1 wins) for matches in play.
     walkovers

@@ -44,14 +44,14 @@ _FEWEST, _MOST = 200, 2_000  # draws of the ratings
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class UncertainOdds:
-    """Title odds, averaged over the ratings and as if they were sure.
+    """Title odds, averaged over the ratings and with ratings treated as exact.
 
     Parameters
     ----------
     averaged
         the odds averaged over samples of the ratings; its `error` is that of the average.
     as_if_sure
-        the odds by the ratings as they are.
+        the odds with the ratings treated as exact.
     bands
         two columns: each player's title odds, averaged over the fifth of the draws in which their
         own rating is lowest, and over that in which it is highest. Their middles are the tenth
