@@ -168,7 +168,7 @@ ByWay: TypeAlias = Annotated[
         rare=True,
         more="The fast formula (kernel), elimination of states, or eigenvectors; they are "
         "compared. See [the same answer by another way]"
-        "(../../how-to/your-own-chain.md#the-same-answer-by-another-way).",
+        "(../../how-to/your-own-chain.md#the-same-answer-by-another-method).",
     ),
 ]
 
