@@ -31,7 +31,7 @@ _PLAIN = frozenset((type(None), bool, int, float, str))
 def own_arrays(cls: Class) -> Class:
     """Let the values of a dataclass own their arrays, so that writing to one changes no answer.
 
-    The arrays and sparse matrices that they are made from are copied, unless nobody can write to
+    The arrays and sparse matrices that they are made from are copied, unless no one can write to
     them; those that they hold or remember are read-only.
 
     >>> from dataclasses import dataclass

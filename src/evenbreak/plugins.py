@@ -2,7 +2,7 @@
 
 A package declares them as entry points of the groups `evenbreak.systems`, `evenbreak.charts` and
 `evenbreak.games`. None is looked for where a name is one of ours, and only the package that has
-the name is imported: a broken one stops nobody else.
+the name is imported: a broken one stops no one else.
 """
 
 from __future__ import annotations

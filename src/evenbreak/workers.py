@@ -201,7 +201,7 @@ def _processes(
 def _safe_path() -> Iterator[None]:
     """Let processes that start in the block not look for modules in the working folder.
 
-    There a file of data, or of somebody else, may have the name of a module. Once such a process
+    There a file of data, or of someone else, may have the name of a module. Once such a process
     runs, it looks for modules where this one does.
     """
     before = os.environ.get(_SAFE_PATH)

@@ -1,6 +1,6 @@
 """Where a chain is absorbed, and how often it visits each state before.
 
-With T the arcs among the transient states and v the start density, x = (I - T)^-1 v are the
+With T the arcs among the transient states and v the starting vector, x = (I - T)^-1 v are the
 expected visits to them, and the recurrent states are entered with the probabilities
 
     v + M x,
@@ -66,7 +66,7 @@ def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> pd.Se
 
 
 def expected_visits(chain: Chain, start: Any = None) -> pd.Series[float]:
-    """Return the expected number of steps begun in each state, given the start, as a Series.
+    """Return the expected number of steps started in each state, given the start, as a Series.
 
     Transient states have a finite number. Recurrent states have inf if they can be reached,
     otherwise 0. The accuracy is that of `absorption`.

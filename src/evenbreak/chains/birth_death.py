@@ -1,10 +1,10 @@
-"""Chains whose states stand in a line: each moves to its neighbors only (birth and death).
+"""Chains whose states are in a line: each moves to its neighbors only (birth and death).
 
-A closed stretch of the line has the stationary law
+A closed stretch of the line has the stationary distribution
 
     pi[i] / pi[a] = (up[a] ... up[i - 1]) / (down[a] ... down[i - 1]),
 
-and play that begins in state s of a stretch lo..hi with two ways out leaves it on the right
+and play that starts in state s of a stretch lo..hi with two ways out leaves it on the right
 with the probability of the gambler's ruin,
 
     W = (g[lo] + ... + g[s]) / (g[lo] + ... + g[hi + 1]),
@@ -156,7 +156,7 @@ class BirthDeath:
 
 
 def birth_death_law(up: Floats, down: Floats) -> Floats:
-    """Return the stationary law of a closed line; shape (n,) for n - 1 arcs each way.
+    """Return the stationary distribution of a closed line; shape (n,) for n - 1 arcs each way.
 
     >>> birth_death_law(np.array([0.5, 0.5]), np.array([0.25, 0.5]))
     array([0.2, 0.4, 0.4])
@@ -181,7 +181,7 @@ def birth_death_of(matrix: csc_array) -> BirthDeath | None:
 
 
 def line_of(matrix: csc_array) -> tuple[Places, BirthDeath] | None:
-    """Return the order in which the states of a chain stand in a line, and the chain in it.
+    """Return the order in which the states of a chain are in a line, and the chain in it.
 
     None if they do not.
 
@@ -274,7 +274,7 @@ class _Round(NamedTuple):
 
 
 def line_order(T: csc_array) -> Places | None:
-    """Return the order in which the states of a class stand in a line, or None.
+    """Return the order in which the states of a class are in a line, or None.
 
     `T` holds the arcs within the class, without its diagonal.
 

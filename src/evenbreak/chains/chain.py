@@ -1,6 +1,6 @@
 """The chain: states and a sparse column-stochastic matrix.
 
-M[i, j] = P(next state is i | state is j), as in the source text: a density v becomes M v
+M[i, j] = P(next state is i | state is j), as in the source text: a probability vector v becomes M v
 after one step. Everything else in this package is a function of a `Chain`.
 """
 
@@ -54,7 +54,7 @@ class Chain:
         absorbing state has the self-loop 1. Where the arcs of a state miss a sum of 1, its
         self-loop becomes what the others leave over, or without one all arcs are scaled.
     start
-        the state in which the game begins, or None.
+        the state in which the game starts, or None.
     given
         the arcs whose chances are known as fractions, by the positions (source, target), for
         exact answers.

@@ -8,10 +8,10 @@ other d-th roots of 1. All other vectors are projected off these and made biorth
 which exists if neither set is defective and both belong to the same eigenvalues.
 
 `UnitPairs`. The structure says how often eigenvalue 1 occurs and where its vectors live: once for
-each closed class, whose right vector R is the stationary law and whose left vector L is the chance
-of ending there. Both are solved for from the arcs, by LU factors that are applied again to what is
-still missed, in pairs of doubles (see `certified`). With A = D - T, the arcs T among some states
-and D the chances of leaving them:
+each closed class, whose right vector R is the stationary distribution and whose left vector L is
+the chance of ending there. Both are solved for from the arcs, by LU factors that are applied again
+to what is still missed, in pairs of doubles (see `certified`). With A = D - T, the arcs T among
+some states and D the chances of leaving them:
 
 - L v, for a start v, needs one solve for all classes: x = A^-1 v_T are visits to the transient
   states, and L_C v = v_C + B_C x with the arcs B_C into class C. Every column of A and B together
@@ -102,7 +102,7 @@ class Eigenpairs(NamedTuple):
 
 
 def _whole_pairs(values: NDArray[Any], order: Places, k: int) -> Places:
-    """Return the first k places, or one more, of an order in which conjugate ones stand together.
+    """Return the first k places, or one more, of an order in which conjugate ones are together.
 
     One without its conjugate is left out.
     """
@@ -165,9 +165,9 @@ def within_unit_disc(values: NDArray[Any]) -> NDArray[Any]:
 def roots_of_one(chain: Chain, units: UnitPairs, k: int) -> Eigenpairs:
     """Return k pairs of eigenvalues of modulus 1 other than 1, or one more, those next to 1 first.
 
-    A closed class of period d has each d-th root w of 1 once. Its right vector is the
-    stationary law and its left vector is 1 in the class, both turned by w once for each step
-    of the period; on the transient states the left vector solves L (w I - M) = 0.
+    A closed class of period d has each d-th root w of 1 once. Its right vector is the stationary
+    distribution and its left vector is 1 in the class, both turned by w once for each step of the
+    period; on the transient states the left vector solves L (w I - M) = 0.
     """
     structure, n = chain.structure, len(chain)
     classes = np.flatnonzero(structure.closed).tolist()

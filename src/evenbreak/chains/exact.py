@@ -1,6 +1,6 @@
 """The answers of a chain in fractions.
 
-A chance given as a `Fraction` or as text is taken as it is, and a float as the decimal that it
+A chance given as a `Fraction` or as text is used unchanged, and a float as the decimal that it
 prints: 0.6 is 3/5. A state whose self-loop is listed stays with what its other arcs leave over;
 the arcs of every other state must sum to exactly 1.
 

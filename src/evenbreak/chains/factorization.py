@@ -14,8 +14,8 @@ or in decimal numbers if it is long and narrow, since doubles would repeat the s
 at each state. What would take more than that is refused.
 
 A state that is alone in its class is watched only when it moves (`TriangularSolve`): with P[i, j]
-the arc from j to i over the sum of all arcs out of j, the flow f through the states from a density
-b obeys
+the arc from j to i over the sum of all arcs out of j, the flow f through the states from a vector b
+obeys
 
     f[i] = b[i] + sum over j of P[i, j] f[j],
 

@@ -1,12 +1,12 @@
 """The stochastic limit: where a chain ends, or what it does in the long run.
 
-The limit is the projection of the start density v on the eigenspace of M for eigenvalue 1,
+The limit is the projection of the starting vector v on the eigenspace of M for eigenvalue 1,
 
     limit = sum over closed classes C of a_C pi_C,
 
-with a_C the probability of ending in C from v and pi_C the stationary law of C. If every
+with a_C the probability of ending in C from v and pi_C the stationary distribution of C. If every
 closed class that can be reached has period 1, it is lim M^n v; otherwise M^n v goes round
-for ever, and it is the long-run average (the Cesàro limit).
+forever, and it is the long-run average (the Cesàro limit).
 
 The road from a game to its limit, in one call, is `limit_of`:
 

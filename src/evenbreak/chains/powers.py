@@ -1,4 +1,4 @@
-"""The density after a number of steps: M^n v.
+"""The probability vector after a number of steps: M^n v.
 
 It takes n products with v, or about 2 log2(n) squares and products of a dense M, all free
 of subtraction. Squaring, cubic in the number of states, pays only for very many steps.
@@ -26,7 +26,7 @@ _MOST_WORK, _MOST_ENTRIES = 5e10, 100_000_000
 
 
 def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = False) -> Floats:
-    """Return the density after a number of steps, given the start.
+    """Return the probability vector after a number of steps, given the start.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = F
     Returns
     -------
     numpy.ndarray
-        shape (n,), or (steps + 1, n) with `path`; each density sums to 1.
+        shape (n,), or (steps + 1, n) with `path`; each vector sums to 1.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = F
         if `steps` is not a whole number from 0 to 4 billion, or taking them would last
         minutes, or a `path` would not fit in memory.
     ChainError
-        if the start is neither a state nor a density.
+        if the start is neither a state nor a probability vector.
 
     Notes
     -----

@@ -1,6 +1,6 @@
 """What a chain earns: per step in the long run, and in total until absorption.
 
-With r_j the expected reward of a step begun in j (of the state itself and of the arc then
+With r_j the expected reward of a step started in j (of the state itself and of the arc then
 taken), pi the stochastic limit and x the expected visits to the transient states,
 
     per step in the long run: sum_j pi_j r_j,    until absorption: sum_j x_j r_j.
@@ -42,7 +42,7 @@ def long_run_reward(
     chain, start
         as in `stochastic_limit`.
     per_state
-        the reward of each step begun in a state: a mapping or a pandas Series (0 for states
+        the reward of each step started in a state: a mapping or a pandas Series (0 for states
         not named), or an array of shape (n,).
     per_arc
         the reward of each step from source to target, by (source, target); 0 for arcs
@@ -52,7 +52,7 @@ def long_run_reward(
     ------
     ChainError
         if there is no reward, a state or arc is unknown, a reward is not a finite number, or the
-        start is neither a state nor a density.
+        start is neither a state nor a probability vector.
     AccuracyError
         if the limit cannot be guaranteed.
 

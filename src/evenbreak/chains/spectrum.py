@@ -1,7 +1,7 @@
 """Eigenvalues and eigenvectors of the transition matrix, and the limit that they give.
 
 M R = R diag(lambda), L M = diag(lambda) L, L R = I. Eigenvalue 1 occurs once for each closed
-class; its right vectors are scaled to be the stationary laws of those classes and its left
+class; its right vectors are scaled to be the stationary distributions of those classes and its left
 vectors the chances of ending there, so that the stochastic limit is
 
     sum over the eigenvalues 1 of R_i (L_i v)
@@ -15,7 +15,7 @@ Where the classes are reversible, as in rating ladders and n-ahead matches, the 
 symmetric matrices instead: all of them, and all real.
 
 A class is reversible if some weights w > 0 balance every pair of its arcs, w_j M_ij = w_i M_ji;
-in a closed class they are the stationary law. With D = diag(sqrt(w)) the matrix
+in a closed class they are the stationary distribution. With D = diag(sqrt(w)) the matrix
 
     S = D^-1 M D,    S_ij = sqrt(M_ij M_ji),
 
@@ -98,10 +98,10 @@ class Spectrum:
     orthonormal
         shape (n, k) for a chain of reversible classes, otherwise None:
         the eigenvectors Q of the symmetric matrices S = D^-1 M D of the classes. In a closed
-        class D holds the square roots of the stationary law.
+        class D holds the square roots of the stationary distribution.
     right
         shape (n, k): column i is the right vector of eigenvalue i. Those of eigenvalue 1 are the
-        stationary laws of the closed classes.
+        stationary distributions of the closed classes.
     """
 
     chain: Chain

@@ -1,4 +1,4 @@
-"""The stationary law of every closed class, and the mean times between its states.
+"""The stationary distribution of every closed class, and the mean times between its states.
 
 Cut one state c out of the class. With T the arcs among the others, which are all left in the
 end, and b the arcs out of c,

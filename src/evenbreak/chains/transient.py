@@ -2,7 +2,7 @@
 
 With T the arcs among the transient states (T[i, j] = P(j -> i)):
 
-- visits: x = (I - T)^-1 b, the expected number of visits to each state from the density b;
+- visits: x = (I - T)^-1 b, the expected number of visits to each state from the vector b;
 - values: y = (I - T)^-T r, the expected sum of r over all visits, from each state.
 
 Both are free of subtraction for nonnegative b and r; callers split a right-hand side of

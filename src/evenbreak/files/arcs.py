@@ -58,7 +58,7 @@ class ArcsFile(NamedTuple):
 
     `sources[k]` and `targets[k]` are positions in `states`, which come in the order in
     which the file first names them; `probabilities[k]` is that of the target, given the
-    source. `start` is where the chain begins, if the file says so, and `winners` has the number of
+    source. `start` is where the chain starts, if the file says so, and `winners` has the number of
     the player who has won in a state, where it does.
     """
 
@@ -72,7 +72,7 @@ class ArcsFile(NamedTuple):
     winners: Mapping[str, int] = {}
 
     def chain(self, start: str | None = None) -> Chain:
-        """Return the chain from a state, or else from where the file begins, or its first state.
+        """Return the chain from a state, or else from where the file starts, or its first state.
 
         Raises
         ------

@@ -96,9 +96,9 @@ def _number(value: float) -> str:
 def text_cell(text: str) -> str:
     r"""Return text as a CSV cell that no spreadsheet takes for a formula.
 
-    An apostrophe comes before all that a spreadsheet might run: what begins with one of
+    An apostrophe comes before all that a spreadsheet might run: what starts with one of
     `FORMULA_STARTS` or a control character, also after a semicolon, a tab or a line end, where
-    a spreadsheet of another country begins a new cell. Numbers stay as they are. `undefused`
+    a spreadsheet of another country starts a new cell. Numbers stay as they are. `undefused`
     removes the apostrophes again.
 
     >>> text_cell("@SUM(A1)"), text_cell("Ann-Marie"), text_cell('5" ball'), text_cell("-1")

@@ -219,7 +219,7 @@ def read_drill_log(
     Raises
     ------
     DataError
-        with every problem of the file, a line each.
+        with every problem of the file, one per line.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:

@@ -30,7 +30,7 @@ class Match(ABC, Generic[ChanceT]):
         what player 1 and player 2 need.
     rack
         what is played for one point of the score: a `Rack`, another match (a set), or a game
-        of your own, which player 1 or player 2 wins and which itself says who begins.
+        of your own, which player 1 or player 2 wins and which itself says who starts.
     breaks
         who breaks next (see `evenbreak.games.breaks`); needed if the break matters. In a
         match of sets it decides who breaks first in the next set, given who broke first in
@@ -38,7 +38,7 @@ class Match(ABC, Generic[ChanceT]):
     first_breaker
         who breaks the first rack to be played, 1 or 2.
     score
-        the score to begin with: games on the wire, or a match under way.
+        the score to start with: games on the wire, or a match under way.
 
     Notes
     -----

@@ -28,7 +28,7 @@ class Race(Match[ChanceT]):
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have; it says which.
+        if a parameter has an invalid value; it says which.
 
     >>> from evenbreak.games import Rack, winner_breaks
     >>> race = Race(3, 2, Rack(2 / 3))

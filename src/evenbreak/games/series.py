@@ -27,7 +27,7 @@ class Series:
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have; it says which.
+        if a parameter has an invalid value; it says which.
 
     Notes
     -----

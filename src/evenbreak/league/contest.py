@@ -442,7 +442,7 @@ def play_systems(
     seed
         a whole number from 0, which gives the same sums to the last bit, or a generator.
     captains
-        who plays in a league of teams; None: anybody there, as long as the cap allows.
+        who plays in a league of teams; None: anyone there, as long as the cap allows.
     executor, jobs, progress
         as of `simulate`; the result is the same for any number of workers.
 

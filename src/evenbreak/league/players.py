@@ -126,9 +126,9 @@ class LeaguePlayers:
         rating
             a column, one rating for each player.
         skill
-            a column; None: everybody is correctly rated.
+            a column; None: everyone is correctly rated.
         skill_sd, day_sd, drift, joins, leaves, absence, played
-            a column each, or one number for everybody.
+            one per column, or one number for everyone.
         names
             the names, or None.
 

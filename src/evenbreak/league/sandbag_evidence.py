@@ -1,6 +1,6 @@
 """The evidence that a player sandbags: a likelihood ratio that may be looked at after every match.
 
-A sandbagger dumps a share s of their matches, nobody knows which: they play those d points below a
+A sandbagger dumps a share s of their matches, no one knows which: they play those d points below a
 constant skill, or lose them on purpose with the score of an honest defeat. The evidence averages
 over s, d and the skill. With L_t(x) the chance of the t-th result at skill x, and w a distribution
 of the skill,

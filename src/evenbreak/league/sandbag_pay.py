@@ -122,7 +122,7 @@ def sandbagging(
     """Return what it pays to lose matches on purpose and then play in earnest.
 
     Each probability is conditional on the ladder's model of the opponents, on a skill that
-    does not change, and on nobody intervening.
+    does not change, and on no one intervening.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Who meets whom in which week.
+"""Who meets who in which week.
 
 A schedule answers `pairs(week, rng, count)`: the rounds of a week, each of them two arrays of the
 same length with the positions of the players who meet. In a round a player occurs at most once,
@@ -35,7 +35,7 @@ class Schedule(Protocol):
 
 @dataclass(frozen=True)
 class RoundRobin:
-    """Everybody meets everybody once before any two meet again, over and over.
+    """Everyone meets everyone once before any two meet again, over and over.
 
     With an odd number of players one of them has a bye in each round.
 
@@ -147,7 +147,7 @@ class FixedSchedule:
     ------
     InputError
         if the columns differ in length, hold something other than weeks and positions, or have
-        somebody meet themselves; from `pairs`, if a position is beyond the players.
+        someone meet themselves; from `pairs`, if a position is beyond the players.
 
     >>> fixtures = FixedSchedule([1, 1, 3], [0, 0, 1], [1, 2, 2])
     >>> [(a.tolist(), b.tolist()) for a, b in fixtures.pairs(1, np.random.default_rng(1), 3)]

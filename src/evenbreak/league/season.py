@@ -45,7 +45,7 @@ class Season:
     chart
         which sets the races, or its name; None: the system's own.
     schedule
-        who meets whom; None: a round robin, over and over.
+        who meets who; None: a round robin, over and over.
     weeks
         how many weeks are played.
     play
@@ -55,7 +55,7 @@ class Season:
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter has an invalid value.
 
     >>> season = Season(LeaguePlayers.of([92, 80, 71, 64]), "npl", "npl_10", weeks=12)
     >>> season.chart.name, season.schedule

@@ -60,11 +60,11 @@ class World:
     scale
         of these ratings.
     level
-        their skill levels; NaN where not stated. None: nobody has one.
+        their skill levels; NaN where not stated. None: no one has one.
     games
         the games behind each rating, -1 where not stated. None: not stated for anyone.
     schedule
-        who meets whom; None: a round robin of the players, or of the teams.
+        who meets who; None: a round robin of the players, or of the teams.
     weeks, seasons
         nights of a season, and seasons in a row; ratings go on from one to the next.
     newcomers
@@ -85,7 +85,7 @@ class World:
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter has an invalid value.
 
     >>> world = World(LeaguePlayers.of([92, 80, 71, 64]), SCALES["npl"], weeks=12)
     >>> world.nights, world.many, world.matches

@@ -1,6 +1,6 @@
 """Who wins a game, read off the stochastic limit of its graph.
 
-Every kernel of this room has to give the same chances; `via` on its functions leads here.
+Every kernel of this package has to give the same chances; `via` on its functions leads here.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """When an evening of matches ends: several tables, a list of matches, random times.
 
-Whenever a table is free, the first match on the list whose players are both free begins there;
+Whenever a table is free, the first match on the list whose players are both free starts there;
 between two matches the table is idle for the turnover. The luck of the matches and the
 turnovers are independent, and the pace of the evening stretches everything alike.
 

@@ -1,4 +1,4 @@
-"""Form of the day: in a match a player may be better or worse than usual, in all its games.
+"""Day-to-day form: in a match a player may be better or worse than usual, in all its games.
 
 On one day the log-odds of every game are c + e, with the same e throughout the match and
 e ~ N(0, f²). The form f is the standard deviation of log-odds that `evenbreak rate` estimates. c

@@ -198,7 +198,7 @@ class MatchLength(Generic[ChanceT, MeanT]):
         mean and standard deviation in racks, exact even where `games` leaves out a tail;
         None (NaN in arrays) if the match may never end.
     p_never_ends
-        P(the match goes on for ever).
+        P(the match goes on forever).
     tail_mass
         P(the match ends, but after more than games[-1] racks); 0 if there is a longest
         length.
@@ -284,7 +284,7 @@ class GameOdds:
     p_no_winner
         P(the game ends in a state without a winner).
     p_never_ends
-        P(the game goes on for ever).
+        P(the game goes on forever).
     length
         how many moves the game takes, whoever wins; its `games` are numbers of moves.
     by_length

@@ -101,7 +101,7 @@ def race_odds(
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have; it says which.
+        if a parameter has an invalid value; it says which.
 
     Notes
     -----

@@ -2,7 +2,7 @@
 
 P(the match is still going on after k + 1 racks), given the state now, is the mean of P(it is
 still going on after k racks) over the states that the next rack leads to. Short matches are
-worked out in plain Python, longer ones with a sparse matrix. For very long ones the matrix of a
+calculated in plain Python, longer ones with a sparse matrix. For very long ones the matrix of a
 rack is squared again and again, so 2^j racks cost j products. After every product each row is
 scaled so that it sums to 1 together with the probability of having ended; otherwise rounding
 errors would add up and the match would seem to end.

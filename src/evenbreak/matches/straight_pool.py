@@ -61,7 +61,7 @@ class StraightPool:
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter has an invalid value.
 
     >>> StraightPool(100, 80, 0.9, 0.85)
     StraightPool(points_1=100, points_2=80, p1=0.9, p2=0.85, safety_1=1, safety_2=1, first=1)
@@ -93,7 +93,7 @@ class StraightPoolOdds:
     p_win_1, p_win_2
         P(player 1, 2 wins the match).
     p_never_ends
-        P(nobody ever wins): 1 if neither player can make the first shot, else 0.
+        P(no one ever wins): 1 if neither player can make the first shot, else 0.
     mean_innings, sd_innings
         mean and standard deviation of the innings that the winner has had at the end; None
         if the match never ends.
@@ -325,7 +325,7 @@ def even_points(
     Returns
     -------
     EvenPoints
-        the nearest to even from 1 to `most`, or to the most that can be worked out where
+        the nearest to even from 1 to `most`, or to the most that can be calculated where
         that is less; the fewest points where several are equally near.
 
     Raises

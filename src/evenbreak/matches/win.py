@@ -70,17 +70,17 @@ def win_probability(
         breaks the next rack. None: the match's own start score. For any other game, the
         state now.
     player
-        1 or 2, or any player of a game of your own. Each player's chance is worked out by
+        1 or 2, or any player of a game of your own. Each player's chance is calculated by
         itself, never as 1 minus the others', so all are accurate even if tiny. They add up to
         1 minus P(the match never ends).
     exact
-        whether to calculate in fractions. A chance of the rack given as a `Fraction` is taken
-        as it is, a float as the decimal that it prints: 0.6 is 3/5.
+        whether to calculate in fractions. A chance of the rack given as a `Fraction` is used
+        unchanged, a float as the decimal that it prints: 0.6 is 3/5.
     via
-        the way to a chance in plain numbers. 'kernel': the fast closed form or recursion of
-        this room. 'elimination', 'eigen': the stochastic limit of the game's graph, by
-        elimination or by eigenvectors (see `evenbreak.chains.limit_of`); the three agree to
-        1e-12. None: the kernel, or elimination for a game of your own, which has none.
+        the way to a chance in plain numbers. 'kernel': the fast closed form or recursion of this
+        package. 'elimination', 'eigen': the stochastic limit of the game's graph, by elimination or
+        by eigenvectors (see `evenbreak.chains.limit_of`); the three agree to 1e-12. None: the
+        kernel, or elimination for a game of your own, which has none.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def win_probability(
     Notes
     -----
     Source: problems P5.5 and P5.6 (races), P5.8 (sets), P5.24 (break formats), P5.27
-    (n-ahead). The plain race is a regularised incomplete beta function.
+    (n-ahead). The plain race is a regularized incomplete beta function.
 
     >>> from evenbreak.games import Race, Rack, winner_breaks
     >>> round(win_probability(Race(9, 5, Rack(2 / 3))), 3)
@@ -174,7 +174,7 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     Returns
     -------
     float or numpy.ndarray
-        the regularised incomplete beta function I_p(m, n). Player 2's chance is
+        the regularized incomplete beta function I_p(m, n). Player 2's chance is
         W(1 - p; n, m), which is accurate even if it is tiny.
 
     Raises

@@ -5,7 +5,7 @@ Measured at several speeds, the friction falls as the balls slip faster on each 
 
     mu(v) = a + b exp(-c v)
 
-A hit keeps the friction of the slip with which it begins.
+A hit keeps the friction of the slip with which it starts.
 """
 
 from __future__ import annotations

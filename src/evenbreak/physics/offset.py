@@ -195,7 +195,7 @@ def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth
     """Return where a ball at rest would have to be struck to move as this one does now (P3.9).
 
     While the ball slides, this point moves along a straight line through (0, 0), outwards from
-    a low point and inwards from a high one, until natural roll begins at z = 7/5.
+    a low point and inwards from a high one, until natural roll starts at z = 7/5.
 
     Parameters
     ----------

@@ -133,7 +133,7 @@ class SpinStop(NamedTuple):
     roll_speed
         of natural roll, in m/s.
     slide_time, slide_distance
-        seconds and meters until natural roll begins.
+        seconds and meters until natural roll starts.
     roll_time, roll_distance
         seconds and meters from then until it stops.
     """

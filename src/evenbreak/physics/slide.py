@@ -6,7 +6,7 @@ about a horizontal axis, that point slips over the cloth at
     u = V + omega x (-R k) = (V_x - R omega_y, V_y + R omega_x)
 
 and the cloth decelerates it by mu g against u. The slip u keeps its direction and shrinks at
-7/2 mu g. So the force is constant, the path is a parabola, and natural roll begins after the
+7/2 mu g. So the force is constant, the path is a parabola, and natural roll starts after the
 time 2/7 abs(u) / (mu g), at
 
     V_NR = 5/7 V + 2/7 R (omega_y, -omega_x)
@@ -137,7 +137,7 @@ def stun_distance(speed: FloatOrArray, spin: FloatOrArray, cloth: Cloth) -> Floa
 
 
 def drag_distance(speed: FloatOrArray, spin: FloatOrArray, cloth: Cloth) -> FloatOrArray:
-    """Return how far a ball slides until natural roll begins, in meters.
+    """Return how far a ball slides until natural roll starts, in meters.
 
     Parameters
     ----------

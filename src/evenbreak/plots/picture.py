@@ -1,4 +1,4 @@
-"""Figures as pictures: one look, the same bytes for everybody, and what a notebook shows.
+"""Figures as pictures: one look, the same bytes for everyone, and what a notebook shows.
 
 The look is readable in black and white and for the color-blind.
 """
@@ -35,7 +35,7 @@ _LOOK: Any = {
 
 @contextmanager
 def our_look() -> Iterator[None]:
-    """Set the reader's own matplotlib settings aside, so that everybody gets the same picture.
+    """Set the reader's own matplotlib settings aside, so that everyone gets the same picture.
 
     >>> import matplotlib as mpl
     >>> with mpl.rc_context({"font.size": 30}), our_look():
@@ -257,7 +257,7 @@ def label_on(axes: Axes, x: float, y: float, text: str) -> Text:
 def label_beside(
     axes: Axes, x: float, y: float, text: str, side: Literal["left", "right", "above", "below"]
 ) -> Text:
-    """Write a curve's name beside the point (x, y), in the units of the axes.
+    """Write a curve's name next to the point (x, y), in the units of the axes.
 
     >>> axes = new_axes("p", "W")
     >>> label_beside(axes, 0.5, 0.5, "3:3", "left").get_horizontalalignment()
@@ -270,7 +270,7 @@ def label_beside(
 def note(
     axes: Axes, text: str, place: tuple[float, float], beside: tuple[float, float], **style: Any
 ) -> Text:
-    """Write a text beside a place, in the units of the axes, by so many points of the page.
+    """Write a text next to a place, in the units of the axes, by so many points of the page.
 
     >>> axes = new_axes("p", "W")
     >>> note(axes, "even", (0.5, 0.5), (6, 0), ha="left").get_text()

@@ -26,7 +26,7 @@ class DrillLog:
     """The attempts of a progressive drill, in the order in which they were made.
 
     The rule of the drill: a success leads one level up (the last level repeats), a miss one
-    level down (the first level repeats). A session may begin at any level.
+    level down (the first level repeats). A session may start at any level.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class DrillLog:
         shape (attempts,): whether it succeeded.
     session
         shape (attempts,): any label for the session of each attempt; a change of label
-        begins a new session. None if everything is one session.
+        starts a new session. None if everything is one session.
     levels
         how many levels the drill has, at most 100; None takes the highest one in the log.
 

@@ -3,7 +3,7 @@
 Player 1 shoots first and makes the ball with probability p1; after a miss player 2 makes it
 with p2. With q = 1 - p, P(player 1 wins) is
 
-    infinite look-ahead:   p1 / (1 - q1 q2) = p1 / (p1 + q1 p2)    the shots repeat for ever
+    infinite look-ahead:   p1 / (1 - q1 q2) = p1 / (p1 + q1 p2)    the shots repeat forever
     two-shot look-ahead:   p1 + q1 q2 / 2                          even after two misses
 
 Both are 1/2 on one curve, p2 = p1 / (1 - p1) (P5.20 and P5.21). If the chances p3, p4, ... of later

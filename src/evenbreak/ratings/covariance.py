@@ -1,6 +1,6 @@
 """How uncertain ratings are together: the inverse of the curvature at the mode.
 
-The Hessian of the negative log-posterior is a weighted Laplacian of who met whom plus τ
+The Hessian of the negative log-posterior is a weighted Laplacian of who met who plus τ
 on the diagonal, and, where a break advantage is estimated too, one more row and column b
 with the corner c. By the Schur complement s = c - bᵀH⁻¹b,
 

@@ -1,4 +1,4 @@
-"""Form of the day: how much the chances of a game vary from match to match about the ratings.
+"""Day-to-day form: how much the chances of a game vary from match to match about the ratings.
 
 In match i the log-odds of every game are c + e, where e, the same in all games of the match, is
 normal. Its variance is v more than that of the ratings' difference, and c is such that the chance
@@ -87,7 +87,7 @@ def log_odds_of(difference: Floats, sd: Floats, v: float) -> Floats:
 
 
 def day_form(results: Results, ratings: Ratings) -> DayForm | None:
-    """Return the form of the day in the results that a league was rated by.
+    """Return the day-to-day form in the results that a league was rated by.
 
     Each match is compared with the ratings that all other matches give. Scores that can hardly be
     games are left out, of the ratings too: counted as games they make their players' ratings wrong

@@ -1,7 +1,7 @@
 """How uncertain the differences of many pairs of players are, in a league of any size, nearly.
 
 Let x be what players' skills, and the levels that they share, are less their mode: normal, with the
-precision H, the Hessian of the negative log-posterior. Given everybody else, the players i and j of
+precision H, the Hessian of the negative log-posterior. Given everyone else, the players i and j of
 a match have the precision Q = H_{ij,ij}. With c = (1, -1), the law of total variance gives
 
     var(xi - xj) = cᵀQ⁻¹c + var(m),    m = E(xi - xj | all others) = xi - xj - cᵀQ⁻¹(Hx)_{ij}.

@@ -73,7 +73,7 @@ class FirstEvenings:
         """Return by how much the field on each player's first evening was above the mean of such.
 
         The mean is over all newcomers so far. It is 0 for those who were there from the start, and
-        for those who met nobody known.
+        for those who met no one known.
         """
         above = np.zeros(len(skill))
         here = slice(int(np.searchsorted(self._date[self._first], self._last, side="right")))

@@ -99,7 +99,7 @@ def fit(
     form
         how much players vary from match to match: the standard deviation of a game's log-odds.
     near
-        ratings of the same results, at which the weights with form are worked out; None: those
+        ratings of the same results, at which the weights with form are calculated; None: those
         without form.
 
     Raises

@@ -43,12 +43,12 @@ class Group(NamedTuple):
 
 @dataclass(frozen=True)
 class DayForm:
-    """Form of the day in a league.
+    """Day-to-day form in a league.
 
     Parameters
     ----------
     variance
-        v in squared log-odds, with its 95% interval, which may begin below 0.
+        v in squared log-odds, with its 95% interval, which may start below 0.
     races
         the matches that it is estimated from.
     """

@@ -1,4 +1,4 @@
-"""How much less a match says about the ratings because its games share the form of the day.
+"""How much less a match says about the ratings because its games share the day-to-day form.
 
 With form of variance v (see `evenbreak.ratings.day_form`), n games of a match that are won with
 the chance p have the variance n p q (1 + (n - 1) v p q), to first order, with q = 1 - p. About

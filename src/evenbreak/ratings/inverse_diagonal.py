@@ -16,7 +16,7 @@ largest by far. It is put aside exactly: with u the vector of ones,
     diag H⁻¹ = diag (H + αuuᵀ)⁻¹ + α / (τ² + ατn)
 
 and, scaled to a unit diagonal by S, what is left is I - W with the spectral radius ρ of W
-small in a league where everybody may meet everybody. Eliminating all others but i,
+small in a league where everyone may meet everyone. Eliminating all others but i,
 
     ((I - W)⁻¹)ᵢᵢ = 1 / (1 - Σⱼₖ Wᵢⱼ Cⱼₖ Wₖᵢ),
 

@@ -159,7 +159,7 @@ NEWER = 0.25
 def met_as_newcomers(results: Results) -> Bools:
     """Return whether each player was ever clearly newer than an opponent, all matches being dated.
 
-    Where everybody has played alike, nobody was, and nothing can be said about first games.
+    Where everyone has played alike, no one was, and nothing can be said about first games.
 
     >>> season = Results.from_names(
     ...     ["Ann", "Ann"], ["Bo", "Cy"], [50, 5], [40, 7], date=["2026-01-01", "2026-02-05"]

@@ -10,7 +10,7 @@ such term is concave in (θ, β). Where it is known how many racks each player b
 won which of them, a term convex in β alone is added (see `evenbreak.ratings.who_broke`).
 
 For such a race, with d the difference in natural log-odds, p = 1 / (1 + exp(-d)) and q = 1 - p, the
-chance is W = I_p(m, n), the regularised incomplete beta function. Then
+chance is W = I_p(m, n), the regularized incomplete beta function. Then
 
     d/dd log W = h,    d²/dd² log W = h (m q - n p - h),    h = p^m q^n / (B(m, n) W),
 

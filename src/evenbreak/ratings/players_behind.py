@@ -28,7 +28,7 @@ class PlayersBehind(NamedTuple):
     player_b: Ints | Places
 
     def spread(self, values: ArrayLike) -> float:
-        """Return the standard deviation of the sum of some values, one a match.
+        """Return the standard deviation of the sum of some values, one per match.
 
         >>> two_players = PlayersBehind(np.array([0, 0, 0]), np.array([1, 2, 3]))
         >>> two_players.spread([1.0, 1.0, 1.0])  # all depends on one player

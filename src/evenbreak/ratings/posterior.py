@@ -19,7 +19,7 @@ many racks each player broke, the sum is still concave in θ, though not necessa
 
 `find_modes`, for one season rated in several ways. In a league of a few dozen players a step of
 Newton's method takes longer to call than to calculate, so all ways take each step at once, as
-arrays with one row a way. The levels of teams and divisions are integrated out: with the design Z
+arrays with one row per way. The levels of teams and divisions are integrated out: with the design Z
 and the levels' variances S, the skills are normal with
 
     precision  Q = (σ²I + Z S Zᵀ)⁻¹

@@ -2,7 +2,7 @@
 
 A rating from a handful of games says little, so that among many newcomers one is near the top by
 luck. FargoRate calls a rating preliminary below 200 games; so do lists here. In a league that has
-played less, that would leave nobody: there the number is a third of what its regulars have, the
+played less, that would leave no one: there the number is a third of what its regulars have, the
 games of the player in the middle when each player counts once for each game. Visitors with a match
 or two, however many, do not change it, and whoever is in the middle always has a place.
 """

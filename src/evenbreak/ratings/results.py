@@ -1,6 +1,6 @@
 """What was played, column by column.
 
-A `Results` holds one match a row, as arrays. It knows nothing of files: a reader builds a
+A `Results` holds one match per row, as arrays. It knows nothing of files: a reader builds a
 `Results`, asks `find_problems` for contradictions in it, and says in which line of the file each of
 them is. Every check is a mask over all rows; a message is made only for the rows that fail it.
 """
@@ -60,7 +60,7 @@ class Played(NamedTuple):
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class Results:
-    """Matches as columns: one row a match, read-only arrays of one length.
+    """Matches as columns: one row per match, read-only arrays of one length.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ class Results:
         Raises
         ------
         DataError
-            with every cell that has no meaning and every contradiction, a line each, which
+            with every cell that has no meaning and every contradiction, one per line, which
             names the row by its label in the index.
 
         >>> import pandas as pd

@@ -64,7 +64,7 @@ class Roster:
         the matches that each player has played, by which some systems recognize newcomers;
         `NOT_STATED` where the list does not say.
     provisional
-        whose rating has no place in the list; if None, new players and those whom
+        whose rating has no place in the list; if None, new players and those that
         `is_provisional` finds by their games.
 
     Any other column that is None is not stated for any player.

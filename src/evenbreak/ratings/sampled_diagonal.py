@@ -20,7 +20,7 @@ Where all of D are equal, to τ, the level of each connected component is put as
 the variance 1/(τn).
 
 With K draws the sampled part s of a variance v has the relative standard error √(2/K), and v at
-most √(2/K) s/v. Draws are added until that is small enough for everybody; where it takes fewer
+most √(2/K) s/v. Draws are added until that is small enough for everyone; where it takes fewer
 solutions, v of the players with the largest s/v is solved for instead.
 """
 
@@ -246,7 +246,7 @@ def not_definite() -> AccuracyError:
 def _groups_of(block: Ints) -> list[tuple[Places, Bools]]:
     """Return the players of the blocks of about one size, and which places hold one.
 
-    The others hold the number of players, and stand for nobody.
+    The others hold the number of players, and stand for no one.
     """
     order = np.argsort(block, kind="stable")
     size = np.bincount(block)

@@ -182,8 +182,8 @@ def _undated(played: Results) -> int:
 def _with_schedule(before: Results, coming: Results) -> Results:
     """Return matches, and others as they stand before they are played: at 0-0, without a winner.
 
-    A league may set a race by the results of the days before, so of the matches to come only those
-    keep their race of which neither player has played on an earlier day among them.
+    A league may set a race by the results of the days before, so of the remaining matches only
+    those keep their race of which neither player has played on an earlier day among them.
     """
     unplayed = coming.unplayed()
     if coming.date is not None and has_handicaps(coming):

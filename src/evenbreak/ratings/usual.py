@@ -31,7 +31,7 @@ def usual_ratings(
     provisional: int | None = None,
     progress: Progress = lambda _done, _all: None,
 ) -> tuple[Ratings, PriorChoice | None]:
-    """Return ratings with form of the day, and how their prior was chosen, if it was.
+    """Return ratings with day-to-day form, and how their prior was chosen, if it was.
 
     Parameters
     ----------

@@ -68,7 +68,7 @@ class PageSizes:
 
     `wide` is the width of the page; `place`, `name`, `rating` and `group` are the widths of those
     columns, the last 0 if all players are of one group; `cell` and `row` are the size of a race's
-    cell; `top` is where the table begins; `columns` is how many opponents a page has.
+    cell; `top` is where the table starts; `columns` is how many opponents a page has.
     """
 
     wide: float

@@ -45,7 +45,7 @@ def _xlsxwriter() -> Any:
 def workbook_bytes(tables: Mapping[str, pd.DataFrame]) -> bytes:
     """Return tables as one workbook (.xlsx), a sheet for each, the same bytes every time.
 
-    Text stays text even if it begins with = or looks like a date, and no cell is a link.
+    Text stays text even if it starts with = or looks like a date, and no cell is a link.
     Numbers are rounded to six decimals, as in our CSV files; what is missing, NaN or infinite
     is an empty cell. The header is bold, stays in view and is printed on each page.
 

@@ -1,6 +1,6 @@
 """What a site calls each player, and the file of their page.
 
-A site is for everybody, so each player may be named in full, by initials or not at all. Names are
+A site is for everyone, so each player may be named in full, by initials or not at all. Names are
 exchanged before anything is made from the results; no page is ever made from the others.
 """
 
@@ -55,7 +55,7 @@ class PublicNames:
         """Return the public names of players, in an order that new players do not change.
 
         Names that differ only in case or blanks are one player's; `where` is where `by_player` is,
-        for errors. A DataError if one of its names is nobody's: a typo would show what should be
+        for errors. A DataError if one of its names is no one's: a typo would show what should be
         hidden.
         """
         others = {same_name(name): meant for name, meant in (aliases or {}).items()}

@@ -94,7 +94,7 @@ class GamesWon(CountLaw):
         how many games are played, whatever the score.
     p
         P(player 1 wins a game), the same for every game and independent of the others. A
-        float means the decimal that it prints as; a `fractions.Fraction` is taken as it is.
+        float means the decimal that it prints as; a `fractions.Fraction` is used unchanged.
 
     Raises
     ------

@@ -2,7 +2,7 @@
 
 The answer rests on one test, chosen beforehand: Welch's t test, which compares two means
 without assuming equal spreads. The others are there because they answer other questions or
-are often asked for; nobody should pick the most pleasing one afterward.
+are often asked for; no one should pick the most pleasing one afterward.
 """
 
 from __future__ import annotations

@@ -48,7 +48,7 @@ class InningsScore(CountLaw):
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have, or the mean is above 100,000 balls.
+        if a parameter has an invalid value, or the mean is above 100,000 balls.
 
     Notes
     -----

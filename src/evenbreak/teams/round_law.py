@@ -2,7 +2,7 @@
 
 Given the players' skills, the matches of a round are independent, so the law of the lead is the
 convolution of theirs. Each match is so many single games, or a race of which every game counts.
-Where everybody meets everybody and ratings have errors, a player's error is the same in all their
+Where everyone meets everyone and ratings have errors, a player's error is the same in all their
 matches: then the law is averaged over drawn skills.
 """
 

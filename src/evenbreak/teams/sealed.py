@@ -4,7 +4,7 @@ If all sets are alike, an order drawn at random is as good as any: against it ev
 other team has the same value, the mean over all pairings. What is left to choose is who plays,
 and that is a matrix game.
 
-Source: Jin, Tang and Chen, arXiv 1602.02063, for teams that play everybody.
+Source: Jin, Tang and Chen, arXiv 1602.02063, for teams that play everyone.
 """
 
 from __future__ import annotations

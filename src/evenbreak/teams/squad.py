@@ -92,7 +92,7 @@ class Squad:
     names
         each once.
     caps
-        the limits that the whole line-up keeps. Nobody may be put up who makes it impossible to
+        the limits that the whole line-up keeps. No one may be put up who makes it impossible to
         fill the remaining sets within them.
     times
         how often a player may be put up.

@@ -109,7 +109,7 @@ class Form:
     def key(self, *more: str) -> str:
         """Return what a form is known by if it comes in again; refuse one without a number.
 
-        Somebody who goes back and changes a field sends another form.
+        Someone who goes back and changes a field sends another form.
 
         >>> forms = [Form(Fields([("once", "7"), ("race", race)])) for race in ("5", "5", "6")]
         >>> [form.key() == forms[0].key() for form in forms]

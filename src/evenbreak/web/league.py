@@ -1,8 +1,8 @@
-"""The league's results beside the tournament's file: kept there, rated in a thread, shown.
+"""The league's results next to the tournament's file: kept there, rated in a thread, shown.
 
 The results are a plain file, such as tonight.league.csv beside tonight.db, so that commands read
 it too. Whoever puts it there by hand has it read at the next start. Evenings that were added since
-are files beside it, such as tonight.league-20250301-193000.csv. What reads and rates it is
+are files next to it, such as tonight.league-20250301-193000.csv. What reads and rates it is
 loaded only then: a page without a league needs half the memory.
 """
 
@@ -110,7 +110,7 @@ class League:
     async def why(
         self, pair: tuple[int, int], work: Callable[[Sheet, tuple[int, int]], Answer], wait: float
     ) -> Answer | None:
-        """Return what is worked out about two players of the sheet; None: not ready yet.
+        """Return what is calculated about two players of the sheet; None: not ready yet.
 
         Only a few pairs wait at once, so that whoever asks for many does not hold up the ratings.
         """

@@ -1,6 +1,6 @@
-"""The evening as the pages show it: its state, and what is worked out of it beside them.
+"""The evening as the pages show it: its state, and what is calculated of it beside them.
 
-The state is read anew when the file has changed. Odds and finish are worked out in a thread; a
+The state is read anew when the file has changed. Odds and finish are calculated in a thread; a
 page waits for them for a moment only, and shows what is known until then.
 """
 
@@ -249,7 +249,7 @@ def problem_of(error: Exception) -> str:
 def match_chances(state: Evening, known: Known | None) -> dict[str, float]:
     """Return the first player's chance in each match that can be played, from its score on.
 
-    It is by the ratings as far as they are known: nobody waits for the odds of the whole night.
+    It is by the ratings as far as they are known: no one waits for the odds of the whole night.
     """
     if state.plan.form == "chips" or not state.drawn:
         return {}

@@ -1,6 +1,6 @@
 """A tap of the score, from a player's phone or from a table's tablet, and what it enters.
 
-A form counts from the score that its page showed: where somebody has scored since, it is refused,
+A form counts from the score that its page showed: where someone has scored since, it is refused,
 so that a phone that was out of reach takes no game away.
 """
 
@@ -147,7 +147,7 @@ def propose(request: Request, tap: Tap, me: str) -> str:
 def _check(now: Evening, tap: Tap) -> None:
     """Refuse a form that was made before the score that there is now.
 
-    It is asked while nobody else can enter anything.
+    It is asked while no one else can enter anything.
     """
     _check_pair(now, tap.match, tap.pair)
     a, b = match_view(now, tap.match).score or (0, 0)

@@ -94,7 +94,7 @@ class TeamNights:
         return found or []
 
     async def advised(self, now: TeamNow, team: int) -> Advised | None:
-        """Return what a team's captain is advised; None: it is being worked out, or not known.
+        """Return what a team's captain is advised; None: it is being calculated, or not known.
 
         It is not known while the set is played whose winner or loser names first in the next one.
         """

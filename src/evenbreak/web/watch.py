@@ -1,6 +1,6 @@
 """One look at the file for all who follow it: pages, overlays and other programs.
 
-While somebody follows, the file is looked at five times a second by what the system says of it, and
+While someone follows, the file is looked at five times a second by what the system says of it, and
 read only if that has changed. What is entered on a page of this process is seen at once.
 """
 

@@ -263,7 +263,7 @@ def in_face(text: Any, face: Face) -> Any:
 
 
 def capital_in_face(text: str, face: Face) -> str:
-    """Return a text as a face says it; each line gets a capital unless it begins with a name.
+    """Return a text as a face says it; each line gets a capital unless it starts with a name.
 
     >>> capital_in_face(say("match {match} is over", match="W1.1"), PYTHON)
     'Match W1.1 is over'

@@ -79,7 +79,7 @@ class DesignTask:
 
 
 def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
-    """Return a designed chart beside other charts; as CSV it is a chart file.
+    """Return a designed chart next to other charts; as CSV it is a chart file.
 
     >>> from evenbreak.ratings import SCALES
     >>> task = DesignTask(SCALES["npl"], RaceLimits((7, 9), 5, 2), up_to=59)

@@ -22,7 +22,7 @@ def told(whom: Told) -> Iterator[None]:
 
 
 def takes_long(why: str) -> None:
-    """Tell that what begins now takes long, and why.
+    """Tell that what starts now takes long, and why.
 
     >>> with told(print):
     ...     takes_long("this can take a minute")

@@ -155,7 +155,7 @@ def contradiction(scale: Scale, roster: Roster, results: Results) -> str:
 def two_ratings_doubts(scale: Scale, *ratings: float) -> list[str]:
     """Return a warning if a few ratings look like those of another scale.
 
-    Only their difference counts, so somebody may give it as one rating and 0 as the other.
+    Only their difference counts, so someone may give it as one rating and 0 as the other.
 
     >>> from evenbreak.ratings import SCALES
     >>> two_ratings_doubts(SCALES["npl"], 612, 521)
@@ -312,7 +312,7 @@ def chart_doubts(chart: Any, scale: Scale) -> list[str]:
 
 
 def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
-    """Yield what form of the day is worth, where it is established.
+    """Yield what day-to-day form is worth, where it is established.
 
     >>> from evenbreak.ratings.estimates import Estimate
     >>> from evenbreak.ratings.fitted import DayForm
@@ -348,7 +348,7 @@ def form_details(form: DayForm | None, scale: Scale) -> Iterator[str]:
 
 
 def form_used_words(form: float, scale: Scale | None = None) -> str:
-    """Return that an answer allows for form of the day; '' if there is none.
+    """Return that an answer allows for day-to-day form; '' if there is none.
 
     >>> form_used_words(0.35)
     'Day-to-day form is allowed for: from match to match the log-odds of a game vary by 0.35.'

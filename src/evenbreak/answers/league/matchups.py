@@ -32,7 +32,7 @@ from evenbreak.words import race
 def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
     """Return the races of a round.
 
-    Of more than 20,000 pairs the rows are worked out while they are read, and the sentences
+    Of more than 20,000 pairs the rows are calculated while they are read, and the sentences
     are only those that do not depend on all of them.
 
     >>> import numpy as np

@@ -298,7 +298,7 @@ def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:
 
 
 def starters_words(listed: Roster, filled: Roster) -> str:
-    """Return who has no rating on the list and what they are taken as; '' if nobody.
+    """Return who has no rating on the list and what they are taken as; '' if no one.
 
     >>> listed = Roster(["Ann", "Bo"], [600, np.nan])
     >>> starters_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
@@ -332,7 +332,7 @@ def unrated_words(names: Sequence[str], rating: float, error: float) -> Sentence
 
 
 def games_words(listed: Roster, filled: Roster) -> str:
-    """Return whose error comes from the games behind their rating; '' if nobody's does.
+    """Return whose error comes from the games behind their rating; '' if no one's does.
 
     >>> listed = Roster(["Ann", "Bo"], [600, 500], games=[300, 12])
     >>> games_words(listed, listed.with_starters(500.0, 100.0, "fargo"))

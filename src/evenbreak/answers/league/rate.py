@@ -233,7 +233,7 @@ def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]
 
 
 def unlinked_words(ratings: Ratings) -> Iterator[str]:
-    """Yield what to know about players whom no chain of opponents links.
+    """Yield what to know about players that no chain of opponents links.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["A", "C", "D"], ["B", "D", "E"], [7, 7, 7], [2, 3, 6])

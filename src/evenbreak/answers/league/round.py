@@ -46,7 +46,7 @@ class EveningEnd(NamedTuple):
 @own_arrays
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Round:
-    """Who meets whom, and the races that are asked for.
+    """Who meets who, and the races that are asked for.
 
     Parameters
     ----------

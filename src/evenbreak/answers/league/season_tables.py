@@ -132,7 +132,7 @@ def weeks_frame(tally: Tally, *, cycle: int = 1) -> pd.DataFrame:
         error (rating less true skill) over players and replicas, with their standard errors;
         p_near, P(the rating is within a sixth of a doubling of the odds), with its standard error,
         and error_p05 ... error_p95, quantiles of the error in whole points; these over the cycle of
-        weeks that ends with this one, without the start. In weeks with nobody in the league only
+        weeks that ends with this one, without the start. In weeks with no one in the league only
         week and players are filled in.
     """
     players, error, square, _ = np.moveaxis(tally.weeks, 2, 0)

@@ -181,7 +181,7 @@ def comeback_tables(match: Match, odds: LiveOdds, names: tuple[str, str]) -> Ite
     """Yield the comeback table as people read it: a matrix of scores, or a list of leads.
 
     In a match of sets, the scores of the set under way come first, then those at which a set
-    begins. A star marks the chance at the score now.
+    starts. A star marks the chance at the score now.
     """
     moments = odds.comebacks()
     if not moments:

@@ -114,7 +114,7 @@ def sandbag_watch_answer(
 
 
 def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
-    """Return a warning if form of the day is established in results, and what `day_sd` fits it.
+    """Return a warning if day-to-day form is established in results, and what `day_sd` fits it.
 
     >>> day_sd_doubts(Results.from_names(["Ann"], ["Bo"], [7], [5]), "npl")
     []
@@ -137,7 +137,7 @@ def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
 
 
 def unrated_doubts(roster: Roster, results: Results) -> list[str]:
-    """Return a warning if too many players begin without a rating of their own.
+    """Return a warning if too many players start without a rating of their own.
 
     These are players whose rating rests on no games, and those who share one rating where most
     players do.

@@ -1,4 +1,4 @@
-"""A bracket as everybody sees it: its parts, rounds and matches, by number.
+"""A bracket as everyone sees it: its parts, rounds and matches, by number.
 
 A panel is a part of the bracket. Its columns are rounds; who wins a match goes to a later column.
 """

@@ -36,7 +36,7 @@ _SHOWN = 5
 
 
 def favors_words(ratings: Floats, odds: PlaceOdds) -> str:
-    """Return whom the races of a handicapped tournament favor.
+    """Return who the races of a handicapped tournament favor.
 
     >>> import numpy as np
     >>> from evenbreak.tournaments import single_elimination, title_odds

@@ -151,7 +151,7 @@ def odds_table(
 
 
 def bands_words(bands: Bands) -> Sentence | str:
-    """Return between what the title odds of players without a rating are; '' of nobody.
+    """Return between what the title odds of players without a rating are; '' of no one.
 
     >>> bands_words({"Di": (0.002, 0.57)})
     'Without a rating, the title odds are uncertain: Di 0.2%-57%.'

@@ -45,7 +45,7 @@ def minute_of_day(moment: datetime) -> int:
 
 
 def ends_words(early: float, middle: float, late: float) -> Sentence:
-    """Return when something ends, all times in minutes after the midnight before it began.
+    """Return when something ends, all times in minutes after the midnight before it started.
 
     >>> ends_words(23 * 60, 24 * 60 + 15, 26 * 60)
     'It ends at about 00:15 the next day; eight times out of ten between 23:00 and 02:00.'

@@ -47,7 +47,7 @@ def read_saved_tournament(
 ) -> list[Event]:
     """Return the events of a tournament that CueScore, Challonge or brackets-manager saved.
 
-    Each match is checked: its players must be those whom earlier results send there. The plan has
+    Each match is checked: its players must be those sent there by earlier results. The plan has
     what the file lacks, and a race of 0 is that of the file; players not in `entrants` are new;
     `at` is the time of whatever has none. It's a DataError if the file is no such tournament, or
     contradicts itself.

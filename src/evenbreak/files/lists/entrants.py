@@ -57,7 +57,7 @@ def read_entrants(path: str | Path) -> RosterFile:
 
 
 def nobody() -> RosterFile:
-    """Return a list of entrants on which nobody is yet.
+    """Return a list of entrants on which no one is yet.
 
     >>> len(nobody().roster)
     0

@@ -235,7 +235,7 @@ class RosterFile:
     source
         what the file is called in messages.
     warnings
-        what to check although the file can be used, a line each.
+        what to check although the file can be used, one per line.
     sha256
         fingerprint of the bytes that were read.
     by_quasi

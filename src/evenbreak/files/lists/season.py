@@ -349,7 +349,7 @@ class ScheduleFile:
     Parameters
     ----------
     schedule
-        who meets whom in which week.
+        who meets who in which week.
     source
         the name of the file in messages.
     warnings
@@ -362,7 +362,7 @@ class ScheduleFile:
 
 
 def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
-    r"""Read a schedule from a CSV file, a match a row; '-' is standard input.
+    r"""Read a schedule from a CSV file, one match per row; '-' is standard input.
 
     Names are those of the roster, as `read_pairs` takes them; weeks count from 1, in any
     order, and a player may have several matches in one.

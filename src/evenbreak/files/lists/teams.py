@@ -141,7 +141,7 @@ class TeamList:
 
 
 def form_of_lists(forms: Iterable[float]) -> float:
-    """Return the form of the day of teams whose lists state it: the mean, as of two who meet.
+    """Return the day-to-day form of teams whose lists state it: the mean, as of two who meet.
 
     >>> form_of_lists([0.3, 0.0]), round(form_of_lists([0.3, 0.4]), 3), form_of_lists([0.0])
     (0.3, 0.354, 0.0)
@@ -215,7 +215,7 @@ class TeamMatches:
     Parameters
     ----------
     pairs
-        home and away: positions in the list of teams, a row each.
+        home and away: positions in the list of teams, one per row.
     scores
         the sets that each won, one match per row; no columns for upcoming matches.
     rounds

@@ -104,7 +104,7 @@ def read_results(
     r"""Read match results from a CSV file or workbook; '-' is standard input.
 
     Format, separator and header are read as in `evenbreak.files.tables.table`; the columns
-    are those of `RESULTS_FILE`. Names lose blanks around and double blanks inside,
+    are those of `RESULTS_FILE`. Names lose spaces around and double blanks inside,
     and are put into Unicode's form NFC; those that differ in case or blanks alone are one
     player's. `winner` and `first_break` are a, b or the name of one of the two players. A
     forfeit may leave its scores empty; so may a match whose racks are given, or of which only
@@ -127,7 +127,7 @@ def read_results(
         whether rows that cannot be read, and scores that can hardly be games, are left out and
         listed in the warnings; otherwise the file is refused for the former, and the latter count.
     unplayed
-        whether rows that state no result are left out, as matches to come.
+        whether rows that state no result are left out, as remaining matches.
     chart
         the name or the file of the chart that set the races, where the results state the levels or
         the ratings of both players but no race.
@@ -135,7 +135,7 @@ def read_results(
     Raises
     ------
     DataError
-        with every problem of the file, a line each, if there are any that `skip_bad` does not
+        with every problem of the file, one per line, if there are any that `skip_bad` does not
         leave out; before that with those of the file of aliases.
 
     >>> import tempfile, pathlib

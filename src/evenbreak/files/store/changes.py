@@ -2,7 +2,7 @@
 
 An entry is known by the number of its row, which is the same for every program that reads the file
 and is never given again: where a tournament is taken out, a row says so. A sum of what the entry
-says stands beside the number, for other files have a row of that number too.
+says stands next to the number, for other files have a row of that number too.
 """
 
 from __future__ import annotations

@@ -63,7 +63,7 @@ def new_pin() -> str:
 
 
 def back_up(path: str | Path, now: datetime) -> Path:
-    """Write a copy of the file beside it, and return its name.
+    """Write a copy of the file next to it, and return its name.
 
     What bears that name is a whole copy, even if the program ends while it is written.
     """
@@ -136,7 +136,7 @@ class Phones:
     """Whose phones are whose, which tablets belong to tables, and what is proposed.
 
     A phone has one player. Whoever claims another one gives up the first, and with it what they
-    proposed: nobody answers for both. So does a player's proposal go with the phone it came from.
+    proposed: no one answers for both. So does a player's proposal go with the phone it came from.
 
     >>> ann = Entry("19:30", Act(CLAIMED, "Ann"), by_phone("x", "10.0.0.7"))
     >>> bo = Entry("19:31", Act(CLAIMED, "Bo"), by_phone("y", "10.0.0.8"))

@@ -94,7 +94,7 @@ def begin(path: str | Path, write: Callable[[sqlite3.Connection], Result]) -> Re
 
 
 def copied(path: str | Path, label: str) -> Path:
-    """Write a copy of the file beside it, and return its name, in which the label stands.
+    """Write a copy of the file next to it, and return its name, in which the label stands.
 
     What bears that name is a whole copy, even if the program ends while it is written.
     """
@@ -166,8 +166,8 @@ def _connected(
 def _connection(place: Path, mode: str, reading: bool) -> sqlite3.Connection:
     """Connect to a file and look at it.
 
-    Where its log cannot be made beside it, because the disk is full or the folder can only be read,
-    it can be read without one: nobody writes to it then, unless there is a log already.
+    Where its log cannot be made next to it, because the disk is full or the folder can only be
+    read, it can be read without one: no one writes to it then, unless there is a log already.
     """
     where = place.absolute().as_uri()
     try:

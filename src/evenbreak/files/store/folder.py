@@ -2,7 +2,7 @@
 
 A folder is found or made, requests to end wait until all is written, and a second run that would
 write into the folder waits for the first. Its lock is the operating system's and ends with the
-process that held it, however that ended: a lock file left by a killed run blocks nobody.
+process that held it, however that ended: a lock file left by a killed run blocks no one.
 
 As in SQLite's rollback journal, a run makes a folder `.evenbreak-writing` in the one it changes,
 and in it
@@ -103,7 +103,7 @@ def _nested(files: Mapping[str, bytes | None]) -> Tree:
 
 
 def _when_alone(folder: Path, write: Callable[[Path], None]) -> None:
-    """Write into the folder, or the nearest one above it that exists, when nobody else does.
+    """Write into the folder, or the nearest one above it that exists, when no one else does.
 
     A request to end waits until all is written, but not until another run has finished.
     """
@@ -392,7 +392,7 @@ def _put_in_place(folder: Path, changes: list[_Change]) -> None:
 def _put_back(folder: Path) -> None:
     """Put the old files back where the new ones have taken their places.
 
-    A file that somebody has changed since is left alone.
+    A file that someone has changed since is left alone.
     """
     work = folder / WORK
     changes: list[_Change] = json.loads((work / _JOURNAL).read_bytes())

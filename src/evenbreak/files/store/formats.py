@@ -2,7 +2,7 @@
 
 Format 3 has one table for all that is entered, in strands: 1, 2, ... are the tournaments of the
 night, `team` its team nights, `phones` what phones did. Format 1 (version 0.2.0) and format 2 had a
-table for a tournament, with its authors and its forms beside it, another for team nights, and one
+table for a tournament, with its authors and its forms next to it, another for team nights, and one
 or two for phones.
 """
 

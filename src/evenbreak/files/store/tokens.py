@@ -1,7 +1,7 @@
 """Tokens of other programs in the file of an evening: what each may enter, and its hash alone.
 
 A token is 160 random bits. It is shown once, when it is created; the file has its SHA-256, so that
-nobody can use what they read there. Every server on the file looks each time whether it is there
+no one can use what they read there. Every server on the file looks each time whether it is there
 still. It is no entry of the log: an undo neither revokes it nor brings it back.
 """
 

@@ -1,13 +1,13 @@
-"""The matches, players and standings of a night as views in its file, beside the log.
+"""The matches, players and standings of a night as views in its file, next to the log.
 
 They are for other programs, which read them by SQL. The rows are those of the fold of the log, and
 they change in the same transaction as it: whoever reads the file sees both before an entry, or both
 after it. Only rows that have changed are written.
 
-The views stand on tables of their own, so that their columns have types, and nobody who looks at a
+The views stand on tables of their own, so that their columns have types, and no one who looks at a
 view can change it. `events` says up to which entry they go: a file to which an earlier version has
 added entries is behind until the next entry of this one. So is a file whose views cannot be
-written, say because a table of somebody else's has the name of one: no entry is refused for that.
+written, say because a table of someone else's has the name of one: no entry is refused for that.
 """
 
 from __future__ import annotations

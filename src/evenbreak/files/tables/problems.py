@@ -212,7 +212,7 @@ class Problems:
         Raises
         ------
         DataError
-            with one line a problem, those of the whole file first.
+            with one line per problem, those of the whole file first.
         """
         if self._found:
             raise DataError(self.listed())

@@ -172,7 +172,7 @@ def _a_slip_apart(words: Mapping[str, Words]) -> Iterator[tuple[str, ...]]:
 
 
 def _slips(text: str) -> Iterator[str]:
-    """Yield a text with a letter of a long word left out, left blank or swapped with the next.
+    """Yield a text with a letter of a long word left out, left spaces or swapped with the next.
 
     Digits are never a slip: numbered names keep theirs.
 

@@ -1,4 +1,4 @@
-"""A table in a file as columns of text, each row with the line it begins in.
+"""A table in a file as columns of text, each row with the line it starts in.
 
 Every table comes in through here: format, names of columns and shape of the rows are settled.
 What the cells mean is for `evenbreak.files.tables.schema` and the reader of each kind of file.
@@ -30,7 +30,7 @@ ENOUGH_ROWS = 10
 class Texts(NamedTuple):
     """A column of text: the distinct cells, and for each row the position of its cell in them.
 
-    Most columns repeat a few texts, so the meaning of each is worked out only once.
+    Most columns repeat a few texts, so the meaning of each is calculated only once.
     """
 
     distinct: list[str]
@@ -66,7 +66,7 @@ class TextTable:
     source
         what the file is called in messages.
     lines
-        the line in which each row begins (1 is the first line of the file), rising.
+        the line in which each row starts (1 is the first line of the file), rising.
     columns
         all columns that were asked for, by the names they were asked for, their cells
         stripped of surrounding blanks; a column that the file lacks is empty throughout.
@@ -76,13 +76,13 @@ class TextTable:
         what is wrong so far; a reader adds to it and calls `raise_any` at the end, so
         that all problems of a file are reported at once.
     warnings
-        what a person should know although the file can be used, a line each.
+        what a person should know although the file can be used, one per line.
     sha256
         the fingerprint of what was read.
     titles
         what the file calls the columns that it has.
     header
-        the line in which the header begins.
+        the line in which the header starts.
     read
         what the cells mean, by column, where a schema has read them.
     """

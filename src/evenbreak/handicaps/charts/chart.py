@@ -53,7 +53,7 @@ def row_faults(rows: Sequence[ChartRow]) -> Iterator[tuple[int, str]]:
     """Yield what keeps rows of whole numbers from being a chart: each faulty row, and why.
 
     A chart covers every difference from 0 up exactly once, by rows in increasing order. It
-    begins with an even race, and the stronger player never needs fewer games.
+    starts with an even race, and the stronger player never needs fewer games.
 
     >>> rows = [ChartRow(0, 9, 3, 3), ChartRow(12, None, 4, 3)]
     >>> for place, fault in row_faults(rows):
@@ -133,8 +133,8 @@ class Chart:
         the name of the chart.
     rows
         the rows in increasing order, each a `ChartRow` or its four values. The first one
-        begins at 0 with an even race, since neither of two equal players is the stronger;
-        each of the others begins one point after the row before it; the last is open-ended.
+        starts at 0 with an even race, since neither of two equal players is the stronger;
+        each of the others starts one point after the row before it; the last is open-ended.
 
     Raises
     ------

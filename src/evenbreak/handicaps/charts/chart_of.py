@@ -54,7 +54,7 @@ def catalog_name(text: str) -> str:
 
 
 def named_chart(name: str) -> Chart | LevelChart | PointsChart | None:
-    """Return a chart by its name in the catalog or in an installed package; None: nobody's.
+    """Return a chart by its name in the catalog or in an installed package; None: no one's.
 
     Raises
     ------

@@ -7,7 +7,7 @@ possible differences δ,
     E W = ∫ W(p(d + e z); m, n) φ(z) dz,
 
 by Gauss-Hermite quadrature. That pulls chances toward 1/2: W at the estimate itself, the
-plug-in value, is overconfident in the favorite. Form of the day (`evenbreak.matches.form`) is one
+plug-in value, is overconfident in the favorite. Day-to-day form (`evenbreak.matches.form`) is one
 more error, which is drawn anew for each match.
 """
 
@@ -55,7 +55,7 @@ class Gap:
     difference
         rating of player 1 minus rating of player 2, in points; a number, or an array of many pairs.
     error
-        the standard error of that difference, in points; 0 takes the ratings as right. For two
+        the standard error of that difference, in points; 0 treats the ratings as exact. For two
         independent ratings it is the root of the sum of their squared errors. Broadcast together
         with `difference`.
     scale
@@ -123,7 +123,7 @@ class Gap:
 
     @cached_property
     def normal(self) -> tuple[Floats, Floats]:
-        """The differences and errors, in points, that stand for error and form of the day together.
+        """The differences and errors, in points, that stand for error and day-to-day form together.
 
         Both are normal, so their variances add up. The chance of a game stays what it is without
         form.

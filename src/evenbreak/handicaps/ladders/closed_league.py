@@ -1,4 +1,4 @@
-"""Leagues that nobody enters or leaves.
+"""Leagues that no one enters or leaves.
 
 A ladder has an endless supply of opponents whose errors have nothing to do with the player's own.
 In a closed league the points that one player wins another has lost, and players who started
@@ -39,7 +39,7 @@ class ClosedPair:
     """Two players who play only each other, match after match.
 
     It is a game without an end: a state is the rating of player 1 less that of player 2, in
-    whole points, from -widest to widest; a match that would lead beyond moves nobody.
+    whole points, from -widest to widest; a match that would lead beyond moves no one.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class ClosedPair:
     Raises
     ------
     InputError
-        if there is no such system, or a number has a value that it cannot have.
+        if there is no such system, or a number has an invalid value.
 
     Notes
     -----
@@ -163,7 +163,7 @@ def in_step_law(
 ) -> Distribution:
     """Return the rating errors in a closed league whose players all started correctly rated.
 
-    Many equal players start with the right ratings, and every night all of them play somebody
+    Many equal players start with the right ratings, and every night all of them play someone
     drawn at random. Two errors have nothing in common but their parity: given a player's error,
     the opponent's is one that differs from it by an even number of steps.
 

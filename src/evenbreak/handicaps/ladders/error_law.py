@@ -135,7 +135,7 @@ def _against_the_same(
 def _beginning(night: NightModel, chances: list[Floats], fall: float) -> Floats:
     """Return the distribution of errors that is the same at the end of a night as at its start.
 
-    A night moves a rating by the sum of its matches: P(sum | error, form) is worked out match by
+    A night moves a rating by the sum of its matches: P(sum | error, form) is calculated match by
     match and averaged over the form.
     """
     sums, moved = _falling(night.pairing.steps, chances[0][:-1], fall)

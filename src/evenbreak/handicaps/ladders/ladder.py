@@ -79,7 +79,7 @@ class Ladder(ErrorWalk):
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter has an invalid value.
     AccuracyError
         if no width is given and none is wide enough: the rating cannot keep up with the skill,
         the opponents are too far from it, or the chart has one race for all differences.

@@ -100,7 +100,7 @@ class Averages(System):
     def update(self, history: History) -> Floats:
         """Return all points by all games, those behind the list's averages included.
 
-        An average without games beside it stands for 50; a newcomer has none.
+        An average without games next to it stands for 50; a newcomer has none.
         """
         points = history.counts("points", lambda m: WIN * m.score_a + self.balls * m.score_b)
         games = history.counts("games", Matches.games_played)

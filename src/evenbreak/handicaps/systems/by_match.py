@@ -72,10 +72,10 @@ class StepSystem(System):
         distribution of rating errors is then symmetric.
     newcomer_steps
         (matches, factor) for each stage of a newcomer: for that many matches a newcomer moves by
-        an established player's points times the factor. Empty: newcomers move like everybody
+        an established player's points times the factor. Empty: newcomers move like everyone
         else.
     winner_never_falls
-        whether nobody loses points by a match won.
+        whether no one loses points by a match won.
     """
 
     name: str

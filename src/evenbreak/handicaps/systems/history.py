@@ -178,7 +178,7 @@ class History:
     def matches_before(self) -> Ints:
         """How many matches each had played before the last night.
 
-        Where the list does not state them: a million, or none for a player whom it states nothing
+        Where the list does not state them: a million, or none for a player it states nothing
         about.
         """
         unknown = np.isnan(self.entries.rating) & np.isnan(self.entries.level)
@@ -287,7 +287,7 @@ def column_of(values: Any, shape: tuple[int, ...]) -> Any:
 
 
 def positions(who: Ints, shape: tuple[int, ...]) -> Ints:
-    """Return where players are in a flattened array of players and replicas; 0 for nobody.
+    """Return where players are in a flattened array of players and replicas; 0 for no one.
 
     >>> positions(np.array([[1, 0]]), (2, 2))
     array([[2, 1]])

@@ -3,7 +3,7 @@
 A *like* system with a finite state, so that its long run can be solved exactly: each level has ten
 steps inside, as TAP-like leagues have; who passes the top of a level enters the next one at step
 `entry`, and who falls below the first enters the level below as many steps under its top, so that
-nobody changes back at once. The published number is the level.
+no one changes back at once. The published number is the level.
 
 Source: ten steps a level, and that a promoted player needs three to four losses to fall back, as
 TAP leagues publish; that a match moves one step is an assumption.

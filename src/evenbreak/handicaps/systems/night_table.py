@@ -1,4 +1,4 @@
-"""A night's results beside the list of ratings: who played whom, by which race, and who won.
+"""A night's results next to the list of ratings: who played who, by which race, and who won.
 
 For systems that look at all results the nights so far are kept with them.
 """
@@ -41,7 +41,7 @@ class NightTable(NamedTuple):
 
 
 def night_table(roster: Roster, results: Results, chart: Chart | System | str | None) -> NightTable:
-    """Return a night's results beside the list, with races by the chart if there is one.
+    """Return a night's results next to the list, with races by the chart if there is one.
 
     A system stands for its own races. Where it does without them, a race that the score does not
     finish is left out, and who has won more games has won.

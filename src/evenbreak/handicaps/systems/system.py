@@ -39,7 +39,7 @@ class System(ABC):
     asks
         what it needs of a match besides who won: 'games', 'race', 'innings'.
     winner_never_falls
-        whether nobody's published number falls on a night without a lost match, all else equal.
+        whether no one's published number falls on a night without a lost match, all else equal.
     vectorised
         whether its methods take all replicas at once; False: a simulation calls `update` with
         one league after the other.

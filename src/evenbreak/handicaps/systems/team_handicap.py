@@ -95,7 +95,7 @@ def team_handicap(
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter has an invalid value.
 
     >>> found = team_handicap(417, 447)
     >>> round(found.scored_1, 3), round(found.scored_2, 3), found.points, found.to_team

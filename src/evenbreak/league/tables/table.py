@@ -26,14 +26,14 @@ _COUNTED = {BOTH: (1, 1), HOME: (1, 0), AWAY: (0, 1)}
 @array_values
 @dataclass(frozen=True, eq=False)
 class TableMatches:
-    """The matches that a table counts, a row each.
+    """The matches that a table counts, one per row.
 
     Parameters
     ----------
     names
         the players or teams, each once.
     pairs
-        who met whom, positions in `names`; the first is at home where that is known.
+        who met who, positions in `names`; the first is at home where that is known.
     outcomes
         how it ended.
     date
@@ -187,7 +187,7 @@ def team_matches(
 @array_values
 @dataclass(frozen=True, eq=False)
 class LeagueTable:
-    """A table: one row a player or a team, the first of the table first.
+    """A table: one row per player or team, the first of the table first.
 
     Parameters
     ----------

@@ -245,7 +245,7 @@ class ByExperience(NamedTuple):
 def by_experience(forecasts: Forecasts) -> list[ByExperience]:
     """Return how players fared against more experienced ones, by the games that they had played.
 
-    The first date is left out, on which nobody has played before. Dates, or matches where that
+    The first date is left out, on which no one has played before. Dates, or matches where that
     gives the larger standard error, are clusters.
     """
     less_a = forecasts.known_a < forecasts.known_b

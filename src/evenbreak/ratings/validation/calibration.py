@@ -3,7 +3,7 @@
 A prediction is p, the chance of a player to win a game (or a match), for `games` games of
 which they won `won`. In a race the number of games depends on how they went, but w - p n
 still has mean zero and w log p + (n - w) log(1 - p) is still the log-likelihood: when a
-race stops depends on the past only. With form of the day it does not have mean zero, as the
+race stops depends on the past only. With day-to-day form it does not have mean zero, as the
 bad days of favorites last longer, but nearly so if matches weigh as they do in the ratings
 (see `evenbreak.ratings.form_weights`). So whether chances are right is judged by weight.
 """

@@ -199,7 +199,7 @@ class Validation:
         whether play inside matches agrees with the model; None where the file does not say.
     side, first_column
         how much stronger players in the first column are than their ratings, in log-odds, and
-        how many matches they won; None where nobody did, or nothing shows it.
+        how many matches they won; None where no one did, or nothing shows it.
     lengths
         how often favorites won short races and long ones, where there are both and few starts.
     spots
@@ -261,7 +261,7 @@ def validate(
     results
         the matches, with dates.
     prior_sd
-        standard deviation of the prior in natural log-odds, the same for everybody; None: the
+        standard deviation of the prior in natural log-odds, the same for everyone; None: the
         prior that `best_prior` chooses from all matches with a date, with levels if they help.
     half_life
         days after which a game counts half; None: games never age. 'best': chosen with the

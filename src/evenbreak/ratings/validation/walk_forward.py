@@ -56,7 +56,7 @@ class Forecasts:
         the race: as stated, or else an even race to the winner's games (see
         `even_races`); 0 where there is none.
     p_match, p_match_integrated
-        P(a wins the match), likewise; NaN where there is no race. Integrated over form of the day
+        P(a wins the match), likewise; NaN where there is no race. Integrated over day-to-day form
         too, as games of a match share it; the chance of a single game is the same with it.
     won
         1 where a won the race, 0 where b did, NaN where there is none.
@@ -227,7 +227,7 @@ class _Walk(NamedTuple):
     def spans(self) -> list[tuple[int, int]]:
         """Return the spans of dates, about equally much work each, that are walked on their own.
 
-        Each begins with a fit of all that came before, so that who walks it makes no difference.
+        Each starts with a fit of all that came before, so that who walks it makes no difference.
         """
         many = max(min(SPANS, len(self.days) // LEAST_DATES), 1)
         cuts = np.searchsorted(self.done[1:-1], np.arange(1, many) / many)

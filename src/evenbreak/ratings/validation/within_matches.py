@@ -3,7 +3,7 @@
 From scores alone: do they vary about the predictions as much as they should? From racks: do
 wins come in streaks?
 
-What form of the day means for deciders, sweeps and games is compared with what is seen.
+What day-to-day form means for deciders, sweeps and games is compared with what is seen.
 """
 
 from __future__ import annotations

@@ -181,7 +181,7 @@ def _without(line: SetLine, viewer: int | None) -> SetLine:
 
 
 def team_evening(events: Iterable[Event]) -> TeamEvening | None:
-    """Return the state after some events; None if no night has begun.
+    """Return the state after some events; None if no night has started.
 
     >>> from evenbreak.teams.evening.events import TeamSheet
     >>> us = TeamSheet("Racks", ("Ann", "Bo"), (600.0, 500.0), (0.0, 0.0), (6.0, 5.0))

@@ -1,9 +1,10 @@
 """The chances of each final place: exact where few matches are left, else simulated.
 
-Where the strengths are known, all endings of the matches to come are gone through if there are few
-enough. Otherwise seasons are drawn in pieces, each with its own random numbers, so that the result
-does not depend on who works on them. Where the strengths are uncertain, every season has its own
-draw of them: the seasons are then independent, and the spread of their outcomes is the whole error.
+Where the strengths are known, all endings of the remaining matches are gone through if there are
+few enough. Otherwise seasons are drawn in pieces, each with its own random numbers, so that the
+result does not depend on who works on them. Where the strengths are uncertain, every season has its
+own draw of them: the seasons are then independent, and the spread of their outcomes is the whole
+error.
 """
 
 from __future__ import annotations
@@ -232,7 +233,7 @@ def season_chances(
     season
         the season.
     places, matches
-        what to watch: for which numbers of first places to say what which of the matches to come
+        what to watch: for which numbers of first places to say what which of the remaining matches
         change.
     strengths
         how strong the teams may be: each season drawn has its own draw of them. None: the chances

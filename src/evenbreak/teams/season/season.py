@@ -28,14 +28,14 @@ class TeamSeason:
     teams
         each once.
     played
-        the matches played, a row each: home, away (positions in `teams`), sets won by each.
+        the matches played, one per row: home, away (positions in `teams`), sets won by each.
     to_come
-        the matches to come, a row each: home, away.
+        the remaining matches, one per row: home, away.
     scores
-        the scores that a match to come can have, a row each: sets of home and of away.
+        the scores that an upcoming match can have, one per row: sets of home and of away.
     chances
-        P(each of these scores) for each match to come, shape (layers, matches, scores): a layer for
-        each of the strengths that are possible, all equally likely; one if they are known.
+        P(each of these scores) for each upcoming match, shape (layers, matches, scores): a layer
+        for each of the strengths that are possible, all equally likely; one if they are known.
     rules
         how the table is kept.
     head_start
@@ -114,7 +114,7 @@ class TeamSeason:
         return found
 
     def record(self, ends: Ints) -> Record:
-        """Return what its ladder reads, with the score of each match to come in each ending.
+        """Return what its ladder reads, with the score of each upcoming match in each ending.
 
         Parameters
         ----------
@@ -145,7 +145,7 @@ class TeamSeason:
         """Return the points that make each team sure of one of the first places.
 
         With so many points more, at most `places` - 1 other teams can still have as many, whatever
-        else happens; 0 if that is so already. It is NaN where the matches to come do not give so
+        else happens; 0 if that is so already. It is NaN where the remaining matches do not give so
         many. Teams that play each other cannot all have their most, so fewer may do.
         """
         found = np.full(len(self.teams), np.nan)

@@ -284,7 +284,7 @@ class Bracket:
         Raises
         ------
         InputError
-            if nobody in the bracket has this name.
+            if no one in the bracket has this name.
         """
         if name not in self.players:
             raise InputError(

@@ -1,4 +1,4 @@
-"""Swiss tournaments: nobody is knocked out; each round pairs players with equal scores.
+"""Swiss tournaments: no one is knocked out; each round pairs players with equal scores.
 
 A round can be paired only when the one before it is over, so a Swiss is not a bracket.
 Pairings come from caissify-pairings, an extra: `pip install 'evenbreak[swiss]'`.
@@ -172,7 +172,7 @@ def swiss_bracket(
 ) -> Bracket:
     """Return the matches of a Swiss: of the rounds that are drawn, and of those to come.
 
-    Who meets whom in a round to come is not known. In its place, winners meet winners and
+    Who meets who in an upcoming round is not known. In its place, winners meet winners and
     losers meet losers of the round before; that is good enough for how long it takes.
 
     Parameters

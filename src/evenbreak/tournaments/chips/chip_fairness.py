@@ -112,7 +112,7 @@ def fairest_chips(
     ratings
         each player's rating.
     bands
-        the ratings at which a row of the chart begins, for one more row than there are of
+        the ratings at which a row of the chart starts, for one more row than there are of
         these; players of one row have the same chips. None: a row for each rating.
     fewest, most
         the fewest and the most chips of a player. More chips make a longer and fairer event.

@@ -2,7 +2,7 @@
 
 Heads-up, with a and b chips, player 1 wins by taking b racks before losing a: a race, with
 the chance W(p; b, a). With three or more the winner stays, the loser pays a chip and goes
-to the end of the line: a Markov chain over who is where in the line and everybody's chips.
+to the end of the line: a Markov chain over who is where in the line and everyone's chips.
 Chips are only ever lost, so the chain has no cycles.
 """
 
@@ -111,7 +111,7 @@ def last_players(
     Parameters
     ----------
     chips
-        everybody's chips: two players or more, as a rule up to four.
+        everyone's chips: two players or more, as a rule up to four.
     racks
         racks[i, j] = P(i, who stays at the table, beats the challenger j).
     line
@@ -120,7 +120,7 @@ def last_players(
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have, or there would be too many states.
+        if a parameter has an invalid value, or there would be too many states.
 
     >>> last_players([2, 1, 1], np.full((3, 3), 0.5)).title
     array([0.625, 0.125, 0.25 ])

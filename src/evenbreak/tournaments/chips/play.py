@@ -2,7 +2,7 @@
 
 At each table the winner stays; the loser pays a chip and goes to the end of the line, and
 whoever is first in it comes to the table. Tables finish their racks in random order. There
-are never more tables in use than leave somebody to wait; the last four are at one table.
+are never more tables in use than leave someone to wait; the last four are at one table.
 Where it does not matter who breaks, the last two are not played out: their chances are
 those of a race.
 """
@@ -40,7 +40,7 @@ class ChipOdds:
     lengths
         of each tournament, if all racks last equally long: in racks one after another.
     by_sample
-        P(each player wins) by each sample of the ratings, a column each.
+        P(each player wins) by each sample of the ratings, one per column.
     """
 
     p_place: Floats
@@ -81,7 +81,7 @@ def play_chips(
     line
         the order in which players come to the tables; None: drawn anew for each run.
     in_use
-        on how many tables the first of them are; None: as many as leave somebody to wait.
+        on how many tables the first of them are; None: as many as leave someone to wait.
     to_the_end
         whether the last two are played out too, for how long it takes.
     runs
@@ -92,7 +92,7 @@ def play_chips(
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter has an invalid value.
 
     >>> odds = play_chips([3, 3, 3, 3], np.full((4, 4), 0.5))
     >>> odds.title.round(2), odds.p_place.sum(axis=0).round(9)
@@ -122,7 +122,7 @@ def play_chips(
 
 
 def tables_in_use(left: int, tables: int) -> int:
-    """Return how many tables are in use: so many that somebody waits, except heads-up.
+    """Return how many tables are in use: so many that someone waits, except heads-up.
 
     >>> [tables_in_use(left, 4) for left in (2, 4, 5, 8, 16)]
     [1, 1, 2, 3, 4]

@@ -93,7 +93,7 @@ class Finish:
     finishes
         when each of the evenings that were played out ends.
     starts
-        when each match begins in each evening, a column a match; NaN where it is not needed.
+        when each match starts in each evening, one column per match; NaN where it is not needed.
     names
         the matches still to be played, as in the columns of `starts`.
     pace

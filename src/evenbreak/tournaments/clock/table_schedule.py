@@ -1,4 +1,4 @@
-"""Matches on tables: whenever a table is free, the waiting match that matters most begins.
+"""Matches on tables: whenever a table is free, the waiting match that matters most starts.
 
 What matters is the longest path: the minutes of a match and of all that must follow it. The
 schedule of list scheduling is at most 2 - 1/tables times as long as the best one.

@@ -1,6 +1,6 @@
 """Several events of one night on one set of tables, and a second chance for those who are out.
 
-The tables, their names and the pace of the house are those of the first event. Nobody plays in two
+The tables, their names and the pace of the house are those of the first event. No one plays in two
 events at once, and no table has two matches: where an entry that is taken back would lead to that,
 the match that was called first goes back to the queue.
 """

@@ -81,7 +81,7 @@ def calls_after(
     """Return the calls that follow from a result by themselves, each with its event.
 
     They go to the table that it frees, and are of whichever event is next. A table that was free
-    before with a match ready for it is left free: somebody keeps it; one that only waited for a
+    before with a match ready for it is left free: someone keeps it; one that only waited for a
     match gets one.
     """
     kept = set(before[min(before)].free_tables) if night_queue(before) else set()

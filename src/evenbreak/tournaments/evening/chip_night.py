@@ -1,12 +1,12 @@
-"""The line of a chip night: who is at which table, who waits, and what everybody has left.
+"""The line of a chip night: who is at which table, who waits, and what everyone has left.
 
 The winner of a rack stays at the table. The loser pays a chip and goes to the end of the line, and
-the first in the line comes to the table. Tables close as the field gets smaller, so that somebody
+the first in the line comes to the table. Tables close as the field gets smaller, so that someone
 waits until two are left.
 
 A correction gives the chip back and takes it from the other player. Racks that were played since
 count as they were played, unless one of the two had no chips left then: such a rack is set aside.
-Nobody who is playing is called away, except a player whose chips are gone.
+No one who is playing is called away, except a player whose chips are gone.
 """
 
 from __future__ import annotations

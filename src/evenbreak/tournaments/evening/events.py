@@ -284,7 +284,7 @@ class LaterDraw:
 class Changed:
     """Another part of the plan from now on; None: as before.
 
-    Races change in the matches that have not begun.
+    Races change in the matches that have not started.
     """
 
     tables: Table | None = None

@@ -1,7 +1,7 @@
 """The state of an evening, as the fold of its events.
 
 A result counts if its two players are those who sit in the match. So when a correction sends
-somebody else into a later match, the result of that match no longer counts but is kept, and counts
+someone else into a later match, the result of that match no longer counts but is kept, and counts
 again if the correction is undone.
 """
 

@@ -61,7 +61,7 @@ def typed(state: Evening, match: str) -> str:
 def known_player(state: Evening, text: str) -> str:
     """Return the name of a player, in whatever case and spacing it was written.
 
-    The beginning of a first or last name will do if nobody else's begins like that.
+    The beginning of a first or last name will do if no one else's starts like that.
     """
     wanted = " ".join(text.split()).casefold()
     names = {name.casefold(): name for name in state.entrants}

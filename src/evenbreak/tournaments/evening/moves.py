@@ -381,7 +381,7 @@ def change(
     streamed: tuple[int, ...] | None = None,
     slower: float | None = None,
 ) -> Changed:
-    """Change the occasion, the tables, or the races of the matches that have not begun.
+    """Change the occasion, the tables, or the races of the matches that have not started.
 
     A match on a table that is closed goes back to the queue; its score is kept.
     """

@@ -1,7 +1,7 @@
 """What is to be expected of an evening at a moment: the odds, the finish, what would change it.
 
 Tonight's games say something about the players, and tonight's matches about the pace: both go
-into what is expected of the matches to come.
+into what is expected of the remaining matches.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The story of a night: each player's chance of the title after each match, and what stood out.
 
 The log is folded again up to each result, so that the story is the same wherever and whenever it is
-worked out. A corrected result counts as if it had been right at once; scores of matches in play are
+calculated. A corrected result counts as if it had been right at once; scores of matches in play are
 left out.
 """
 

@@ -175,7 +175,7 @@ def _why_not(state: Evening, events: Mapping[int, Event], entry: int) -> Sentenc
 def _taken_back(state: Evening, events: Mapping[int, Event], entry: int) -> list[Undone]:
     """Return what takes back an entry with what came with it, the last first.
 
-    A match that was called with a result and has begun since stays on its table.
+    A match that was called with a result and has started since stays on its table.
     """
     begun = {*state.live, *state.counted} if state.drawn else set()
     return [

@@ -1,7 +1,7 @@
 """The Calcutta: players are sold by auction, and the pot is paid to those who bought the best.
 
 A lot's fair share of the pot is the sum over places of payout times P(place). What a bid
-is worth depends on the whole pot, which nobody knows before the last lot: the money bid so
+is worth depends on the whole pot, which no one knows before the last lot: the money bid so
 far, this bid, and what the lots still to come will bring. If those go for their fair shares
 f of the pot R in the end, and B has been bid so far,
 

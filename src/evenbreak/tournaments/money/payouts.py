@@ -187,7 +187,7 @@ class PrizeMoney:
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter has an invalid value.
 
     >>> money = PrizeMoney(fee=20.0, added=100.0, payout="50/30/20", unit=5.0)
     >>> money.pot(8), money.amounts(8), money.left(8)

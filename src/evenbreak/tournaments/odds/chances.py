@@ -37,7 +37,7 @@ Wins: TypeAlias = Win | Mapping[str, Win]
 class Chances:
     """P(slot 1's player wins) for each match and every two players.
 
-    Tables have one extra row and column for an empty slot, against which everybody wins. A
+    Tables have one extra row and column for an empty slot, against which everyone wins. A
     third axis, if there is one, runs over samples.
     """
 

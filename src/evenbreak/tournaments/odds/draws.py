@@ -56,7 +56,7 @@ def redraw_odds(
         a double elimination down to qualifiers; how its losers' qualifiers are placed does not
         matter.
     win, results
-        as in `title_odds`, before the knock-out begins.
+        as in `title_odds`, before the knock-out starts.
     samples
         how many redraws are sampled if there are more than 24.
     rng
@@ -129,7 +129,7 @@ def swiss_odds(
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have, or the extra is not installed.
+        if a parameter has an invalid value, or the extra is not installed.
     """
     table = floats(win, "win", low=0.0, high=1.0)
     count = len(event.players)

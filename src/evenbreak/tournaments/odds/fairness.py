@@ -1,4 +1,4 @@
-"""How fair the races of a whole tournament are: title odds beside an equal share.
+"""How fair the races of a whole tournament are: title odds next to an equal share.
 
 A chart that is fair match by match need not be fair over a tournament: small edges add up
 from round to round, and long rounds for those on the losers' side weigh on some players

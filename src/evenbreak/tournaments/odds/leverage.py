@@ -1,4 +1,4 @@
-"""What a result would change: the leverage of each match to come.
+"""What a result would change: the leverage of each upcoming match.
 
 A player's title odds are linear in the chances of one match. So the difference between
 the odds after a win and after a loss of slot 1's player is a derivative, and one pass back
@@ -72,7 +72,7 @@ def leverages(
     live: Mapping[str, float] | None = None,
     walkovers: float | Mapping[str, float] = 0.0,
 ) -> list[Leverage]:
-    """Return what the result of each match to come would change.
+    """Return what the result of each upcoming match would change.
 
     Parameters
     ----------

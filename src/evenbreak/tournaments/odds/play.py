@@ -19,7 +19,7 @@ from evenbreak.tournaments.odds.plan import Players
 class PlayedOut:
     """Many runs of a tournament, or of its first matches.
 
-    The number of players means nobody. `order` has, for each group, the players by rank, shape
+    The number of players means no one. `order` has, for each group, the players by rank, shape
     (runs, members), and so for the runners-up.
     """
 

@@ -96,7 +96,7 @@ def expected_rematches(
 
 
 def _met_so_far(now: Standing) -> Floats:
-    """Return 1 for the pairs who have met, with a row and a column for nobody.
+    """Return 1 for the pairs who have met, with a row and a column for no one.
 
     Players of one group count: they will have met before anything else is played.
     """

@@ -3,7 +3,7 @@
 Averages of exact conditional odds have a smaller variance than simulating everything
 (Rao-Blackwell). Two more things reduce it: the samples of a batch are stratified over the luck
 of each match (a Latin hypercube), and the exact chances of the first rounds correct for samples
-with too many wins of somebody (control variates). All samples share one plan, so thousands of
+with too many wins of someone (control variates). All samples share one plan, so thousands of
 them take seconds. Standard errors come from the differences between batches.
 """
 

@@ -58,7 +58,7 @@ class PlaceOdds:
     samples
         the number of samples behind the odds; 0 if they are exact.
     by_draw
-        P(each player wins) by each draw of the ratings, a column each; None if none were drawn.
+        P(each player wins) by each draw of the ratings, one per column; None if none were drawn.
     """
 
     bracket: Bracket
@@ -115,12 +115,12 @@ class PlaceOdds:
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class TitleOdds(PlaceOdds):
-    """Who finishes where, and who meets whom.
+    """Who finishes where, and who meets who.
 
     Parameters
     ----------
     meetings
-        for each match, who meets whom with what chance.
+        for each match, who meets who with what chance.
 
     The other parameters are those of `PlaceOdds`.
     """

@@ -97,7 +97,7 @@ def over_ratings(
     Raises
     ------
     InputError
-        if a parameter has a value that it cannot have.
+        if a parameter has an invalid value.
 
     >>> from evenbreak.ratings.scale import scale_of
     >>> from evenbreak.tournaments import single_elimination
@@ -159,7 +159,7 @@ def error_of_pairs(laws: Floats) -> Floats:
 
 
 def drawn_ratings(mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Generator) -> Floats:
-    """Return draws of the ratings, `pairs` and their mirror images in the second half, a row each.
+    """Return draws of the ratings, `pairs` and their mirror images in the second half, one per row.
 
     The same generator gives the same draws on every machine: a covariance has many roots, of which
     the symmetric one doesn't depend on the eigenvectors that a library happens to choose. `spread`
@@ -202,7 +202,7 @@ def drawn_chances(
     Parameters
     ----------
     drawn
-        the draws, a row each, as `drawn_ratings` returns them.
+        the draws, one per row, as `drawn_ratings` returns them.
 
     The other parameters are those of `over_ratings`.
 

@@ -1,7 +1,7 @@
 """Questions of other programs: `POST /api/v1/odds` answers what `evenbreak odds --json` prints.
 
 The questions are those of the table of answers whose fields other computers may give: none names a
-file of this one, or code. They are worked out one at a time, beside the pages.
+file of this one, or code. They are calculated one at a time, next to the pages.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What everybody in the room may read of tonight, for other programs.
+"""What everyone in the room may read of tonight, for other programs.
 
 It is what the pages show, made of the same views, so that a scoreboard on a stream and the wall
 say the same.

@@ -2,7 +2,7 @@
 
 A message's id is what its entry is known by (`evenbreak.files.store.changes`): whoever was cut off
 goes on after the last one they had, at any server of the file, and learns if it is another file.
-What is entered unseen stays so: phones and team nights are only said to have changed, and nobody's
+What is entered unseen stays so: phones and team nights are only said to have changed, and no one's
 address or author is sent.
 """
 

@@ -1,7 +1,7 @@
 """Who writes by the interface: whoever sends a token of the director's in the head of the request.
 
 A token in an address or a cookie is none. Wrong ones are counted by address as wrong PINs are. A
-right one passes even then: nobody guesses 160 bits, and a guest behind the same router must not be
+right one passes even then: no one guesses 160 bits, and a guest behind the same router must not be
 able to stop the scoreboard.
 """
 
@@ -64,7 +64,7 @@ async def check_token(request: Request, move: str) -> None:
 def check_still(request: Request, state: Evening, match: str | None) -> None:
     """Refuse a token that was revoked meanwhile, or that is for another table than a match's.
 
-    It is asked while nobody else can enter anything, nor revoke a token.
+    It is asked while no one else can enter anything, nor revoke a token.
     """
     held, text = request.state.token
     still = token_in(kept_tokens(site_of(request).path), text)

@@ -172,7 +172,7 @@ def _remembered(plan: Plan) -> dict[str, str]:
 
 
 async def begin(request: Request) -> Response:
-    """Begin a tournament; a form that is refused comes back as it was filled in.
+    """Start a tournament; a form that is refused comes back as it was filled in.
 
     A list that can mean more than one thing is asked about first, line by line.
     """

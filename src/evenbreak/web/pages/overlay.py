@@ -1,7 +1,7 @@
 """Overlays for a stream: the match on a table, and the bracket around it, over whatever is filmed.
 
 They are pages of a browser source, transparent but for their plates, and follow the night by
-themselves. Everybody in the room may open them.
+themselves. Everyone in the room may open them.
 """
 
 from __future__ import annotations

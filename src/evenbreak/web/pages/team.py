@@ -1,4 +1,4 @@
-"""A team night as everybody sees it, as each captain does, and as the director does.
+"""A team night as everyone sees it, as each captain does, and as the director does.
 
 What is entered is one event, and each form is taken once.
 """

@@ -1,4 +1,4 @@
-"""The wall: what everybody in the room wants to see, in letters for eight meters.
+"""The wall: what everyone in the room wants to see, in letters for eight meters.
 
 It shows the tables, the bracket and the story of the night in turn, of each event of the night, and
 the tables at once when a match is called; at the end the champion. Without a script it asks again
@@ -124,9 +124,9 @@ def unbroken(text: str) -> str:
 
 
 async def view_for(request: Request, night: Night, now: str) -> tuple[WallView, Evening]:
-    """Return what everybody sees of an event of the night, and its state.
+    """Return what everyone sees of an event of the night, and its state.
 
-    It is worked out once for all who ask, until something happens or the minute is over.
+    It is calculated once for all who ask, until something happens or the minute is over.
     """
     known = await night.outlook()
     views, prizes = request.app.state.__dict__.setdefault("walls", {}), night.prizes()
