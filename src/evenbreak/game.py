@@ -200,8 +200,6 @@ def graph_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> n
 
     Parameters
     ----------
-    game
-        the game.
     start
         the state to start from; None: the game's own start.
     max_states

@@ -1,7 +1,7 @@
 """Systems, charts and games of installed packages, known by name to every command.
 
 A package declares them as entry points of the groups `evenbreak.systems`, `evenbreak.charts` and
-`evenbreak.games`. None is looked for where a name is one of ours, and only the package that has
+`evenbreak.games`. None is searched for where a name is one of ours, and only the package that has
 the name is imported: a broken one stops no one else.
 """
 

@@ -221,7 +221,7 @@ class Chain:
             an array of n numbers; a mapping or a pandas Series from states to numbers, 0 for
             the others; or a state, which gets 1.
         name
-            what it is called, for the error message.
+            its name, for the error message.
 
         Raises
         ------

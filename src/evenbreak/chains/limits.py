@@ -63,8 +63,6 @@ class Limit(Mapping[Hashable, float]):
 
     Parameters
     ----------
-    chain
-        the chain.
     probability
         shape (n,): the limit of each state, given the start.
     period

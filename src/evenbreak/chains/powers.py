@@ -56,7 +56,7 @@ def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = F
     -----
     M is applied `steps` times or, for very many steps of at most 500 states, squared again
     and again. These are sums of products of nonnegative numbers, so the relative error of
-    each entry is at most about steps * (arcs into a state) * 2^-52, with n in place of the
+    each entry is at most about steps * (arcs into a state) * 2^-52, with n instead of the
     arcs if M is squared. Arcs of a state that miss a sum of 1 by rounding are scaled to it,
     and so are the columns of the squares, so that no probability is lost on the way.
     Source: P5.23.

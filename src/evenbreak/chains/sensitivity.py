@@ -41,8 +41,6 @@ class Sensitivity:
 
     Parameters
     ----------
-    chain
-        the chain.
     value
         the weighted sum itself.
     matrix

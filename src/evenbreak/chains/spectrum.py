@@ -82,8 +82,6 @@ class Spectrum:
 
     Parameters
     ----------
-    chain
-        the chain.
     values
         shape (k,): the eigenvalues 1 first, the others by falling modulus (beyond 1000
         states: those nearest to 1 first); none has a modulus above 1.

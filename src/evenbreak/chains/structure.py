@@ -35,8 +35,6 @@ class Structure:
     ----------
     label
         shape (n,): the class of each state; no arc leads to a class with a smaller number.
-    count
-        the number of classes k.
     arcs
         the arcs between different states.
     loops

@@ -156,7 +156,7 @@ def whole(
     value
         a whole number, of any numeric type.
     name
-        what the value is called where the caller wrote it.
+        the name of the value where the caller wrote it.
     at_least, at_most
         the smallest and the largest number that is allowed; None for no limit.
     wanted

@@ -44,7 +44,7 @@ class Match(ABC, Generic[ChanceT]):
     -----
     A state is (a, b) if the break does not matter, (a, b, breaker) if it does, and (a, b,
     state of the set) in a match of sets, with the set's first breaker before the set's state
-    if the match has its own break format; the state of a game of your own takes the place of
+    if the match has its own break format; the state of a game of your own replaces
     the set's. Scores that differ only in racks that no longer
     matter are one state, so even a match without a longest length has a finite graph.
     """

@@ -17,8 +17,6 @@ class Series:
 
     Parameters
     ----------
-    rack
-        the rack that is played again and again.
     breaks
         who breaks next (see `evenbreak.games.breaks`).
     first_breaker

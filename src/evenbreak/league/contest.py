@@ -122,7 +122,7 @@ class Contest:
         race is right, and the chances of players a doubling better than their race expects.
     nights
         shape (systems, groups, 3): nights, the games of the player (or team) with the most games
-        on each, and numbers published anew with a change.
+        on each, and numbers published again with a change.
     deciles
         shape (systems, groups, deciles, 3): the matches of the players, their chances to win, and
         the even ones; by true skill at the start, the weakest first.
@@ -433,8 +433,6 @@ def play_systems(
 
     Parameters
     ----------
-    world
-        the league.
     systems
         one or more; differences are taken from the first.
     replicas

@@ -253,8 +253,6 @@ def estimate(
 
     Parameters
     ----------
-    contest, world
-        what was played.
     measure
         one of `MEASURES` or `PARTS`.
     cycle

@@ -137,7 +137,7 @@ def sandbagging(
         the rating error before, in points: a whole number, or a distribution such as
         `ladder.law()`.
     stake, dumped_stake
-        what a match won is worth more than one lost: in earnest, and where it is dumped.
+        the difference in value between a match won and one lost: if it counts, and if dumped.
     in_a_row, prize
         how many matches in a row win a tournament, and what it pays. It is played first of the
         matches in earnest, all of it at the ratings before it, and moves no ratings. Form varies

@@ -47,8 +47,6 @@ def dumping_played(
 
     Parameters
     ----------
-    system
-        any system.
     dumped
         the numbers of matches lost on purpose.
     earnest

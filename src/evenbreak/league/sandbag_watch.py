@@ -43,8 +43,6 @@ class Watched:
 
     Parameters
     ----------
-    player
-        the name.
     rows
         rows of the player's matches in the results, in the order in which they were played.
     won
@@ -122,8 +120,6 @@ def watch(
     ----------
     nights
         the season, as `played_nights` returns it.
-    system
-        the league's system.
     error
         the distribution of rating errors (rating less skill), such as `Ladder(...).law()`; on the
         Fargo scale for a system that does not move points match by match (`errors_played`).
@@ -335,12 +331,6 @@ def played_nights(
 
     Parameters
     ----------
-    system
-        the league's system.
-    roster
-        the ratings before the first night.
-    results
-        the season.
     chart
         which sets the races where the results state none.
     apply

@@ -38,16 +38,12 @@ class Season:
 
     Parameters
     ----------
-    players
-        who plays.
     system
         the handicap system, or its name.
     chart
         which sets the races, or its name; None: the system's own.
     schedule
         who meets who; None: a round robin, over and over.
-    weeks
-        how many weeks are played.
     play
         'matches': the winner of each match is drawn with the exact chance. 'racks': it is played
         rack by rack, which gives final scores too. Both have the same distribution.

@@ -71,7 +71,7 @@ class World:
         the share of the places that a newcomer takes over in each season, at nights spread over
         it. The skill of a newcomer is drawn from a normal distribution like the league's.
     starter_sd
-        how far off a newcomer's first rating is (standard deviation), in doublings.
+        uncertainty of a newcomer's first rating (standard deviation), in doublings.
     sandbaggers
         the chance that a player is one. In the third quarter of a season sandbaggers play three
         doublings below their skill; the last quarter counts, and there they play as they can.

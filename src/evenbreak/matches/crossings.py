@@ -103,8 +103,6 @@ def even_probability(
         does not matter, and p1 is P(player 1 wins a rack).
     breaks
         who breaks, if the break matters and the format does not say.
-    first_breaker
-        of the first rack, 1 or 2.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""A match under way: the odds at every score, and what the next rack is worth.
+"""A match under way: the odds at every score, and the value of the next rack.
 
 One pass over the scores that can still come gives the odds at all of them: the course of the
 match, the leverage of a rack and the comeback table are read off it.

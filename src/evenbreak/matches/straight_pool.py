@@ -114,11 +114,6 @@ class StraightPoolOdds:
 def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:
     """Return who wins a match of straight pool, and in how many innings.
 
-    Parameters
-    ----------
-    match
-        the match.
-
     Raises
     ------
     InputError

@@ -216,8 +216,6 @@ def pocketed_shot(
     ----------
     strike, cue_ball, object_ball, cloth, table, mu, friction
         as for `aimed_shot`.
-    pocket
-        one of the pockets of the table.
 
     Returns
     -------

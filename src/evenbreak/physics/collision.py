@@ -52,8 +52,6 @@ class Collision:
 
     Parameters
     ----------
-    ball
-        both balls.
     cut, topspin, side, speed
         the shot: cut angle in radians, to the left below 0; J_y, J_z, and V_0 in m/s.
     mu

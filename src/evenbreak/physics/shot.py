@@ -40,8 +40,6 @@ class Shot:
 
     Parameters
     ----------
-    strike
-        how the cue ball was struck.
     cloth, table
         on which it is played.
     direction

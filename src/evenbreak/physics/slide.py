@@ -170,8 +170,6 @@ class Slide:
 
     Parameters
     ----------
-    ball, cloth
-        the ball, and what it slides on.
     position, velocity
         at time 0, in meters and m/s; shape (..., 2).
     spin

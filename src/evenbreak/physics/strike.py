@@ -31,8 +31,6 @@ class Strike:
 
     Parameters
     ----------
-    ball, cue
-        the ball, and the cue that strikes it.
     stick_speed
         of the cue just before the hit, in m/s.
     offset, side_offset

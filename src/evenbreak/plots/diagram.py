@@ -58,8 +58,6 @@ def draw(
         only arc leads to itself is drawn as terminal.
     layout
         a place (x, y) for every state, neighbors about 1 apart; None: find one.
-    title
-        text above the diagram.
     ax
         the axes to draw on; None: those of a new figure.
 

@@ -81,7 +81,7 @@ def draw_practice_shots(
 ) -> Axes:
     """Draw the share of single shots made on each day, and in the earlier and the later half.
 
-    Without dates, shots take the place of days.
+    Without dates, shots replace days.
     """
     log, title = file.log, f"Practice shots: {Path(file.source).name}"
     axes = new_axes("shot" if log.day is None else "date", "share made", title=title, ax=ax)

@@ -1,4 +1,4 @@
-"""Progressive drills: where a player settles, and what each level is worth practicing.
+"""Progressive drills: where a player settles, and which level is worth practicing.
 
 The levels of a drill are in a line, so between two levels that communicate as many attempts go
 up as come down, law[i] p[i] = law[i + 1] q[i + 1], and the long-run distribution is a product of

@@ -78,8 +78,6 @@ class LogAnalysis:
 
     Parameters
     ----------
-    levels
-        what it says about each level.
     visited
         the distribution of the level over the attempts of the log, exact.
     implied

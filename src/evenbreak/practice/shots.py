@@ -186,8 +186,6 @@ class ShotChoice:
 
     Parameters
     ----------
-    name
-        its name.
     p1
         P(player 1 makes it | player 1 takes it).
     p2

@@ -137,8 +137,6 @@ class ShotAnalysis:
 
     Parameters
     ----------
-    shots
-        the weakest first.
     since
         the first day of the later half; None without two days.
     change
@@ -164,8 +162,6 @@ def analyse_shots(log: ShotLog, *, confidence: float = 0.95, seed: int = 0) -> S
 
     Parameters
     ----------
-    log
-        the log.
     confidence
         of the intervals.
     seed

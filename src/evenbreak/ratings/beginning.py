@@ -57,11 +57,9 @@ class Beginning:
     rating
         points.
     standard_error
-        how far each rating may be off, in points. That of a difference is taken to be the root of
+        the uncertainty of each rating, in points. That of a difference is taken to be the root of
         the sum of two squares, so use quasi-standard errors where there are any. NaN where not
         known: then the games and `Levels.brought_sd` say it.
-    scale
-        the scale of the ratings.
     prior_sd, prior_mean
         the prior with which they were made, in points: its standard deviation, NaN or None for
         ratings that were not made from results, and its means.

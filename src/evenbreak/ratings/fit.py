@@ -71,8 +71,6 @@ def fit(
 
     Parameters
     ----------
-    results
-        the matches.
     prior_sd
         standard deviation of the prior in natural log-odds, whatever the scale.
     scale

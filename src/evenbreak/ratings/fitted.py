@@ -30,7 +30,7 @@ class Group(NamedTuple):
     Parameters
     ----------
     kind, name
-        'team' or 'division', and what it is called.
+        'team' or 'division', and its name.
     above, standard_error
         points.
     """
@@ -49,8 +49,6 @@ class DayForm:
     ----------
     variance
         v in squared log-odds, with its 95% interval, which may start below 0.
-    races
-        the matches that it is estimated from.
     """
 
     variance: Estimate
@@ -84,8 +82,6 @@ class Ratings:
 
     Attributes
     ----------
-    players
-        the names.
     rating
         points on `scale`; an average player of a component is at `anchor`, unless
         `named` says otherwise.
@@ -245,7 +241,7 @@ class Ratings:
 
     @property
     def error_of_errors(self) -> float:
-        """How far off the least certain of the standard errors may be: its own, relatively.
+        """The relative error of the least certain of the standard errors.
 
         0 where they are not sampled (see `evenbreak.ratings.sampled_diagonal`).
         """

@@ -108,7 +108,7 @@ SIZES = tuple(each.name for each in fields(Levels) if each.name != "beginning")
 def begun(beginning: Beginning | None) -> Levels:
     """Return what is known where nothing is estimated: the ratings that players bring along.
 
-    Those that do not say how far off they may be are taken to be off by half of what doubles
+    Those that do not state their uncertainty are taken to be off by half of what doubles
     the odds, or, if all of them state games, by what these leave open.
     """
     if beginning is None or not beginning.unknown_error:

@@ -1,4 +1,4 @@
-"""How many players a gain in prediction rests on, and how far it may be off because they are few.
+"""How many players a gain in prediction rests on, and its uncertainty because they are few.
 
 Matches of one player go well or badly together, so what they gain is no sum of independent parts.
 With u what each match gains, the variance of the sum over all matches is that of two-way clusters

@@ -4,7 +4,7 @@ Each stretch of a season is predicted from the days before it (see `evenbreak.ra
 in one search for the width of the prior, for what the file knows about players (see
 `evenbreak.ratings.levels`), and for the half-life of old results. The width under which the actual
 scores were most likely is chosen first, if the results are enough to choose by. Then each of the
-others is added in turn where it clearly predicts better, and the width is chosen anew. What is
+others is added in turn where it clearly predicts better, and the width is chosen again. What is
 known about players leaves less for the width, so each is tried with narrower widths too.
 
 `evenbreak.ratings.clear_gains` says when one way of rating clearly predicts better than another.
@@ -190,7 +190,7 @@ def best_prior(
 ) -> PriorChoice:
     """Return the prior, and the half-life, whose ratings predict later matches best.
 
-    Predictions are averaged over how far off the ratings may be. Players who have not played yet
+    Predictions are averaged over the uncertainty of the ratings. Players who have not played yet
     are predicted from their prior alone, so the matches of newcomers count too.
     Where fewer than 100 games are predicted, or widths four times apart predict equally well,
     there are too few results to choose by, and the width nearest to the default is returned.

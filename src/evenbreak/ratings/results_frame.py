@@ -212,7 +212,7 @@ def _racks(cell: Any) -> str | None:
 
 
 def folded(name: str) -> str:
-    """Return what names have in common that differ in case or blanks alone.
+    """Return what names have in common that differ only in case or blanks.
 
     >>> folded("Ann Lee") == folded("ann  LEE") == folded("AnnLee")
     True

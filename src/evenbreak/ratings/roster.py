@@ -51,9 +51,9 @@ class Roster:
         the skill level, by which a chart by skill level gives races and a cap counts; NaN where it
         is not stated. Where a list states levels alone, the ratings are those levels.
     standard_error
-        how far a rating may be off, in points (one standard deviation); NaN where not
-        stated. The error of a difference is taken to be the root of the sum of two squares,
-        so what all ratings have in common should not be in it: use `Ratings.quasi_error`.
+        uncertainty of a rating, in points (one standard deviation); NaN where not stated. The error
+        of a difference is taken to be the root of the sum of two squares, so what all ratings have
+        in common should not be in it: use `Ratings.quasi_error`.
     games
         the games that each rating rests on, 0 for a new player; `NOT_STATED` where the list
         does not say.

@@ -38,8 +38,6 @@ class Scale:
 
     Parameters
     ----------
-    name
-        what the scale is called.
     points_per_doubling
         points, above zero.
     center

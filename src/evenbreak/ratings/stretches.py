@@ -1,12 +1,12 @@
 """How well ways of rating predict a season: stretch by stretch, from the days before alone.
 
 The season is divided into stretches of whole days. Each stretch but the first is predicted
-from the ratings of all days before it, and from how far off they may be. Nothing is predicted from
+from the ratings of all days before it, and from their uncertainty. Nothing is predicted from
 itself. What counts is the chance of each match's score, averaged over the difference of its players
 (see `evenbreak.ratings.integrated`).
 
 The skills that matches show in several ways of rating are those of `evenbreak.ratings.fit`. It goes
-through the matches for each way anew; here the likelihood is made once for each half-life, what is
+through the matches for each way again; here the likelihood is made once for each half-life, what is
 known of players once for each set of levels, and the modes are found together, or each from the one
 before where there are many players.
 """
@@ -62,7 +62,7 @@ class StretchLosses(NamedTuple):
 
     `losses`, shape (stretches, ways), is the sum of -ln P(the score | the days before) over
     matches, and `of_match` the same by match; `predicted` counts games, and matches known by the
-    winner alone.
+    winner only.
     """
 
     losses: Floats

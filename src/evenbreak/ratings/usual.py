@@ -35,8 +35,6 @@ def usual_ratings(
 
     Parameters
     ----------
-    results
-        the matches.
     scale, as_of, anchor, break_advantage, provisional
         as for `fit`.
     prior

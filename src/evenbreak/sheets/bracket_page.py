@@ -1,6 +1,6 @@
 """A bracket on a page: one drawing on a laptop or a wall, a round at a time on a phone.
 
-Both are made here as text, for they are drawn anew with every score. Pages bring the look
+Both are made here as text, for they are drawn again with every score. Pages bring the look
 (bracket.css), and say the words in their reader's language.
 """
 

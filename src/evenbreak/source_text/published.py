@@ -1,7 +1,7 @@
 """What the source text prints, its numbers and errata, and how it compares with what is computed.
 
 The numbers come with the package. Each has inputs, such as `winner breaks p1=.9` or `alpha=30deg
-V_0=36in/s`, from which it is computed anew.
+V_0=36in/s`, from which it is computed again.
 """
 
 from __future__ import annotations
@@ -59,8 +59,6 @@ class Erratum(NamedTuple):
 
     Parameters
     ----------
-    where
-        the problem, table or passage.
     class_
         'slip' if the text is wrong; 'remark' if it is right but easy to misread; 'copy' for
         what is missing from the copy that was read.

@@ -90,8 +90,6 @@ class GamesWon(CountLaw):
 
     Parameters
     ----------
-    games
-        how many games are played, whatever the score.
     p
         P(player 1 wins a game), the same for every game and independent of the others. A
         float means the decimal that it prints as; a `fractions.Fraction` is used unchanged.

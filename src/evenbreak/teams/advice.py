@@ -359,7 +359,7 @@ def best_by_skills(
     Returns
     -------
     dict
-        the share of the draws in which a pick is the best for whoever names now.
+        the share of the draws in which a pick is the best for the team that names now.
 
     >>> from evenbreak.teams import Squad, set_laws
     >>> us = Roster(["Ann", "Bo"], [600, 560], [0, 0])

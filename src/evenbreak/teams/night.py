@@ -24,8 +24,6 @@ class TeamNight:
 
     Parameters
     ----------
-    ours, theirs
-        the squads.
     laws
         for each set, what it can bring: laws[k][i, j, w, d] is P(our pick i beats (w = 0) or loses
         to (w = 1) their pick j, and the set adds d - reach to our lead), where the last axis has
@@ -37,7 +35,7 @@ class TeamNight:
     sizes
         the players a side in each set: 1, or 2 for doubles; a number stands for every set.
     tie
-        what a tied night is worth, between 0 (lost) and 1 (won).
+        the value of a tied night, between 0 (lost) and 1 (won).
 
     Raises
     ------
@@ -195,8 +193,6 @@ def order_of(text: str, sets: int) -> str:
         'home' (A...), 'blind' (=...), 'winner' and 'loser' (A, then who won or lost the last set).
         A: we name first and they answer; B: the other way round; =: both at once, blind; W and L:
         the winner or the loser of the last set names first.
-    sets
-        how many sets there are.
 
     Raises
     ------

@@ -57,8 +57,6 @@ def pairs_of(
     ours, theirs
         the squads, with ratings, or with skill levels where `levels` is given; a chart by skill
         level reads the levels of either.
-    race, scale
-        what is played, and the scale of the ratings.
     size
         1, or 2 for doubles: a pair is as strong as the mean of the two, and has the mean of their
         levels, rounded up.

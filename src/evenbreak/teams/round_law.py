@@ -114,15 +114,13 @@ def round_law(
     ----------
     ours, theirs
         the two teams with their ratings. Where they state standard errors, the chances of each
-        match are averaged over how far the ratings may be off.
+        match are averaged over the uncertainty of the ratings.
     games, race
         what each match is, one of them: so many single games, or a race of which all games count.
     everybody
         whether each of our players meets each of theirs; else the first meets the first, and so on.
     count
         what is added up of a race.
-    scale
-        the scale of the ratings.
     form
         how much the log-odds of a game vary from match to match (standard deviation).
     levels

@@ -47,7 +47,7 @@ class SealedNight(NamedTuple):
     Parameters
     ----------
     worth
-        what the night is worth to us; see `SolvedNight`.
+        the value of the night to us; see `SolvedNight`.
     ours, theirs
         the line-ups of each team, its best first.
     """

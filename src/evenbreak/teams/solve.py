@@ -1,7 +1,7 @@
 """The value of a team night, and of each point in it, by backward induction.
 
 A point of the night is: the sets played, who of either squad is used up, the lead, and who won the
-last set where the order asks. After the last set the lead says what the night is worth. Before
+last set where the order asks. After the last set the lead says the value of the night. Before
 it, each pair of picks leads on to the points after the set; who names first takes the best of what
 the other team's best answers leave them, and blind picks are a matrix game.
 """
@@ -32,10 +32,8 @@ class SolvedNight:
 
     Parameters
     ----------
-    night
-        the night.
     values
-        values[k][a, b, w, lead + k reach]: what the night is worth to us after k sets, with our
+        values[k][a, b, w, lead + k reach]: the value of the night to us after k sets, with our
         squad used up as in state a and theirs as in state b of their `LineUps`. The axis w says who
         won the last set (0: we did), where the order asks; otherwise it has length 1.
 

@@ -1,6 +1,6 @@
 """The evening as the pages show it: its state, and what is calculated of it beside them.
 
-The state is read anew when the file has changed. Odds and finish are calculated in a thread; a
+The state is read again when the file has changed. Odds and finish are calculated in a thread; a
 page waits for them for a moment only, and shows what is known until then.
 """
 

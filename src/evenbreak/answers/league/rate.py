@@ -173,7 +173,7 @@ def _highest_in_words(ratings: Ratings) -> str:
 def provisional_words(ratings: Ratings, mark: str = "") -> list[str]:
     """Return which ratings are provisional, in a sentence; none if no rating is.
 
-    `mark` is what lists have in place of a place.
+    `mark` is what lists have instead of a place.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Cy"], ["Bo", "Bo"], [50, 2], [40, 0])

@@ -55,8 +55,6 @@ def rating_changes_answer(
 
     Parameters
     ----------
-    moves
-        the changes.
     last, tonight
         the list before the night, and its results.
     chart

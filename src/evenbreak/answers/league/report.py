@@ -28,8 +28,6 @@ def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None
 
     Parameters
     ----------
-    sheet
-        the sheet.
     across
         up to how many players the races are shown as a table.
     listed

@@ -52,8 +52,6 @@ class Round:
     ----------
     file
         the list of players, as it was read.
-    roster
-        its players, the new ones filled in.
     pairs
         places in the roster, shape (k, 2).
     scale, chart, levels, offered, pace

@@ -34,7 +34,7 @@ from evenbreak.words import FilePath, joined, race
 def most_active(ratings: Ratings, top: int) -> list[int]:
     """Return the players with the most games (positions in `ratings.players`), the most first.
 
-    Players with equally many games are ordered by their matches known by the winner alone,
+    Players with equally many games are ordered by their matches known by the winner only,
     then by name.
     """
     races = ratings.races_won + ratings.races_lost
@@ -53,8 +53,6 @@ def find_players(
 
     Parameters
     ----------
-    ratings
-        the players to search.
     names
         as a person typed them.
     said

@@ -56,8 +56,6 @@ def why_answer(
 
     Parameters
     ----------
-    file, ratings
-        the results, and what was made of them.
     pair
         positions in `ratings.players`.
     offered

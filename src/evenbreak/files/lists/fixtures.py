@@ -50,8 +50,6 @@ def read_sides(path: str | Path, *, of: str | None = None) -> Sides:
 
     Parameters
     ----------
-    path
-        the file; '-' is standard input.
     of
         'players' or 'teams'; None: teams where the file has a column team.
 

@@ -228,12 +228,8 @@ class RosterFile:
 
     Parameters
     ----------
-    roster
-        its players, in the order of the file.
-    lines
-        the line of each player.
     source
-        what the file is called in messages.
+        the name of the file in messages.
     warnings
         what to check although the file can be used, one per line.
     sha256
@@ -290,7 +286,7 @@ def read_roster(path: str | Path) -> RosterFile:
     r"""Read a list of rated players from a CSV file; '-' is standard input.
 
     A player without a rating is new and must have no games. An empty standard_error, games or
-    matches is not stated. Where a quasi_error is stated, it is used in place of the
+    matches is not stated. Where a quasi_error is stated, it is used instead of the
     standard_error, because a roster's errors are used for differences of ratings.
 
     Raises

@@ -89,8 +89,6 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
 
     Parameters
     ----------
-    path
-        the file.
     day_sd
         standard deviation of form from day to day, in points, where the file does not state it.
 
@@ -202,12 +200,10 @@ def league_of_entrants(
 
     Parameters
     ----------
-    file
-        the league.
     entrants
         as `read_entrants` reads them.
     starter, starter_sd
-        the rating of a new player for whom the entrants have none, and how far off it may be
+        the rating of a new player for whom the entrants have none, and its uncertainty
         (standard deviation); the skill is drawn from around it.
 
     Raises
@@ -348,8 +344,6 @@ class ScheduleFile:
 
     Parameters
     ----------
-    schedule
-        who meets who in which week.
     source
         the name of the file in messages.
     warnings

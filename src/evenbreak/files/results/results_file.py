@@ -68,8 +68,6 @@ class ResultsFile:
         these rows, and those of byes and matches not played, each with the reason.
     renamed
         names as written, each with the name as which it is read.
-    titles
-        the file's titles of its columns.
     read
         the name and the fingerprint of each file that was read, where there are several.
     """
@@ -105,15 +103,13 @@ def read_results(
 
     Format, separator and header are read as in `evenbreak.files.tables.table`; the columns
     are those of `RESULTS_FILE`. Names lose spaces around and double blanks inside,
-    and are put into Unicode's form NFC; those that differ in case or blanks alone are one
+    and are put into Unicode's form NFC; those that differ only in case or blanks are one
     player's. `winner` and `first_break` are a, b or the name of one of the two players. A
     forfeit may leave its scores empty; so may a match whose racks are given, or of which only
     the race and the winner are known.
 
     Parameters
     ----------
-    path
-        the file.
     aliases
         a file that says which names mean the same player, or what `read_aliases` reads from it.
     columns

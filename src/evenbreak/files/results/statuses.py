@@ -1,6 +1,6 @@
 """Matches that were not played, however a file says so: forfeits, byes, postponed ones.
 
-The words are those of `evenbreak.files.tables.titles`: in place of a score, of a player, or in a
+The words are those of `evenbreak.files.tables.titles`: instead of a score, of a player, or in a
 column of statuses or remarks.
 """
 

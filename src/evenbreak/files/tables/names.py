@@ -128,7 +128,7 @@ def hidden_letter_warnings(table: TextTable, columns: Sequence[str]) -> list[str
 
 
 def same_name(name: str) -> str:
-    """Return what names have in common that differ in case or blanks alone: one player's.
+    """Return what names have in common that differ only in case or blanks: one player's.
 
     >>> same_name("Ann Lee") == same_name("ann  LEE") == same_name("AnnLee")
     True

@@ -137,7 +137,7 @@ class Problems:
     Parameters
     ----------
     source
-        what the file is called in the messages.
+        the name of the file in the messages.
 
     >>> problems = Problems("players.csv")
     >>> problems.add(7, "rating 'six' is not a number; write digits")

@@ -64,14 +64,12 @@ class TextTable:
     Parameters
     ----------
     source
-        what the file is called in messages.
+        the name of the file in messages.
     lines
         the line in which each row starts (1 is the first line of the file), rising.
     columns
         all columns that were asked for, by the names they were asked for, their cells
         stripped of surrounding blanks; a column that the file lacks is empty throughout.
-    found
-        the columns that the file has.
     problems
         what is wrong so far; a reader adds to it and calls `raise_any` at the end, so
         that all problems of a file are reported at once.
@@ -172,8 +170,6 @@ def read_table(
 
     Parameters
     ----------
-    path
-        the file; '-' is standard input.
     required, optional
         for each column its other names.
     instead

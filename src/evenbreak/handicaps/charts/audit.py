@@ -94,8 +94,6 @@ class ChartAudit:
 
     Parameters
     ----------
-    name
-        the name of the chart.
     scale
         the scale of the ratings, by which the chances are calculated.
     fit
@@ -103,8 +101,6 @@ class ChartAudit:
     best_fit
         the scale and the tilt that together fit the chart best; None where its cuts do not
         determine them.
-    rows
-        the rows in increasing order.
     gaps, overlaps
         the differences (first, last) in no row, and in more than one row; last is None for
         an open end.

@@ -129,8 +129,6 @@ class Chart:
 
     Parameters
     ----------
-    name
-        the name of the chart.
     rows
         the rows in increasing order, each a `ChartRow` or its four values. The first one
         starts at 0 with an even race, since neither of two equal players is the stronger;

@@ -1,6 +1,6 @@
 """How many rating points double the odds in a league, by its results.
 
-Where results state ratings, the games show what a point is worth. Where they state races alone,
+Where results state ratings, the games show the value of a point. Where they state races alone,
 and the races are those of a known chart, each race says in which range the difference of the two
 ratings lay; within it the differences are taken as those of a half-normal distribution, fitted to
 how often each race was played. Matches of the chart's last row, which has no end, are then left

@@ -8,7 +8,7 @@ possible differences δ,
 
 by Gauss-Hermite quadrature. That pulls chances toward 1/2: W at the estimate itself, the
 plug-in value, is overconfident in the favorite. Day-to-day form (`evenbreak.matches.form`) is one
-more error, which is drawn anew for each match.
+more error, which is drawn again for each match.
 """
 
 from __future__ import annotations

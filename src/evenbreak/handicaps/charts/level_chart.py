@@ -25,8 +25,6 @@ class LevelChart:
 
     Parameters
     ----------
-    name
-        the name of the chart.
     levels
         the skill levels, increasing whole numbers.
     needs
@@ -194,8 +192,6 @@ class PointsChart:
 
     Parameters
     ----------
-    name
-        the name of the chart.
     levels
         the skill levels, increasing whole numbers.
     points

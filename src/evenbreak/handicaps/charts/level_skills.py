@@ -1,6 +1,6 @@
 """How strong the skill levels of a chart are, and how likely the higher level is to win a game.
 
-A chart by skill level does not say what a level is worth. Three sources do, the best first:
+A chart by skill level does not say the value of a level. Three sources do, the best first:
 
 - The league's own results (`level_estimates`).
 - Measured results of many leagues with the same chart: `MEASURED`.
@@ -64,8 +64,6 @@ class LevelSkills:
 
     Parameters
     ----------
-    chart
-        the chart.
     gaps, errors
         `gaps[i, j]`: by how much `levels[i]` is stronger than `levels[j]`, in points, and its
         standard error; NaN where nothing says how far off it may be.

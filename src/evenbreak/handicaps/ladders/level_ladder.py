@@ -36,8 +36,6 @@ class LevelLadder:
 
     Parameters
     ----------
-    system
-        the system.
     strength
         of the player, in points of `skills`.
     opponents

@@ -86,8 +86,6 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
 
     Parameters
     ----------
-    ladder
-        how the rating moves.
     start
         the rating less the skill before the first match, in whole points.
     within

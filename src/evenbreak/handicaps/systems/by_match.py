@@ -54,15 +54,13 @@ class StepSystem(System):
     Parameters
     ----------
     name
-        what the system is called; `system_of` finds it by this name.
+        the name of the system; `system_of` finds it by this name.
     scale
         what a difference of its ratings means.
     charts
         the names of the printed charts that set its races; may be empty.
     rule
         from a match to the whole points that winner and loser move.
-    in_words
-        the rule in words.
     own_chart
         the chart used if no other is named; None: the first of `charts`.
     asks

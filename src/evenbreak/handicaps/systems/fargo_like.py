@@ -1,4 +1,4 @@
-r"""Fargo-like: after every night all ratings are estimated anew from all games.
+r"""Fargo-like: after every night all ratings are estimated again from all games.
 
 A game between ratings x and y is won with the chance p = 1 / (1 + 2^(-(x - y) / 100)), and a game
 of age t counts 2^(-t / half-life). The ratings are the maximum of

@@ -47,8 +47,6 @@ class MatchTable:
 
     Parameters
     ----------
-    system, chart
-        the system and the chart of the matches.
     widest
         the largest difference, in points.
     needs

@@ -104,10 +104,6 @@ def apply_results(
 
     Parameters
     ----------
-    system
-        the system of the league.
-    roster
-        the list before the night.
     results
         the matches of the night; every player must be on the list, with a rating.
     chart

@@ -26,8 +26,6 @@ class System(ABC):
 
     Attributes
     ----------
-    name
-        what the system is called.
     in_words
         its rule in words, with what is assumed.
     publishes

@@ -83,10 +83,6 @@ def team_handicap(
     ----------
     average_1, average_2
         the average ratings of the two teams.
-    match_ups
-        how many pairs of players meet in a round.
-    games
-        how many games each pair plays in a round.
     points_won, points_lost
         what the winner and the loser of a game score on average.
     scale

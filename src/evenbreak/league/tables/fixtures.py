@@ -131,8 +131,6 @@ def nights(
 
     Parameters
     ----------
-    count
-        how many.
     begins
         the first day that may be one.
     weekdays
@@ -213,10 +211,6 @@ def fixtures(
     ----------
     names
         the teams or players; the first has the first number.
-    times
-        how often every two meet.
-    dates
-        the date of each night.
     rounds_a_night
         how many rounds are played in a night.
     venues

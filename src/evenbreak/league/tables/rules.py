@@ -32,8 +32,8 @@ class TableRules:
     shutout
         the points of a win to nil, on top.
     split
-        'apa_8ball' or 'apa_9ball': the points of a match are divided by that league's table, in
-        place of the above.
+        'apa_8ball' or 'apa_9ball': the points of a match are divided by that league's table,
+        instead of the above.
     forfeit
         the points of a match won by forfeit; None: those of a win (2 and 20 in the two splits).
     bye

@@ -34,8 +34,6 @@ class TableMatches:
         the players or teams, each once.
     pairs
         who met who, positions in `names`; the first is at home where that is known.
-    outcomes
-        how it ended.
     date
         when (`datetime64[D]`, NaT where not stated).
     rows
@@ -123,9 +121,7 @@ def team_matches(
     results
         with the teams of both players; rows without are left out.
     count_games
-        whether a team's score is the games won by its players, in place of the sets.
-    rules
-        those of the table.
+        whether a team's score is the games won by its players, instead of the sets.
 
     Raises
     ------
@@ -191,8 +187,6 @@ class LeagueTable:
 
     Parameters
     ----------
-    names
-        who.
     place
         from 1; who is level shares a place.
     level
@@ -203,8 +197,6 @@ class LeagueTable:
         games (or sets) won and lost.
     forfeits
         matches lost by forfeit.
-    points
-        the points.
     decided_by
         what separates each from the one before it in the table; '' if nothing does.
     rules
@@ -246,8 +238,6 @@ def league_table(
 
     Parameters
     ----------
-    matches
-        the matches.
     rules
         the rules of the table.
     head_start

@@ -258,8 +258,6 @@ def validate(
 
     Parameters
     ----------
-    results
-        the matches, with dates.
     prior_sd
         standard deviation of the prior in natural log-odds, the same for everyone; None: the
         prior that `best_prior` chooses from all matches with a date, with levels if they help.

@@ -173,8 +173,6 @@ class SeasonChances:
 
     Parameters
     ----------
-    season
-        the season.
     p_place
         P(each team takes each place), shape (teams, places).
     exact
@@ -230,8 +228,6 @@ def season_chances(
 
     Parameters
     ----------
-    season
-        the season.
     places, matches
         what to watch: for which numbers of first places to say what which of the remaining matches
         change.

@@ -38,8 +38,6 @@ class Source(NamedTuple):
 
     Parameters
     ----------
-    match
-        the earlier match or group.
     outcome
         'winner' or 'loser' of that match, or the rank in that group, 1 for its winner.
     via
@@ -161,8 +159,6 @@ class Bracket:
         the names, in seed order.
     matches
         the matches; each comes after the matches that feed it.
-    groups
-        the groups, if there are any.
     byes
         (match, player) for each first match that is a bye, for the printed sheet.
     runners_up

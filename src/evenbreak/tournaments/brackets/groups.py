@@ -63,12 +63,10 @@ def groups_then_knockout(
     ----------
     players
         the names in seed order, or the number of players.
-    groups
-        the number of groups.
     qualifiers
         how many qualify from each group.
     knockout_size
-        how many qualify in all, in place of that: as many from each group as can be, and the best
+        how many qualify in all, instead of that: as many from each group as can be, and the best
         of the next rank by the share of matches won.
     times
         how often each pair in a group plays.

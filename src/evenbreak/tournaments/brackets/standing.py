@@ -30,8 +30,6 @@ class Standing:
 
     Parameters
     ----------
-    bracket
-        the whole bracket.
     winners
         the winner of each decided match, by position; NOBODY for a match that is not needed.
     seats

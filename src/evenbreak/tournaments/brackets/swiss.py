@@ -53,8 +53,6 @@ class Swiss:
     ----------
     players
         the names in seed order.
-    rounds
-        the number of rounds.
     system
         the pairing system: 'dutch' follows the rules of chess (FIDE C.04.3); 'casual' is
         simpler and a hundred times as fast, but may pair two players twice.
@@ -104,8 +102,6 @@ def swiss_round(
 
     Parameters
     ----------
-    event
-        the tournament.
     played
         the rounds so far, complete with winners.
     without
@@ -177,8 +173,6 @@ def swiss_bracket(
 
     Parameters
     ----------
-    event
-        the tournament.
     drawn
         the pairings of the first rounds.
     to_come

@@ -29,12 +29,8 @@ class ChipChart:
 
     Parameters
     ----------
-    name
-        what the chart is called.
     rows
         the rows in the order of the ratings, the first for the weakest players.
-    source
-        where it is from.
 
     Raises
     ------

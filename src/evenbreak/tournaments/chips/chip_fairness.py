@@ -26,15 +26,7 @@ _MOST_STEPS = 60
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class ChipFairness:
-    """The title odds of a field with given chips.
-
-    Parameters
-    ----------
-    ratings, chips
-        each player's rating and chips.
-    odds
-        who finishes where.
-    """
+    """The title odds of a field with given chips."""
 
     ratings: Floats
     chips: Ints
@@ -109,8 +101,6 @@ def fairest_chips(
 
     Parameters
     ----------
-    ratings
-        each player's rating.
     bands
         the ratings at which a row of the chart starts, for one more row than there are of
         these; players of one row have the same chips. None: a row for each rating.

@@ -76,16 +76,12 @@ def play_chips(
     racks
         racks[i, j] = P(i, who stays at the table, beats the challenger j). A third axis, if there
         is one, is for samples of the ratings, which take turns.
-    tables
-        how many tables there are.
     line
-        the order in which players come to the tables; None: drawn anew for each run.
+        the order in which players come to the tables; None: drawn again for each run.
     in_use
         on how many tables the first of them are; None: as many as leave someone to wait.
     to_the_end
         whether the last two are played out too, for how long it takes.
-    runs
-        how many tournaments.
     rng
         where pseudo-random numbers come from; None: a generator with the seed 0.
 

@@ -194,7 +194,7 @@ def corrections(
     ended: str = "",
     winner: str = "",
 ) -> list[Called | Result]:
-    """Correct a result; with `follow` "stop" matches in play start anew with their new players.
+    """Correct a result; with `follow` "stop" matches in play start again with their new players.
 
     The calls to their tables come before the correction: when it is taken back, all that was in
     play goes on.
@@ -278,7 +278,7 @@ def drop(state: Evening, player: str) -> Dropped:
 
 
 def late(state: Evening, entrant: Entrant) -> Late:
-    """Let a late player in: before the draw, or in place of the lowest seed's bye still open.
+    """Let a late player in: before the draw, or instead of the lowest seed's bye still open.
 
     A bye is open as long as filling it changes no match that was played or called. In a chip
     tournament a late player goes to the end of the line, as long as two are still in.

@@ -28,7 +28,7 @@ def rename(state: Evening, player: str, to: str) -> Renamed:
 
 
 def substitute(state: Evening, player: str, entrant: Entrant) -> Substituted:
-    """Let someone take the place of a player, by their full name, who has not played yet.
+    """Let someone replace a player, by their full name, who has not played yet.
 
     A match of theirs that has been called stays on its table.
     """

@@ -73,8 +73,6 @@ def calcutta(
     ----------
     fair
         each player's fair share of what is paid out; they sum to 1.
-    sold
-        the winning bids so far.
     paid_out
         share of the pot that is paid out; the rest is the house's.
 

@@ -37,12 +37,8 @@ class Payouts:
 
     Parameters
     ----------
-    name
-        what it is called.
     rows
         the rows, by ascending number of entrants.
-    source
-        where it is from.
 
     Raises
     ------
@@ -174,8 +170,6 @@ class PrizeMoney:
     ----------
     fee
         what each player pays to enter.
-    added
-        money added to the pot.
     house
         the part of the pot, from 0 to .99, that the house keeps.
     payout

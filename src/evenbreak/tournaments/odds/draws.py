@@ -112,8 +112,6 @@ def swiss_odds(
 
     Parameters
     ----------
-    event
-        the tournament.
     win
         P(i beats j), a table in the order of the players; a third axis, if there is one, is
         for samples of the ratings, which take turns.
@@ -121,8 +119,6 @@ def swiss_odds(
         the rounds so far. In the last one, matches without a winner are still to be played.
     without
         as in `swiss_round`.
-    runs
-        how many tournaments are played out.
     rng
         where pseudo-random numbers come from; None: a generator with the seed 0.
 

@@ -49,8 +49,6 @@ class PlaceOdds:
 
     Parameters
     ----------
-    bracket
-        the tournament.
     p_place
         P(each place), with a row for each player and a column for each of `bracket.places`.
     error

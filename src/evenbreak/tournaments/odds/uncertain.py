@@ -83,8 +83,6 @@ def over_ratings(
         as in `title_odds`; results only of matches whose players are known.
     win_of
         the chances of the matches, given the ratings: what `title_odds` takes as `win`.
-    ratings
-        each player's rating.
     spread
         how uncertain they are: a standard deviation for each player, or the covariance
         matrix of all of them. Errors are normal.
