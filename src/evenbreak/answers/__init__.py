@@ -1,4 +1,4 @@
-"""One module a question: what it is answered with, in numbers, tables and sentences."""
+"""One module per question: its answer in numbers, tables and sentences."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""The tables, figures and numbers of the source text, computed anew."""
+"""The tables, figures and numbers of the source text, recomputed."""
 
 import lazy_loader
 
