@@ -48,9 +48,15 @@ def test_nothing_is_published_whose_tests_fail() -> None:
     assert "  workflow_call:\n" in TESTS
 
 
-def test_only_what_publishes_may_ask_for_an_identity() -> None:
-    texts = {path.name: path.read_text(encoding="utf-8") for path in FOLDER.glob("*.yml")}
-    assert [name for name, text in texts.items() if "id-token:" in text] == ["publish.yml"]
+def test_only_jobs_that_publish_may_ask_for_an_identity() -> None:
+    """PyPI asks for one, and so does GitHub Pages."""
+    asking = [
+        (path.name, job.partition(":")[0].strip())
+        for path in sorted(FOLDER.glob("*.yml"))
+        for job in re.split(r"^(?=\S|  \w+:)", path.read_text("utf-8"), flags=re.MULTILINE)
+        if "id-token" in job
+    ]
+    assert asking == [("docs.yml", "publish"), ("publish.yml", "publish")]
 
 
 def test_what_publishes_is_one_version_of_each_action_and_never_a_branch() -> None:

@@ -272,7 +272,7 @@ def test_prizes_that_the_director_keeps_are_seen_by_everybody(hall: Hall) -> Non
     assert "216.00 is paid" in hall.guest.open("/prizes", fee="13,50", payout="100").words
     for wrong in ("1e5", "nan", "-1", "12.345", "99999999"):
         assert hall.guest.open("/prizes", fee=wrong).status == 400
-    assert "enter your own shares" in hall.guest.open("/prizes", fee="5", payout="hoboken").words
+    assert "Enter your own shares" in hall.guest.open("/prizes", fee="5", payout="hoboken").words
     assert kept_prizes(hall.site.path) == PrizeMoney(20.0, 80.0, payout="50/30/20")
     state = hall.state.events
     new_tournament(hall.site.path, state[:1], in_place_of=len(state))

@@ -24,7 +24,7 @@ BETTER = {
     r"\btakes? \w+ as right\b|\btaken as right\b": "treat as exact",
     r"\b[Ff]orm of the day\b": "day-to-day form",
     r"\bunless given\b": "default: ...",
-    r"\bcenter|\bcolor|\bfavorite|\bpractice|\bcatalog\b": "center, color, favorite, practice",
+    r"\bcentre|\bcolour|\bfavourite|\bpractise|\bcatalogue\b": "center, color, favorite, practice",
     r"\bmend\b": "fix",
     r"\b(to begin with|begins? a tournament|has begun)\b": "start",
 }

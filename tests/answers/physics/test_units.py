@@ -19,11 +19,11 @@ def test_a_number_reads_as_it_was_typed():
 @pytest.mark.parametrize(
     ("units", "typed", "option", "remedy"),
     [
-        (METRIC, {"stick": 18.0}, "stick 18 grams", "leave out metric"),
-        (IMPERIAL, {"stick": 540.0}, "stick 540 ounces", "for grams add metric"),
-        (METRIC, {"forearm": 36.0}, "forearm 36", "for ounces leave out"),
-        (METRIC, {"speed": 60.0}, "60 meters per second", "for inches per second"),
-        (IMPERIAL, {"stick_speed": 6e3}, "stick_speed 6000", "add metric"),
+        (METRIC, {"stick": 18.0}, "stick 18 grams", "For ounces, leave out metric"),
+        (IMPERIAL, {"stick": 540.0}, "stick 540 ounces", "For grams, add metric"),
+        (METRIC, {"forearm": 36.0}, "forearm 36", "For ounces, leave out"),
+        (METRIC, {"speed": 60.0}, "60 meters per second", "For inches per second, leave"),
+        (IMPERIAL, {"stick_speed": 6e3}, "stick_speed 6000", "For meters per second, add metric"),
     ],
 )
 def test_a_value_that_may_be_in_other_units_is_doubted(units, typed, option, remedy):

@@ -498,7 +498,7 @@ def test_of_a_list_only_the_entrants_meet(run, tmp_path):
 
 def test_the_help_knows_the_usual_turnover(run):
     text = " ".join(run("matchups", "--help-all").stdout.split())
-    assert f"on average. [0 to 1440; default: {Turnover().mean:g}]" in text
+    assert f"on a table. [0 to 1440; default: {Turnover().mean:g}]" in text
 
 
 def test_skill_levels_need_a_chart_of_levels_or_a_scale(run, tmp_path):

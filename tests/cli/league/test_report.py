@@ -359,7 +359,7 @@ def test_out_is_needed_and_must_not_be_a_file(run, tmp_path):
         (HEADER + "2024-09-03,Ann,Bo,-7,5\n", "stdin:2: score_a '-7'"),
         (HEADER + "2024-09-03,Ann,Ann,7,5\n", "stdin:2: 'Ann'"),
         (HEADER + "2024-09-03,Ann,Bo,0,0\n", "stdin: "),
-        (b"\x89PNG\r\n\x1a\n\0\0", "stdin:3: "),
+        (b"\x89PNG\r\n\x1a\n\0\0", "stdin: is a picture. "),
         (b"PK\x03\x04", "stdin: "),
     ],
 )

@@ -75,7 +75,7 @@ def test_the_warning_says_where_the_file_stops_being_utf8():
         (b"\xef\xbb\xbf", "r.csv: is empty"),
         (b" \r\n\t\n", "r.csv: is empty"),
         (b"a,b\n1,\0\n", "r.csv:2: holds a NUL byte"),
-        (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "r.csv:3: holds a NUL byte"),
+        (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "r.csv: is a picture. Save the table"),
         (b"a,b\n\x81\xff\n", "r.csv:2: is neither UTF-8 nor Windows-1252"),
         (b"\xef\xbb\xbfa,b\n\xe9,1\n", "r.csv:1: is neither UTF-8 nor Windows-1252"),
         ("a,b\n".encode("utf-16")[:-1], "r.csv: is damaged UTF-16 text"),

@@ -219,7 +219,7 @@ def test_a_hostile_workbook_is_one_problem(make: Make, monkeypatch: pytest.Monke
             sheets_of(content, "t.xlsx")
         (problem,) = caught.value.problems
         assert problem.startswith("t.xlsx: ")
-        assert "save" in problem or "delete" in problem
+        assert "Save" in problem or "Delete" in problem
         assert time.monotonic() - began < 20.0
 
 
@@ -244,5 +244,5 @@ def test_an_empty_sheet_to_the_last_row_and_column_is_no_attack() -> None:
 
 def test_where_no_process_can_be_started_that_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(spreadsheet.sys, "executable", "/nowhere/python")
-    with pytest.raises(DataError, match="cannot be read now"):
+    with pytest.raises(DataError, match="can't be read now"):
         sheets_of(xlsx(rows(f'<row r="1">{FILLED}</row>')), "t.xlsx")

@@ -87,7 +87,7 @@ def unit_doubts(units: Units, **typed: float | None) -> list[str]:
     >>> unit_doubts(IMPERIAL, stick=19.0, ball=None, stick_speed=60.0)
     []
     >>> unit_doubts(IMPERIAL, ball=170.0)
-    ['ball 170 ounces is unusual (3 to 10 is typical). For grams add metric.']
+    ['ball 170 ounces is unusual (3 to 10 is typical). For grams, add metric.']
     """
     doubts: list[str] = []
     metric = units is METRIC
@@ -98,9 +98,9 @@ def unit_doubts(units: Units, **typed: float | None) -> list[str]:
         kind = "speed" if name.endswith("speed") else "mass"
         other = getattr(IMPERIAL if metric else METRIC, kind).words
         option = Parameter("metric")
-        remedy = say("For {other} add {option}.", other=other, option=option)
+        remedy = say("For {other}, add {option}.", other=other, option=option)
         if metric:
-            remedy = say("For {other} leave out {option}.", other=other, option=option)
+            remedy = say("For {other}, leave out {option}.", other=other, option=option)
         doubts.append(
             say(
                 "{name} {value:g} {unit} is unusual ({low:g} to {high:g} is typical). {remedy}",
