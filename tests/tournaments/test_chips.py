@@ -123,7 +123,7 @@ def test_fairness_and_a_fairer_chart() -> None:
     "asked, named",
     [
         (lambda: heads_up(0.5, 0, 1), "chips"),
-        (lambda: heads_up(1.5, 1, 1), "p is"),
+        (lambda: heads_up(1.5, 1, 1), "p must be"),
         (lambda: last_players([9] * 6, np.full((6, 6), 0.5)), "too many"),
         (lambda: last_players([1, 1], np.full((2, 2), 0.5), [0, 0]), "line"),
         (lambda: play_chips([3], [[0.5]]), "two players"),

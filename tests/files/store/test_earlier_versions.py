@@ -119,7 +119,9 @@ def test_a_copy_that_cannot_be_made_keeps_the_file_as_it_was(
     before = path.read_bytes()
     monkeypatch.setattr("evenbreak.files.store.evening_file.os.link", refuse)
     monkeypatch.setattr("evenbreak.files.store.evening_file.Path.rename", refuse)
-    with pytest.raises(DataError, match=r"^tournament-format-[12].backup.db can't be written .no room.$"):
+    with pytest.raises(
+        DataError, match=r"^tournament-format-[12].backup.db can't be written .no room.$"
+    ):
         add_events(path, lambda _: [Event(AT, Undone())])
     assert path.read_bytes() == before
     assert not [one for one in earlier.iterdir() if one.name.startswith(".")]

@@ -61,7 +61,7 @@ class Unbound(FargoLike):
 @pytest.mark.parametrize(
     ("system", "named"),
     [
-        (OneSided(), "let it be the same race"),
+        (OneSided(), "must be the same race either way"),
         (OnlyTonight(), "nothing was kept"),
         (ByPlace(), "another order"),
         (AcrossLeagues(), "one league is alone"),

@@ -111,7 +111,7 @@ def _races_are_turned_round(system: System, rng: np.random.Generator) -> Iterato
         yield (
             f"race of the system {system.name} is {m[place]}:{n[place]} for {a[place]:g} "
             f"and {b[place]:g}, but {turned_n[place]}:{turned_m[place]} for {b[place]:g} "
-            f"and {a[place]:g}. Let it be the same race."
+            f"and {a[place]:g}. It must be the same race either way."
         )
 
 
