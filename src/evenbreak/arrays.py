@@ -102,14 +102,14 @@ def owned(value: Any) -> Any:
 
 
 def _holds(value: Any) -> bool:
-    """Return whether a value is an array, begins with one, or has one among named parts."""
+    """Return whether a value is an array, starts with one, or has one among named parts."""
     if isinstance(value, tuple | list):
         return any(map(_holds, value if hasattr(value, "_make") else value[:1]))
     return isinstance(value, np.ndarray)
 
 
 def _is_frozen(array: Any) -> bool:
-    """Return whether this is an array and nobody can write to it, nor to one that it views."""
+    """Return whether this is an array and no one can write to it, nor to one that it views."""
     while isinstance(array, np.ndarray) and not array.flags.writeable:
         if array.base is None:
             return True
@@ -118,7 +118,7 @@ def _is_frozen(array: Any) -> bool:
 
 
 def frozen(array: Array) -> Array:
-    """Return an array to which nobody can write any more."""
+    """Return an array to which no one can write any more."""
     array.flags.writeable = False
     return array
 

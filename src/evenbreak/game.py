@@ -31,7 +31,7 @@ class Game(Protocol):
 
     @property
     def start(self) -> Any:
-        """The state in which the game begins."""
+        """The state in which the game starts."""
         ...
 
     def moves(self, state: Any, /) -> Mapping[Any, float]:
@@ -39,7 +39,7 @@ class Game(Protocol):
         ...
 
     def winner(self, state: Any, /) -> int | None:
-        """Return the number of the player who has won in `state`: 1, 2, ...; None if nobody has."""
+        """Return the number of the player who has won in `state`: 1, 2, ...; None if no one has."""
         ...
 
 

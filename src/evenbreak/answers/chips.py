@@ -1,4 +1,4 @@
-"""Chip tournaments: the odds of one, whom a chip chart favors, and a fairer chart."""
+"""Chip tournaments: the odds of one, who a chip chart favors, and a fairer chart."""
 
 from __future__ import annotations
 
@@ -131,7 +131,7 @@ def chip_odds_answer(
 
 
 def chip_audit(asked: questions.ChipAudit) -> Answer:
-    """Return whom a chip chart favors: over a tournament, and between the last two players."""
+    """Return who a chip chart favors: over a tournament, and between the last two players."""
     field, warnings = _field_of(asked, asked.entrants)
     chart = chip_chart_of(asked.chart)
     found = chip_fairness(
@@ -169,7 +169,7 @@ def chip_design(asked: questions.ChipDesign) -> Answer:
 
 
 def _start(row: ChipRow) -> float | None:
-    """Return where a row of a chart begins; None for the weakest players' row."""
+    """Return where a row of a chart starts; None for the weakest players' row."""
     return None if np.isinf(row.rating_from) else row.rating_from
 
 

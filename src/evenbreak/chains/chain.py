@@ -174,7 +174,7 @@ class Chain:
 
     @cached_property
     def line(self) -> tuple[Places, BirthDeath] | None:
-        """The order in which the states stand in a line, and the chain in it; see `line_of`."""
+        """The order in which the states are in a line, and the chain in it; see `line_of`."""
         return line_of(self.matrix)
 
     @cached_property
@@ -285,7 +285,7 @@ class Chain:
         return self.start
 
     def start_index(self, start: Any = None) -> int | None:
-        """Return the position of the start state, or None if the start is a density."""
+        """Return the position of the start state, or None if the start is a probability vector."""
         if start is None:
             start = self._own_start()
         return None if isinstance(start, (Mapping, np.ndarray)) else self._search(start)

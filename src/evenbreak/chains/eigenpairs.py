@@ -300,7 +300,7 @@ class UnitPairs:
 
     @cached_property
     def right(self) -> Floats:
-        """The stationary laws; shape (n, closed classes)."""
+        """The stationary distributions; shape (n, closed classes)."""
         right = np.zeros((len(self._chain), self.count))
         states = np.flatnonzero(self._class >= 0)
         right[states, self._class[states]] = self._all_laws[0][states]

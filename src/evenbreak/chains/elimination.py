@@ -109,7 +109,7 @@ class Elimination:
         return pivots
 
     def visits(self, b: Sequence[Any]) -> list[Any]:
-        """Return x = (I - T)^-1 b: the expected visits to each state from the density b."""
+        """Return x = (I - T)^-1 b: the expected visits to each state from the vector b."""
         return self._solved(b, transposed=False)
 
     def values(self, r: Sequence[Any]) -> list[Any]:

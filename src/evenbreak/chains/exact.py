@@ -138,7 +138,7 @@ def exact_rows(chain: Chain) -> Rows:
 
 
 def exact_start(chain: Chain, start: Any) -> dict[int, Fraction]:
-    """Return the start as a density: the probability of each position that has one."""
+    """Return the start as a vector: the probability of each position that has one."""
     at = chain.start_index(start)
     if at is not None:
         return {at: Fraction(1)}

@@ -218,7 +218,7 @@ class _Family:
         self._programs: list[_Again] = []
 
     def limits(self, shape: tuple[int, ...]) -> FamilyLimit:
-        """Return the limits of all members, those with the same graph worked out together."""
+        """Return the limits of all members, those with the same graph calculated together."""
         done, step = 0, _BATCH if self._count <= _BATCH else _FIRST
         waiting: list[Places] = []
         while waiting or done < self._count:

@@ -1,4 +1,4 @@
-"""What a chain earns: per step in the long run, and in total until absorption.
+"""Rewards of a chain: per step in the long run, and in total until absorption.
 
 With r_j the expected reward of a step started in j (of the state itself and of the arc then
 taken), pi the stochastic limit and x the expected visits to the transient states,
@@ -116,7 +116,7 @@ def _expected_reward(
     per_state: Mapping[Any, float] | NDArray[Any] | None,
     per_arc: Mapping[tuple[Hashable, Hashable], float] | None,
 ) -> Floats:
-    """Return the expected reward of a step begun in each state; shape (n,)."""
+    """Return the expected reward of a step started in each state; shape (n,)."""
     if per_state is None and per_arc is None:
         raise ChainError("there's no reward. Give per_state or per_arc.")
     per_state = {} if per_state is None else by_label(per_state, "per_state")

@@ -1,4 +1,4 @@
-"""What the graph of a chain says before any number is computed: classes, kinds, periods.
+"""What the graph of a chain shows before any number is computed: classes, kinds, periods.
 
 Two states belong to the same (communicating) class if each can be reached from the other.
 The classes form an acyclic graph and are numbered in a topological order of it, upstream

@@ -1,4 +1,4 @@
-"""Checks of parameters: each returns the value it was given, or says how to correct it."""
+"""Checks of parameters: each returns its value, or an error with the remedy."""
 
 import lazy_loader
 

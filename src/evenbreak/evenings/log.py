@@ -168,7 +168,7 @@ def read_json(kind: type[What], text: str) -> What:
 
 
 def _lowest(text: str) -> float:
-    """Return the one number that JSON has no letters for: where the first of some ranges begins."""
+    """Return the one number that JSON has no letters for: where the first of some ranges starts."""
     if text != "-Infinity":
         raise ValueError(text)
     return -math.inf

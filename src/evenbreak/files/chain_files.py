@@ -196,7 +196,7 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
 
 
 def _winners(winners: Mapping[str, Any], source: str) -> dict[str, int]:
-    """Return the players who have won, without the states in which nobody has."""
+    """Return the players who have won, without the states in which no one has."""
     players = {}
     for state, winner in winners.items():
         if winner is None or winner == "":

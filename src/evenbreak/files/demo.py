@@ -64,7 +64,7 @@ def write_demo_evening(path: str | Path, now: datetime) -> Evening:
 
 
 def _place(name: str) -> Path:
-    """Return where a file of the demo is: in the installed package, or beside it in a checkout."""
+    """Return where a file of the demo is: in the installed package, or next to it in a checkout."""
     installed = Path(str(files("evenbreak") / "demo_data" / name))
     checkout = Path(__file__).resolve().parents[3] / "data" / name
     return installed if installed.exists() else checkout

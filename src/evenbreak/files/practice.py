@@ -287,7 +287,7 @@ class ScoresFile(NamedTuple):
 
 
 class ShotsFile(NamedTuple):
-    """The log of single shots in a file, what the file is called, and what to check in it."""
+    """The log of single shots in a file, the name of the file, and what to check in it."""
 
     log: ShotLog
     source: str

@@ -253,7 +253,7 @@ class _Side:
         return np.asarray(holder[(holder >= 0) & (np.asarray(self.world.teams) == team)])
 
     def _line_up(self, team: int, night: Night) -> Ints:
-        """Return whom a captain with a habit puts up: anybody there, as long as the cap allows."""
+        """Return who a captain with a habit puts up: anyone there, as long as the cap allows."""
         world, sets, rows = self.world, self.world.sets, self._members(team, night)
         groups = np.array(list(combinations(range(len(rows)), sets)))
         pick = night.pick[rows] - 10.0 * ~night.here[rows]
@@ -429,7 +429,7 @@ def play_systems(
     jobs: int = 1,
     progress: Callable[[int, int], None] | None = None,
 ) -> Contest:
-    """Return what replicas of one league come to under each of some systems.
+    """Return the results of replicas of one league under each of some systems.
 
     Parameters
     ----------

@@ -72,7 +72,7 @@ class Counting:
         skill: NDArray[np.int16],
         here: Bools | None,
     ) -> None:
-        """Count the rating errors of the players in the league (None: everybody)."""
+        """Count the rating errors of the players in the league (None: everyone)."""
         if here is None and rating.size * len(self.errors) <= _FEW:
             self.kept.append((week, rating - skill))
             return

@@ -36,7 +36,7 @@ _SETTLED = 1e-15
 
 
 class DumpCycle(NamedTuple):
-    """What a cycle comes to in the long run.
+    """A cycle in the long run.
 
     Parameters
     ----------

@@ -217,7 +217,7 @@ class _Chunk:
         a: Places,
         b: Places,
     ) -> None:
-        """Play matches in which nobody occurs twice."""
+        """Play matches in which no one occurs twice."""
         look = self.lookup
         one, two = before.take(a, axis=0), before.take(b, axis=0)
         apart = (one - two).astype(np.int16)  # the lower bits of the difference: of ratings
@@ -353,7 +353,7 @@ def _below(of_batches: Sequence[Round | None], many: int) -> Round:
 
 
 def _absence(players: LeaguePlayers) -> NDArray[np.uint32] | None:
-    """Return P(absent) in 2^32nds, or None if nobody ever is."""
+    """Return P(absent) in 2^32nds, or None if no one ever is."""
     if not players.absence.any():
         return None
     scaled = np.minimum(np.rint(np.ldexp(players.absence, 32)), 2.0**32 - 1.0)
@@ -361,7 +361,7 @@ def _absence(players: LeaguePlayers) -> NDArray[np.uint32] | None:
 
 
 def _factors(season: Season) -> NDArray[np.int16] | None:
-    """Return a player's factor after 0, 1, 2, ... matches, or None if nobody is new."""
+    """Return a player's factor after 0, 1, 2, ... matches, or None if no one is new."""
     steps = season.system.newcomer_steps
     last = sum(matches for matches, _ in steps)
     if not (season.players.played < last).any():

@@ -124,7 +124,7 @@ def _there(season: Season, week: int, rng: np.random.Generator) -> Bools:
 
 
 def _rounds(season: Season, week: int, rng: np.random.Generator) -> list[Round]:
-    """Return who meets whom; random opponents are drawn among the members of the week only."""
+    """Return who meets who; random opponents are drawn among the members of the week only."""
     if not isinstance(season.schedule, RandomPairing):
         return list(season.schedule.pairs(week, rng, len(season.players)))
     who = np.flatnonzero(season.players.here(week))

@@ -80,7 +80,7 @@ class DumpRow(NamedTuple):
 @array_values
 @dataclass(frozen=True, eq=False)
 class Sandbagging:
-    """What matches lost on purpose bring, by their number.
+    """The gain from matches lost on purpose, by their number.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def sandbagging(
     in_a_row: int = 3,
     prize: float = 0.0,
 ) -> Sandbagging:
-    """Return what it pays to lose matches on purpose and then play in earnest.
+    """Return the profit of losing matches on purpose and then playing to win.
 
     Each probability is conditional on the ladder's model of the opponents, on a skill that
     does not change, and on no one intervening.

@@ -43,7 +43,7 @@ def dumping_played(
     seed: int = 1,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Dumping]:
-    """Return what matches lost on purpose bring, by their number, with Monte Carlo errors.
+    """Return the gain from matches lost on purpose, by number, with Monte Carlo errors.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def dumping_played(
 def errors_played(
     system: System, *, nights: int = 40, replicas: int = 200, seed: int = 1
 ) -> Distribution:
-    """Return how far an established player's number is from their skill, in Fargo points, by play.
+    """Return the error of an established player's number, in Fargo points, by simulation.
 
     The player starts rightly rated, meets players of the same skill who stay so, and is looked at
     in the second half of the nights.

@@ -27,7 +27,7 @@ _FEW = 5000
 
 
 class Schedule(Protocol):
-    """What every schedule can answer."""
+    """The methods of every schedule."""
 
     def pairs(self, week: int, rng: np.random.Generator, count: int) -> Sequence[Round]:
         """Return the rounds of a week (1 is the first) for `count` players."""

@@ -153,7 +153,7 @@ FIFTHS = 5
 @array_values
 @dataclass(frozen=True, eq=False)
 class Tally:
-    """What replicas of a season came to; two tallies of one season are added with `+`.
+    """The results of a season's replicas; two tallies of one season are added with `+`.
 
     All counts are whole numbers, so sums of tallies do not depend on how they are bracketed;
     what is kept batch by batch keeps the order in which tallies are added.
@@ -273,7 +273,7 @@ class Tally:
             return mean, np.sqrt(batches / (batches - 1) * off) / total
 
     def player_errors(self) -> tuple[Floats, Floats, Floats]:
-        """Return the Monte Carlo standard errors of what each player can expect.
+        """Return the Monte Carlo standard errors of each player's expectations.
 
         Returns
         -------

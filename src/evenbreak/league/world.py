@@ -160,7 +160,7 @@ class World:
 
     @cached_property
     def place(self) -> Ints:
-        """Whose place each player has: their own, or that of the player whom they follow."""
+        """Whose place each player has: their own, or that of the player they follow."""
         first = np.arange(len(self.players))
         # Who is followed is drawn, but the same in all replicas and for all seeds.
         drawn = np.random.default_rng(len(first)).permuted(
@@ -222,7 +222,7 @@ class World:
         return games * (1 if self.teams is None else self.sets)
 
     def fixtures(self, week: int) -> tuple[Ints, Ints]:
-        """Return who meets whom in a week of the season, where that is not drawn."""
+        """Return who meets who in a week of the season, where that is not drawn."""
         if week not in self._rounds:
             rounds = self.schedule.pairs(week, np.random.default_rng(week), self.sides)
             sides = [np.concatenate([pair[k] for pair in rounds] or [[]]) for k in (0, 1)]

@@ -42,7 +42,7 @@ _CLOSE = 1e-7  # a step of Newton's method whose successor is a rounding
 
 
 def form_of(form: Any) -> float:
-    """Return a form of the day if it is one: the standard deviation of a game's log-odds."""
+    """Return a day-to-day form if it is one: the standard deviation of a game's log-odds."""
     wanted = f"0 to {MOST_FORM:g}, the standard deviation of the log-odds of a game"
     return number(form, "form", low=0.0, high=MOST_FORM, wanted=wanted)
 

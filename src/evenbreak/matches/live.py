@@ -54,7 +54,7 @@ class Standing(NamedTuple):
 
     @property
     def leverage(self) -> float | None:
-        """What the next rack is worth: player 1's chance after winning it minus after losing it."""
+        """The value of the next rack: player 1's chance after winning it minus after losing it."""
         after = self.p_win_1_after
         return None if after is None else after[0] - after[1]
 
@@ -78,7 +78,7 @@ class LiveOdds:
 
     @property
     def now(self) -> Standing:
-        """Where the match stands now: the last entry of the course."""
+        """The match now: the last entry of the course."""
         return self.course[-1]
 
     @property

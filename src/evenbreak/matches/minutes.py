@@ -122,7 +122,7 @@ def mean_up_to(minutes: ArrayLike, mean: ArrayLike, log_sd: float) -> Floats:
 
 
 def between(low: Any, high: Any, reached: Callable[[Any], Any]) -> Any:
-    """Return where a condition that holds from some point on begins to hold, by halving."""
+    """Return where a condition that holds from some point on starts to hold, by halving."""
     for _ in range(_HALVINGS):
         middle = (low + high) / 2.0
         holds = reached(middle)

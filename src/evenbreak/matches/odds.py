@@ -1,4 +1,4 @@
-"""The odds of one match in plain numbers, worked out without numpy if it is a race."""
+"""The odds of one match in plain numbers, calculated without numpy if it is a race."""
 
 from __future__ import annotations
 

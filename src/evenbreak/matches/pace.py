@@ -26,7 +26,7 @@ from evenbreak.errors import InputError
 
 @dataclass(frozen=True)
 class Pace:
-    """How long matches take, and how much that varies.
+    """How long matches take, and how much this varies.
 
     Parameters
     ----------

@@ -145,7 +145,7 @@ def _polynomial(match: Match, player: int) -> Any:
 
 
 def _quotient(match: Match, player: int) -> Any:
-    """Return the formula of a match that may go on for ever, from its diagram."""
+    """Return the formula of a match that may go on forever, from its diagram."""
     import sympy
 
     symbols = sympy.symbols(_symbols_of(match), seq=True)

@@ -58,7 +58,7 @@ class AimedShot:
 
     @property
     def turn(self) -> float:
-        """The angle by which the line of centers points beside the target, in radians.
+        """The angle between the line of centers and the target, in radians.
 
         Above 0 toward the thinner cut.
         """

@@ -95,7 +95,7 @@ class Leg:
 
     @property
     def roll_begin(self) -> float:
-        """When natural roll begins, in seconds; the end if the ball only slides."""
+        """When natural roll starts, in seconds; the end if the ball only slides."""
         return min(self.begin + float(self.slide.slide_time), self.end)
 
     def state(self, time: float) -> State:

@@ -166,7 +166,7 @@ def drag_distance(speed: FloatOrArray, spin: FloatOrArray, cloth: Cloth) -> Floa
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class Slide:
-    """A ball from the start of its slide until it stops; arrays stand for several balls.
+    """A ball from the start of its slide until it stops; arrays are several balls.
 
     Parameters
     ----------
@@ -213,13 +213,13 @@ class Slide:
 
     @cached_property
     def slide_time(self) -> Any:
-        """Seconds until natural roll begins."""
+        """Seconds until natural roll starts."""
         slip = np.hypot(self.slip[..., 0], self.slip[..., 1])
         return plain(2.0 * slip / (7.0 * self.cloth.slide_deceleration))
 
     @cached_property
     def roll_velocity(self) -> Floats:
-        """The velocity at which natural roll begins, in m/s; shape (..., 2)."""
+        """The velocity at which natural roll starts, in m/s; shape (..., 2)."""
         return roll_velocity(self.velocity, self.ball.radius * self.spin)
 
     @cached_property

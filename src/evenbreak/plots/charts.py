@@ -72,7 +72,7 @@ def _label(name: str) -> str:
 
 
 def _ends(report: ChartAudit, row: AuditRow) -> tuple[float, float]:
-    """Return where a row's tooth begins and ends: halfway to the whole points outside it."""
+    """Return where a row's tooth starts and ends: halfway to the whole points outside it."""
     first = row.difference_from - 0.5 if row.difference_from else 0.0
     if row.difference_to is not None:
         return first, row.difference_to + 0.5

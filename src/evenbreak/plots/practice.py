@@ -164,7 +164,7 @@ def draw_two_lists(
 def _strip(
     axes: Axes, place: int, scores: NDArray[np.float64], interval: MeanInterval | None
 ) -> None:
-    """Draw one list, with equal scores beside one another and the mean to their right."""
+    """Draw one list, with equal scores next to one another and the mean to their right."""
     line = LINES[place]
     values = scores.tolist()
     counts, seen = Counter(values), Counter[float]()

@@ -1,4 +1,4 @@
-"""What a break format is worth in the long run: racks won, stakes, and swings.
+"""The value of a break format in the long run: racks won, stakes, and swings.
 
 There are two states: who breaks. Let r_i be P(player 1 wins | i breaks), so r_1 = p1 and
 r_2 = 1 - p2, and let a and b be the probabilities that the break passes from 1 to 2 and back.
@@ -175,7 +175,7 @@ def first_break_worth(p1: FloatOrArray, p2: FloatOrArray, breaks: BreakFormat) -
 
 
 class BreakFormatValue(NamedTuple):
-    """What a break format is worth to player 1 in the long run, given the stakes of a rack."""
+    """The value of a break format to player 1 in the long run, given the stakes of a rack."""
 
     name: str
     """The format's name in `BREAK_FORMATS`."""

@@ -112,7 +112,7 @@ class DrillLog:
 
     @cached_property
     def starts(self) -> Ints:
-        """The positions of attempts that begin a session or break the rule."""
+        """The positions of attempts that start a session or break the rule."""
         begins = self._new_session.copy()
         begins[self.jumps] = True
         return np.flatnonzero(begins)

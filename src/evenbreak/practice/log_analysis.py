@@ -27,7 +27,7 @@ _QUANTILES = (0.5 - _CONFIDENCE / 2, 0.5, 0.5 + _CONFIDENCE / 2)
 
 
 class LevelReport(NamedTuple):
-    """What a log says about one level.
+    """One level in a log.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class LevelReport(NamedTuple):
 
 @dataclass(frozen=True)
 class LogAnalysis:
-    """What a drill log says.
+    """The analysis of a drill log.
 
     Parameters
     ----------

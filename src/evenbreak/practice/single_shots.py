@@ -158,7 +158,7 @@ def share_intervals(made: Ints, tried: Ints, confidence: float) -> tuple[Floats,
 
 
 def analyse_shots(log: ShotLog, *, confidence: float = 0.95, seed: int = 0) -> ShotAnalysis:
-    """Return what a log of single shots says.
+    """Return the analysis of a log of single shots.
 
     Parameters
     ----------
@@ -207,7 +207,7 @@ def _shrunk(made: Ints, tried: Ints, rng: np.random.Generator) -> tuple[Floats, 
 
 
 def _second_half(log: ShotLog) -> Any:
-    """Return the day with which the later half of the tries begins; None without two days."""
+    """Return the day with which the later half of the tries starts; None without two days."""
     if log.day is None:
         return None
     days, place = np.unique(log.day, return_inverse=True)

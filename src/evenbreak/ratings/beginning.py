@@ -146,12 +146,12 @@ class Beginning:
 
     @property
     def by_games(self) -> Bools:
-        """Which ratings state games, but not how far off they may be."""
+        """Which ratings state games, but not their uncertainty."""
         return np.asarray(np.isnan(self.standard_error) & (self.games > 0.0))
 
     @property
     def unknown_error(self) -> bool:
-        """Whether some rating does not say how far off it may be."""
+        """Whether some rating has no stated uncertainty."""
         return bool(np.isnan(self.standard_error).any())
 
     def known(self, players: Sequence[str], *, brought_sd: float = 0.0) -> Known:
@@ -273,7 +273,7 @@ class PriorMeans:
         )
 
     def at(self, skill: Floats) -> PriorMeans:
-        """Return the same prior where the players whom others follow have some skills."""
+        """Return the same prior where the players that others follow have some skills."""
         if self.follow is None:
             return self
         return replace(self, mean=self.mean + self.follow(skill), follow=None)

@@ -335,7 +335,7 @@ class PairCounts:
 
     @property
     def graph(self) -> sparse.csr_array:
-        """Who met whom: shape (players, players), upper triangular."""
+        """Who met who: shape (players, players), upper triangular."""
         return self.games
 
     def curvature(

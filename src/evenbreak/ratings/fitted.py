@@ -249,7 +249,7 @@ class Ratings:
 
     @cached_property
     def quasi_error(self) -> Floats:
-        """How far each rating may be off in comparisons, in points: quasi-standard errors.
+        """The uncertainty of each rating in comparisons, in points: quasi-standard errors.
 
         The standard error of the difference of two ratings of one component is close to the
         root of the sum of the squares of these two, as if the ratings were independent. Use
@@ -282,12 +282,12 @@ class Ratings:
 
     @property
     def prior_means(self) -> PriorMeans:
-        """The means of the players' priors, and what earlier results say, in log-odds."""
+        """The means of the players' priors, and the evidence of earlier results, in log-odds."""
         return self._means or PriorMeans.none(len(self.players))
 
     @property
     def expected(self) -> Floats:
-        """What each player was expected to be before any result, in points."""
+        """Each player's expected rating before any result, in points."""
         mean = self.prior_means.expected(self._level)
         return self.anchor + self.scale.points_per_log_odds * mean
 
@@ -299,12 +299,12 @@ class Ratings:
 
     @property
     def newcomer(self) -> float:
-        """How far below the average of those who have played a newcomer begins, in points."""
+        """How far below the average of those who have played a newcomer starts, in points."""
         return self.scale.points(self.levels.newcomers) * self.newcomer_share
 
     @cached_property
     def groups(self) -> tuple[Group, ...]:
-        """Each team and division that `levels` counts: how far above the average one it is.
+        """The level of each team and division that `levels` counts, relative to the average one.
 
         Within a kind of group the strongest comes first.
         """

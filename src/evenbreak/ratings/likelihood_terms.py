@@ -66,7 +66,7 @@ class LikelihoodTerms:
 
     @property
     def graph(self) -> sparse.csr_array:
-        """Who met whom: shape (players, players), upper triangular."""
+        """Who met who: shape (players, players), upper triangular."""
         ones = np.ones(len(self.low))
         shape = (self.players, self.players)
         return sparse.coo_array((ones, (self.low, self.high)), shape=shape).tocsr()

@@ -128,7 +128,7 @@ class Evidence(NamedTuple):
 
     @property
     def gain(self) -> Estimate:
-        """What the best of the sizes tried gains."""
+        """The gain of the best of the sizes tried."""
         return max(self.gains, key=lambda gain: gain.value)
 
 

@@ -332,7 +332,7 @@ _Finding = tuple[Bools, str, str]
 
 
 class Problem(NamedTuple):
-    """What is wrong in one cell: the row (from 0), the column, and a remedy in words."""
+    """A problem of one cell: the row (from 0), the column, and a remedy in words."""
 
     row: int
     column: str

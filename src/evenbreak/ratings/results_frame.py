@@ -126,7 +126,7 @@ def _names(reader: FrameReader, column: str) -> list[str]:
 
 
 def _one_spelling(columns: Sequence[Sequence[str]]) -> list[list[str]]:
-    """Return names in one spelling of those that differ in case or blanks alone, with a warning."""
+    """Return names in one spelling of those that differ only in case or blanks, with a warning."""
     counts = Counter(name for column in columns for name in column)
     spelling = usual_spellings(counts)
     meant = {name: spelling[folded(name)] for name in sorted(counts)}

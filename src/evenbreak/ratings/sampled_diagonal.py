@@ -262,7 +262,7 @@ def _groups_of(block: Ints) -> list[tuple[Places, Bools]]:
 
 
 def _inverses(players: Places, there: Bools, row: Ints, column: Ints, value: Floats) -> Floats:
-    """Return the inverse of each block of a group, all of one width; nobody's row is a unit."""
+    """Return the inverse of each block of a group, all of one width; no one's row is a unit."""
     many, wide = players.shape
     place = np.full(max(int(players.max()), int(row.max(initial=0))) + 1, -1)
     place[players[there]] = np.flatnonzero(there)

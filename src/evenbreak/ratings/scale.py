@@ -77,7 +77,7 @@ class Scale:
 
     @property
     def text(self) -> str:
-        """What a file calls the scale: its name, or else its points; `scale_of` reads it.
+        """The scale's name in files, or else its points; `scale_of` reads it.
 
         >>> SCALES["fargo"].text, Scale("of my club", 40.0).text
         ('fargo', '40')

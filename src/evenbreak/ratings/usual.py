@@ -1,4 +1,4 @@
-"""Ratings as a league is rated unless somebody wants it otherwise, with the prior that fits it."""
+"""Ratings as a league is rated unless someone wants it otherwise, with the prior that fits it."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def usual_ratings(
 
 
 def rated_alike(ratings: Ratings, results: Results) -> Callable[[Results], Ratings]:
-    """Return what rates other results of the same players in the same way.
+    """Return a function that rates other results of the same players in the same way.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def _choice(
     *,
     asked: bool,
 ) -> PriorChoice | None:
-    """Return the prior that predicts best; None where the dates cannot show it and nobody asked."""
+    """Return the prior that predicts best; None where the dates cannot show it and no one asked."""
     if as_of is not None:
         results = results.select(until(results, day_of(as_of)))
     if not asked and not can_be_predicted(results):

@@ -100,7 +100,7 @@ def bracket_figure(panels: Sequence[Panel], sheet: Sheet) -> Figure:
 
 
 def _onward(drawn: Drawing) -> float:
-    """Return the width that the numbers of matches elsewhere take beside the last round."""
+    """Return the width that the numbers of matches elsewhere take next to the last round."""
     return _ONWARD if any(number for *_, number in drawn.onward) else 0.0
 
 
@@ -136,14 +136,14 @@ def _parts(panels: Sequence[Panel], wide: float, high: float) -> list[list[Panel
 
 @lru_cache(maxsize=1024)
 def _halves(name: str) -> tuple[str, str]:
-    """Return a name on two lines of much the same width, divided after a blank or a hyphen."""
+    """Return a name on two lines of much the same width, divided after a space or a hyphen."""
     cuts = [match.end() for match in re.finditer(r"[\s-]+", name) if match.end() < len(name)]
     both = [(name[:cut].rstrip(), name[cut:]) for cut in cuts]
     return min(both, key=lambda one: max(len(one[0]), len(one[1])), default=(name, ""))
 
 
 class _Scale(NamedTuple):
-    """Where a drawing begins, and how wide a round and how high a match is, in inches."""
+    """Where a drawing starts, and how wide a round and how high a match is, in inches."""
 
     left: float
     top: float

@@ -99,7 +99,7 @@ class Paper:
         self.text(x, y + 0.365 * size / POINTS, text, size=size, **{"ha": "center", **style})
 
     def slanted(self, x: float, y: float, text: str, *, size: float, angle: float) -> None:
-        """Write text that begins at (x, y) and rises by an angle in degrees."""
+        """Write text that starts at (x, y) and rises by an angle in degrees."""
         self.text(x, y, text, size=size, rotation=angle, rotation_mode="anchor")
 
     def line(self, x: Sequence[float], y: Sequence[float], **style: Any) -> None:

@@ -94,7 +94,7 @@ class PageSizes:
         return self.left + self.cell * across
 
     def bars(self, across: int) -> tuple[float, float]:
-        """Where the axis of the bars begins and ends."""
+        """Where the axis of the bars starts and ends."""
         start = self.right(across) + 3 * GAP + self.rating
         return start, min(start + WIDEST_BARS, self.wide - MARGIN - self.group)
 

@@ -164,7 +164,7 @@ class PublishedLeague:
 
     @cached_property
     def _worth(self) -> dict[int, tuple[float, float]]:
-        """What each of the last matches is worth to its two players' ratings."""
+        """The value of each of the last matches to its two players' ratings."""
         again = rated_alike(self.ratings, self.results)
         everything, worth = np.arange(len(self.results)), {}
         for row in self.rows[:MOST_REFITS]:

@@ -95,7 +95,7 @@ class PublicNames:
 
     @property
     def private(self) -> bool:
-        """Whether anybody is not named in full."""
+        """Whether anyone is not named in full."""
         return any(way != "full" for way in self.ways.values())
 
     @property
@@ -131,7 +131,7 @@ def _short(name: str, way: Shown, number: int) -> str:
 
 
 def _unlike(name: str, taken: set[str]) -> str:
-    """Return a name that nobody has yet, and take it."""
+    """Return a name that no one has yet, and take it."""
     tried, number = name, 1
     while tried.casefold() in taken:
         number += 1

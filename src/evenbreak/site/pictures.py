@@ -19,7 +19,7 @@ _BANDS = ((0.0, 0.25), (0.25, 0.5), (0.5, 0.75), (0.75, 1.0))
 
 
 class Axis(NamedTuple):
-    """From which value to which a picture goes, and the values named beside it."""
+    """From which value to which a picture goes, and the values named next to it."""
 
     low: float
     high: float

@@ -59,7 +59,7 @@ class LeagueRaces:
 
     @property
     def levels(self) -> dict[str, int]:
-        """Everybody's skill level, with a chart of levels."""
+        """Everyone's skill level, with a chart of levels."""
         if isinstance(self.rule, (OfferedRaces, Chart)):
             return {}
         return dict(zip(self.roster.players, self._points.tolist(), strict=True))

@@ -310,7 +310,7 @@ def critical_value(coverage: FloatOrArray) -> FloatOrArray:
 
 
 def coverage_within(z: FloatOrArray) -> FloatOrArray:
-    """Return P(-z <= Z <= z) for Z standard normal: how much lies within z standard deviations.
+    """Return P(-z <= Z <= z) for Z standard normal: the share within z standard deviations.
 
     Parameters
     ----------

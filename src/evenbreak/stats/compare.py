@@ -104,7 +104,7 @@ class Comparison:
 
 
 def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
-    """Return what two lists of scores say about a change between them.
+    """Return tests for a change between two lists of scores.
 
     Parameters
     ----------

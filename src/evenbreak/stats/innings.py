@@ -189,7 +189,7 @@ def _binomial(p: Fraction, made: Any, missed: Any) -> Any:
 
 
 def _beta(a: Any, b: Any, x: Fraction) -> Any:
-    """Return the regularised incomplete beta function I_x(a, b), a and b 1 or more."""
+    """Return the regularized incomplete beta function I_x(a, b), a and b 1 or more."""
     from scipy.special import betaincc
 
     a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)

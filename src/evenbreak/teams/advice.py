@@ -1,4 +1,4 @@
-"""Whom to put up now: what each pick is worth from a point in the night on."""
+"""Who to put up now: the value of each pick from a point in the night on."""
 
 from __future__ import annotations
 

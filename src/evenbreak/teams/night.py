@@ -115,7 +115,7 @@ class TeamNight:
 
     @property
     def reach(self) -> int:
-        """By how much one set can change the lead at most."""
+        """The largest change of the lead in one set."""
         return max(int(law.shape[3]) for law in self.laws) // 2
 
     def leads_after(self, sets: int) -> set[int]:
@@ -136,7 +136,7 @@ class TeamNight:
         return found
 
     def payoff(self, leads: ArrayLike) -> Floats:
-        """Return what each final lead is worth: 1 won, 0 lost, `tie` tied."""
+        """Return the value of each final lead: 1 won, 0 lost, `tie` tied."""
         lead = np.asarray(leads)
         return np.where(lead > 0, 1.0, np.where(lead < 0, 0.0, self.tie))
 

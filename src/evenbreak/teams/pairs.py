@@ -1,4 +1,4 @@
-"""How two picks compare: what each needs in a set, and how far apart they are in strength."""
+"""Two picks compared: their races in a set, and the difference in strength."""
 
 from __future__ import annotations
 

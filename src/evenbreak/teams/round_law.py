@@ -32,7 +32,7 @@ _DRAWS = 512  # of the skills, where everybody meets everybody; they leave an er
 
 
 class Outcome(NamedTuple):
-    """What comes of a round: P(we win it), P(it is tied), P(they win it)."""
+    """The outcome of a round: P(we win it), P(it is tied), P(they win it)."""
 
     win: float
     tie: float
@@ -68,7 +68,7 @@ class RoundLaw:
         return float(self.lead @ np.arange(-self.reach, self.reach + 1))
 
     def with_start(self, start: float) -> Outcome:
-        """Return what comes of the round if we start with so many games (fewer than 0: they do).
+        """Return the outcome of the round if we start with so many games (below 0: they do).
 
         A start with half a game leaves no ties.
 

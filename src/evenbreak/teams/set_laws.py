@@ -177,7 +177,7 @@ def set_lengths(
     form: float = 0.0,
     levels: LevelSkills | None = None,
 ) -> Floats:
-    """Return how many games a set takes, for each of our picks against each of theirs.
+    """Return the length of a set in games, for each of our picks against each of theirs.
 
     Parameters
     ----------
@@ -245,7 +245,7 @@ def law_in_play(
     form: float = 0.0,
     levels: LevelSkills | None = None,
 ) -> Floats:
-    """Return what a match that is being played can bring, from its score on.
+    """Return the possible results of a match in play, from its score on.
 
     Parameters
     ----------

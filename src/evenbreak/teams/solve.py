@@ -47,7 +47,7 @@ class SolvedNight:
 
     @property
     def value(self) -> float:
-        """What the night is worth before the first nomination."""
+        """The value of the night before the first nomination."""
         return float(self.values[0][0, 0, 0, 0])
 
     def mirrored(self, night: TeamNight) -> SolvedNight:

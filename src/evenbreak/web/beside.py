@@ -1,4 +1,4 @@
-"""A thread beside the pages, for what takes long."""
+"""A thread next to the pages, for what takes long."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ _ARENAS, _TRIM, _APART = -8, -1, -3  # of malloc.h: M_ARENA_MAX, M_TRIM_THRESHOL
 
 
 def serve(asked: Serve, league: LeagueFile | None) -> None:
-    """Serve the page until Ctrl+C; its forms begin with the rules of a league."""
+    """Serve the page until Ctrl+C; its forms start with the rules of a league."""
     if not asked.open or asked.demo:
         _serve(asked, _demo() if asked.demo else Path(asked.file or "tonight.db"), league)
         return

@@ -1,4 +1,4 @@
-"""What forms begin with, from the league's file in the folder where the page runs."""
+"""What forms start with, from the league's file in the folder where the page runs."""
 
 from __future__ import annotations
 

@@ -255,7 +255,7 @@ def _absent(state: Evening, event: Event) -> str:
 def shouts(
     states: Mapping[int, Evening], read: Mapping[int, int], last: LastAct | None
 ) -> list[Sentence]:
-    """Return what to call out, by table: the matches called by the last act, not begun."""
+    """Return what to call out, by table: the matches called by the last act, not started."""
     found = []
     for n, state in states.items():
         its = zip(state.numbers, state.events, strict=True)

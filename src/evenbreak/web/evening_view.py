@@ -61,7 +61,7 @@ class EveningView:
 
 
 def provisional_in(state: Evening) -> Collection[str]:
-    """Return whose ratings are provisional; nobody's if all are, as where nobody has a rating."""
+    """Return whose ratings are provisional; no one's if all are, as where no one has a rating."""
     few = {name for name, entrant in state.entrants.items() if entrant.provisional}
     return few if len(few) < len(state.entrants) else ()
 

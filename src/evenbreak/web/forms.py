@@ -61,7 +61,7 @@ class Form:
         self.fields = fields
 
     def text(self, name: str, *, longest: int = LONGEST) -> str:
-        """Return a text without the blanks around it; '' if it was left empty."""
+        """Return a text without the spaces around it; '' if it was left empty."""
         value = self.fields.get(name, "")
         if not isinstance(value, str):
             raise RefusalError("{field} isn't text.", field=Parameter(name))
@@ -79,7 +79,7 @@ class Form:
         return value if isinstance(value, bytes) else b""
 
     def texts(self, name: str) -> list[str]:
-        """Return the texts of all fields of a name, without the blanks around them."""
+        """Return the texts of all fields of a name, without the spaces around them."""
         given = self.fields.getlist(name)
         return [Form(Fields([(name, one)])).text(name) for one in given]
 
@@ -183,7 +183,7 @@ async def form_of(request: Request) -> Form:
 
 
 async def directors_form(request: Request) -> Form:
-    """Read a form of a director's session; refuse everybody else's."""
+    """Read a form of a director's session; refuse everyone else's."""
     form = await form_of(request)
     check_director(request)
     return form
@@ -335,7 +335,7 @@ def read_upload(content: bytes, read: Callable[[Path], Read]) -> Read:
 
 
 def warnings_of(file: RosterFile, name: str = "") -> list[str]:
-    """Return the warnings about a list that came in, with its name in place of the file's."""
+    """Return the warnings about a list that came in, with its name instead of the file's."""
     return [_nameless(of_list(text, name), file.source, name) for text in file.warnings]
 
 

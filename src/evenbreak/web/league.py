@@ -126,7 +126,7 @@ class League:
         return self._whys[pair].result() if self._whys[pair].done() else None
 
     def begin(self) -> None:
-        """Read and rate the results, beside the pages; an earlier run no longer counts."""
+        """Read and rate the results, next to the pages; an earlier run no longer counts."""
         self._asked += 1
         self.problem, self.progress = "", Progress()
         task = asyncio.create_task(self._run(self._asked))

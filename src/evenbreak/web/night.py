@@ -98,7 +98,7 @@ class Night:
 
     @property
     def exists(self) -> bool:
-        """Whether the tournament has been begun."""
+        """Whether the tournament has been started."""
         self._begun = self._begun or holds(self.path, str(self.event))
         return self._begun and self.path.exists()
 
@@ -109,7 +109,7 @@ class Night:
 
     @property
     def begun_at(self) -> str:
-        """When the tournament was begun; '' if there is none."""
+        """When the tournament was started; '' if there is none."""
         return self.state().events[0].at if self.exists else ""
 
     def state(self) -> Evening:
@@ -146,7 +146,7 @@ class Night:
 
     @property
     def means(self) -> Mapping[str, float]:
-        """What ratings are on average, given tonight's games, as far as worked out."""
+        """What ratings are on average, given tonight's games, as far as calculated."""
         return self.known.means if self.known else {}
 
     def prizes(self) -> list[float]:
@@ -192,7 +192,7 @@ class Night:
         return self.known if same_tournament else None
 
     async def story(self) -> Story | None:
-        """Return the story of the night as far as it is worked out; None: of nothing yet."""
+        """Return the story of the night as far as it is calculated; None: of nothing yet."""
         state = await asyncio.to_thread(self.state)
         if not state.drawn:
             return None
@@ -240,7 +240,7 @@ class Night:
 
 
 def problem_of(error: Exception) -> str:
-    """Return what a page says of an error in work that goes on beside it."""
+    """Return what a page says of an error in work that goes on next to it."""
     if isinstance(error, EvenbreakError):
         return error.sentence
     return say(str(error) or type(error).__name__)
@@ -296,7 +296,7 @@ def means_of(night: Outlook) -> dict[str, float]:
 
 
 def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
-    """Return when the next match of each player who does not play now begins."""
+    """Return when the next match of each player who does not play now starts."""
     if night.state.plan.form == "chips":
         return {}
     found, starts = night.as_things_are, {}
@@ -309,7 +309,7 @@ def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
 
 
 def _starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
-    """Return when each match begins that has not begun."""
+    """Return when each match starts that has not started."""
     if night.state.plan.form == "chips":
         return {}
     found = night.as_things_are

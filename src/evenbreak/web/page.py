@@ -336,7 +336,7 @@ def can_be_opened(request: Request, path: str) -> bool:
 
 
 def reason(request: Request, why: Exception) -> str:
-    """Return why something is refused, in the reader's language: a line each."""
+    """Return why something is refused, in the reader's language: one per line."""
     text = why.sentence if isinstance(why, EvenbreakError) else str(why)
     return without_folder(request, capital_in_face(text, page_face(language(request))))
 

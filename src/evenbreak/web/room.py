@@ -1,4 +1,4 @@
-"""Whether the phones in the room can open the page, and under which addresses of this computer."""
+"""Whether phones at the venue can open the page, and at which addresses of this computer."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Room:
             await self._open()
 
     async def close(self) -> None:
-        """Let nobody in but this computer."""
+        """Let no one in but this computer."""
         async with self._turn:
             self._close()
 

@@ -91,7 +91,7 @@ class Site:
 
     @property
     def nights(self) -> list[Night]:
-        """The events of the night, which share its tables; a lone one if none has begun."""
+        """The events of the night, which share its tables; a lone one if none has started."""
         mark = mark_of(self.path)
         if mark != self._numbers[0]:
             with suppress(DataError):  # of a file that cannot be read, the pages say why
@@ -105,7 +105,7 @@ class Site:
 
     @property
     def begun(self) -> list[Night]:
-        """The events of the night; none where none has begun."""
+        """The events of the night; none where none has started."""
         return [night for night in self.nights if night.exists]
 
     @property
@@ -217,7 +217,7 @@ class Site:
 
     @property
     def queue(self) -> Sequence[tuple[int, str]]:
-        """The matches of all events in the order that ends the night soonest, as worked out."""
+        """The matches of all events in the order that ends the night soonest, as calculated."""
         known = [night.known for night in self.nights if night.known and night.known.queue]
         return max(known, key=lambda one: one.at).queue if known else ()
 
@@ -277,7 +277,7 @@ class Site:
         return self._codes[1]
 
     def player_code(self, name: str) -> str:
-        """Return the short code of a player; '' of somebody who does not play tonight."""
+        """Return the short code of a player; '' of someone who does not play tonight."""
         return self.player_codes().get(name, "")
 
     def _token(self, what: str) -> str:
@@ -325,7 +325,7 @@ def night_of(request: Request) -> Night:
 
 
 def begun(night: Night) -> Night:
-    """Return an event of the night; refuse one that has not begun."""
+    """Return an event of the night; refuse one that has not started."""
     if not night.exists:
         raise RefusalError("No tournament is running yet.", status=404)
     return night
@@ -340,7 +340,7 @@ async def drawn_state(request: Request) -> Evening:
 
 
 def begun_nights(request: Request) -> list[Night]:
-    """Return the events of the night; refuse if none has begun."""
+    """Return the events of the night; refuse if none has started."""
     site: Site = request.app.state.site
     return site.begun or [begun(site.night)]
 

@@ -1,4 +1,4 @@
-"""The form that begins a team night: its fields, and the plan that they make."""
+"""The form that starts a team night: its fields, and the plan that they make."""
 
 from __future__ import annotations
 

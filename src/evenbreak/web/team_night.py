@@ -1,4 +1,4 @@
-"""The team night as the pages show it: its state, and what is worked out of it beside them."""
+"""The team night as the pages show it: its state, and what is calculated of it beside them."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class TeamNights:
         return {name for sheet in sheets for name in (sheet.name, *sheet.players)}
 
     async def chances(self, now: TeamNow) -> tuple[float, float] | None:
-        """Return both teams' chances of winning the night; None: they are being worked out."""
+        """Return both teams' chances of winning the night; None: they are being calculated."""
 
         def work() -> tuple[float, float]:
             ours = chance(self._side(now.state, 0), now.state)
@@ -84,7 +84,7 @@ class TeamNights:
         return found
 
     async def times(self, now: TeamNow, at: str) -> list[str]:
-        """Return when the next set starts and the night ends; nothing while it is worked out."""
+        """Return when the next set starts and the night ends; nothing while it is calculated."""
 
         def work() -> list[str]:
             seen = now.state.seen_by(EVERYBODY)  # the times must not give away an unseen pick

@@ -72,7 +72,7 @@ class Sentence(str):
         return _ended(template, _InFace(face).vformat(template, (), self.values))
 
     def is_ours(self, face: Face) -> bool:
-        """Return whether it begins with a word of ours in a face, and not with a value."""
+        """Return whether it starts with a word of ours in a face, and not with a value."""
         template = self.wording.said(face)
         if not template.startswith("{") or not self.values:
             return True
@@ -132,7 +132,7 @@ class Joined(Sentence):
         return sentence
 
     def is_ours(self, face: Face) -> bool:
-        """Return whether it begins with a word of ours, and not with a value."""
+        """Return whether it starts with a word of ours, and not with a value."""
         first = self.parts[0] if self.parts else ""
         return isinstance(first, Sentence) and first.is_ours(face)
 
@@ -164,7 +164,7 @@ class _Thing(Sentence):
         raise NotImplementedError
 
     def is_ours(self, face: Face) -> bool:  # noqa: ARG002
-        """Return whether it begins with a word of ours, and not with a value."""
+        """Return whether it starts with a word of ours, and not with a value."""
         return isinstance(self, Parameter)
 
     def said(self, face: Face) -> str:

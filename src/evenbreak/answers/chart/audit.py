@@ -189,7 +189,7 @@ def _made_for(report: ChartAudit) -> Iterator[str]:
 
 
 def _rough(report: ChartAudit, fit: ChartFit) -> bool:
-    """Return whether the bands of a chart begin far from where a fit would put them."""
+    """Return whether the bands of a chart start far from where a fit would put them."""
     widths = [
         row.difference_to - row.difference_from + 1
         for row in report.rows

@@ -1,4 +1,4 @@
-"""The fairest chart within limits, and other charts beside it."""
+"""The fairest chart within limits, and other charts next to it."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress

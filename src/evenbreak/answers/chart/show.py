@@ -1,4 +1,4 @@
-"""The charts and the systems that there are, and the races of a chart."""
+"""All charts and systems, and the races of a chart."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An answer as a face says it: in the language of a reader, with the face's names for options."""
+"""An answer in one output format: in the reader's language, with its names for options."""
 
 from __future__ import annotations
 

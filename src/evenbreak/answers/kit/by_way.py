@@ -1,4 +1,4 @@
-"""By which way an answer was calculated, and how far another seed would move a simulation."""
+"""The method behind an answer, and how far another seed would move a simulation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What takes long is told before it begins: a terminal says so, an interface refuses it."""
+"""Long work is announced before it starts: a terminal prints a line, an interface refuses it."""
 
 from __future__ import annotations
 

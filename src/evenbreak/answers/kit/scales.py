@@ -335,7 +335,7 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
 
 
 def form_details(form: DayForm | None, scale: Scale) -> Iterator[str]:
-    """Yield what was found out about form of the day, with its interval."""
+    """Yield what was found out about day-to-day form, with its interval."""
     if form is None:
         return
     v, low, high = form.variance
@@ -367,7 +367,7 @@ def form_used_words(form: float, scale: Scale | None = None) -> str:
 
 
 def form_data(form: DayForm | None) -> dict[str, Any] | None:
-    """Return form of the day for JSON, in log-odds."""
+    """Return day-to-day form for JSON, in log-odds."""
     if form is None:
         return None
     variance, low, high = form.variance

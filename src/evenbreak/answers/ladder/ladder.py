@@ -1,4 +1,4 @@
-"""How far off ratings are in the long run, and what that does to matches and newcomers."""
+"""Rating errors in the long run, and their effect on matches and newcomers."""
 
 from __future__ import annotations
 
@@ -342,7 +342,7 @@ class LadderFindings:
 
     @cached_property
     def mixing_matches(self) -> int | None:
-        """The matches until an error that began at `start` is within 1/4 of the long run."""
+        """The matches until an error that started at `start` is within 1/4 of the long run."""
         slow = "how long the start matters is not shown: it is more than 100,000 matches"
         return self._unless_missing(lambda: ladder_mixing(self.ladder, self.question.start), slow)
 

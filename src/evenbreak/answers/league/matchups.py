@@ -122,7 +122,7 @@ def _race_columns(tonight: Round, prefix: str, *, both: bool) -> list[Column]:
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """The rows of the table, worked out each time they are read."""
+    """The rows of the table, calculated each time they are read."""
 
     round: Round
     columns: Sequence[Column]

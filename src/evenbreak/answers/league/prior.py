@@ -91,7 +91,7 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
 
 
 def _beginning_words(ratings: Ratings) -> Iterator[str]:
-    """Yield how many players bring a rating along, and how far off it is taken to be."""
+    """Yield how many players bring a rating along, and its assumed uncertainty."""
     beginning, off = ratings.levels.beginning, ratings.levels.brought_sd
     if beginning is None:
         return

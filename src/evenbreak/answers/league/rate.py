@@ -1,4 +1,4 @@
-"""How strong everybody is, and how certain that is; or how far apart two players are."""
+"""Ratings with their uncertainty, or the difference between two players."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -40,7 +40,7 @@ def rate_answer(
     pairs: Sequence[tuple[int, int]] = (),
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return the ratings of a league, or how far apart the players of some pairs are.
+    """Return the ratings of a league, or the differences between the players of some pairs.
 
     Parameters
     ----------

@@ -196,7 +196,7 @@ def _numbers(values: NDArray[np.float64]) -> list[float | int | None]:
 
 
 def _reasons_table(moves: RatingChanges, order: Sequence[int]) -> Table:
-    """Return who played, how their ratings changed and why, a line a match."""
+    """Return who played, how their ratings changed and why, one line per match."""
     why = _reasons(moves)
     rows: list[tuple[Any, ...]] = []
     for place in order:

@@ -109,7 +109,7 @@ NOTHING_LEFT_OUT = "Nothing: every match in the file was used, and every player 
 def left_out(
     sheet: Sheet, *, listed: int | None = None, in_table: int | None = None
 ) -> Iterator[Remark]:
-    """Yield what the numbers don't include; None in place of a number of players shown: all."""
+    """Yield what the numbers don't include; None instead of a number of players shown: all."""
     if skipped := sheet.file.skipped:
         yield Remark(count_of(skipped, "bad row"), "left out, as asked")
     yield from _uncounted_matches(sheet.ratings)

@@ -64,7 +64,7 @@ class OfferedRaces:
 
     @property
     def in_words(self) -> str:
-        """What was chosen from, in a sentence."""
+        """The races on offer, in a sentence."""
         if self.games is None:
             needs = count_of(self.race_to or 0, "game")
             return f"The fairest races in which the stronger player needs {needs}."
@@ -291,7 +291,7 @@ def roster_matchups(
 
 
 def _linked(roster: Roster, a: Ints, b: Ints) -> NDArray[np.bool_]:
-    """Return which pairs can be compared; a new player's starter rating compares with anybody's."""
+    """Return which pairs can be compared; a new player's starter rating compares with anyone's."""
     group = np.where(roster.games == 0, 0, roster.component)
     linked: NDArray[np.bool_] = (group[a] == group[b]) | (group[a] == 0) | (group[b] == 0)
     return linked

@@ -1,4 +1,4 @@
-"""The races of a round: who meets whom, what they may play, and when it is all over."""
+"""The races of a round: who meets who, what they may play, and when it is over."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -87,7 +87,7 @@ class Round:
 
     @property
     def kinds(self) -> dict[str, AnyChart | OfferedRaces]:
-        """What the races come from, by what their columns begin with: first those to play."""
+        """What the races come from, by what their columns start with: first those to play."""
         by_chart: dict[str, AnyChart | OfferedRaces] = {}
         if self.chart is not None:
             by_chart["chart_"] = self.chart

@@ -1,4 +1,4 @@
-"""A simulated season, for whoever runs the league: ratings, fairness, who gains, and luck."""
+"""A simulated season, for league operators: ratings, fairness, who gains, and luck."""
 
 from __future__ import annotations
 

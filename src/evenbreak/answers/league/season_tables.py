@@ -174,7 +174,7 @@ def _over_cycle(weeks: Floats, cycle: int) -> Floats:
 
 
 def weeks_with_players(weeks: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of `weeks_frame` with anybody in the league, as floats: NaN, never NA."""
+    """Return the rows of `weeks_frame` with anyone in the league, as floats: NaN, never NA."""
     return weeks[weeks["players"] > 0].astype(float)
 
 
@@ -276,7 +276,7 @@ def matches_frame(played: PlayedSeason) -> pd.DataFrame:
 
 
 def truth_frame(season: Season, played: PlayedSeason) -> pd.DataFrame:
-    """Return what is never known of a real league: the true skills behind the matches.
+    """Return the true skills behind the matches, which are never known in a real league.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Players chosen."""
+"""The fair-race sheet: the players who are on it, their ratings, the fairest races."""
 
 from __future__ import annotations
 
@@ -319,7 +319,7 @@ class Sheet:
 
     @cached_property
     def bands(self) -> list[Band]:
-        """The chart that the races come to, empty if there is none.
+        """The chart that the races make, empty if there is none.
 
         It is that of a pair whose difference is known as well as for half of the pairs.
         """
@@ -336,7 +336,7 @@ class Sheet:
 
     @cached_property
     def summary(self) -> pd.DataFrame:
-        """What the sheet was made from and how: the table of summary.csv."""
+        """The sources and settings of the sheet: the table of summary.csv."""
         made = summary_frame(self.file, self.ratings, self.paired, self.offered)
         given = pd.DataFrame({"key": ["title"], "value": [self.title]}, dtype=object)
         return pd.concat([given, made], ignore_index=True) if self.title else made
@@ -365,7 +365,7 @@ def races_by_name(paired: pd.DataFrame) -> dict[tuple[str, str], str]:
 def summary_frame(
     file: ResultsFile, ratings: Ratings, paired: pd.DataFrame, offered: OfferedRaces
 ) -> pd.DataFrame:
-    """Return what a report was made from and how, as rows of key and value.
+    """Return the sources and settings of a report, as rows of key and value.
 
     `components` counts those of players with games; `anchor` is the mean rating of each
     component, so the rating of a player without games; the standard deviation of the prior

@@ -106,7 +106,7 @@ def _dates(found: Validation) -> int:
 
 
 def _games(found: Validation) -> Table:
-    """Return how often favorites won games, beside the chances that they had been given."""
+    """Return how often favorites won games, compared with the chances that they had been given."""
     columns = columns_of("predicted games seen_percent range_percent")
     rows = [(row.predicted, row.games, row.seen, (row.low, row.high)) for row in found.games]
     title = (

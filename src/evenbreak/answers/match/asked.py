@@ -268,7 +268,7 @@ def _places(asked: Players, file: RosterFile) -> list[int]:
 
 
 def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
-    """Return two players of a list, with its ratings, scale, errors and form of the day."""
+    """Return two players of a list, with its ratings, scale, errors and day-to-day form."""
     from evenbreak.answers.kit.systems import (
         LEAVE_OUT,
         SAY_WHICH,

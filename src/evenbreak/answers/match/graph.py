@@ -205,7 +205,7 @@ def eigenvector_table(road: Road) -> Table:
 
 
 def arcs_table(road: Road) -> Table:
-    """Return the arcs, those out of the start first, because a file of arcs begins there."""
+    """Return the arcs, those out of the start first, because a file of arcs starts there."""
     columns = columns_of("source target probability")
     arcs: list[Any] = sorted(
         road.graph.edges(data="probability"), key=lambda arc: arc[0] != road.chain.start

@@ -1,4 +1,4 @@
-"""A match under way: how it stands, what the next game is worth, how it went."""
+"""A match under way: the score, the value of the next game, how it went."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -106,7 +106,7 @@ def _now(now: Standing, players: TwoPlayers) -> Quantities:
 
 
 def _course(odds: LiveOdds) -> Table:
-    """Return the match as it went, a row a moment, the first before any game."""
+    """Return the match as it went, one row per moment, the first before any game."""
     moments = zip(odds.course, (None, *odds.winners), (None, *odds.swings), strict=True)
     rows = [
         (
@@ -160,7 +160,7 @@ def _turning_point(odds: LiveOdds, players: TwoPlayers) -> str:
 
 
 def _standing_words(match: Match, now: Standing, players: TwoPlayers) -> str:
-    """Return what is played and how it stands."""
+    """Return what is played and the score."""
     text = f"{match_words(replace(match, score=(0, 0)))}, score {_score_words(now)}"
     if now.leverage is None:
         return text

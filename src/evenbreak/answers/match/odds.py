@@ -146,7 +146,7 @@ class TwoPlayers:
 
     @property
     def by_form(self) -> str:
-        """The sentence that form of the day is allowed for, '' where it is not."""
+        """The sentence that day-to-day form is allowed for, '' where it is not."""
         if not self.form:
             return ""
         from evenbreak.answers.kit.scales import form_used_words
@@ -155,7 +155,7 @@ class TwoPlayers:
 
     @property
     def taken_as_right(self) -> str:
-        """The sentence that the ratings are taken as right, '' where they are not in doubt."""
+        """The sentence that the ratings are treated as exact, '' where they are not in doubt."""
         if self.skills is not None:
             return self.skills.why
         if not self.error:
@@ -373,7 +373,7 @@ def races_for(players: TwoPlayers, asked: Fair) -> list[FairRace]:
 
 
 def _refuse_without_odds(players: TwoPlayers, asked: Fair) -> None:
-    """Refuse chances that form of the day cannot change, or about which it says nothing."""
+    """Refuse chances that day-to-day form cannot change, or about which it says nothing."""
     if players.p_game_a is None:
         asked.refuse("{form} knows nothing of the break here. Give {p}, or two ratings.")
     if players.p_game_a in (0.0, 1.0):

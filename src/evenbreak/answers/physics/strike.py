@@ -168,7 +168,7 @@ def _stun(strike: Strike, distance: float, cloth: Cloth) -> float | None:
 
 
 def _time_to(distance: float, strike: Strike, cloth: Cloth) -> float:
-    """Return when the ball has slid a distance, or begins to roll before that, in seconds."""
+    """Return when the ball has slid a distance, or starts to roll before that, in seconds."""
     speed, slip = float(strike.speed), 1.0 - float(strike.topspin)
     slowing = math.copysign(cloth.mu_slide * cloth.gravity, slip)
     rolls = 2.0 * abs(slip) * speed / (7.0 * abs(slowing))

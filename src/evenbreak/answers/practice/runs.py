@@ -1,4 +1,4 @@
-"""What a player runs in an inning, or scores in several."""
+"""Runs of one inning, and scores of several."""
 
 import math
 from dataclasses import dataclass, replace

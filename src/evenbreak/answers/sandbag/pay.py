@@ -1,4 +1,4 @@
-"""What it pays to lose matches on purpose: by matches dumped, in cycles, and by chart."""
+"""The profit of losing matches on purpose: by matches dumped, in cycles, and by chart."""
 
 import math
 from collections.abc import Iterator, Sequence

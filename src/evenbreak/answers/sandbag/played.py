@@ -1,4 +1,4 @@
-"""What losing on purpose pays under a system without points by match: exact or played."""
+"""The gain from losing on purpose under a system without points by match: exact or simulated."""
 
 from __future__ import annotations
 

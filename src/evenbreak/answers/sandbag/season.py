@@ -1,4 +1,4 @@
-"""A season watched for sandbagging: its races, and the events in which somebody may dump."""
+"""A season watched for sandbagging: its races, and the events in which someone may dump."""
 
 from collections.abc import Sequence
 from dataclasses import replace

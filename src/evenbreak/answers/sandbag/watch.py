@@ -1,4 +1,4 @@
-"""Whose results look like sandbagging, and what each match of one player weighs."""
+"""Whose results look like sandbagging, and the weight of each match of one player."""
 
 import math
 from collections.abc import Iterator, Sequence

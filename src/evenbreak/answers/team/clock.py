@@ -86,7 +86,7 @@ def night_clock(state: TeamEvening, now: str) -> NightClock:
 
 
 def _begun(state: TeamEvening) -> dict[int, str]:
-    """Return when each set began: its players were known, and a table was free."""
+    """Return when each set started: its players were known, and a table was free."""
     free = [""] * state.plan.tables  # since when each free table is free
     begun = {}
     for line in state.sets:

@@ -1,4 +1,4 @@
-"""Whom to put up in a team match, and what each choice is worth."""
+"""Who to put up in a team match, and the value of each choice."""
 
 from __future__ import annotations
 
@@ -220,7 +220,7 @@ def _table(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -> Tab
 
 
 def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | None, str]:
-    """Return what the night is worth if we name first or answer first, and the words for it."""
+    """Return the value of the night if we name first or answer first, and the words for it."""
     order = solution.night.order
     if order[0] not in (OURS, THEIRS):
         return None, ""
@@ -240,7 +240,7 @@ def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | N
 
 
 def _orders(meeting: Meeting, solution: SolvedNight) -> Table:
-    """Return what the night is worth in each order of nomination."""
+    """Return the value of the night in each order of nomination."""
     sets = len(meeting.sizes)
     rows: list[list[Any]] = []
     for name in NAMED:

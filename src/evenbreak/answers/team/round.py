@@ -320,7 +320,7 @@ def _teams_table(rules: LeagueRules, capped: Floats, free: Floats | None) -> Tab
 
 
 def _orders_table(rules: LeagueRules, nights: Floats) -> Table:
-    """Return what naming first is worth in each order, blind apart: there nobody is first."""
+    """Return what naming first is worth in each order, blind apart: there no one is first."""
     rows = []
     named = {order_of(name, rules.sets): name for name in NAMED if name != "blind"}
     for order in dict.fromkeys([rules.order, *named]):

@@ -202,7 +202,7 @@ def _columns(bracket: Bracket, matches: list[Match], kind: str) -> dict[str, int
 
 
 def _from_the_top(bracket: Bracket, boxes: list[Box]) -> list[str]:
-    """Return matches so that those whose winners meet stand together, as slots have them."""
+    """Return matches so that those whose winners meet are together, as slots have them."""
     names = {box.match for box in boxes}
     order: list[str] = []
 

@@ -205,7 +205,7 @@ def _tables(night: Outlook) -> Table:
 
 
 def _players(night: Outlook, *, playing: bool) -> Table:
-    """Return everybody: those at the tables, the line, and who is out."""
+    """Return everyone: those at the tables, the line, and who is out."""
     state = night.state.chip_night
     title = dict(zip(night.state.order, night.odds.title.tolist(), strict=True))
     table = {name: rack.table for rack in state.playing for name in rack.players}

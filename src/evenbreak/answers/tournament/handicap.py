@@ -1,4 +1,4 @@
-"""How fair the handicap of a whole tournament is, and which races would make it fairer."""
+"""Fairness of a whole tournament's handicap, and races that would make it fairer."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ def heading(outlook: Outlook, source: str = "") -> str:
 
 
 def begun_at(outlook: Outlook) -> int:
-    """Return the time of day at which the evening began, in minutes after midnight."""
+    """Return the time of day at which the evening started, in minutes after midnight."""
     return minute_of_day(outlook.start)
 
 

@@ -305,7 +305,7 @@ _RATINGS = 400  # draws of the ratings, each with a draw of the lines or a Swiss
 
 
 class Solved(NamedTuple):
-    """The odds if the ratings are right, and averaged over how far they may be off."""
+    """The odds if the ratings are right, and averaged over their uncertainty."""
 
     plug_in: PlaceOdds
     odds: PlaceOdds

@@ -1,4 +1,4 @@
-"""What has been written to be printed: the cards, and everybody's first match."""
+"""What was written for printing: the cards, and everyone's first match."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def first_name(name: str, everybody: Iterable[str]) -> str:
 
 
 def _told_apart(names: list[str], shorten: Callable[[str, int], str]) -> dict[str, str]:
-    """Return a short form of each name that nobody else's name or form is."""
+    """Return a short form of each name that no one else's name or form is."""
     found = {name: shorten(name, 1) for name in names}
     for letters in range(2, 13):
         taken = Counter(found.values())

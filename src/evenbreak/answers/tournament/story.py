@@ -17,7 +17,7 @@ from evenbreak.words import Sentence, joined, say, tally
 
 
 class Remark(NamedTuple):
-    """Something that stood out: what it is called, what happened, what there is to say of it."""
+    """Something that stood out: its name, what happened, what there is to say of it."""
 
     kind: Sentence
     what: Sentence | str

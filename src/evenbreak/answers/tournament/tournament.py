@@ -1,4 +1,4 @@
-"""A tournament that is asked about: who is in, the bracket, what is raced to, in words."""
+"""A tournament before its first match: the players, the bracket, the races, in words."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class Tournament:
 
     @property
     def byes(self) -> str:
-        """Who has a bye in the first round, as a sentence; '' if nobody has."""
+        """Who has a bye in the first round, as a sentence; '' if no one has."""
         names = [self.bracket.players[player] for _, player in self.bracket.byes]
         if not names:
             return ""
@@ -96,7 +96,7 @@ class Tournament:
         return tuple(name for name in names if name in self.roster.players)  # no bye rows
 
     def unrated_words(self, *, spread: bool = True) -> str:
-        """Return what is assumed of players without a rating or an error; '' of nobody."""
+        """Return what is assumed of players without a rating or an error; '' of no one."""
         said = [games_words(self.file.roster, self.roster)] if spread else []
         if names := self.unrated:
             seat = self.roster.players.index(names[0])
@@ -164,7 +164,7 @@ def slot_words(bracket: Bracket, slot: Slot, numbers: Numbers | None = None) -> 
 
 
 def met_words(bracket: Bracket, slot: Slot, numbers: Numbers) -> str:
-    """Return whom a player meets who meets whoever is in a slot of a match."""
+    """Return who a player meets who meets whoever is in a slot of a match."""
     if isinstance(slot, int) or slot.match == TO_DRAW or _of_swiss(bracket, slot):
         return slot_words(bracket, slot, numbers)
     if isinstance(slot.outcome, int) and slot.match.isdigit():

@@ -1,4 +1,4 @@
-"""A tournament under way: everybody's odds from here on, and when it ends from here on."""
+"""A tournament under way: everyone's odds from here on, and when it ends from here on."""
 
 from __future__ import annotations
 

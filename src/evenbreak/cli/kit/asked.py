@@ -164,7 +164,7 @@ class AskedCommand(click.Command):
         )
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Read the arguments, and refuse words that only begin like a number."""
+        """Read the arguments, and refuse words that only start like a number."""
         args = list(self._as_now(args))
         ctx.ignore_unknown_options = any(
             word.startswith("-") and NUMBER.fullmatch(word) for word in args

@@ -79,7 +79,7 @@ def systems(ctx: click.Context, param: click.Parameter, incomplete: str) -> list
 def _names_or_files(
     names: Callable[[], Iterable[str]], ctx: click.Context, param: click.Parameter, incomplete: str
 ) -> list[CompletionItem]:
-    """Return names of what comes with the program, or files where none begins like that."""
+    """Return names of what comes with the program, or files where none starts like that."""
     return offered(names(), incomplete) or file_names(ctx, param, incomplete)
 
 
@@ -127,5 +127,5 @@ def _in_shell(name: str) -> str:
 
 
 def offered(words: Iterable[str], incomplete: str) -> list[CompletionItem]:
-    """Return the words that begin like this."""
+    """Return the words that start like this."""
     return [CompletionItem(word) for word in words if word.startswith(incomplete)]

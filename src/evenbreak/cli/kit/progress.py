@@ -38,7 +38,7 @@ _counting = 0
 
 
 def _show(begun: float, what: str, done: int = 0, total: int | None = None) -> None:
-    """Show the bar of work that began then; without a total it moves to and fro."""
+    """Show the bar of work that started then; without a total it moves to and fro."""
     global _bar
     with _lock:
         if _bar is None:

@@ -26,7 +26,7 @@ def to_terminal() -> bool:
 
 
 def can_ask() -> bool:
-    """Return whether somebody is there to answer a question."""
+    """Return whether someone is there to answer a question."""
     return all(one is not None and one.isatty() for one in (sys.stdin, sys.stderr))
 
 

@@ -69,7 +69,7 @@ def rate(asked: Rate) -> Answer:
 
 
 def _save(path: str, file: files.ResultsFile, ratings: Ratings) -> None:
-    """Write the ratings, with which the next season can begin."""
+    """Write the ratings, with which the next season can start."""
     from evenbreak.files.lists.saved_ratings import saved_csv
     from evenbreak.ratings.decay import last_day
 
@@ -302,7 +302,7 @@ def _half_life(asked: Assumed) -> float | Literal["best"] | None:
 
 
 def _beginning(asked: Assumed, file: files.ResultsFile, scale: Scale) -> Beginning | None:
-    """Return the ratings that --begin names, in the spelling of the results, or refuse them."""
+    """Return the ratings that --start names, in the spelling of the results, or refuse them."""
     from evenbreak.answers.kit.scales import league_doubts
     from evenbreak.files.lists.saved_ratings import read_saved
     from evenbreak.ratings.scale import refuse_contradicted

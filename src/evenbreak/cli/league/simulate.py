@@ -151,7 +151,7 @@ def season_of(file: files.SeasonPlayers, asked: Simulate) -> tuple[league.Season
 
 
 def matches_to_play(season: league.Season) -> int:
-    """Return how many matches one season has, if everybody is always there."""
+    """Return how many matches one season has, if everyone is always there."""
     match season.schedule:
         case league.FixedSchedule(week=week):
             return int((week <= season.weeks).sum())

@@ -230,7 +230,7 @@ def _length(asked: Season, scores: Any) -> dict[str, int]:
 
 
 def _next(to_come: Any, rounds: tuple[str, ...]) -> tuple[tuple[int, ...], str]:
-    """Return the matches of the next round, and what it is called."""
+    """Return the matches of the next round, and its name."""
     if rounds and rounds[0]:
         return (
             tuple(k for k, name in enumerate(rounds) if name == rounds[0]),

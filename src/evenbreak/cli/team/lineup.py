@@ -129,7 +129,7 @@ def _player(
 
 
 def _by_beginning(players: list[tuple[int, str]], wanted: str) -> list[tuple[int, str]]:
-    """Return the one player whose first or last name begins like this; none if there are more."""
+    """Return the one player whose first or last name starts like this; none if there are more."""
     begin = f" {wanted.casefold()}"
     such = [(side, name) for side, name in players if wanted and begin in f" {name.casefold()}"]
     return such if len(such) == 1 else []

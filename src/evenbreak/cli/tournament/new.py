@@ -1,4 +1,4 @@
-"""How a tournament begins: `evenbreak tournament new`, and `import` from another program."""
+"""How a tournament starts: `evenbreak tournament new`, and `import` from another program."""
 
 from __future__ import annotations
 

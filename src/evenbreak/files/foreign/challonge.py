@@ -94,7 +94,7 @@ def _played(
 
 
 def _winner(match: Mapping[str, Any]) -> int:
-    """Return who won a match, 1 or 2; 0: nobody yet."""
+    """Return who won a match, 1 or 2; 0: no one yet."""
     numbers = match.get("player1_id"), match.get("player2_id")
     over = match.get("state") == "complete" and None not in numbers
     winner = match.get("winner_id")

@@ -197,7 +197,7 @@ def text_of(value: Any) -> str:
 
 
 def name_of(player: Any, what: str) -> str:
-    """Return the name of a player, '' for nobody (a bye, or not known yet)."""
+    """Return the name of a player, '' for no one (a bye, or not known yet)."""
     if player is None:
         return ""
     name = player.get("name") if isinstance(player, Mapping) else player

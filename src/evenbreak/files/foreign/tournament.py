@@ -159,7 +159,7 @@ def _names(saved: SavedTournament) -> dict[Any, str]:
 
 
 def _pair_names(saved: SavedTournament) -> dict[Any, str]:
-    """Return the name of the match of each two players, where everybody plays everybody."""
+    """Return the name of the match of each two players, where everyone plays everyone."""
     bracket = bracket_of(Plan("round-robin", 1), saved.players, None)
     name_of = {}
     for match in bracket.matches:

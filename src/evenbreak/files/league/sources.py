@@ -335,7 +335,7 @@ def _seen(name: str, value: Any) -> Any:
 def _name_doubts(
     groups: Sequence[tuple[str, ...]], played: Results, means: Mapping[str, str]
 ) -> tuple[NameDoubt, ...]:
-    """Return the names that may be one player's; an alias that means itself is nobody else."""
+    """Return the names that may be one player's; an alias that means itself is no one else."""
     many = len(played.players)
     counts = np.bincount(np.concatenate([played.player_a, played.player_b]), minlength=many)
     matches = dict(zip(played.players, counts.tolist(), strict=True))

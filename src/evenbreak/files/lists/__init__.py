@@ -1,1 +1,1 @@
-"""Lists of who plays: rosters, entrants, teams, fixtures, and the ratings to begin from."""
+"""Lists of who plays: rosters, entrants, teams, fixtures, and the ratings to start from."""

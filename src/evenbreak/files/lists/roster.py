@@ -224,7 +224,7 @@ class RatedList(Protocol):
 @array_values
 @dataclass(frozen=True, eq=False)
 class RosterFile:
-    """What a list of rated players says.
+    """The content of a list of rated players.
 
     Parameters
     ----------
@@ -414,7 +414,7 @@ def _scale(table: TextTable) -> Scale | None:
 
 
 def _form(table: TextTable) -> float:
-    """Return form of the day, which is that of the whole list, noting one unlike the first."""
+    """Return day-to-day form, which is that of the whole list, noting one unlike the first."""
     column = table["match_form"]
     rows = np.flatnonzero(~np.isnan(column))
     if not len(rows):

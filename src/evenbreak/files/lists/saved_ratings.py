@@ -1,4 +1,4 @@
-"""The ratings at the end of a season as a file, with which the next one begins."""
+"""The ratings at the end of a season as a file, with which the next one starts."""
 
 from __future__ import annotations
 

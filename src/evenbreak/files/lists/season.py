@@ -310,7 +310,7 @@ MOST_LISTED = 5
 
 @dataclass(frozen=True, eq=False)
 class PairsFile:
-    """Who plays whom: places in the roster, shape (matches, 2), in the order of the file."""
+    """Who plays who: places in the roster, shape (matches, 2), in the order of the file."""
 
     pairs: NDArray[np.int64]
     warnings: tuple[str, ...]

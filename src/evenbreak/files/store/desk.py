@@ -191,7 +191,7 @@ class Phones:
             proposed.pop(player, None)
 
     def of(self, phone: str) -> str:
-        """Return whose phone it is; '' if nobody's."""
+        """Return whose phone it is; '' if no one's."""
         return next((who for who, claim in self.claims.items() if claim.phone == phone), "")
 
     def table_of(self, phone: str) -> int:

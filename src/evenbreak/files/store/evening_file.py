@@ -263,7 +263,7 @@ def _number(base: sqlite3.Connection, pragma: str) -> int:
 
 @contextmanager
 def _part_of(place: Path) -> Iterator[Path]:
-    """Give a name beside a file under which something is made that is placed when it is whole."""
+    """Give a name next to a file under which something is made that is placed when it is whole."""
     part = place.with_name(f".{place.stem}-{secrets.token_hex(4)}.part")
     try:
         yield part

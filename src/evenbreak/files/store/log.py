@@ -117,7 +117,7 @@ def was_taken(base: sqlite3.Connection, strand: str, form: str | None) -> bool:
 
 
 def forms_with(path: str | Path, beginning: str) -> set[str]:
-    """Return the forms that begin so, in all strands."""
+    """Return the forms that start so, in all strands."""
     with opened(path) as base:
         asked = f"SELECT form FROM {source(base)} WHERE substr(form, 1, ?) = ?"  # noqa: S608
         return {form for (form,) in base.execute(asked, (len(beginning), beginning))}

@@ -278,7 +278,7 @@ def event_rows(events: Sequence[Event]) -> list[tuple[int, str, str, str, str]]:
 
 
 def is_event_list(path: str | Path) -> bool:
-    """Return whether a file begins like a list of events."""
+    """Return whether a file starts like a list of events."""
     try:
         with Path(path).open("rb") as file:
             return file.read(64).removeprefix(b"\xef\xbb\xbf").startswith(_BEGINNING.encode())

@@ -47,7 +47,7 @@ class EventRow(NamedTuple):
 
 
 class _View(NamedTuple):
-    """A view: its name, the kind of its rows, their order, and columns that are worked out."""
+    """A view: its name, the kind of its rows, their order, and columns that are calculated."""
 
     name: str
     rows: type[Any]
@@ -73,7 +73,7 @@ class _View(NamedTuple):
 
     @property
     def begin(self) -> dict[str, str]:
-        """How the statements begin in every version of this program, and in nobody else's file."""
+        """How the statements start in every version of this program, and in no one else's file."""
         return {
             self.table: f"CREATE TABLE {self.table} (event INTEGER, row INTEGER, ",
             self.name: f"CREATE VIEW {self.name} AS SELECT event, ",
@@ -143,7 +143,7 @@ def apart(base: sqlite3.Connection, path: str | Path) -> Iterator[None]:
 
 
 def _make(base: sqlite3.Connection) -> None:
-    """Make the tables and views, in place of those of an earlier version."""
+    """Make the tables and views, instead of those of an earlier version."""
     there = base.execute("SELECT type, name, sql FROM sqlite_master WHERE sql NOT NULL").fetchall()
     for view in _VIEWS:
         for kind, name, text in there:

@@ -163,7 +163,7 @@ class PlayerNames:
         self.places = {text: self._place[name] for text, name in meant.items() if is_name(name)}
 
     def _spellings(self, rows: Mapping[str, int]) -> dict[str, str]:
-        """Return the spelling to use of all names that differ in case or blanks alone."""
+        """Return the spelling to use of all names that differ only in case or blanks."""
         counts: Counter[str] = Counter()
         for text, count in rows.items():
             counts[self._unaliased(text)] += count

@@ -186,7 +186,7 @@ class Problems:
 
     @property
     def lines(self) -> set[int]:
-        """The lines that have problems; 0 stands for the whole file."""
+        """The lines that have problems; 0 is the whole file."""
         return {line for line, _ in self._found}
 
     @property
@@ -201,7 +201,7 @@ class Problems:
         return rest
 
     def listed(self) -> tuple[str, ...]:
-        """Return the problems, a line each, those of the file as a whole first."""
+        """Return the problems, one per line, those of the file as a whole first."""
         # Stable: problems of one line stay in the order in which they were found.
         ordered = sorted(self._found, key=lambda problem: problem[0])
         return tuple(warning(self.source, line, problem) for line, problem in ordered)

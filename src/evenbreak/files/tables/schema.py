@@ -72,7 +72,7 @@ class Column:
 
     @property
     def usual(self) -> str:
-        """What to write in place of a cell where `write` does not say it."""
+        """What to write instead of a cell where `write` does not say it."""
         return self.wanted
 
     @property
@@ -174,7 +174,7 @@ class Whole(Column):
 
     @property
     def usual(self) -> str:
-        """What to write in place of a cell."""
+        """What to write instead of a cell."""
         return say("1, 2, 3, ...") if self.least else say("0, 1, 2, ...")
 
     def meaning(self, text: str) -> int | None:

@@ -294,7 +294,7 @@ def _fits(line: int, row: list[str], width: int, problems: Problems) -> bool:
 
 
 def _stripped(raw: list[str], codes: NDArray[np.int64]) -> Texts:
-    """Return a column without the blanks around its cells."""
+    """Return a column without the spaces around its cells."""
     bare = [text.strip() for text in raw]
     if bare == raw:  # as nearly always
         return Texts(raw, codes)

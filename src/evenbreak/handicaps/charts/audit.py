@@ -133,7 +133,7 @@ class ChartAudit:
 
 
 def audit(chart: Chart | ChartDraft | str, *, scale: Any = None) -> ChartAudit:
-    """Return how fair a chart of rating differences is, and the scale and tilt that fit it.
+    """Return the fairness of a chart of rating differences, and the scale and tilt that fit it.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ AnyChart = TypeVar("AnyChart", Chart, LevelChart, PointsChart)
 
 
 def scale_of_chart(chart: Chart | LevelChart | PointsChart | None) -> Scale | None:
-    """Return the scale that goes with a chart; None if there is no chart, or nothing says it.
+    """Return the scale that goes with a chart; None if there is no chart, or its scale is unknown.
 
     Skill levels have their points on the Fargo scale; a chart of differences has it in its name.
 

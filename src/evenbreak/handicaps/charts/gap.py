@@ -48,7 +48,7 @@ _AT_A_TIME = 1 << 20  # values held in memory at once
 
 @dataclass(frozen=True, eq=False)
 class Gap:
-    """By how much player 1 is rated above player 2, how sure that is, and what it means.
+    """Player 1's rating less player 2's, its uncertainty, and the chances that follow.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ class Gap:
 
     @cached_property
     def normal(self) -> tuple[Floats, Floats]:
-        """The differences and errors, in points, that stand for error and day-to-day form together.
+        """The differences and errors, in points, that combine error and day-to-day form.
 
         Both are normal, so their variances add up. The chance of a game stays what it is without
         form.
@@ -165,7 +165,7 @@ class Gap:
         return plain(chance)
 
     def length(self, m: int, n: int) -> MatchLength[Any, Any]:
-        """Return how long the race m:n lasts, a single race for all differences.
+        """Return the length of the race m:n, a single race for all differences.
 
         The chance of each length is averaged over the possible differences; mean, standard
         deviation and quantiles are those of the averaged distribution.

@@ -1,4 +1,4 @@
-"""What every chart has to hold to, as one from somebody else's package may not."""
+"""What every chart has to hold to, as one from someone else's package may not."""
 
 from __future__ import annotations
 

@@ -92,7 +92,7 @@ class LevelAudit:
 
 
 def audit_levels(chart: LevelChart | str, *, scale: Any = DEFAULT_SCALE) -> LevelAudit:
-    """Return how fair a chart by skill level is, and the ratings that fit it best.
+    """Return the fairness of a chart by skill level, and the ratings that fit it best.
 
     Each level is assumed to reach halfway to its neighbors; the lowest and the highest extend as
     far outwards as inwards.

@@ -104,7 +104,7 @@ class LevelSkills:
 
     @property
     def is_known(self) -> bool:
-        """Whether anything says how far off the gaps may be."""
+        """Whether the uncertainty of the gaps is known."""
         return self.source != "chart"
 
     def difference(self, level_1: ArrayLike, level_2: ArrayLike) -> Any:
@@ -136,7 +136,7 @@ class LevelSkills:
         return Gap(self.difference(level_1, level_2), self.error(level_1, level_2), FARGO, form)
 
     def strength(self, levels: ArrayLike) -> Floats:
-        """Return the points of players of these levels; NaN for what is no level of the chart."""
+        """Return the points of players of these levels; NaN for other levels."""
         array = np.asarray(levels, dtype=np.float64)
         points, known = np.full(array.shape, np.nan), np.isin(array, self.levels)
         points[known] = self.points[self.places(array[known])]
@@ -181,7 +181,7 @@ class LevelSkills:
 
 
 def level_skills(chart: LevelChart | str, results: Results | None = None) -> LevelSkills:
-    """Return how strong the levels of a chart are, by the best source that there is.
+    """Return the strengths of a chart's levels, from the best source available.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ _TIE = 1e-9
 
 @dataclass(frozen=True)
 class ChartMeasure:
-    """How fair and how long the matches of a chart are, over all whole-point differences.
+    """Fairness and length of a chart's matches, over all whole-point differences.
 
     Every difference from 0 to `up_to` has the same weight.
 
@@ -68,7 +68,7 @@ def last_difference(chart: Chart | str, scale: Any) -> int:
 def measure_chart(
     chart: Chart | str, scale: Any, *, up_to: int | None = None, target: float = 0.5
 ) -> ChartMeasure:
-    """Return how fair and how long a chart's matches are.
+    """Return the fairness and length of a chart's matches.
 
     Parameters
     ----------

@@ -76,7 +76,7 @@ class PlayedChart(NamedTuple):
 
     @property
     def same(self) -> bool:
-        """Whether the league plays by this chart, but for single matches."""
+        """Whether the league plays by this chart, apart from single matches."""
         return not self.changed
 
 

@@ -191,7 +191,7 @@ _AT_THE_ENDS = 1e-6
 
 
 class NewcomerInflation(NamedTuple):
-    """What one newcomer does to the sum of the league's rating errors, in points.
+    """The effect of one newcomer on the sum of the league's rating errors, in points.
 
     Parameters
     ----------
@@ -226,7 +226,7 @@ class Lag(NamedTuple):
 
 
 def inflation(ladder: Ladder) -> float:
-    """Return how much a match raises the sum of the two ratings on average, in points.
+    """Return the mean rise of the sum of the two ratings in a match, in points.
 
     The mean is over the matches of a player whose error has the ladder's distribution.
 

@@ -129,7 +129,7 @@ class LevelLadder:
         return float(first_passage(chain_of(self), self.start, target).mean or np.inf)
 
     def dumping(self, most: int, earnest: int, in_a_row: int = 3) -> list[Dumping]:
-        """Return exactly what matches lost on purpose bring, for 0, 1, ... `most` of them.
+        """Return the exact gain from matches lost on purpose, for 0, 1, ... `most` of them.
 
         As for `sandbagging`: a player at the start loses them, then plays `earnest` matches, and
         is compared with one who plays all of them.

@@ -112,7 +112,7 @@ class StepSystem(System):
 
     @property
     def chart(self) -> Chart | None:
-        """The chart used if no other is named, if there is one."""
+        """The default chart, if there is one."""
         return self.usual_chart() if self.charts or self.own_chart is not None else None
 
     def initial(self, entries: Entries) -> Floats:

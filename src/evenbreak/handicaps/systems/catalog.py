@@ -116,7 +116,7 @@ def is_ours(written: str) -> bool:
 
 
 def _in_parts(written: str) -> tuple[str, list[str]]:
-    """Return the word of ours with which a name begins, if it does, and the parts after it."""
+    """Return the word of ours with which a name starts, if it does, and the parts after it."""
     written = written.strip().lower()
     word = next((word for word in _BY_LENGTH if _spelled(word).match(written)), "")
     return word, re.split(r"\s+|(?<![=e])-", written[len(word) :])[1:]
@@ -172,7 +172,7 @@ def _value(option: str, text: str, usual: Any) -> Any:
 
 
 def _added(name: Any, written: str, word: str) -> System:
-    """Return the system of an installed package, or refuse a name that nobody has."""
+    """Return the system of an installed package, or refuse a name that no one has."""
     from evenbreak.handicaps.systems.own import lawful_system
     from evenbreak.plugins import added, plugin
 

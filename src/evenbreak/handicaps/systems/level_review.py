@@ -125,7 +125,7 @@ class LevelReview(System):
 
     @property
     def asks(self) -> tuple[str, ...]:  # type: ignore[override]
-        """What it needs of a match: its games, and innings where they are its score."""
+        """The data it needs of a match: games, and innings where they are its score."""
         return ("games", "innings") if self.score == "innings" else ("games",)
 
     @property
@@ -182,7 +182,7 @@ class LevelReview(System):
         return score
 
     def _mean(self, scores: Floats, count: Any) -> Floats:
-        """Return the mean of the scores that count; nobody's is read where there are none."""
+        """Return the mean of the scores that count; no one's is read where there are none."""
         best_first = np.sort(scores if self.score == "innings" else -scores, axis=0)  # NaN last
         trim = np.where(count > 2 * self.trim, self.trim, 0)
         left = count - 2 * trim

@@ -140,7 +140,7 @@ class MatchTable:
 
     @cached_property
     def races(self) -> tuple[Places, Places]:
-        """Where each race of the table stands first, and which of them each difference has."""
+        """The first place of each race in the table, and the race of each difference."""
         _, first, place = np.unique(self.needs, axis=0, return_index=True, return_inverse=True)
         return first, place.reshape(-1)
 

@@ -15,7 +15,7 @@ from evenbreak.handicaps.systems.system import System
 
 @dataclass(frozen=True)
 class NoHandicap(System):
-    """Even races to `games` for everyone, whatever the list says.
+    """Even races to `games` for everyone, whatever their ratings.
 
     >>> NoHandicap(5).race([700.0, 500.0], 600.0)
     (array([5, 5]), array([5, 5]))

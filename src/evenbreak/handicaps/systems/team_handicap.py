@@ -51,7 +51,7 @@ class TeamHandicap:
 
     @property
     def to_team(self) -> int | None:
-        """The team that gets the points, 1 or 2; None if nobody gets any."""
+        """The team that gets the points, 1 or 2; None if no one gets any."""
         if not self.points:
             return None
         return 1 if self.scored_1 < self.scored_2 else 2

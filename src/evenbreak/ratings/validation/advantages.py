@@ -154,7 +154,7 @@ class FirstColumn(NamedTuple):
 
     @property
     def winners_first_on_some_dates(self) -> bool:
-        """Whether too many dates have nobody but player a winning for that to be luck."""
+        """Whether too many dates have no one but player a winning for that to be luck."""
         return bool(self.dates_won and pdtrc(self.dates_won - 1, self.dates_expected) < UNLIKELY)
 
 

@@ -144,7 +144,7 @@ class DailyRefit:
 
 
 class _Graph:
-    """Who has met whom: which entries of a Hessian are not 0."""
+    """Who has met who: which entries of a Hessian are not 0."""
 
     def __init__(self, low: Ints, high: Ints, players: int) -> None:
         self.low, self.high, self.players = low, high, players

@@ -217,7 +217,7 @@ def angle_arc(axes: Axes, point: ContactPoint, radius: float, name: str) -> None
 def name_point(
     axes: Axes, point: ContactPoint, name: str, beside: tuple[float, float], ha: str
 ) -> None:
-    """Mark a point and write its name beside it, at an offset in typographic points."""
+    """Mark a point and write its name next to it, at an offset in typographic points."""
     axes.plot([point.y], [point.z], "ko", ms=4.5, zorder=4)
     box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
     note(axes, name, (point.y, point.z), beside, fontsize=9.5, ha=ha, va="center", bbox=box)

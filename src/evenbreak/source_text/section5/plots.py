@@ -1,4 +1,4 @@
-"""The figures of section 5, all computed anew: plots, the numbers behind them, and diagrams."""
+"""The figures of section 5, all computed again: plots, the numbers behind them, and diagrams."""
 
 from __future__ import annotations
 

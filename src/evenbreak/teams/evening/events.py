@@ -267,7 +267,7 @@ Score: TypeAlias = tuple[Games, Games]
 
 @dataclass(frozen=True)
 class Begun:
-    """A night begins; one that was under way is put aside."""
+    """A night starts; one that was under way is put aside."""
 
     plan: NightPlan
 

@@ -52,7 +52,7 @@ class SetLine:
 
     @property
     def named(self) -> bool:
-        """Whether both teams have put somebody up."""
+        """Whether both teams have put someone up."""
         return all(self.picks)
 
 
@@ -88,17 +88,17 @@ class TeamEvening:
         return self.sealed or self.meeting.order[number - 1] == BOTH
 
     def open(self, number: int) -> bool:
-        """Whether everybody may see who is put up in a set."""
+        """Whether everyone may see who is put up in a set."""
         return not self.unseen(number) or self.sets[number - 1].named
 
     @property
     def to_name(self) -> SetLine | None:
-        """The set for which somebody is put up next; None if all sets have their players."""
+        """The set for which someone is put up next; None if all sets have their players."""
         return next((line for line in self.sets if not line.named), None)
 
     @property
     def due(self) -> tuple[int, ...]:
-        """The teams that may put somebody up now (0: A, 1: B)."""
+        """The teams that may put someone up now (0: A, 1: B)."""
         line = self.to_name
         if line is None:
             return ()

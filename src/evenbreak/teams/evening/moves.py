@@ -32,7 +32,7 @@ _line_ups = lru_cache(maxsize=8)(line_ups)
 
 
 def begin(state: TeamEvening | None, plan: NightPlan) -> list[What]:
-    """Begin a night; `check_plan` has found nothing wrong with it."""
+    """Start a night; `check_plan` has found nothing wrong with it."""
     if state is not None and state.plan == plan and isinstance(state.last.what, Begun):
         return []
     return [Begun(plan)]

@@ -1,4 +1,4 @@
-"""What a team night is worth at each moment, to either team."""
+"""The value of a team night at each moment, to either team."""
 
 from __future__ import annotations
 

@@ -160,7 +160,7 @@ _PIECE = 5_000
 
 
 class Watched(NamedTuple):
-    """The numbers of first places, and the matches to come, that are asked about."""
+    """The numbers of first places, and the remaining matches, that are asked about."""
 
     places: tuple[int, ...]
     matches: tuple[int, ...]
@@ -201,7 +201,7 @@ class SeasonChances:
         return np.asarray(self.p_place[:, :places].sum(axis=1))
 
     def error(self, p: Floats) -> Floats:
-        """Return the standard errors of chances, how much they differ between seeds; 0 if exact."""
+        """Return the standard errors of chances, their spread between seeds; 0 if exact."""
         if self.exact:
             return np.zeros(p.shape)
         return np.sqrt(p * (1.0 - p) / self.seasons)

@@ -134,7 +134,7 @@ class TeamSeason:
 
     @cached_property
     def most_points(self) -> Floats:
-        """The points that each team has if it gets all it can in the matches to come."""
+        """The points that each team has if it gets all it can in the remaining matches."""
         best = self.points_of_scores.max(axis=0) if len(self.scores) else np.zeros(2)
         found = self.points.copy()
         np.add.at(found, self.to_come[:, 0], best[0])
@@ -164,7 +164,7 @@ class TeamSeason:
         return found
 
     def _most_if_beaten(self, team: int) -> Floats:
-        """Return the most points of each other team if a team wins all its matches to come."""
+        """Return the most points of each other team if a team wins all its remaining matches."""
         found = self.most_points.copy()
         if not len(self.scores):
             return np.delete(found, team)

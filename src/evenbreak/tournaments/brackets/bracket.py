@@ -131,7 +131,7 @@ class RunnersUp:
 
     @property
     def name(self) -> str:
-        """What a source calls them: the rank. Groups are named by letters."""
+        """Their name in a source: the rank. Groups are named by letters."""
         return str(self.rank)
 
     @property
@@ -228,7 +228,7 @@ class Bracket:
 
     @cached_property
     def outlets(self) -> dict[str, list[Source]]:
-        """The slots that wait for somebody from a match, a group or the runners-up, by its name."""
+        """The slots that wait for someone from a match, a group or the runners-up, by its name."""
         found: dict[str, list[Source]] = {}
         for match in self.matches:
             for slot in match.slots:

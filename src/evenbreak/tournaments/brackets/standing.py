@@ -74,7 +74,7 @@ class Standing:
 
     @cached_property
     def runners_up(self) -> list[tuple[str, int, int]]:
-        """Of each group that is over the runner-up, by position, and what their wins count."""
+        """The runner-up of each finished group, by position, and the weight of their wins."""
         return _runners_up(self.bracket, self.winners, self.sent)
 
     def _seated(self, match: Match) -> Match:

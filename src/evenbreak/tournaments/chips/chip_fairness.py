@@ -45,7 +45,7 @@ class ChipFairness:
 
     @property
     def spread(self) -> float:
-        """The root mean square of the edges: 0 is fair to everybody."""
+        """The root mean square of the edges: 0 is fair to everyone."""
         return float(np.sqrt(np.mean(self.edge**2)))
 
 

@@ -127,7 +127,7 @@ def tables_in_use(left: int, tables: int) -> int:
 
 
 class _Room:
-    """All runs at once; a row each."""
+    """All runs at once; one per row."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""When a tournament ends, when each match begins, and which match to call next."""
+"""When a tournament ends, when each match starts, and which match to call next."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ class Finish:
         return bands_of(self.finishes)[1]
 
     def start(self, match: str) -> Start:
-        """Return when a match begins."""
+        """Return when a match starts."""
         if match not in self.names:
             raise InputError(
                 "match must be one that hasn't started; you gave {match!r}", match=match
@@ -144,7 +144,7 @@ class Finish:
         return _start(times[~np.isnan(times)], times.size)
 
     def next_start(self, player: str) -> Start:
-        """Return when a player's next match begins, whichever it is."""
+        """Return when a player's next match starts, whichever it is."""
         seat = self.standing.bracket.player(player)
         evenings = self.room.evenings
         mine = evenings.needed & ((evenings.first == seat) | (evenings.second == seat))
@@ -164,7 +164,7 @@ class Finish:
         return means[0], means[1]
 
     def after_calls(self, names: Sequence[str]) -> Finish:
-        """Return when it ends and each match begins if some matches are called now."""
+        """Return when it ends and each match starts if some matches are called now."""
         if not names:
             return self
         room = self.room

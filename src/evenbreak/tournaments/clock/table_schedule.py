@@ -22,7 +22,7 @@ _AT_ONCE = 500  # runs: their arrays then stay in the processor's cache
 
 
 class Schedule(NamedTuple):
-    """When matches begin and end, in each run; a match that is not needed takes no time."""
+    """When matches start and end, in each run; a match that is not needed takes no time."""
 
     start: Floats
     end: Floats

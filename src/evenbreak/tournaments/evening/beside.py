@@ -108,7 +108,7 @@ def carried(
 
 
 def _has_begun(state: Evening, event: Event) -> bool:
-    """Return whether an entry calls a match that has begun since."""
+    """Return whether an entry calls a match that has started since."""
     call = event.what
     return isinstance(call, Called) and call.match in {*state.live, *state.counted}
 

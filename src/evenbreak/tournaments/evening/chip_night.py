@@ -83,7 +83,7 @@ class ChipNight:
 
 
 def rack_bracket(players: tuple[str, ...], racks: Sequence[Match] = ()) -> Bracket:
-    """Return a bracket of racks, in which everybody gets a place of their own."""
+    """Return a bracket of racks, in which everyone gets a place of their own."""
     members = tuple(range(len(players)))
     ranks = Group("Chips", members, (), (), tuple(Place(k + 1, k + 1) for k in members))
     return Bracket("chip tournament", players, tuple(racks), (ranks,))
@@ -171,7 +171,7 @@ class _Walk:
             self.seat(table, (self.line.pop(0), self.line.pop(0)), at)
 
     def seat(self, table: int, players: tuple[str, str], at: str, after: str | None = None) -> None:
-        """Begin a rack."""
+        """Start a rack."""
         self.begun += 1
         rack = Rack(f"R{self.begun}", table, players, at, after)
         self.racks[rack.name], self.tables[table] = rack, rack.name
@@ -222,7 +222,7 @@ class _Walk:
                 self.aside.add(name)
 
     def swap(self, rack: Rack, wrong: str, right: str) -> None:
-        """Let the right player stay at a table whose next rack has just begun."""
+        """Let the right player stay at a table whose next rack has just started."""
         if wrong == right or wrong not in rack.players:
             return
         if right in rack.players:

@@ -25,7 +25,7 @@ _CELLS, _FEWEST, _MOST = 4e6, 200, 2_000  # draws of the skills
 
 
 def drawn_skills(skills: Floats, covariance: Floats) -> Floats:
-    """Return many draws of the players' skills, a row each."""
+    """Return many draws of the players' skills, one per row."""
     count = int(np.clip(_CELLS / len(skills) ** 2, _FEWEST, _MOST))
     return drawn_ratings(skills, covariance, count // 2, np.random.default_rng(0))
 

@@ -1,4 +1,4 @@
-"""What an evening that is over says of the pace at its venue, for the next one there."""
+"""What a finished evening shows about the pace at its venue, for the next one there."""
 
 from __future__ import annotations
 

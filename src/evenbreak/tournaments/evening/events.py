@@ -94,7 +94,7 @@ class Entrant:
 
 @dataclass(frozen=True)
 class Opened:
-    """The evening begins: what is played, and who has entered."""
+    """The evening starts: what is played, and who has entered."""
 
     plan: Plan
     entrants: tuple[Entrant, ...]
@@ -137,7 +137,7 @@ class Renamed:
 
 @dataclass(frozen=True)
 class Substituted:
-    """Somebody takes the place of a player who has not played yet."""
+    """Someone replaces a player who has not played yet."""
 
     name: str
     entrant: Entrant
@@ -145,7 +145,7 @@ class Substituted:
 
 @dataclass(frozen=True)
 class Swapped:
-    """Two players trade places in the draw, before a match of either has begun."""
+    """Two players trade places in the draw, before a match of either has started."""
 
     one: str
     other: str
@@ -162,7 +162,7 @@ class CheckedIn:
 
 @dataclass(frozen=True)
 class Registered:
-    """Somebody wants to play: let in as a late entry is, or declined."""
+    """Someone wants to play: let in as a late entry is, or declined."""
 
     name: str
     rating: Points | None = None
@@ -170,14 +170,14 @@ class Registered:
 
 @dataclass(frozen=True)
 class Declined:
-    """Somebody who wanted to play does not."""
+    """Someone who wanted to play does not."""
 
     name: str
 
 
 @dataclass(frozen=True)
 class Dropped:
-    """A player goes home; their matches to come are lost by forfeit."""
+    """A player goes home; their remaining matches are lost by forfeit."""
 
     name: str
 

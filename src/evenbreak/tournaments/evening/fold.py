@@ -127,7 +127,7 @@ class Evening:
 
     @cached_property
     def chip_night(self) -> ChipNight:
-        """Who is at which table of a chip tournament, who waits, and what everybody has left."""
+        """Who is at which table of a chip tournament, who waits, and what everyone has left."""
         return chip_night(self.events)
 
     @cached_property
@@ -175,7 +175,7 @@ class Evening:
 
     @cached_property
     def unrated(self) -> frozenset[str]:
-        """Whoever entered without a rating; nobody where nobody has one."""
+        """Whoever entered without a rating; no one where no one has one."""
         plan = self.plan
         new = plan.starter, plan.starter_error
         found = {
@@ -241,12 +241,12 @@ class Evening:
 
     @property
     def free_tables(self) -> list[int]:
-        """The tables on which nobody plays, but for those that are given out by hand only."""
+        """The tables on which no one plays, but for those that are given out by hand only."""
         return [table for table in self._unused if table not in self.plan.reserved]
 
     @property
     def kept_tables(self) -> list[int]:
-        """The tables on which nobody plays that are given out by hand only."""
+        """The tables on which no one plays that are given out by hand only."""
         return sorted({*self.plan.reserved} & {*self._unused})
 
     @property
@@ -265,7 +265,7 @@ class Evening:
 
     @property
     def payers(self) -> int:
-        """How many players the pot is from: those who have paid, if anybody is noted to."""
+        """How many players the pot is from: those who have paid, if anyone is noted to."""
         return len(self.paid) or len(self.entrants)
 
     def sitting(self, match: str) -> frozenset[str]:

@@ -1,4 +1,4 @@
-"""What a plan has for its format: each part with its limits, as every face asks for it."""
+"""What a plan has for its format: each part with its limits, as every interface asks for it."""
 
 from __future__ import annotations
 

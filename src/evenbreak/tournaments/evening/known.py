@@ -103,7 +103,7 @@ def check_entrant(state: Evening, entrant: Entrant, besides: str = "") -> None:
 
 
 def entered(state: Evening, name: str) -> str:
-    """Return a name that is given in full: somebody else's that begins like it never counts."""
+    """Return a name that is given in full: someone else's that starts like it never counts."""
     if name in state.entrants:
         return name
     full = known_player(state, name)

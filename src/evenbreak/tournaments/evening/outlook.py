@@ -110,7 +110,7 @@ class Outlook:
         return self.laws_of(self.state.races)
 
     def laws_of(self, races: Races) -> dict[str, PairOdds]:
-        """Return the same with other races in the matches that have not begun."""
+        """Return the same with other races in the matches that have not started."""
         state = self.state
         laws = self._pair_odds(races)
         begun = {**state.on_tables, **state.live}
@@ -172,7 +172,7 @@ class Outlook:
 
     @cached_property
     def odds(self) -> PlaceOdds:
-        """The odds from here on, averaged over how far off the ratings may be."""
+        """The odds from here on, averaged over the uncertainty of the ratings."""
         if not self._is_open:
             return self.as_if_sure
         state = self.state
@@ -192,7 +192,7 @@ class Outlook:
 
     @cached_property
     def _drawn(self) -> Floats:
-        """What the skills may be, a row each, where the rest of the evening is simulated."""
+        """What the skills may be, one per row, where the rest of the evening is simulated."""
         if self.state.plan.form == "chips":
             return drawn_skills(*self.skills)
         return drawn_ratings(*self.skills, _RATINGS // 2, np.random.default_rng(0))
@@ -255,7 +255,7 @@ class Outlook:
 
     @cached_property
     def errors(self) -> Floats:
-        """How far off the ratings may be, in seed order."""
+        """The uncertainty of the ratings, in seed order."""
         return np.array([self.state.entrants[name].standard_error for name in self.state.order])
 
     @cached_property

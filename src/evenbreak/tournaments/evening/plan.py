@@ -1,4 +1,4 @@
-"""The plan of an evening: the formats there are, and how one begins; its bracket, and its races."""
+"""The plan of an evening: the formats there are, and how one starts; its bracket, and its races."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def refuse_tables(plan: Plan) -> None:
 
 
 def refuse_bye(name: str) -> None:
-    """Refuse a bye in place of a player."""
+    """Refuse a bye instead of a player."""
     if BYE.fullmatch(name):
         raise InputError(
             "{name!r} is a bye, not a player. Leave it out, the draw adds the byes.", name=name

@@ -98,7 +98,7 @@ def check_in(
 
 
 def register(state: Evening, name: str, rating: float | None = None) -> Registered:
-    """Let somebody ask to play."""
+    """Let someone ask to play."""
     check_entrant(state, Entrant(name, state.plan.starter if rating is None else rating))
     if name in state.registered:
         raise InputError("{player} is already on the list", player=name)
@@ -113,7 +113,7 @@ def accept(state: Evening, name: str, *, unrated: bool = False) -> Late:
 
 
 def decline(state: Evening, name: str) -> Declined:
-    """Take somebody off the list of those who would like to play."""
+    """Take someone off the list of those who would like to play."""
     return Declined(_registered(state, name))
 
 

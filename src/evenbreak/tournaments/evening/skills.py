@@ -1,4 +1,4 @@
-"""What tonight's games say of the players' skills.
+"""What tonight's games show about the players' skills.
 
 Each skill is normal around its rating, with the rating's standard error; those of players without a
 rating are as far apart as the others' (`skills_before`). A game between two players is won with the

@@ -37,7 +37,7 @@ class Step(NamedTuple):
 
     @property
     def hill(self) -> bool:
-        """Whether both players were one game short of the match when the last game began."""
+        """Whether both players were one game short of the match when the last game started."""
         one = self.result
         return one is not None and one.race is not None and _is_hill(one.score, one.race)
 
@@ -61,7 +61,7 @@ class Story:
 
     @property
     def over(self) -> bool:
-        """Whether somebody has won the title."""
+        """Whether someone has won the title."""
         return max(self.steps[-1].title.values()) > 1.0 - 1e-9
 
     @property

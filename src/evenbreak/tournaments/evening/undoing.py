@@ -124,7 +124,7 @@ def _open_behind(before: Evening, after: Evening) -> bool:
 
 
 def _leads_nowhere(state: Evening, what: object) -> bool:
-    """Return whether a result is one of a match from which none has begun that it leads to."""
+    """Return whether a result is one of a match from which none has started that it leads to."""
     if not isinstance(what, Result) or not state.drawn or state.plan.form in ("chips", "swiss"):
         return False
     sources = {what.match, *(g.name for g in state.bracket.groups if what.match in g.matches)}

@@ -101,7 +101,7 @@ def lot_worth(
     *,
     paid_out: float = 1.0,
 ) -> float:
-    """Return what a lot is expected to win if it goes for a bid.
+    """Return a lot's expected winnings if it goes for a bid.
 
     Half of it is worth half as much, and costs half the bid: a player who may buy half of
     themselves should do so where this is more than the bid.

@@ -230,7 +230,7 @@ class PrizeMoney:
         return [one / 100.0 for one in paid]
 
     def left(self, entrants: int, payers: int | None = None) -> float:
-        """Return what rounding leaves over of the money for the places."""
+        """Return the remainder after rounding the money for the places."""
         pot = _hundredths(self.pot(entrants if payers is None else payers))
         money = self._for_places(pot, self.payouts(entrants).shares(entrants))
         return (money - _hundredths(sum(self.amounts(entrants, payers)))) / 100.0

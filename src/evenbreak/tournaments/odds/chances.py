@@ -145,7 +145,7 @@ def _table(given: Any, bracket: Bracket) -> Floats:
 
 
 def with_nobody(table: Floats) -> Floats:
-    """Return chances with a row and a column for nobody, whom everybody beats."""
+    """Return chances with a row and a column for no one, whom everyone beats."""
     count = len(table)
     padded = np.ones((count + 1, count + 1, *table.shape[2:]))
     padded[:count, :count] = table

@@ -1,4 +1,4 @@
-"""How fair the races of a whole tournament are: title odds next to an equal share.
+"""Fairness of a whole tournament's races: title odds compared with an equal share.
 
 A chart that is fair match by match need not be fair over a tournament: small edges add up
 from round to round, and long rounds for those on the losers' side weigh on some players
@@ -50,7 +50,7 @@ class Fairness:
 
     @property
     def spread(self) -> float:
-        """The root mean square of the edges: 0 is fair to everybody."""
+        """The root mean square of the edges: 0 is fair to everyone."""
         return unfairness(self.odds.title)
 
 

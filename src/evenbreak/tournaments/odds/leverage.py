@@ -72,7 +72,7 @@ def leverages(
     live: Mapping[str, float] | None = None,
     walkovers: float | Mapping[str, float] = 0.0,
 ) -> list[Leverage]:
-    """Return what the result of each upcoming match would change.
+    """Return the effect of each upcoming match's result.
 
     Parameters
     ----------

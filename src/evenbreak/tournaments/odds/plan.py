@@ -147,7 +147,7 @@ class Plan:
 
     @cached_property
     def pairs(self) -> dict[str, tuple[NDArray[np.bool_] | None, Players, Players]]:
-        """For each match the pairs that are two players, not nobody: which (None: all), and who."""
+        """For each match the pairs that are two players, not no one: which (None: all), and who."""
         nobody, found = len(self.bracket.players), {}
         for step in self.steps:
             if isinstance(step, MatchStep):

@@ -46,7 +46,7 @@ class Table(NamedTuple):
 
 
 def plan_of(bracket: Bracket, assumed: tuple[tuple[str, int], ...] = ()) -> Plan:
-    """Return the plan of a bracket, however large, with what-if results of matches to come."""
+    """Return the plan of a bracket, however large, with what-if results of remaining matches."""
     plan = exact_plan(bracket, assumed, math.inf)
     assert plan is not None  # noqa: S101 - nothing is too many
     return plan

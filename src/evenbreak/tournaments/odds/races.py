@@ -283,7 +283,7 @@ def _in_form(
     breaks: BreakFormat,
     form: float,
 ) -> PairOdds:
-    """Return the odds averaged over form of the day, which leaves the chance of a game as it is."""
+    """Return the odds averaged over day-to-day form, which leaves the chance of a game as it is."""
     if form == 0.0:
         return _ends(points, needs, scale, advantage, breaks)
     center = np.asarray(scale.points(center_of_form(scale.log_odds(points), 0.0, form)))

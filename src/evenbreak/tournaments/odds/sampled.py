@@ -225,7 +225,7 @@ def early_places(
     second: Players,
     won: NDArray[np.bool_],
 ) -> list[tuple[Place, Players]]:
-    """Return the place and the player who takes it in each sample; -1 where nobody does."""
+    """Return the place and the player who takes it in each sample; -1 where no one does."""
     found = []
     ends = zip(places, (going.winner, going.loser), (won, ~won), strict=True)
     for place, on, sat_in_1 in ends:

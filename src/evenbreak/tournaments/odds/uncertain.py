@@ -75,7 +75,7 @@ def over_ratings(
     walkovers: float | Mapping[str, float] = 0.0,
     rng: np.random.Generator | None = None,
 ) -> UncertainOdds:
-    """Return title odds averaged over what the ratings may be.
+    """Return title odds averaged over the uncertainty of the ratings.
 
     Parameters
     ----------

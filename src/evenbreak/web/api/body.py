@@ -65,7 +65,7 @@ def _refuse_depth() -> NoReturn:
 
 
 def _check(value: Any, deeper: int = _DEEPEST) -> None:
-    """Refuse what is nested deeply, and numbers that nobody means."""
+    """Refuse what is nested deeply, and numbers that no one means."""
     if not deeper:
         _refuse_depth()
     if isinstance(value, int | float) and abs(value) >= _LARGEST:

@@ -1,4 +1,4 @@
-"""Pages elsewhere that may use the interface from a browser (CORS): none but those that are named.
+"""Pages elsewhere that may use the interface from a browser (CORS): only those named.
 
 No cookie counts below /api: a session of the director's would otherwise let any page enter things
 in their name. A page elsewhere reads, and writes with a token, only if `evenbreak serve

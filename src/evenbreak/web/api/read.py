@@ -1,4 +1,4 @@
-"""What everyone in the room may read of tonight, for other programs.
+"""What everyone may read about tonight, for other programs.
 
 It is what the pages show, made of the same views, so that a scoreboard on a stream and the wall
 say the same.
@@ -146,7 +146,7 @@ def _states(nights: Sequence[Seen]) -> dict[int, Evening]:
 
 
 def _order(nights: Sequence[Seen]) -> Sequence[tuple[int, str]]:
-    """Return the matches of the night in the order that ends it soonest, as last worked out."""
+    """Return the matches of the night in the order that ends it soonest, as last calculated."""
     known = [one.known for one in nights if one.known and one.known.queue]
     return max(known, key=lambda one: one.at).queue if known else ()
 

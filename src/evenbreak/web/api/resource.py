@@ -93,7 +93,7 @@ class Kept(NamedTuple):
 
 
 def routes_of(resources: Sequence[Resource]) -> list[Route]:
-    """Return the routes of addresses, one a path."""
+    """Return the routes of addresses, one per path."""
     paths: dict[str, dict[str, Resource]] = {}
     for one in resources:
         paths.setdefault(one.path, {})[one.method] = one

@@ -41,7 +41,7 @@ class Seen(NamedTuple):
 
     @property
     def fresh(self) -> Known | None:
-        """What has been worked out of this very state."""
+        """What has been calculated of this very state."""
         return self.known if self.known and self.known.of is self.state else None
 
     @property
@@ -90,7 +90,7 @@ def night_asked(call: Call) -> Night:
 
 
 async def seen_of(call: Call, night: Night) -> Seen:
-    """Return an event as everybody sees it."""
+    """Return an event as everyone sees it."""
     now = call.site.clock()
     view, state = await view_for(call.request, night, now)
     known = night.known
@@ -177,7 +177,7 @@ def _onward(state: Evening) -> dict[str, dict[str, str]]:
 
 
 def times_of(known: Known | None, at: Sequence[float] | None) -> shapes.Times | None:
-    """Return times that are minutes after the evening began."""
+    """Return times that are minutes after the evening started."""
     if known is None or at is None or not known.day:
         return None
     midnight = datetime.fromisoformat(known.day)

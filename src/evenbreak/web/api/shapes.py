@@ -207,7 +207,7 @@ class PlayerOdds:
 
 @dataclass(frozen=True)
 class Odds:
-    """Everybody's chance of each place, from here on."""
+    """Everyone's chance of each place, from here on."""
 
     event: EventNumber
     known: Known
@@ -319,7 +319,7 @@ class TeamSet:
 
 @dataclass(frozen=True)
 class TeamNight:
-    """Two teams' night, as everybody in the room sees it."""
+    """Two teams' night, as everyone in the room sees it."""
 
     teams: tuple[str, str]
     sets: list[TeamSet]

@@ -1,1 +1,1 @@
-"""The pages, one question a module: a form, an answer, a template."""
+"""The pages, one question per module: a form, an answer, a template."""

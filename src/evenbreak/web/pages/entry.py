@@ -1,4 +1,4 @@
-"""A tournament begun: from a list that is asked about where it is doubtful, or like the last."""
+"""A tournament started: from a list that is asked about where it is doubtful, or like the last."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ PACES = (
 
 
 async def ask(request: Request) -> Response:
-    """Show the form that begins a tournament; it begins with what was chosen the last time."""
+    """Show the form that starts a tournament; it starts with what was chosen the last time."""
     check_director(request)
     return page(request, "new.html", entered={}, why="", **await _choices(site_of(request)))
 
@@ -215,7 +215,7 @@ def _league(form: Form, site: Site) -> Known | None:
 
 
 def _with_list(form: Form, content: bytes, listed: Collection[str]) -> Form:
-    """Return a form with a list that has been asked about in place of the answers."""
+    """Return a form with a list that has been asked about instead of the answers."""
     rest = [one for one in form.fields.multi_items() if one[0] not in ("entrants", "checked")]
     own = [("stated", name) for name in sorted(listed)]
     return Form(Fields([*rest, ("entrants", content.decode()), *own]))
@@ -258,7 +258,7 @@ async def delete(request: Request) -> Response:
 
 
 class There(NamedTuple):
-    """A tournament that is there already: how many events it has, when it was begun, for whom."""
+    """A tournament that is there already: how many events it has, when it was started, for whom."""
 
     events: int
     begun: str
@@ -303,7 +303,7 @@ def _put_aside(form: Form, site: Site) -> int:
 def _begun(
     form: Form, site: Site, content: bytes, listed: Collection[str]
 ) -> tuple[Event, list[str]]:
-    """Return what a form begins, what its list makes doubtful, and what sets the pace."""
+    """Return what a form starts, what its list makes doubtful, and what sets the pace."""
     league = site.league if form.text("league") else None
     stated = scale_in(form)
     file = read_upload(content, read_entrants) if content.strip() else nobody()

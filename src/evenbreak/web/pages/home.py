@@ -28,7 +28,7 @@ from evenbreak.web.watch import Watch, stream_of
 
 
 async def tonight(request: Request) -> Response:
-    """Show the evening, or how one begins."""
+    """Show the evening, or how one starts."""
     night = night_of(request)
     if not night.exists:
         if await site_of(request).teams.now() is not None:

@@ -223,7 +223,7 @@ def _claim(request: Request, name: str, key: str, *, by_code: bool = False) -> N
 
 
 def _night_with(request: Request, name: str) -> Night:
-    """Return the first event of the night that somebody plays in."""
+    """Return the first event of the night that someone plays in."""
     for night in begun_nights(request):
         if name in night.state().entrants:
             return night
@@ -287,7 +287,7 @@ def _at_play(request: Request) -> str:
 
 
 def _mine(request: Request, pair: tuple[str, str]) -> str:
-    """Return which of two players this phone is; refuse everybody else."""
+    """Return which of two players this phone is; refuse everyone else."""
     name = night_of(request).phones().of(phone_of(request))
     if name not in pair:
         raise RefusalError("Only a match's players keep its score.", status=403)

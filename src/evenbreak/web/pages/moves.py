@@ -202,7 +202,7 @@ def _asked_about(form: Form, would: Entered) -> list[tuple[str, Any]]:
 
 
 async def second_chance(request: Request) -> Response:
-    """Begin a second event for those who are out by now."""
+    """Start a second event for those who are out by now."""
     form = await directors_form(request)
     at, race = site_of(request).clock(), form.whole("race", 1, LONGEST_RACE, default=0)
 

@@ -1,4 +1,4 @@
-"""Let the phones of the room in, and shut them out again."""
+"""Let phones in, and lock them out again."""
 
 from __future__ import annotations
 

@@ -103,7 +103,7 @@ def _last_at(nights: Sequence[Night], number: int) -> Night:
 
 
 def _next_on(nights: Sequence[Night], number: int) -> list[tuple[str, str]]:
-    """Return who plays next on a table, as far as that is worked out."""
+    """Return who plays next on a table, as far as that is calculated."""
     return [
         night.known.of.pair(match)
         for night in nights

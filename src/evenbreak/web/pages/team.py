@@ -63,7 +63,7 @@ Decide = Callable[[TeamEvening], list[What]]
 
 
 async def team(request: Request) -> Response:
-    """Show the night: to everybody the sets and the chances, to a captain the advice too."""
+    """Show the night: to everyone the sets and the chances, to a captain the advice too."""
     teams = site_of(request).teams
     now = await teams.now()
     if now is None:
@@ -137,7 +137,7 @@ async def history(request: Request) -> Response:
 
 
 async def ask(request: Request) -> Response:
-    """Show the form that begins a team night."""
+    """Show the form that starts a team night."""
     check_director(request)
     return page(request, "team_new.html", entered={}, why="", **await _choices(site_of(request)))
 
@@ -157,7 +157,7 @@ async def _choices(site: Site) -> dict[str, Any]:
 
 
 async def begin(request: Request) -> Response:
-    """Begin a team night; a form that is refused comes back as it was filled in."""
+    """Start a team night; a form that is refused comes back as it was filled in."""
     site = site_of(request)
     form = await directors_form(request)
     try:
@@ -196,7 +196,7 @@ async def leave(request: Request) -> Response:
 
 
 async def put(request: Request) -> Response:
-    """Put somebody up."""
+    """Put someone up."""
     form = await form_of(request)
     now = await night_on(request)
     by, side = _author(request, now.state, form)

@@ -1,4 +1,4 @@
-"""The wall: what everyone in the room wants to see, in letters for eight meters.
+"""The wall: what everyone at the venue wants to see, readable from eight meters.
 
 It shows the tables, the bracket and the story of the night in turn, of each event of the night, and
 the tables at once when a match is called; at the end the champion. Without a script it asks again
