@@ -128,7 +128,7 @@ def test_what_was_entered_at_a_terminal_says_so(busy: Hall) -> None:
 def test_a_match_is_called_back_on_the_desk(busy: Hall) -> None:
     assert "Take it off the table" in busy.director.open("/desk", match="10").words
     shown = busy.director.send("/desk/uncall", match="W2.2")
-    assert "Off table 4: match 10" in shown.words
+    assert "Taken off table 4: match 10; 2-0 is kept." in shown.words
     assert busy.state.live["W2.2"].what.score == (2, 0)
     assert busy.guest.send("/desk/uncall", match="L1.2").status == 403
 

@@ -66,7 +66,7 @@ def test_why_matchups_and_the_site_give_a_pair_one_race_and_chance(run, tmp_path
         assert found["chart_p_win_a"] == pytest.approx(float(row["chart_p_win_a"]), abs=1e-6)
         page = tmp_path / "site" / "players" / f"{names[0].lower().replace(' ', '-')}.html"
         text = " ".join(re.sub(r"<[^>]+>", " ", page.read_text()).split())
-        assert f"{names[1]} {race[0]}-{race[1]} {100 * found['chart_p_win_a']:.0f}%" in text
+        assert f"{names[1]} {race[0]}:{race[1]} {100 * found['chart_p_win_a']:.0f}%" in text
 
 
 @pytest.mark.slow
@@ -102,7 +102,11 @@ def test_lists_that_lack_a_level_or_a_player_take_them_from_the_results(run, tmp
     words = ("matchups", "roster.csv", "--chart", "apa_8ball", "--results", "sheet.csv")
     assert "'New' has no skill level" in run(*words).stderr
     found, _ = answer(run, *words, "--starter", "2")
-    taken = [one for one in found["warnings"] if "Bo 3" in one or "New: taken at 2" in one]
+    taken = [
+        one
+        for one in found["warnings"]
+        if "Bo 3" in one or "No level known for New: assumed to be 2" in one
+    ]
     assert len(taken) == 2
     race = {(row["player_a"], row["player_b"]): row for row in found["pairs"]}
     one = next(row for pair, row in race.items() if set(pair) == {"Michael Morris", "Bo"})

@@ -189,7 +189,7 @@ def test_what_is_in_play_is_named_before_it_is_taken_away(begun):
     on = {one["match"]: one["table"] for one in begun("next")["next"]}
     assert on[3] == 2
     said = begun.run("tournament", "uncall", "W2.1", "--file", begun.file, "--text")
-    assert "Off table 2: match 3; 2-1 is kept." in said.stdout
+    assert "Taken off table 2: match 3; 2-1 is kept." in said.stdout
     assert begun.run("tournament", "uncall", "--file", begun.file).exit_code == 2
     said = begun.run("tournament", "undo", "--file", begun.file, "--text")
     assert "Undone: match 3 taken off its table." in said.stdout
