@@ -23,7 +23,7 @@ LEAGUES = 25
 
 
 def tournaments(rng, events=40, field=16, race=5):
-    """Return knock-outs in pools of players that grow."""
+    """Return knockouts in pools of players that grow."""
     skill, often = rng.normal(0.0, SPREAD, 40), rng.gamma(0.5, 1.0, 40) + 0.01
     rows = []
     for event in range(events):

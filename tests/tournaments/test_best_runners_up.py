@@ -50,7 +50,7 @@ def group_ends(group: Group, win: np.ndarray) -> Iterator[tuple[float, tuple[int
 
 
 def brute_force(bracket: Bracket, win: np.ndarray) -> np.ndarray:
-    """Return P(each place) by all results of the groups, all lots, and all knock-outs."""
+    """Return P(each place) by all results of the groups, all lots, and all knockouts."""
     runners_up = bracket.runners_up
     assert runners_up is not None
     law = np.zeros((len(bracket.players), len(bracket.places)))
@@ -75,7 +75,7 @@ def brute_force(bracket: Bracket, win: np.ndarray) -> np.ndarray:
 
 
 def _add_places(law, bracket, sent, p, win) -> None:
-    """Add the places of one outcome of the groups, over all knock-outs."""
+    """Add the places of one outcome of the groups, over all knockouts."""
     column = {place: k for k, place in enumerate(bracket.places)}
     for group in bracket.groups:
         for rank, place in enumerate(group.places, 1):

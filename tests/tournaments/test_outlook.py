@@ -6,6 +6,7 @@ import weakref
 import numpy as np
 import pytest
 
+from evenbreak.answers.tournament.under_way import time_under_way
 from evenbreak.ratings.scale import scale_of
 from evenbreak.tournaments import chances_given, over_ratings, pair_odds, title_odds
 from evenbreak.tournaments.evening import moves
@@ -161,6 +162,25 @@ def test_pace_is_learned_from_matches_that_were_called() -> None:
     quick, slow = (outlook(after(called, at, result), "20:30") for at in ("19:25", "20:25"))
     assert [match.minutes for match in slow.timed] == [80.0]
     assert quick.finish().pace.per_game < slow.finish().pace.per_game
+
+
+def test_a_match_called_late_says_nothing_of_the_pace() -> None:
+    events = begun()
+    called = after(events, "19:05", moves.call(evening(events), "W1.4", 1))
+    result = moves.result(evening(called), "W1.4", (5, 2))
+    for at, is_timed in (("19:06", False), ("19:15", False), ("19:16", True)):  # 7 games
+        assert bool(outlook(after(called, at, result), "20:30").timed) == is_timed
+
+
+def test_nothing_is_said_of_a_pace_of_two_matches() -> None:
+    events = begun()
+    for k, name in enumerate(("W1.4", "W1.2", "W2.1"), start=1):
+        events = after(events, "19:05", moves.call(evening(events), name, 1))
+        events = after(events, f"19:{30 + k}", moves.result(evening(events), name, (5, 2)))
+        now = outlook(events, "20:30")
+        assert len(now.timed) == k
+        said = "\n".join(str(part) for part in time_under_way(now).parts)
+        assert ("tonight is" in said) == (k == 3)
 
 
 def test_a_player_who_has_gone_home_loses_matches_to_come() -> None:

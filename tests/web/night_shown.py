@@ -55,11 +55,13 @@ class Screen(NamedTuple):
 
 SCREENS = (
     Screen("tonight", "/"),
+    Screen("tonight-director", "/", "director", (320, 390)),
     Screen("who", "/me"),
     Screen("mine", "/me", "player", (320, 390)),
     Screen("table", "/table/TV", "guest", (390, 1024)),
     Screen("bracket", "/bracket", "guest", (320, 390, 1280, 1920)),
     Screen("players", "/players"),
+    Screen("players-director", "/players", "director"),
     Screen("prizes", "/prizes?fee=20"),
     Screen("fair", "/fair?a=Ann+Lee&b=Tony+Marsh&race=7"),
     Screen("league", "/league"),

@@ -237,6 +237,10 @@ def test_a_reserved_table_is_given_out_from_the_sheet_of_a_match(hall: Hall) -> 
     assert hall.state.on_tables[match].call.table == 4
 
 
+def test_matches_called_by_one_tap_are_told_as_one(full: Hall) -> None:
+    assert "4 matches called" in full.director.open("/desk").words
+
+
 def test_more_has_everything_once(full: Hall) -> None:
     shown = full.director.open("/desk/more")
     for words in ("History and undo", "Someone came late", "Tables: 4", "Save a copy"):

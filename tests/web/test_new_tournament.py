@@ -399,7 +399,7 @@ def test_provisional_ratings_are_marked_and_listed_last(tmp_path: Path) -> None:
         assert director.send("/desk/draw").status == 200
         wall = phone.open("/screen", only="tables").words
         for _ in range(200):
-            if "Who wins it" in wall and "Bo few games" in wall:
+            if "Odds to win" in wall and "Bo few games" in wall:
                 break
             time.sleep(0.05)
             wall = phone.open("/screen", only="tables").words

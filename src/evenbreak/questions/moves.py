@@ -100,7 +100,7 @@ class MakeDraw(Entry):
     """Make the draw as {seeding} of evenbreak tournament new set it.
 
     Later it draws the next stage: the next round of a Swiss once a round is over, or, with
-    {placement} redraw, the losers' side's qualifiers for the knock-out.
+    {placement} redraw, the losers' side's qualifiers for the knockout.
     """
 
     seed: Annotated[Lots | None, Says("The seed of a blind draw.")] = None

@@ -19,7 +19,7 @@ FORMAT_TITLES = {
     "double": say("Double elimination"),
     "single": say("Single elimination"),
     "round-robin": say("Round robin"),
-    "groups": say("Groups, then knock-out"),
+    "groups": say("Groups, then knockout"),
     "consolation": say("Single elimination with consolation"),
     "king-of-the-hill": say("King of the hill"),
     "swiss": say("Swiss"),
@@ -42,7 +42,7 @@ class TournamentPlan(Format, Question):
             titles=FORMAT_TITLES,
             metavar="FORMAT",
             more="`double` elimination, `single` elimination, `pods` (double elimination in pods, "
-            "then single), `groups` (round robin in groups, then knock-out), `swiss` (needs "
+            "then single), `groups` (round robin in groups, then knockout), `swiss` (needs "
             "`pip install 'evenbreak[swiss]'`), `round-robin`, `consolation` (those who lose their "
             "first match play a second event), `king-of-the-hill` (the first two of the list "
             "play, the winner meets the third, and so on), or `chips`, which only "

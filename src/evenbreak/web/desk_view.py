@@ -40,7 +40,7 @@ from evenbreak.tournaments.evening.undoing import losses, undoable
 from evenbreak.web.evening_view import progress_of
 from evenbreak.web.night import score_of, win_chance
 from evenbreak.web.sessions import author_words
-from evenbreak.words import Sentence, joined, listed, say, tally
+from evenbreak.words import Sentence, joined, listed, say, say_count, tally
 
 
 class Side(NamedTuple):
@@ -272,14 +272,21 @@ def shouts(
 def _came_with(n: int, number: int, event: Event, last: LastAct, acted: Evening) -> bool:
     """Return whether an entry is of the last act, or came with it or after it."""
     events = dict(zip(acted.numbers, acted.events, strict=True))
-    first, act = last.number, events[last.number]
-    while (one := events.get(first - 1)) and (one.at, one.by) == (act.at, act.by):
-        first -= 1  # calls of several tables by one tap are entries of their own
+    first = _first_with(acted, last.number)
     if n == last.event:
         return number >= first
     return event.at > last.at or event.by in {
         with_entry(last.event, k) for k in events if k >= first
     }
+
+
+def _first_with(state: Evening, number: int) -> int:
+    """Return the first entry of an act: each table called by one tap is an entry of its own."""
+    events = dict(zip(state.numbers, state.events, strict=True))
+    act = events[number]
+    while (one := events.get(number - 1)) and (one.at, one.by) == (act.at, act.by):
+        number -= 1
+    return number
 
 
 def _is_act(event: Event) -> bool:
@@ -296,6 +303,10 @@ def _told(state: Evening, number: int) -> tuple[Sentence | str, tuple[Sentence |
     event = state.events[k]
     before, after = evening(state.events[:k]), evening(state.events[: k + 1])
     title = event_words(event.what, state)
+    together = state.events[state.numbers.index(_first_with(state, number)) : k + 1]
+    if isinstance(event.what, Called) and len(together) > 1:
+        calls = sum(isinstance(one.what, Called) for one in together)
+        title = say_count("{n} match called", "{n} matches called", calls)
     if isinstance(event.what, Result) and not event.what.stands:
         result = event.what
         said = happened(before, after, event)

@@ -13,7 +13,7 @@ import os
 import re
 import secrets
 import urllib.parse
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from importlib.resources import files
@@ -41,6 +41,7 @@ from evenbreak.web.site import Site, event_of, of_event
 from evenbreak.words import (
     Face,
     Figure,
+    Sentence,
     capital_in_face,
     in_face,
     joined,
@@ -115,6 +116,16 @@ def _templates() -> jinja2.Environment:
         undefined=jinja2.StrictUndefined,
         finalize=_said,
     )
+
+
+def _of_plain(how: Callable[..., Sentence]) -> Callable[..., Sentence]:
+    """Return say, or say_count, for templates: what a macro escaped is not escaped once more."""
+
+    def sentence(*given: Any, **values: Any) -> Sentence:
+        plain = {k: v.unescape() if isinstance(v, Markup) else v for k, v in values.items()}
+        return how(*given, **plain)
+
+    return sentence
 
 
 @jinja2.pass_context
@@ -244,9 +255,9 @@ def page(
         .get_template(template)
         .render(
             face=face,
-            say=say,
+            say=_of_plain(say),
             say_as=say_as,
-            say_count=say_count,
+            say_count=_of_plain(say_count),
             joined=joined,
             tally=tally,
             race_of=race,

@@ -23,14 +23,13 @@ from evenbreak.matches.pace import Pace
 from evenbreak.teams.evening.fold import SetLine, TeamEvening
 from evenbreak.teams.night import LOSER, WINNER
 from evenbreak.tournaments.clock.evenings import lognormal, minutes_left, turnovers
-from evenbreak.tournaments.clock.event_pace import Timed, learned_pace
+from evenbreak.tournaments.clock.event_pace import QUICKEST, Timed, learned_pace
 from evenbreak.tournaments.clock.finish import bands_of
 from evenbreak.tournaments.clock.table_schedule import Waiting, schedule
 from evenbreak.tournaments.odds.play import stratified_uniforms
 from evenbreak.words import Sentence, say
 
 RUNS = 2000
-_TYPED = 1.0  # minutes; sets that took less were typed in afterward
 
 
 class Band(NamedTuple):
@@ -103,9 +102,9 @@ def _timed(state: TeamEvening, begun: Mapping[int, str]) -> list[Timed]:
     found = []
     for line in state.sets:
         if line.score and line.number in begun:
-            minutes = _minutes(begun[line.number], line.over_at)
-            if minutes >= _TYPED:
-                found.append(Timed(sum(line.score), minutes))
+            one = Timed(sum(line.score), _minutes(begun[line.number], line.over_at))
+            if one.minutes >= QUICKEST * one.games:
+                found.append(one)
     return found
 
 

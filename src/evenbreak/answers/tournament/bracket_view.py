@@ -254,7 +254,7 @@ def title_of(kind: str) -> str:
         "winners": say("Winners"),
         "losers": say("Losers"),
         "consolation": say("Consolation"),
-        "knock-out": say("Knock-out"),
+        "knock-out": say("Knockout"),
         "round robin": say("Round robin"),
         "Chips": say("Racks"),
     }

@@ -22,15 +22,15 @@ from evenbreak.tournaments.evening.moves import known_match
 from evenbreak.words import Sentence, say
 
 
-def printed_answer(state: Evening, written: str) -> Answer:
-    """Return what was written, with the list of the draw: who plays first where."""
+def printed_answer(state: Evening, title: str, written: str) -> Answer:
+    """Return what was written, under its name, with the list of the draw: who plays first where."""
     show = {"table": state.plan.table_name}
     columns = columns_of("seed name first_match between table", show=show)
     rows = [
         [one.seed, one.name, one.match, " - ".join(one.pair), one.table]
         for one in first_matches(state)
     ]
-    return Answer("The draw", [written, Table("draw", columns, rows)])
+    return Answer(title, [written, Table("draw", columns, rows)])
 
 
 class First(NamedTuple):
@@ -105,6 +105,7 @@ def _card(state: Evening, name: str) -> Card:
         "final": say("final"),
         "second final": say("second final"),
         "third place": say("third place"),
+        "knock-out": say("knockout, round {n}", n=match.round),
     }.get(match.side) or say("{part}, round {n}", part=match.side, n=match.round)
     table = state.on_tables.get(name)
     return Card(
@@ -121,12 +122,12 @@ def paper_words(state: Evening, live: str = "") -> tuple[str, str, str | None]:
     """Return the words around a bracket on paper: what is played, when it was printed, who won."""
     form = str(state.bracket.format)
     many = f"{len(state.order)} players, {form}. {races_words(state.races)}"
-    played = f"After {len(state.counted)} matches." if state.counted else ""
-    pen = "A small /4 is the games that player needs. Write the score over it."
+    played = f"After {count_of(len(state.counted), 'match', 'matches')}." if state.counted else ""
+    pen = "The small number is the race. Write the score over it."
     finals = [m for m in state.bracket.matches if m.side in ("final", "second final")]
     over = not state.standing.to_play and finals
     won = [state.counted[m.name].winner for m in finals if over and m.name in state.counted]
-    return many, "  ".join(filter(None, (played, pen, live))), won[-1] if won else ""
+    return many, " ".join(filter(None, (played, pen, live))), won[-1] if won else ""
 
 
 def onward_words(state: Evening, name: str) -> Sentence | str:

@@ -61,7 +61,7 @@ def programs_answer(tokens: Collection[Token], plan: Plan, created: str = "") ->
     table = Table("programs", columns, rows)
     parts: list[Part] = [*said, *([table] if tokens else [])]
     data = {"token": created} if created else {}
-    return Answer(say("Programs"), parts, data=data, csv=table)
+    return Answer(say("Other apps"), parts, data=data, csv=table)
 
 
 def _minute(at: str) -> str | None:

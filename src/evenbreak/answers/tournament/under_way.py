@@ -38,6 +38,8 @@ from evenbreak.tournaments.odds.races import Races
 from evenbreak.tournaments.odds.title import TitleOdds
 from evenbreak.words import joined, say
 
+_TELLING = 3  # matches timed: fewer say too little of tonight's pace to be told
+
 
 def odds_under_way(
     outlook: Outlook, *, sure: bool = False, prizes: Sequence[float] = (), source: str = ""
@@ -153,11 +155,11 @@ def time_under_way(
     plan = state.plan
     parts += filter(None, [venue_words(plan.discipline, plan.earlier)])
     parts.append(assumed_words(usual, plan.discipline, turnover))
-    if timed := outlook.timed:
+    if (timed := len(outlook.timed)) >= _TELLING:
         parts.append(
             say(
                 "Going by the matches called and played so far ({n}), tonight is {pace}.",
-                n=len(timed),
+                n=timed,
                 pace=_pace_words(found.pace.per_game / outlook.pace.per_game),
             )
         )

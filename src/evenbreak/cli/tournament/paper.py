@@ -163,11 +163,12 @@ def print_paper(asked: Print) -> Answer:
     if asked.what == "draw":
         write_file(place, _draw_list(state, asked))
         return printed_answer(
-            state, say("The list of the draw is in {file}.", file=FilePath(place))
+            state, "The draw", say("The list of the draw is in {file}.", file=FilePath(place))
         )
     if asked.what == "bracket":
         write_file(place, _drawing(state, asked, ".pdf"))
-        return printed_answer(state, say("The bracket is in {file}.", file=FilePath(place)))
+        written = say("The bracket is in {file}.", file=FilePath(place))
+        return printed_answer(state, "The bracket", written)
     cards = score_cards(state, asked.match)
     if not cards:
         refuse("no match is waiting to be played, so there's no card to print")
@@ -181,7 +182,7 @@ def print_paper(asked: Print) -> Answer:
         len(cards),
         file=FilePath(place),
     )
-    return printed_answer(state, written)
+    return printed_answer(state, "Score cards", written)
 
 
 def _title(state: Evening, asked: Show | Print) -> str:

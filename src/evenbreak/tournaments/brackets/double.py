@@ -198,7 +198,7 @@ def pods(
         the lines of a pod: 4, 8 or 16.
     qualifiers
         how many qualify from each pod. 1: the winners of its two sides play one deciding
-        match (P1, P2, ...). 2: both qualify, into different halves of the knock-out.
+        match (P1, P2, ...). 2: both qualify, into different halves of the knockout.
     drops
         as in `double_elimination`, within each pod.
 
@@ -276,7 +276,7 @@ def double_down(
 def losers_qualifiers(bracket: Bracket) -> tuple[Slot, ...]:
     """Return where the losers' qualifiers of a double elimination come from.
 
-    They are in the order of the matches of the knock-out that they go into.
+    They are in the order of the matches of the knockout that they go into.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Round robin, alone or in groups before a knock-out."""
+"""Round robin, alone or in groups before a knockout."""
 
 from __future__ import annotations
 
@@ -53,11 +53,11 @@ def groups_then_knockout(
     times: int = 1,
     third_place: bool = False,
 ) -> Bracket:
-    """Return round-robin groups whose best players go on to a knock-out.
+    """Return round-robin groups whose best players go on to a knockout.
 
     Seeds are dealt to the groups in a snake: 1 to A, 2 to B, and so on, then back. A group
     winner first meets a runner-up of another group, and two qualifiers from one group are in
-    different halves of the knock-out, except the best runners-up.
+    different halves of the knockout, except the best runners-up.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def groups_then_knockout(
     drafts, ranks = knockout(field, "K", "knock-out", last=last, third_place=third_place)
     later = bracket_of("", names, drafts, ranks).matches
     return Bracket(
-        f"{count} groups, then knock-out",
+        f"{count} groups, then knockout",
         names,
         (*(match for _, matches in made for match in matches), *later),
         tuple(group for group, _ in made),
@@ -204,7 +204,7 @@ def _group_places(sizes: list[int], going_on: int, best: int) -> tuple[Place | N
 
 
 def _field(groups: int, going_on: int, best: int) -> list[DraftSlot]:
-    """Return the lines of the knock-out."""
+    """Return the lines of the knockout."""
     first: list[DraftSlot] = [Source(_letters(k), 1) for k in range(groups)]
     if going_on == 2 and not best and groups & (groups - 1) == 0 and groups > 1:
         # Groups in pairs (A, B), (C, D): 1A-2B in the upper half, 1B-2A in the lower.

@@ -129,7 +129,7 @@ def knockout(
     last: str = "F",
     third_place: bool = False,
 ) -> tuple[list[Draft], list[Rank]]:
-    """Return the matches of a knock-out, and who leaves it at which point, best first.
+    """Return the matches of a knockout, and who leaves it at which point, best first.
 
     The number of entrants, one per line, is a power of 2; matches are named by the letter: W1.1,
     ...

@@ -29,6 +29,8 @@ _VENUE = 0.5  # of the variance of the pace of evenings
 _PRIOR_NIGHTS = 2.0  # that what is usual counts as, against the nights of a venue
 SLOWEST = 2.0
 """By how much a night can be longer or shorter than usual and still say something of the pace."""
+QUICKEST = 1.5
+"""The fewest minutes a game: a match that was shorter was called late, or typed in afterward."""
 
 
 @dataclass(frozen=True)

@@ -272,7 +272,7 @@ class LaterDraw:
     """Something was drawn during the evening.
 
     The stage is R1, R2, ... for a round of a Swiss, whose order is the players in pairs (None: a
-    bye), or K1 for the losers' qualifiers of a knock-out: the matches that they come from, in the
+    bye), or K1 for the losers' qualifiers of a knockout: the matches that they come from, in the
     order of those that they go into.
     """
 

@@ -194,7 +194,7 @@ class Format:
             "How the losers' side's qualifiers meet the winners' side's: the halves crossed, or "
             "drawn.",
             label=say("How those from the losers' side meet the others"),
-            titles={"half-shift": say("Halves swapped"), "redraw": say("Drawn again")},
+            titles={"half-shift": say("Cross the halves"), "redraw": say("Redraw")},
             section=_FORMAT,
             rare=True,
             formats=("double",),

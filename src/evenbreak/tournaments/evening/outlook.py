@@ -19,7 +19,7 @@ from evenbreak.errors import InputError
 from evenbreak.matches.pace import Pace, Turnover
 from evenbreak.tournaments.chips.play import rack_chances
 from evenbreak.tournaments.clock.evenings import InPlay
-from evenbreak.tournaments.clock.event_pace import Timed, event_pace, learned_pace
+from evenbreak.tournaments.clock.event_pace import QUICKEST, Timed, event_pace, learned_pace
 from evenbreak.tournaments.clock.finish import Call, Finish, finish
 from evenbreak.tournaments.clock.shared_tables import SharedTables
 from evenbreak.tournaments.evening.chip_outlook import (
@@ -475,7 +475,7 @@ class Outlook:
             ends = [one.at for one in state.records.get(name, ()) if one.result.players == pair]
             if began is None or not ends or not any(result.score):
                 continue
-            minutes = self.minutes(ends[0]) - self.minutes(began)
-            if minutes >= 1.0:  # shorter ones were typed in afterward
-                found.append(Timed(sum(result.score), minutes))
+            one = Timed(sum(result.score), self.minutes(ends[0]) - self.minutes(began))
+            if one.minutes >= QUICKEST * one.games:
+                found.append(one)
         return found

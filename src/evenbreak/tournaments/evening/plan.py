@@ -56,7 +56,7 @@ BYE = re.compile(r"byes?[\s\d]*", re.IGNORECASE)
 """How a bye is written on a list."""
 
 KNOCK_OUT = "K1"
-"""The stage of the redraw: the first round of the knock-out."""
+"""The stage of the redraw: the first round of the knockout."""
 
 TO_DRAW = "to draw"
 """In place of a match, the source of a player who is still to be drawn."""

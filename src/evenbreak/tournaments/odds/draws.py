@@ -56,7 +56,7 @@ def redraw_odds(
         a double elimination down to qualifiers; how its losers' qualifiers are placed does not
         matter.
     win, results
-        as in `title_odds`, before the knock-out starts.
+        as in `title_odds`, before the knockout starts.
     samples
         how many redraws are sampled if there are more than 24.
     rng

@@ -89,7 +89,7 @@ NOT_WITH_FORMAT = {
 
 
 PACES = (
-    ("0.8", say("a fifth less than usual")),
+    ("0.8", say("20% faster than usual")),
     ("1", say("as long as usual")),
     ("1.15", say("a little longer")),
     ("1.3", say("a third longer")),
