@@ -195,7 +195,7 @@ def by_level(team: dict[str, tuple[int, int]]) -> str:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("chart", "race", "score", "brought"),
-    [("apa_8ball", "5-3", (5, 2), "2-1"), ("apa_9ball", "46-31", (46, 21), "15-5")],
+    [("apa_8ball", "5:3", (5, 2), "2-1"), ("apa_9ball", "46:31", (46, 21), "15-5")],
 )
 def test_a_night_by_skill_level_alone(
     tmp_path: Path, chart: str, race: str, score: tuple[int, int], brought: str
