@@ -127,3 +127,5 @@ def test_a_sum_that_misses_one_by_rounding_is_a_probability() -> None:
 def test_what_is_no_game_is_refused() -> None:
     with pytest.raises(GameError, match=r"Rack\(p1=0\.5, p2=None\) isn't a game"):
         graph_of(Rack(0.5))  # type: ignore[arg-type]
+    with pytest.raises(GameError, match=r"chain_of\(graph, start=state\)"):
+        graph_of(graph_of(Coin()))  # type: ignore[arg-type]

@@ -59,7 +59,9 @@ def test_a_number_for_each_state(chain):
 
 
 def test_a_chain_without_a_start_asks_for_one():
-    with pytest.raises(ChainError, match="Give a start state"):
+    with pytest.raises(
+        ChainError, match=r"such as start=0; chain_of\(graph, start=\.\.\.\) sets it"
+    ):
         Chain(range(1), csc_array([[1.0]])).density()
 
 

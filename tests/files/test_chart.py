@@ -168,6 +168,11 @@ def test_neither_a_name_nor_a_file():
         find_chart("npl_9")
 
 
+def test_the_beginning_of_a_name_brings_those_that_begin_so():
+    with pytest.raises(DataError, match="Did you mean apa_8ball or apa_9ball"):
+        find_chart("APA")
+
+
 cells = st.sampled_from(["0", "4", "5", "9", "10", "", "x", "3.0", "99999999999", "é", '"', "-1"])
 headers = st.sampled_from([ROWS, LEVELS, "from;to;stronger;weaker\n", "level\topponent\tgames\n"])
 

@@ -158,5 +158,18 @@ def test_ratings_outside_every_scale_are_refused_with_each_reading(ratings: list
     assert f"{better} wins a game against {worse}" in said
 
 
+@pytest.mark.parametrize("ratings", [[6, 3], [5, 5], [2, NOBODY, 7, 4], [1, 9]])
+def test_ratings_that_look_like_skill_levels_are_refused(ratings: list[float]) -> None:
+    low, high = np.nanmin(ratings), np.nanmax(ratings)
+    said = f"{low:g} to {high:g} look like skill levels, not ratings. take a chart"
+    with pytest.raises(InputError, match=said):
+        unstated_scale(ratings, ["Ann"] * 4, "say which", levels="take a chart")
+
+
+@pytest.mark.parametrize("ratings", [[6], [6.5, 3], [0, 9], [3, 10], [NOBODY, 6]])
+def test_one_rating_or_one_that_is_no_level_is_a_rating(ratings: list[float]) -> None:
+    assert unstated_scale(ratings, ["Ann"] * 4, "").name == "npl"
+
+
 def test_a_list_without_a_rating_is_on_the_default_scale() -> None:
     assert unstated_scale([NOBODY], ["Ann"], "").name == DEFAULT_SCALE

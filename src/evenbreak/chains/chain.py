@@ -281,7 +281,10 @@ class Chain:
 
     def _own_start(self) -> Hashable:
         if self.start is None:
-            raise ChainError("the chain has no start of its own. Give a start state.")
+            raise ChainError(
+                "the chain has no start of its own. Give a start state, such as "
+                f"start={self.states[0]!r}; chain_of(graph, start=...) sets it for every question."
+            )
         return self.start
 
     def start_index(self, start: Any = None) -> int | None:

@@ -10,6 +10,7 @@ from click.core import ParameterSource
 from evenbreak import files, handicaps, league
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.systems import (
+    POINTS_OR_SCALE,
     SAY_WHICH,
     chart_for,
     level_system,
@@ -137,7 +138,7 @@ def _moved(
     refuse_levels(first, f"the system {system.name} needs ratings in points. Give a list of those.")
     own = system.scale.name != DEFAULT_SCALE
     assumed = own and scale is None
-    points = system.scale if assumed else first.scale_by(scale, SAY_WHICH)
+    points = system.scale if assumed else first.scale_by(scale, SAY_WHICH, POINTS_OR_SCALE)
     whose = f"the system {system.name}" if scale is None else Parameter("scale")
     remedy = "Name the scale of the ratings, or correct the file."
     refuse_other_scale(first, points, whose, remedy, stated=not assumed)

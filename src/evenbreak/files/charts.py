@@ -295,10 +295,14 @@ def find_chart_file(name_or_path: str | Path) -> ChartFile:
     if name == "-" or (catalog_name(name) not in EVERY_CHART and _exists(name)):
         return read_chart_file(name_or_path)
     if (found := named_chart(name)) is None:
+        key, charts = catalog_name(name), chart_names()
+        like = [one for one in charts if key and one.startswith(key)]
         raise refusal(
             printable(name),
-            "there's no chart or file with this name. Charts: {charts}",
-            charts=", ".join(chart_names()),
+            "there's no chart or file with this name. {charts}",
+            charts=say("Did you mean {names}?", names=listed(like, "or"))
+            if like
+            else say("Charts: {names}", names=", ".join(charts)),
         )
     draft = ChartDraft(found.name, tuple(found.rows)) if isinstance(found, Chart) else found
     return ChartFile(draft, (), ())

@@ -316,7 +316,9 @@ def read_practice(
     if (title := _outcomes_in(table)) is not None:
         return _shots(_counted(table, title, shots), drill)
     if "score" in table or not {"made", "tried"} <= table.found:
-        if "score" not in table:
+        if not table.found:
+            table.problems.add(1, "no line names the columns. Write score above the scores.")
+        elif "score" not in table:
             of_shots = [name for name in ("made", "tried") if name not in table]
             lacks = of_shots if len(of_shots) == 1 else ["score"]
             for name in lacks:

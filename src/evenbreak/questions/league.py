@@ -107,7 +107,7 @@ class Matchups(Lengths, Starters, Pace):
     def check(self) -> None:
         """Refuse what lacks something else."""
         if self.chart is None and self.games is None and self.race_to is None:
-            self.refuse("missing races: give {chart} NAME, {games} LO..HI or {race_to} N")
+            self.refuse("Add a race: {chart} NAME, {games} LO..HI or {race_to} N.")
         if self.results is not None and not has_levels(self.chart):
             self.refuse(
                 "{results} is for chances by skill level. Add a chart of levels, "

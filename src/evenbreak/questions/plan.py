@@ -123,13 +123,13 @@ class TournamentPlan(Format, Question):
                     extra=Parameter(extra),
                 )
             if self.chips is None:
-                self.refuse("missing chip chart: add {chips} NAME, such as hoboken")
+                self.refuse("Add a chip chart: {chips} NAME, such as hoboken.")
         elif len(races) != 1:
             if races:
                 self.refuse(
                     "the races are given twice. Use only one of {race}, {race_to} and {chart}."
                 )
-            self.refuse("missing races: use one of {race}, {race_to} and {chart}")
+            self.refuse("Add a race: one of {race}, {race_to} and {chart}.")
         elif self.chart is not None and apart:
             self.refuse("{chart} sets all races. Leave out {losers_race} and {final_race}.")
 

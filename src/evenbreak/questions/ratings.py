@@ -304,7 +304,7 @@ class Report(Results, HowToRate, Lengths):
     out: Annotated[
         OutFolder,
         Says("Folder for ratings.csv, matchups.csv, summary.csv and sheet.pdf; created if needed."),
-    ]
+    ] = "sheet"
     scale: ScaleByChart = None
     players: Annotated[
         tuple[str, ...],

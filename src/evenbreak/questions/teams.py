@@ -157,7 +157,7 @@ class OfTeams(Starters):
             template = (
                 "the races are given twice. Use only one of {every}."
                 if stated
-                else "missing races: use one of {every}"
+                else "Add a race: one of {every}."
             )
             *first, last = (f"{{{name}}}" for name in self.lengths)
             self.refuse(template.replace("{every}", f"{', '.join(first)} and {last}"))

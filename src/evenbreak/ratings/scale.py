@@ -282,18 +282,31 @@ USUAL = {"npl": (-50.0, 150.0), "fargo": (150.0, 950.0), "elo": (1000.0, 3000.0)
 """Where the ratings of a scale lie, from the weakest beginners to the best players."""
 
 
+HIGHEST_LEVEL = 9
+"""Whole numbers from 1 up to this one can be skill levels (APA's reach it at nine-ball)."""
+
+
 def unstated_scale(
-    ratings: Iterable[float], names: Sequence[str], remedy: str, source: str = ""
+    ratings: Iterable[float], names: Sequence[str], remedy: str, source: str = "", levels: str = ""
 ) -> Scale:
     """Return the only scale that all ratings can be on; without a rating, the default one.
 
     NaN is no rating. An InputError if they fit no scale, or two: it starts with their source, says
-    what they would mean on each, and ends with the remedy.
+    what they would mean on each, and ends with the remedy. Two or more that all look like skill
+    levels are refused too; that ends with the remedy for `levels`.
     """
     rated = [(rating, k) for k, rating in enumerate(ratings) if not math.isnan(rating)]
     if not rated:
         return SCALES[DEFAULT_SCALE]
     (low, last), (high, first) = min(rated), max(rated)
+    if len(rated) > 1 and {rating for rating, _ in rated} <= {*range(1, HIGHEST_LEVEL + 1)}:
+        raise InputError(
+            "{where}{low:g} to {high:g} look like skill levels, not ratings. {remedy}",
+            where=f"{source}: " if source else "",
+            low=low,
+            high=high,
+            remedy=levels or remedy,
+        )
     possible = [name for name, (least, most) in USUAL.items() if least <= low <= high <= most]
     if len(possible) == 1:
         return SCALES[possible[0]]

@@ -48,7 +48,7 @@ class Meeting:
             *self.squads,
             self.laws(),
             sizes=self.sizes,
-            order="blind" if asked == SEALED else asked,
+            order="blind" if asked == SEALED else order_of(asked, len(self.sizes), [SEALED]),
         )
 
     def laws(self, *skills: Floats) -> list[Floats]:

@@ -183,7 +183,7 @@ NAMED = {
 """Orders with a name, as patterns; the last letters are repeated (AB) or the last one (AW)."""
 
 
-def order_of(text: str, sets: int) -> str:
+def order_of(text: str, sets: int, more: Sequence[str] = ()) -> str:
     """Return who names first in each set, a letter each.
 
     Parameters
@@ -193,6 +193,8 @@ def order_of(text: str, sets: int) -> str:
         'home' (A...), 'blind' (=...), 'winner' and 'loser' (A, then who won or lost the last set).
         A: we name first and they answer; B: the other way round; =: both at once, blind; W and L:
         the winner or the loser of the last set names first.
+    more
+        further names that the caller understands, for the message.
 
     Raises
     ------
@@ -207,7 +209,7 @@ def order_of(text: str, sets: int) -> str:
     wanted = say(
         "Write who names first in each set: A (you), B (they), = (both at once, unseen), W or L "
         "(who won or lost the last set); or a name: {names}.",
-        names=", ".join(NAMED),
+        names=", ".join((*NAMED, *more)),
     )
     if not pattern or set(pattern) - {OURS, THEIRS, BOTH, WINNER, LOSER}:
         raise InputError(

@@ -58,7 +58,6 @@ def serve(asked: Serve, league: LeagueFile | None) -> None:
 
 
 def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | None = None) -> None:
-    click.echo(f"The night is kept in {path.resolve()}", err=True)
     if path.exists():
         try:
             _read(path)
@@ -74,6 +73,9 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
             "folder {folder} doesn't exist. Create it or choose another.",
             folder=path.parent,
         )
+    elif not path.suffix:
+        asked.refuse("there's no file {file}. Name a .db file, such as {file}.db.", file=path)
+    click.echo(f"The night is kept in {path.resolve()}", err=True)
     site = Site(path, rules=league, color=asked.color, origins=frozenset(asked.allow_origin))
     last = site.last_port
     port = _port(asked, last)

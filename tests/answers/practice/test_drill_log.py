@@ -25,6 +25,12 @@ def answer_of(analysis, log=LOG, **changes):
     return drill_log_answer(file, replace(analysis, **changes), seed=1)
 
 
+def test_no_level_is_named_while_none_is_likely_to_be_it(analysis):
+    levels = [one._replace(p_best=one.p_best and 0.36) for one in analysis.levels]
+    said = answer_of(analysis, levels=tuple(levels)).sentences[0]
+    assert said.startswith("Too early to tell which level to practice: it is 36% likely to be")
+
+
 def findings(analysis, **changes):
     return answer_of(analysis, **changes).sentences[1]
 

@@ -95,6 +95,8 @@ def test_points_to_win_are_an_assumption_with_its_range(run, club):
         (("odds", "5", "3", "--race", "4:2", "--results", "x.csv"), "--results is for chances by"),
         (("odds", "85", "80", "--chart", "npl_8", "--results", "x"), "--results is for chances by"),
         (("odds", "--p", "0.6", *APA), "--chart is for ratings or skill levels"),
+        (("odds", "5", "3", "--race", "5"), "3 to 5 look like skill levels, not ratings. Add --ch"),
+        (("fair", "5", "3"), "Add --chart apa_8ball or --chart apa_9ball, or --scale npl if they"),
         (("odds", "5", "3"), "give --race M:N, --ahead M:N or --chart"),
         (("odds", "5", "3", "--chart", "apa_9ball", "--race", "5:3"), "--race isn't for a chart"),
         (("live", "5", "3", "--chart", "apa_9ball", "--racks", "ab"), "--racks isn't for a chart"),

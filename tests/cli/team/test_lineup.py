@@ -66,7 +66,7 @@ def test_sealed_and_blind_are_worth_the_same(ask):
 @each_of(
     "options, what",
     [
-        ("", "Error: missing"),
+        ("", "Error: Add a race"),
         ("--race 5 --order XYZ", "XYZ"),
         ("--race 5 --cap 10", "sum of the levels to 10"),
         ("--race 5 --at-most two", "'two'"),

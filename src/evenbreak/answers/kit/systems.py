@@ -21,6 +21,17 @@ if TYPE_CHECKING:
 SAY_WHICH = worded("Add {scale} npl, {scale} fargo or {scale} elo.")
 """What to do about ratings that do not show their scale."""
 
+CHART_OR_SCALE = worded(
+    "Add {chart} apa_8ball or {chart} apa_9ball, or {scale} npl if they are ratings."
+)
+"""What to do about ratings that look like skill levels, where a chart can be by skill level."""
+
+POINTS_OR_SCALE = worded(
+    "Add {scale} npl if they are ratings, otherwise {scale} N, the number of levels that double "
+    "the odds."
+)
+"""What to do about ratings that look like skill levels, where no chart can be by skill level."""
+
 LEAVE_OUT = worded("Leave {scale} out, or correct the file.")
 """What to do about a stated scale that contradicts a file."""
 
@@ -148,7 +159,7 @@ def scale_of_list(file: files.RosterFile, stated: Scale | None, remedy: str = SA
         refuse_other_scale(file, stated, Parameter("scale"), LEAVE_OUT, stated=True)
     else:
         refuse_levels(file, remedy)
-    return file.scale_by(stated, SAY_WHICH)
+    return file.scale_by(stated, SAY_WHICH, POINTS_OR_SCALE)
 
 
 def chart_by_difference(name: str, parameter: str = "chart") -> handicaps.Chart:

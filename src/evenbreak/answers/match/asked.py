@@ -205,12 +205,16 @@ def players_of(asked: Players, form: float | None = None) -> TwoPlayers:
             return _by_level(asked, chart, form)
     if asked.from_file is not None:
         return _named(asked, asked.from_file, form)
-    from evenbreak.answers.kit.systems import SAY_WHICH
+    from evenbreak.answers.kit.systems import CHART_OR_SCALE, SAY_WHICH
 
     a, b = (float(text) + 0.0 for text in asked.ratings)  # -0 is 0
     if not math.isfinite(a - b):
         refuse("the ratings are too far apart to calculate with. Give smaller numbers.")
-    scale = asked.scale or _scale_of_chart(chart) or unstated_scale([a, b], ["A", "B"], SAY_WHICH)
+    scale = asked.scale or _scale_of_chart(chart)
+    if scale is None:
+        scale = unstated_scale(
+            [a, b], ["A", "B"], SAY_WHICH, levels=SAY_WHICH if chart else CHART_OR_SCALE
+        )
     if asked.scale is None and chart is not None:
         refuse_contradicted(
             scale, [a, b], ["A", "B"], whose=f"the chart {chart.name}", remedy=SAY_WHICH
@@ -270,6 +274,7 @@ def _places(asked: Players, file: RosterFile) -> list[int]:
 def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
     """Return two players of a list, with its ratings, scale, errors and day-to-day form."""
     from evenbreak.answers.kit.systems import (
+        CHART_OR_SCALE,
         LEAVE_OUT,
         SAY_WHICH,
         refuse_levels,
@@ -286,7 +291,7 @@ def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
         refuse_other_scale(file, scale, Parameter("scale"), LEAVE_OUT, stated=True)
     elif file.scale is None:
         refuse_levels(file)
-    points = file.scale_by(scale, SAY_WHICH)
+    points = file.scale_by(scale, SAY_WHICH, CHART_OR_SCALE)
     roster = file.roster.with_starters(points.center, points.points_per_doubling, points)
     places = _places(asked, file)
     for place in places:

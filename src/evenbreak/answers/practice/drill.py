@@ -85,6 +85,9 @@ UNLIKELY = 0.05
 SURE = 0.8
 """From this probability on, the second best level is not mentioned."""
 
+CLEAR = 0.5
+"""Below this probability, no level is named as the one to practice."""
+
 
 def drill_log_answer(
     file: DrillLogFile, analysis: LogAnalysis, *, seed: int, levels_given: bool = True
@@ -177,17 +180,23 @@ def _practice(analysis: LogAnalysis) -> str:
     missed = [report for report in analysis.levels if report.attempts > report.successes]
     if best is None:
         return _nothing_to_practice(levels=len(analysis.levels), missed=bool(missed))
+    others = [report for report in missed if report is not best]
+    second = max(others, key=lambda report: report.p_best, default=best)
+    if best.p_best < CLEAR:
+        return (
+            f"Too early to tell which level to practice: it is {_percent(best.p_best)} likely "
+            f"to be level {best.level}, {_percent(second.p_best)} level {second.level}. A longer "
+            "log would show it."
+        )
     text = (
         f"Practice level {best.level} next: {better(best.p or 0.0)} there raise your average level "
         f"by {best.lift:.2f} (between {best.lift_low:.2f} and {best.lift_high:.2f}). "
     )
-    others = [report for report in missed if report is not best]
     if not others:
         return f"{text}It is the only level that you missed."
     text += f"It is {_percent(best.p_best)} certain that no other level helps more"
     if best.p_best >= SURE:
         return f"{text}."
-    second = max(others, key=lambda report: report.p_best)
     return (
         f"{text}, and {_percent(second.p_best)} for level {second.level}; a longer log would show "
         "which of them it is."

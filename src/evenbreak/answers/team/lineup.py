@@ -226,10 +226,9 @@ def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | N
         return None, ""
     other = solved(meeting.night(mirrored(order))).value
     first, second = (solution.value, other) if order[0] == OURS else (other, solution.value)
-    gap = abs(first - second)
-    toss = {"name_first": first, "answer_first": second, "worth": gap}
-    if gap < 5e-4:
-        return toss, say("It makes no difference who puts up first.")
+    toss = {"name_first": first, "answer_first": second, "worth": abs(first - second)}
+    if str(percent(first)) == str(percent(second)):
+        return toss, say("The toss makes no difference.")
     return toss, say(
         "If you win the toss, {choice}: you win {better} of such nights, compared with {worse} the "
         "other way round.",

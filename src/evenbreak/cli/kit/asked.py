@@ -171,7 +171,13 @@ class AskedCommand(click.Command):
         )
         if not ctx.resilient_parsing:
             self._refuse_twice(ctx, args)
-        rest = super().parse_args(ctx, args)
+        try:
+            rest = super().parse_args(ctx, args)
+        except click.UsageError as error:
+            example, *_ = (*self.question.examples.strip().splitlines(), "")
+            if example and error.message.startswith("Got unexpected extra argument"):
+                error.message += f". Write it like this: {example}"
+            raise
         if ctx.ignore_unknown_options and not ctx.resilient_parsing:
             for param in self.params:
                 if isinstance(param, click.Argument) and param.nargs == -1:

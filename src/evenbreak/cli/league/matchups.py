@@ -14,6 +14,7 @@ from evenbreak import answers, files, handicaps, matches, ratings, sheets
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.scales import league_doubts, starter_doubts
 from evenbreak.answers.kit.systems import (
+    CHART_OR_SCALE,
     LEAVE_OUT,
     SAY_WHICH,
     refuse_levels,
@@ -166,7 +167,7 @@ def _scale_of_list(
     refuse_levels(file)
     made_for = _scale_of_chart(of_league)
     if of_league is None or made_for is None:
-        return file.scale_by(None, SAY_WHICH)
+        return file.scale_by(None, SAY_WHICH, CHART_OR_SCALE)
     refuse_to_read(file, made_for, f"the chart {of_league.name}", SAY_WHICH)
     return made_for
 

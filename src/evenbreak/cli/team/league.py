@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from evenbreak import files, handicaps, league, ratings, teams
 from evenbreak.answers.kit.answer import Answer
 from evenbreak.answers.kit.systems import (
+    CHART_OR_SCALE,
     LEAVE_OUT,
     SAY_WHICH,
     refuse_levels,
@@ -362,7 +363,7 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
     names = [name for each in lists for name in each.file.roster.players]
     scale = stated or next(iter(scales), None)
     if scale is None:
-        scale = unstated_scale(rated.tolist(), names, SAY_WHICH)
+        scale = unstated_scale(rated.tolist(), names, SAY_WHICH, levels=CHART_OR_SCALE)
     elif stated is None:
         for each in lists:
             refuse_to_read(each.file, scale, "the other team's list", SAY_WHICH)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from evenbreak.answers.kit.answer import Answer
-from evenbreak.answers.kit.systems import SAY_WHICH
+from evenbreak.answers.kit.systems import POINTS_OR_SCALE, SAY_WHICH
 from evenbreak.cli.kit.asked import command_of
 from evenbreak.cli.kit.said import refuse
 from evenbreak.cli.tournament.evening import moment, night_of
@@ -160,7 +160,7 @@ def import_(asked: Import) -> Answer:
     points = scale or SCALES[DEFAULT_SCALE]
     if asked.ratings is not None:
         file = files.read_entrants(asked.ratings)
-        points, warnings = file.scale_by(scale, SAY_WHICH), [*file.warnings]
+        points, warnings = file.scale_by(scale, SAY_WHICH, POINTS_OR_SCALE), [*file.warnings]
         filled = file.roster.with_starters(points.center, points.points_per_doubling, points)
         warnings += filter(None, [games_words(file.roster, filled)])
         rated = np.isfinite(file.roster.rating)

@@ -136,7 +136,7 @@ def _order(text: str) -> str:
     from evenbreak.teams.night import order_of
 
     if text.strip().lower() != "sealed":
-        order_of(text, MOST_SETS)
+        order_of(text, MOST_SETS, ["sealed"])
     return text.strip()
 
 

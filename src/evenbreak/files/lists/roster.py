@@ -254,19 +254,20 @@ class RosterFile:
     levels: bool = False
     form: float = 0.0
 
-    def scale_by(self, stated: Scale | None, remedy: str) -> Scale:
+    def scale_by(self, stated: Scale | None, remedy: str, levels: str = "") -> Scale:
         """Return the scale that the user states, else the file, else the ratings themselves.
 
         Raises
         ------
         InputError
-            if nothing says it, as `unstated_scale` does; `remedy` ends the message.
+            if nothing says it, as `unstated_scale` does; `remedy` ends the message, or `levels`
+            where the ratings look like skill levels.
         """
         rated = self.roster
         return (
             stated
             or self.scale
-            or unstated_scale(rated.rating.tolist(), rated.players, remedy, self.source)
+            or unstated_scale(rated.rating.tolist(), rated.players, remedy, self.source, levels)
         )
 
 

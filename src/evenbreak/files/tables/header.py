@@ -188,7 +188,11 @@ class Header:
                 )
             else:
                 places[name] = place
-        if not places and any(_NUMBER.fullmatch(title.strip()) for title in titles):
+        if (
+            self.required
+            and not places
+            and any(_NUMBER.fullmatch(title.strip()) for title in titles)
+        ):
             problems.add(
                 line,
                 "the first line, {titles}, doesn't name columns. It must have {header} in a file "

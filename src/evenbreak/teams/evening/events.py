@@ -217,7 +217,7 @@ def meeting_by(
         race,
         scale,
         tuple(2 if k in rules.doubles else 1 for k in range(1, sets + 1)),
-        order if order == SEALED else order_of(rules.order, sets),
+        order if order == SEALED else order_of(rules.order, sets, [SEALED]),
         count_by(rules.count, race),
         form,
         levels,
