@@ -131,7 +131,7 @@ def test_other_ways_to_write_a_format(text, same):
 
 @pytest.mark.parametrize("text", ["best of 8", "3:1 of best of 2", "best of 0"])
 def test_the_best_of_an_even_number_is_no_match(text):
-    with pytest.raises(InputError, match=r"can end level\. Give an odd number"):
+    with pytest.raises(InputError, match=r"can end in a tie\. Give an odd number"):
         match_format(text)
 
 

@@ -150,7 +150,7 @@ def test_the_tables_are_those_of_the_first_event(tmp_path):
     with pytest.raises(ValueError, match="has no event 3"):
         read_tournament(path, 3)
     chips = Plan("chips", 1)
-    with pytest.raises(ValueError, match="a chip tournament has the tables for itself"):
+    with pytest.raises(ValueError, match="a chip tournament needs all the tables"):
         begin_beside(path, lambda _: [Event(AT, Opened(chips, entrants(9, 12)))])
 
 

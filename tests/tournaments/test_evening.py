@@ -537,6 +537,21 @@ def test_the_beginning_of_a_name_will_do_if_it_is_clear() -> None:
         moves.known_player(state, "nders")
 
 
+def test_accents_may_be_left_out_of_a_name_unless_two_names_differ_in_them() -> None:
+    names = "Zoë Łukasz", "Renée", "Renee", "Bo Çelik"
+    entrants = tuple(Entrant(name, 1.0) for name in names)
+    state = evening([Event(AT, Opened(Plan("single", 5), entrants))])
+    for written in ("zoe", "ZOË", "lukasz", "zoe lukasz"):
+        assert moves.known_player(state, written) == "Zoë Łukasz"
+    assert moves.known_player(state, "celik") == "Bo Çelik"
+    assert (moves.known_player(state, "renee"), moves.known_player(state, "RENÉE")) == (
+        "Renee",
+        "Renée",
+    )
+    with pytest.raises(InputError, match="Renée, Renee"):
+        moves.known_player(state, "ren")
+
+
 def test_a_final_that_was_called_as_a_group_is_found_again():
     entrants = tuple(Entrant(f"P{k}", 500.0) for k in range(12))
     plan = Plan("groups", 3, scale="fargo", groups=6, qualifiers=1)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from evenbreak.answers.tournament.corrections import correction_choices
-from evenbreak.answers.tournament.moves import history_words, lost_words
+from evenbreak.answers.tournament.moves import happened, history_words, lost_words
 from evenbreak.errors import InputError
 from evenbreak.tournaments.evening import moves, roster, tables
 from evenbreak.tournaments.evening.events import (
@@ -314,6 +314,11 @@ def test_the_two_ways_of_a_correction_are_said_as_people_say_them() -> None:
     assert stopped.button == "Change it, stop both"
     assert kept.headline == "Let both finish as they are."
     assert kept.details == ["The bracket stays; only the record of match 1 changes."]
+    keep = Event(AT, moves.correct(before, "1", (4, 5), follow="keep"))
+    said = happened(before, evening([*night.events, keep]), keep)
+    assert said[0] == (
+        "Karl-Heinz M beat José Á 5-4, but José Á keeps the winner's place in match 1."
+    )
 
 
 @pytest.mark.slow_after(1)

@@ -90,7 +90,7 @@ def test_why_phones_cannot_be_let_in_is_said(tmp_path: Path) -> None:
         director = Phone(site, director=True)
         assert "already in use" in director.send("/desk/phones", open="yes").words
         with patch.object(room, "addresses", return_value=[]):
-            assert "in no network" in director.send("/desk/phones", open="yes").words
+            assert "isn't on a network" in director.send("/desk/phones", open="yes").words
 
 
 @pytest.mark.usefixtures("at_room")

@@ -125,7 +125,7 @@ def chip_odds_answer(
     if left is not None:
         heading = f"The last {len(names)} of a chip tournament; ratings {scale_words(field.scale)}"
     elif chart is not None:
-        heading += f"\nChips by the chart {chart.name}"
+        heading += f"\nChips from the chart {chart.name}"
     parts: list[Part] = [words, Quantities(quantities_of({"exact": exact})), table, how]
     return Answer(heading, parts, warnings=list(warnings), csv=table)
 
@@ -205,7 +205,7 @@ def _favor_words(field: ChipField, found: ChipFairness) -> str:
     times = float(len(title) * title[top])
     return (
         f"The chart {verdict}: the stronger half wins the tournament {percent(upper)} of the time, "
-        f"where 50% would be even.\nThe strongest player wins {percent(title[top])} of the time, "
+        f"and 50% would be even.\nThe strongest player wins {percent(title[top])} of the time, "
         f"{times:.1f} times an equal share."
     )
 

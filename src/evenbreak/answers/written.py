@@ -43,14 +43,14 @@ def league_answer(
 ) -> Answer:
     """Return what a league's new file was written from, and what can be run now.
 
-    Each of `files` is a name, what it is taken as ('' if nothing), and its content in words.
+    Each of `files` is a name, what it is used as ('' if nothing), and its content in words.
 
     >>> answer = league_answer("league.toml", [("a.csv", "results", "9 matches")], [])
     >>> print(answer.sentences[0])
     Wrote league.toml. Commands in its folder now take their defaults from it.
     """
     return Answer(
-        "The league's file",
+        "League file",
         [
             say(
                 "Wrote {file}. Commands in its folder now take their defaults from it.",

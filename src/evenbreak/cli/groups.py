@@ -77,7 +77,9 @@ def sandbag() -> None:
 
 LEAGUE = {
     "init": Entry("Write league.toml from what is in a league's folder.", "league.init"),
-    "tidy": Entry("One clean list of matches out of all files of results.", "league.tidy:tidy"),
+    "tidy": Entry(
+        "Combine all files of results into one clean list of matches.", "league.tidy:tidy"
+    ),
     "table": Entry("The table: who is ahead, and why.", "league.tables:table"),
     "fixtures": Entry("Who plays who, when and where; what is left.", "league.tables:fixtures"),
 }

@@ -32,7 +32,7 @@ SECTIONS = {
         "round": Entry(
             "A round of two teams: who wins, and the fair head start.", "team.league:round_"
         ),
-        "caps": Entry("What a cap and the order of nomination do to a league.", "team.league:caps"),
+        "caps": Entry("What a cap and the order of putting up do to a league.", "team.league:caps"),
         "season": Entry("A team season: title, promotion, relegation.", "team.league:season"),
     },
     "Run a league": {
@@ -45,7 +45,7 @@ SECTIONS = {
             "How well the ratings predict your own results.", "league.ratings:validate"
         ),
         "simulate": Entry("A season played out many times: who benefits?", "league.simulate"),
-        "league": Entry("A league's office: its table and its fixtures.", "groups:league"),
+        "league": Entry("A league's standings and fixtures, from its folder.", "groups:league"),
     },
     "Handicap systems": {
         "systems": Entry("The handicap systems, and the chart of each."),

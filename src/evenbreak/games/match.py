@@ -113,7 +113,7 @@ class Match(ABC, Generic[ChanceT]):
             before = [x for x in before if x == only and (x == (0, 0) or self._played_from(*x))]
         if not before and (a, b) != (0, 0):
             raise InputError(
-                "{score} is {a}:{b}, which can't be reached: {name} {m}:{n} is over before it",
+                "{score} is {a}-{b}, which can't be reached: {name} {m}:{n} is over before it",
                 a=a,
                 b=b,
                 name=type(self).__name__,

@@ -194,7 +194,7 @@ def match_format(text: str) -> MatchFormat:
     for most in map(int, _BEST_OF.findall(words)):
         if most % 2 == 0:
             raise InputError(
-                "{text!r}: the best of {most} can end level. Give an odd number, or "
+                "{text!r}: the best of {most} can end in a tie. Give an odd number, or "
                 "write {most_2}.",
                 text=text,
                 most=most,

@@ -155,7 +155,7 @@ def live_odds(
         one_of(winner, f"winner of rack {i}", (1, 2))
         if state not in values.moves:
             raise InputError(
-                "the match is over after {i} of {n_winners} racks, at {score}:{score_2}. "
+                "the match is over after {i} of {n_winners} racks, at {score}-{score_2}. "
                 "Leave out the other racks.",
                 i=i - 1,
                 n_winners=len(winners),
@@ -262,7 +262,7 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     if under_way.decided(*under_way.score) is not None:
         a, b = under_way.score
         raise InputError(
-            "{set_score} is {a}:{b}, where the set is over. Count it in the score.", a=a, b=b
+            "{set_score} is {a}-{b}, where the set is over. Count it in the score.", a=a, b=b
         )
     if match.decided(*match.score) is not None:
         raise InputError(

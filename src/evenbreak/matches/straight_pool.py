@@ -211,8 +211,8 @@ def _refuse_endless(number: int, points: int, p: Fraction, safety: Fraction) -> 
     innings = (points * (1 - p) + p) / (safety * p)
     if innings > LONGEST:
         raise InputError(
-            "p{number} is {p:g}: {points} points take {innings:.3g} innings on average "
-            "and {longest:,} are the most here. Give a larger chance or fewer points.",
+            "p{number} is {p:g}: {points} points take {innings:.3g} innings on average; "
+            "the limit is {longest:,}. Give a larger chance or fewer points.",
             number=number,
             p=float(p),
             points=points,

@@ -32,10 +32,10 @@ def chips_left(text: str) -> dict[str, int]:
                 "player's, such as Ann=2,Bo=1."
             )
         if match[1] in left:
-            raise InputError(f"{match[1]!r} is in it twice")
+            raise InputError(f"{match[1]!r} is listed twice")
         left[match[1]] = int(match[2])
     if len(left) < 2:
-        raise InputError("it has one player. Give two or more.")
+        raise InputError("give two or more players")
     return left
 
 
@@ -101,7 +101,7 @@ class ChipOdds(ChipField):
     def check(self) -> None:
         """Refuse a tournament that starts twice, or not at all."""
         if (self.chips is None) == (self.left is None):
-            self.refuse("give one of {chips} NAME and {left} NAME=CHIPS,...")
+            self.refuse("give either {chips} NAME or {left} NAME=CHIPS,...")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -220,7 +220,7 @@ class Print(UnderWay, OnPaper):
     def check(self) -> None:
         """Refuse a match for what has all of them."""
         if self.what != "cards" and self.match is not None:
-            self.refuse("{match} is for cards")
+            self.refuse("{match} is for score cards. Leave it out.")
 
 
 def bid(text: str) -> tuple[str, float]:
@@ -303,10 +303,11 @@ class PayOut(TimedUnderWay):
         """Refuse what is for the other kind of money."""
         if self.calcutta and (self.fee or self.added or self.keep):
             self.refuse(
-                "{fee}, {added} and {keep} are for the prizes; the pot of a Calcutta is its bids"
+                "{fee}, {added} and {keep} are for the prizes; the pot of a Calcutta is its bids. "
+                "Leave them out."
             )
         if self.sold and not self.calcutta:
-            self.refuse("{sold} is for {calcutta}")
+            self.refuse("{sold} needs {calcutta}. Add it.")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -180,7 +180,7 @@ class OneBall(Question):
         if not self.shots:
             self.refuse("missing shots: give some, such as {shots} 0.4:0.8")
         if self.plot is not None and self.ahead == "all shots":
-            self.refuse("{plot} draws two chances a shot. Add {look_ahead} infinite or two.")
+            self.refuse("{plot} draws two chances per shot. Add {look_ahead} infinite or two.")
 
     @property
     def ahead(self) -> str:
@@ -284,7 +284,7 @@ class Graph(ChainFile):
         if self.p is not None and (self.p1 is not None or self.p2 is not None):
             self.refuse("{p} can't be used with {p1} and {p2}. Leave it out.")
         if (self.p1 is None) != (self.p2 is None):
-            self.refuse("{p1} and {p2} go together. Give both.")
+            self.refuse("give both {p1} and {p2}, or neither")
 
     @property
     def chances(self) -> tuple[float, ...]:

@@ -120,9 +120,7 @@ class Matchups(Lengths, Starters, Pace):
                 "9-ball, or {minutes_per_game}, such as 8."
             )
         if self.turnover is not None and self.tables is None:
-            self.refuse(
-                "{turnover} is the time between two matches on a table. Say how many {tables}."
-            )
+            self.refuse("{turnover} is the time between two matches on a table. Add {tables} N.")
         if [self.roster, self.pairs, self.chart].count("-") > 1:
             self.refuse("only one list can come from standard input. Name a file for the other.")
 

@@ -116,7 +116,7 @@ class Players(Question):
         if self.scale is not None and not self.ratings:
             self.refuse("{scale} is for ratings, but none are given. Leave it out.")
         if by_break and None in (self.p1, self.p2, self.breaks):
-            self.refuse("{p1}, {p2} and {breaks} go together. Give all three.")
+            self.refuse("give {p1}, {p2} and {breaks} together, or none of them")
         if not by_break and (self.breaks is not None or self.first_break is not None):
             self.refuse(
                 "the break matters only with {p1} and {p2}. Leave {breaks} and {first_break} out."

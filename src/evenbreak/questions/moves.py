@@ -160,9 +160,9 @@ class Ended(TimedUnderWay):
     def check(self) -> None:
         """Refuse a result that is not stated, or stated twice."""
         if (self.score is None) == (self.winner is None) and not (self.score and self.ended):
-            self.refuse("give a score, such as 7:5, or {winner} with {games}")
+            self.refuse("give a score, such as 7-5, or {winner} with {games}")
         if self.winner is None and self.games is not None:
-            self.refuse("{games} is for {winner}")
+            self.refuse("{games} needs {winner} NAME. Add it, or give a score such as 7-5.")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -342,7 +342,7 @@ class TieBreak(TimedUnderWay):
     still level is ranked by games won minus games lost, and finally by lot.
     """
 
-    lot: Annotated[bool, Field(Flag(), "Break them by lot alone; games do not count.")] = False
+    lot: Annotated[bool, Field(Flag(), "Break ties by lot alone; games don't count.")] = False
     seed: Lots | None = None
 
 

@@ -95,7 +95,7 @@ class TournamentPlan(Format, Question):
         for one in declared(TournamentPlan):
             if one.field.formats and one.name in self.given and self.form not in one.field.formats:
                 self.refuse(
-                    "{part} is for {form} {formats}, not {asked}",
+                    "{part} is for {form} {formats}, not {asked}. Leave it out.",
                     part=Parameter(one.name),
                     formats=" or ".join(one.field.formats),
                     asked=self.form,
@@ -141,7 +141,7 @@ class TournamentPlan(Format, Question):
                 "{qualifiers} must be 2, 4, 8 or another power of 2; you gave {m}", m=qualifiers
             )
         if self.form == "pods" and qualifiers > 2:
-            self.refuse("{qualifiers} is {m}; 1 or 2 go on from a pod", m=qualifiers)
+            self.refuse("{qualifiers} must be 1 or 2 for pods; you gave {m}", m=qualifiers)
 
     @property
     def seeded(self) -> str:
@@ -157,4 +157,6 @@ class TournamentPlan(Format, Question):
 def refuse_lines(asked: TournamentPlan) -> None:
     """Refuse a draw made on paper for a format that draws otherwise."""
     if asked.seeding == "drawn" and asked.form not in ELIMINATIONS:
-        asked.refuse("{seeding} drawn is for eliminations, not {asked}", asked=asked.form)
+        asked.refuse(
+            "{seeding} drawn is for eliminations, not {asked}. Use another order.", asked=asked.form
+        )

@@ -87,15 +87,15 @@ TablePoints: TypeAlias = Annotated[
         "the APA's.",
         old=("points",),
         more="A fourth number gives points for each set or game won (`1,0,0,1`: one a game and one "
-        "for the match), a fifth for a win to nil. `apa_8ball` splits 3 points a set (3-0 to nil, "
-        "2-1 if the loser was on the hill, else 2-0), `apa_9ball` 20.",
+        "for the match), a fifth for a shutout. `apa_8ball` splits 3 points a set (3-0 for a "
+        "shutout, 2-1 if the loser was on the hill, else 2-0), `apa_9ball` 20.",
     ),
 ]
 Ties: TypeAlias = Annotated[
     tuple[str, ...],
     Field(
         TIES,
-        "What separates those with equal points, in this order: difference and scored (sets or "
+        "Tiebreakers, in this order: difference and scored (sets or "
         "games), wins, head-to-head, win-share, forfeits.",
         more="`head-to-head` counts the points of the meetings of all who are level, and again of "
         "those who still are; it waits until they have met equally often. `win-share` is the share "
@@ -116,7 +116,7 @@ TeamsFile: TypeAlias = Annotated[
     str | None,
     Field(
         File("TEAMS.csv"),
-        "All teams or players, with points they have besides.",
+        "All teams or players, with any extra points they have.",
         more="The columns are `team` (or `name`) and, for deductions, bonuses and byes, `points`.",
     ),
 ]

@@ -90,7 +90,7 @@ Order: TypeAlias = Annotated[
     str,
     Field(
         Text("PATTERN"),
-        "Who names first in each set: A (you), B (they), = (both, unseen), W or L (who won or lost "
+        "Who names first in each set: A (you), B (they), = (both, blind), W or L (who won or lost "
         "the last set), such as ABABA. Or alternate, home, blind, winner, loser or sealed.",
         titles=ORDERS,
         more="A shorter pattern is repeated. `sealed`: both line-ups are handed in before the "
@@ -339,7 +339,7 @@ class Round(OfTeams):
         """Refuse what `OfTeams` refuses, and another count than that of games where they are."""
         super().check()
         if self.single_games is not None and self.count != "games":
-            self.refuse("{count} is for races; with {single_games} the games count")
+            self.refuse("{count} is for races; with {single_games} the games count. Leave it out.")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -65,7 +65,7 @@ class NewTournament(TournamentPlan, Starters):
         if self.like is not None:
             for one in self.given:
                 if one not in ("like", "entrants", "name", "out", "at"):
-                    self.refuse("{like} says it already. Leave out {part}.", part=Parameter(one))
+                    self.refuse("{like} already sets that. Leave out {part}.", part=Parameter(one))
             return None
         if self.entrants is None and (self.scale is None or self.seeding == "drawn"):
             self.refuse(

@@ -6,6 +6,7 @@ row, and all problems are reported at once.
 
 from __future__ import annotations
 
+import unicodedata
 import warnings
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence, Set
@@ -22,6 +23,9 @@ Meaning = TypeVar("Meaning")
 
 NAMES, SCORES, RACES = ("player_a", "player_b"), ("score_a", "score_b"), ("race_a", "race_b")
 SIDES = ("winner", "first_break")
+_PLAIN = str.maketrans(
+    {"ø": "o", "ł": "l", "đ": "d", "ð": "d", "ı": "i", "æ": "ae", "œ": "oe", "þ": "th"}
+)
 GROUPS = ("team_a", "team_b", "division", "level_a", "level_b")
 _OTHERS = ("date", "break_format", "racks", "event", *GROUPS, "forfeit")
 COLUMNS = (*NAMES, *SCORES, *RACES, *SIDES, *_OTHERS)
@@ -218,6 +222,17 @@ def folded(name: str) -> str:
     True
     """
     return "".join(name.casefold().split())
+
+
+def without_accents(name: str) -> str:
+    """Return a name as somebody may type it: in one case, without accents, single blanks.
+
+    >>> without_accents("Zoë  Łukasz"), without_accents("Sørensen")
+    ('zoe lukasz', 'sorensen')
+    """
+    bare = " ".join(name.split()).casefold()
+    letters = unicodedata.normalize("NFKD", bare.translate(_PLAIN))
+    return "".join(letter for letter in letters if not unicodedata.combining(letter))
 
 
 def usual_spellings(counts: Mapping[str, int], meant: Set[str] = frozenset()) -> dict[str, str]:

@@ -187,7 +187,7 @@ class _Pages:
         about = (
             f"From {league.ratings.matches:,} matches, on "
             f"{like_scale_words(league.ratings.scale)}. A player's true rating is within the "
-            "give or take about two times in three."
+            "± about two times in three."
         )
         return {
             file: self._page(

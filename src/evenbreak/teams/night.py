@@ -207,7 +207,7 @@ def order_of(text: str, sets: int, more: Sequence[str] = ()) -> str:
     whole(sets, "sets", at_least=1)
     pattern = NAMED.get(text.strip().lower(), "")[:sets] or text.strip().upper()
     wanted = say(
-        "Write who names first in each set: A (you), B (they), = (both at once, unseen), W or L "
+        "Write who names first in each set: A (you), B (they), = (both at once, blind), W or L "
         "(who won or lost the last set); or a name: {names}.",
         names=", ".join((*NAMED, *more)),
     )

@@ -140,7 +140,7 @@ def round_law(
         raise InputError("give one of games and race")
     if not everybody and len(ours) != len(theirs):
         raise InputError(
-            "one team has {n_ours} players and the other {n_theirs}. Leave out those who "
+            "one team has {n_ours} players and the other has {n_theirs}. Leave out those who "
             "don't play, or let everyone meet everyone.",
             n_ours=len(ours),
             n_theirs=len(theirs),

@@ -280,7 +280,7 @@ def law_in_play(
     a, b = (whole(games, "score") for games in score)
     if a >= m or b >= n:
         raise InputError(
-            "{a}:{b} ends a race {m}:{n}. Enter the score of a match in play.", a=a, b=b, m=m, n=n
+            "{a}-{b} ends a race {m}:{n}. Enter the score of a match in play.", a=a, b=b, m=m, n=n
         )
     if isinstance(race, PointsChart):
         ends = _points_endings(race, (m, n), (a, b))
@@ -313,8 +313,8 @@ def brought(needs: tuple[int, int], score: tuple[int, int], count: Count) -> tup
     (m, n), (a, b) = needs, (whole(games, "score") for games in score)
     if (a == m) == (b == n) or a > m or b > n:
         if m == n:
-            raise InputError("{a}:{b} can't be the final score of a race to {n}", a=a, b=b, n=n)
-        raise InputError("{a}:{b} can't be the final score of a race {m}:{n}", a=a, b=b, m=m, n=n)
+            raise InputError("{a}-{b} can't be the final score of a race to {n}", a=a, b=b, n=n)
+        raise InputError("{a}-{b} can't be the final score of a race {m}:{n}", a=a, b=b, m=m, n=n)
     if count == "games":
         return a, b
     won = a == m

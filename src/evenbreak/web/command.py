@@ -174,7 +174,9 @@ def _room(asked: Serve, port: int) -> list[str]:
         return []
     there = addresses()
     if not there:
-        raise click.ClickException("this computer is in no network. Join one, or leave --lan out.")
+        raise click.ClickException(
+            "this computer isn't on a network. Join one, or leave --lan out."
+        )
     if all(why := [_taken(one, port) for one in there]):
         _refuse(asked, why[0])
     return there

@@ -73,7 +73,7 @@ class Room:
     async def _open(self) -> None:
         there = await asyncio.to_thread(addresses)
         if not there:
-            raise RefusalError("This computer is in no network. Join the room's Wi-Fi first.")
+            raise RefusalError("This computer isn't on a network. Join the room's Wi-Fi first.")
         why = ""
         for one in there:
             try:

@@ -124,7 +124,7 @@ def propose(request: Request, tap: Tap, me: str) -> str:
         _check(read_tournament(night.path, night.event), tap)
         if phones.of(phone) != me:
             raise RefusalError(
-                "{name}'s phone is another one now. Open your page again.", status=409, name=me
+                "{name} uses another phone now. Open your page again.", status=409, name=me
             )
         last = phones.sides(tap.match, tap.pair).proposed.get(me)
         again = last is not None and (last.what.score, last.by) == (tap.games, sender)

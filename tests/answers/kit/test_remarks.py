@@ -8,6 +8,6 @@ def test_many_names_are_cut_and_counted():
 
 
 def test_remarks_are_a_paragraph_that_knows_its_items():
-    remark = Remark("New", "taken as 80")
-    assert Remarks([remark], "Assumed") == "Assumed:\n- New: taken as 80."
+    remark = Remark("New", "treated as 80")
+    assert Remarks([remark], "Assumed") == "Assumed:\n- New: treated as 80."
     assert Remarks([remark, remark]).items == (remark, remark)

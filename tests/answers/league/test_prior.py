@@ -52,7 +52,7 @@ def test_by_how_much_players_differ_is_said_with_its_error():
     found = Evidence("race", (3.08,), (Estimate(0.01, 0.001, 0.03),), True, 3.08, 0.1)
     choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
     (text,) = level_words(fit(season, levels=Levels(race=3.08)), choice)
-    assert "differ by 3.08 times what their races take back, give or take 0.10" in text
+    assert "differ by 3.08 ± 0.10 times what their races give back" in text
 
 
 def test_what_rests_on_few_players_is_said_not_to_be_used():
@@ -74,7 +74,7 @@ def test_how_much_of_the_field_newcomers_have_is_said():
     found = Evidence("field", (0.75,), (Estimate(0.001, 0.0005, 0.0015),), True, 0.85, 0.1)
     choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
     (text,) = level_words(ratings, choice)
-    assert text.endswith("give or take 10%.")
+    assert text.endswith("(± 10%).")
     assert levels_data(ratings, choice)["field_standard_error"] == 0.1
 
 

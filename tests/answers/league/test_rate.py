@@ -73,8 +73,8 @@ def test_players_without_games_are_counted_apart():
 @pytest.mark.parametrize(
     ("results", "shown"),
     [
-        (groups(1), ["player", "rating", "give or take", "games", "won", "lost"]),
-        (groups(2), ["player", "rating", "give or take", "games", "won", "lost", "group"]),
+        (groups(1), ["player", "rating", "±", "games", "won", "lost"]),
+        (groups(2), ["player", "rating", "±", "games", "won", "lost", "group"]),
     ],
 )
 def test_columns_that_say_nothing_are_not_shown(results, shown):
@@ -113,7 +113,12 @@ def test_what_was_asked_for_is_said():
         anchor={"A": 90, "B": 80},
     )
     said = " ".join(answer.sentences)
-    for figure in ("A has 90 and B has 80", "30 days", "as much as 20 games", "3.0 points higher"):
+    for figure in (
+        "A has 90 and B has 80",
+        "30 days",
+        "worth 20 recent games",
+        "3.0 points higher",
+    ):
         assert figure in said
     data = answer.to_dict()
     assert (data["anchored_at"], data["half_life_days"]) == ({"A": 90, "B": 80}, 30)

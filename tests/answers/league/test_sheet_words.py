@@ -80,7 +80,7 @@ def test_pairs_that_cannot_be_compared_are_counted():
 def test_how_it_was_rated():
     season = Results.from_names(["Ann"], ["Bo"], [7], [5], date=["2026-01-31"])
     sheet = sheet_of(season, scale="fargo", prior_sd=0.5)
-    assert "500, give or take 72.1." in how_rated(sheet)
+    assert "500 ± 72.1." in how_rated(sheet)
     tried = (sheet.ratings.prior_sd, (0.1, 0.5, 0.9), (0.7, 0.6, 0.7), 1234, 0.4, 0.6)
     learned, not_learned = PriorChoice(*tried, True, 0.61), PriorChoice(*tried, False, 0.61)
     assert "of 3 values tried, this one predicted 1,234" in how_rated(

@@ -52,7 +52,7 @@ def test_where_the_balls_go(how, words):
         (CORNER, {"speed": 30}, "does not drop: it stops 35.7 inches short"),
         (FROZEN, {}, "0.47 inches to the right of it"),
         (FROZEN, {}, "foot-right pocket"),
-        (((20, 10), *FROZEN[1:]), {"right": 0.1}, "throw brings the ball back"),
+        (((20, 10), *FROZEN[1:]), {"right": 0.1}, "throw brings it back in line"),
         (FLAT, {}, "does not drop: from this angle the pocket is only 1.43 inches wide"),
     ],
 )

@@ -234,6 +234,17 @@ def test_warnings_stand_beside_what_they_explain(rate, tmp_path):
     assert "if 'Diaz Bo' is meant" in error
 
 
+def test_players_who_are_not_on_the_list_are_named_in_one_error(rate, tmp_path):
+    (tmp_path / "last.csv").write_text("player,rating\nNoor Ilves,92\nZed Quist,80\n")
+    result = rate("night.csv", "--chart", "npl_10")
+    assert result.exit_code == 3
+    told = [line for line in result.stderr.splitlines() if "on the list" in line]
+    assert len(told) == 1
+    assert told[0].endswith(
+        "aren't on the list. Add them with first ratings, or correct the names."
+    )
+
+
 def test_a_roster_is_for_a_system(run):
     result = run("rate", "night.csv", "--roster", "last.csv")
     assert result.exit_code == 2

@@ -265,7 +265,7 @@ def test_how_it_was_rated_is_said_on_the_sheet_the_page_and_in_the_summary(run, 
     sheet = " ".join(result.stdout.split())
     page = (tmp_path / "sheet.html").read_text(encoding="utf-8")
     for text in (sheet, page):
-        assert "80, give or take 15" in text
+        assert "80 ± 15" in text
         assert "half after 90 days, as of 2024-09-10" in text
         assert "2024-09-03 to 2024-09-10" in text
         assert "1 later match" in text

@@ -214,7 +214,7 @@ def test_a_chart_file_makes_a_ladder(run, tmp_path) -> None:
         ("one-ball --p 0.5", "two chances"),
         ("drill 9-ball --p1 0.5 --p2 0.5", "one chance"),
         ("7:5", "--p1 and --p2"),
-        ("7:5 --p1 0.5", "go together"),
+        ("7:5 --p1 0.5", "give both --p1 and --p2"),
         ("7:5 --p 0.5 --p1 0.5 --p2 0.5", "--p can't be"),
         ("500:500 --p 0.5", "250,000"),
         ("npl_10 --p 0.5", "Leave --p"),

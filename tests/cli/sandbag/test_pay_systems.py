@@ -33,7 +33,7 @@ def test_other_systems_are_played_with_a_stated_error(run, system):
     assert rows[0]["extra_wins"] == rows[0]["error"] == 0.0
     assert 0.0 <= rows[6]["error"] < 0.05
     text = run("sandbag", "pay", "--system", system, "--dumped", "2", "--earnest", "3").stderr
-    assert "give or take" in " ".join(text.split())
+    assert "±" in " ".join(text.split())
 
 
 @pytest.mark.parametrize("option", ["--compare", "--start-error=-5"])

@@ -132,4 +132,7 @@ def test_a_database_is_not_taken_for_a_list(tmp_path: Path, name: str) -> None:
     shutil.copyfile(SAVED / "v0_2_0" / "tournament.db", saved)
     said = run("import", saved, "--out", tmp_path / "new.db")
     assert said.exit_code == 2
-    assert f"{saved} is a database already; go on with it as --file {saved}" in said.stderr
+    assert (
+        f"{saved} is already a tournament's database. Continue it with --file {saved}"
+        in said.stderr
+    )

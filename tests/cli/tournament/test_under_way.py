@@ -89,14 +89,14 @@ def test_a_match_stands_and_results_count_again(begun):
         begun("result", match, score)
     asked = begun.run("tournament", "correct", "W1.1", "0:3", "--file", begun.file)
     assert asked.exit_code == 2
-    assert "Ann beat Bo 3-1 (match 3) would no longer count. Give --yes" in asked.stderr
+    assert "Ann beat Bo 3-1 (match 3) would no longer count. If that's what you want, add --yes" in asked.stderr
     wrong = begun("correct", "W1.1", "0:3", "--yes")
     assert [one["match"] for one in wrong["set_aside"]] == [3]
     shown = begun.run("tournament", "stand", "W2.1", "--file", begun.file, "--text").stdout
-    assert "Counts again" in shown
+    assert "Counted again" in shown
     assert not begun("next")["set_aside"]
     undone = begun.run("tournament", "undo", "--file", begun.file, "--text", "--yes")
-    assert "Open again: match 3" in undone.stdout
+    assert "Reopened: match 3" in undone.stdout
 
 
 def test_ties_of_a_round_robin(night):
@@ -182,7 +182,7 @@ def test_what_is_in_play_is_named_before_it_is_taken_away(begun):
     ):
         asked = begun.run(*words)
         assert asked.exit_code == 2
-        assert f"{said}Give --yes if that is meant" in asked.stderr
+        assert f"{said}If that's what you want, add --yes" in asked.stderr
     entered = len(read_events(begun.file))
     assert begun.run(*wrong, "--yes").exit_code == 0
     begun("correct", "W1.1", "3:0")

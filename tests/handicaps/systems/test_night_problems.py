@@ -52,7 +52,7 @@ def test_scores_show_the_chart_that_was_used(name):
 @pytest.mark.parametrize(
     ("results", "why"),
     [
-        (night(("Ann", "Bo", 5, 3), winner=[1]), "the winner is stated"),
+        (night(("Ann", "Bo", 5, 3), winner=[1]), "the winner is given"),
         (night(("Ann", "Bo", 5, 3), race_a=[5], race_b=[4]), "the race is stated"),
         (night(("Ann", "Bo", 5, 3), ("Bo", "Ann", 3, 4)), "5-3 ends npl_10's, 3-4 npl_8's"),
         (night(("Ann", "Cy", 6, 2)), "npl_10 and npl_12 both have the race 6:4"),

@@ -46,7 +46,7 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
     """
     points = report.scale.points_per_doubling
     fitted = report.fit is not None and report.fit is report.best_fit
-    where = "on its best-fitting scale, where " if fitted else "where "
+    where = ", on the scale that fits it best" if fitted else ""
     columns = [
         *columns_of("span needs"),
         *_CHANCES,
@@ -55,7 +55,7 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
         _MONOTONE,
     ]
     return Answer(
-        f"Chart {report.name}, {where}{points:.4g} points double the odds of winning a game",
+        f"Chart {report.name}{where}: {points:.4g} points double the odds of winning a game",
         [
             " ".join((*_favored(report), *_least_fair(report), *_beyond(report))),
             " ".join((*_order(report), *_made_for(report))),
@@ -147,13 +147,13 @@ def _order(report: ChartAudit) -> Iterator[str]:
     easier = [row for row in report.rows if not row.monotone]
     for row in easier:
         yield (
-            f"The race for {range_words(row.difference_from, row.difference_to)}, "
-            f"{row.stronger_needs}:{row.weaker_needs}, asks no more of the stronger player than an "
-            "earlier one."
+            f"The race for {range_words(row.difference_from, row.difference_to)} "
+            f"({race((row.stronger_needs, row.weaker_needs))}) is no harder on the stronger player "
+            "than the one before it."
         )
     if not (report.gaps or report.overlaps or easier):
         yield (
-            "There are no gaps or overlaps, and each race asks more of the stronger player than "
+            "There are no gaps or overlaps, and each race is harder on the stronger player than "
             "the one before it."
         )
 
@@ -322,10 +322,10 @@ def _level_order(cells: Sequence[LevelCell]) -> str:
     easier = [f"{cell.level} v {cell.opponent_level}" for cell in cells if not cell.monotone]
     if easier:
         return (
-            f"The race of {listed(easier)} asks no more of the higher level than one against a "
+            f"The race of {listed(easier)} is no harder on the higher level than one against a "
             "closer level."
         )
-    return "Each race asks more of the higher level than the races against closer levels."
+    return "Each race is harder on the higher level than the races against closer levels."
 
 
 FEW, MANY = 15.0, 40.0

@@ -85,7 +85,7 @@ def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
     >>> task = DesignTask(SCALES["npl"], RaceLimits((7, 9), 5, 2), up_to=59)
     >>> print(chart_design_answer(task, task.design()).sentences[0])
     At differences up to 59, the stronger player's chance is within 7.2 percentage points of 50%,
-    and 2.9 away on average. A match takes 6.6 games on average; 9 out of 10 end within 9.
+    and 2.9 off on average. A match takes 6.6 games on average; 9 out of 10 end within 9.
     """
     made, up_to = design
     ours, *theirs = (
@@ -95,7 +95,7 @@ def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
     differing = [list(_differing(made, other, up_to)) for other in task.beside]
     parts: list[Part] = [_in_words(ours, task.target)]
     for chart, one, spans in zip(task.beside, theirs, differing, strict=True):
-        parts.append(_compared(chart, one, spans))
+        parts.append(_compared(chart, one, spans, task.target))
     parts.append(_rows(task, made, up_to))
     prices = _prices(task, made, up_to)
     if prices is not None:
@@ -126,7 +126,7 @@ def _in_words(found: ChartMeasure, target: float) -> str:
     return (
         f"At differences up to {found.up_to}, the stronger player's chance is within "
         f"{100 * found.worst_unfairness:.1f} percentage points of {percent(target)}, and "
-        f"{100 * found.mean_unfairness:.1f} away on average. A match takes {found.mean_games:.1f} "
+        f"{100 * found.mean_unfairness:.1f} off on average. A match takes {found.mean_games:.1f} "
         f"games on average; 9 out of 10 end within {found.games_p90}."
     )
 
@@ -160,14 +160,14 @@ def _differing(made: Chart, other: Chart, up_to: int) -> Iterator[_Span]:
             yield _Span(where[0], where[-1], ours, theirs)
 
 
-def _compared(chart: Chart, found: ChartMeasure, spans: Sequence[_Span]) -> str:
+def _compared(chart: Chart, found: ChartMeasure, spans: Sequence[_Span], target: float) -> str:
     count = sum(span.last - span.first + 1 for span in spans)
     races = f"different races at {count} of the" if count else "the same races at all"
     return (
-        f"For comparison, with {chart.name} the chance is within "
-        f"{100 * found.worst_unfairness:.1f} percentage points, and "
-        f"{100 * found.mean_unfairness:.1f} away on average; a match takes "
-        f"{found.mean_games:.1f} games on average; 9 out of 10 end within {found.games_p90}. The "
+        f"For comparison, {chart.name} stays within {100 * found.worst_unfairness:.1f} percentage "
+        f"points of {percent(target)}, and is {100 * found.mean_unfairness:.1f} off on "
+        f"average; a match takes {found.mean_games:.1f} games on average; 9 out of 10 end within "
+        f"{found.games_p90}. The "
         f"two charts have {races} {found.up_to + 1} differences."
     )
 

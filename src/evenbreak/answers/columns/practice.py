@@ -37,7 +37,7 @@ PRACTICE = registry(
     number("share_before", "before", 2),
     number("share_after", "since", 2),
     detail("p_change", "change\nby luck", chance),
-    number("made_before", "made before, at the same mix of shots", chance),
+    number("made_before", "made before, with the same mix of shots", chance),
     number("made_after", "made since", chance),
     detail("odds_ratio", "odds of making a shot, times", 2),
     detail("p_of_change", "chance of such a change by luck", chance),
@@ -99,7 +99,7 @@ PHYSICS = registry(
     detail("squirt_deg", "squirt of the cue ball, to the side away from the english, degrees", 2),
     number("aim_cut_deg", "cut angle to aim for, degrees", 2),
     number("offset_to_aim", "aim to the right of the middle of the pocket, {units}", 2, "offset"),
-    number("rule_offset", "the same by the rule of thumb, {units}", 2),
+    number("rule_offset", "by the rule of thumb, {units}", 2),
     number("object_cut_deg", "angle at which the object ball leaves, degrees", 2),
     number(
         "no_throw_side", say("english that cancels the throw, {side}", side=Parameter("side")), 3
@@ -192,7 +192,7 @@ FILES = registry(
     text("who", "if you"),
     text("command", "type", whole=True),
     text("file", "file"),
-    text("taken_as", "taken as"),
+    text("taken_as", "used as"),
     text("for_what", "for"),
     text("holds", "what it holds"),
     text("verdict", "verdict"),

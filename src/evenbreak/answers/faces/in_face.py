@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from evenbreak.answers.kit.parts import Column, Part, Quantity, Table
-from evenbreak.words import Face, in_face
+from evenbreak.words import Face, capital_in_face, in_face
 
 if TYPE_CHECKING:
     from evenbreak.answers.kit.answer import Answer
@@ -24,8 +24,8 @@ def answer_in_face(answer: Answer, face: Face) -> Answer:
     return replace(
         answer,
         heading=said(answer.heading),
-        parts=[_part(part, said) for part in answer.parts],
-        details=[_part(part, said) for part in answer.details],
+        parts=[_part(part, face, said) for part in answer.parts],
+        details=[_part(part, face, said) for part in answer.details],
         warnings=[said(warning) for warning in answer.warnings],
     )
 
@@ -46,10 +46,9 @@ def brief(answer: Answer) -> Answer:
     return replace(answer, parts=parts, details=(), warnings=())
 
 
-def _part(part: Part, said: Said) -> Part:
+def _part(part: Part, face: Face, said: Said) -> Part:
     if isinstance(part, str):
-        text: str = said(part)
-        return text
+        return capital_in_face(part, face)
     title = said(part.title)
     if isinstance(part, Table):
         columns = [_column(one, said) for one in part.columns]

@@ -41,8 +41,8 @@ class Remark(NamedTuple):
     def __str__(self) -> str:
         """Return the remark as a sentence.
 
-        >>> print(Remark("New players", "taken as 80 ± 30", ["Ann", "Bo"]))
-        New players (Ann, Bo): taken as 80 ± 30.
+        >>> print(Remark("New players", "treated as 80 ± 30", ["Ann", "Bo"]))
+        New players (Ann, Bo): treated as 80 ± 30.
         """
         return f"{self.heading}: {self.why}."
 
@@ -50,9 +50,9 @@ class Remark(NamedTuple):
 class Remarks(str):
     """A paragraph that is a list of remarks.
 
-    >>> print(Remarks([Remark("New players", "taken as 80", ["Ann"])], "Assumed"))
+    >>> print(Remarks([Remark("New players", "treated as 80", ["Ann"])], "Assumed"))
     Assumed:
-    - New players (Ann): taken as 80.
+    - New players (Ann): treated as 80.
     """
 
     items: tuple[Remark, ...]

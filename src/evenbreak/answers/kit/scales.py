@@ -319,7 +319,7 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
     >>> from evenbreak.ratings import SCALES
     >>> print(*form_words(DayForm(Estimate(0.12, 0.06, 0.18), 900), SCALES["npl"]))
     Day-to-day form: from match to match the strength difference of two players varies by 15
-    points, give or take 2, so sweeps are likelier and hill-hill games rarer than ratings alone
+    ± 2 points, so sweeps are likelier and hill-hill games rarer than ratings alone
     would say. This list of ratings states it (0.35 in log-odds); its errors, and odds, fair, live
     and matchups, allow for it.
     """
@@ -328,7 +328,7 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
     points, error = scale.points(form.sd), scale.points(form.sd_error)
     yield (
         f"Day-to-day form: from match to match the strength difference of two players varies by "
-        f"{points:.0f} points, give or take {error:.0f}, so sweeps are likelier and hill-hill "
+        f"{points:.0f} ± {error:.0f} points, so sweeps are likelier and hill-hill "
         "games rarer than ratings alone would say. This list of ratings states it "
         f"({form.sd:.2f} in log-odds); its errors, and odds, fair, live and matchups, allow for it."
     )

@@ -114,7 +114,7 @@ def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
     if system.publishes == "levels":
         if np.isnan(file.roster.level).all():
             refuse(
-                "{file} states no skill level, which {whose} moves. Add a column level.",
+                "{whose} moves skill levels, but {file} has none. Add a column level.",
                 file=file.source,
                 whose=whose,
             )
@@ -226,7 +226,8 @@ def with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float
     most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
     if spread > most:
         refuse(
-            "{starter_sd} is {spread:g}, which says nothing about a player. Give {most:g} at most.",
+            "{starter_sd} must be {most:g} or less to say anything about a player; you gave "
+            "{spread:g}",
             spread=spread,
             most=most,
         )

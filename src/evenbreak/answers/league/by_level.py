@@ -35,7 +35,7 @@ def by_level(
         stated = roster.rating[~np.isnan(roster.rating)]
         if file.scale is not None or not np.isin(stated, chart.levels).all():
             raise InputError(
-                "the chart {chart} needs skill levels, and {list} has ratings alone. Add "
+                "the chart {chart} needs skill levels, but {list} has only ratings. Add "
                 "a column {level} with {levels}, or give a chart of rating differences.",
                 chart=chart.name,
                 list=FilePath(file.source),

@@ -202,8 +202,9 @@ def _verdict(comparison: Comparison) -> Iterator[Sentence]:
         yield say(
             "{one} makes {more:.1f} more matches in 100 even than {other} ({low:.1f} to "
             "{high:.1f}), but it is not fairer: luck decides more of its matches. Its races are "
-            "right no more often ({right:.1%} in place of {of_other:.1%}), and a player a doubling "
-            "better than expected wins {worth:.1%} of them, in place of {worth_of_other:.1%}.",
+            "right no more often ({right:.1%} compared with {of_other:.1%}), and a player a "
+            "doubling better than expected wins {worth:.1%} of them, compared with "
+            "{worth_of_other:.1%}.",
             one=names[one],
             other=names[other],
             right=float(right.value[one]),
@@ -216,7 +217,7 @@ def _verdict(comparison: Comparison) -> Iterator[Sentence]:
     elif sign > 0:
         yield say(
             "{best} is fairer than {own}: {more:.1f} more matches in 100 are even ({low:.1f} to "
-            "{high:.1f}), {share:.1%} in place of {of_own:.1%}.",
+            "{high:.1f}), {share:.1%} compared with {of_own:.1%}.",
             **values,
         )
         yield _costs(comparison, best)
@@ -224,7 +225,7 @@ def _verdict(comparison: Comparison) -> Iterator[Sentence]:
         if len(names) == 2 or (more_even >= 0).any() or by_luck.any():
             yield say(
                 "{own} is fairer than {best}: {more:.1f} more matches in 100 are even ({low:.1f} "
-                "to {high:.1f}), {of_own:.1%} in place of {share:.1%}.",
+                "to {high:.1f}), {of_own:.1%} compared with {share:.1%}.",
                 **values,
             )
         else:
@@ -271,13 +272,13 @@ _LONGER: Mapping[str, tuple[float, Sentence, Sentence]] = {
     ),
     "games_a_night": (
         0.2,
-        say("whoever is done last plays {by:.1f} games more a night"),
-        say("whoever is done last plays {by:.1f} games fewer a night"),
+        say("whoever is done last plays {by:.1f} more games a night"),
+        say("whoever is done last plays {by:.1f} fewer games a night"),
     ),
     "changes_a_season": (
         0.5,
-        say("a player's number changes {by:.1f} times more a season"),
-        say("a player's number changes {by:.1f} times less a season"),
+        say("a player's number changes {by:.1f} more times a season"),
+        say("a player's number changes {by:.1f} fewer times a season"),
     ),
     "sandbagging_pays": (
         0.01,
@@ -286,8 +287,8 @@ _LONGER: Mapping[str, tuple[float, Sentence, Sentence]] = {
     ),
     "nights_until_right": (
         0.5,
-        say("newcomers are right {by:.1f} nights later"),
-        say("newcomers are right {by:.1f} nights sooner"),
+        say("newcomers' ratings settle {by:.1f} nights later"),
+        say("newcomers' ratings settle {by:.1f} nights sooner"),
     ),
 }
 """What a system costs or saves: the least that matters, and the words for more and for less."""

@@ -265,12 +265,12 @@ def about_players(tonight: Round) -> Iterator[Remark]:
         (
             ~unrated & filled & (read.games == 0),
             "without games",
-            "rating assumed right to ± {1:g}",
+            "rating assumed to be within ± {1:g}",
         ),
         (
             ~unrated & filled & (read.games == NOT_STATED),
             "without a number of games",
-            "rating taken to be as uncertain as that of a new player, ± {1:g}",
+            "rating assumed to be as uncertain as that of a new player, ± {1:g}",
         ),
     ):
         for place in np.flatnonzero(which & here)[:1]:
@@ -282,7 +282,7 @@ def about_players(tonight: Round) -> Iterator[Remark]:
         yield _remark(tonight, silent & here, "without a standard error", "rating treated as exact")
     by_games = ~unrated & filled & (read.games > 0) & here
     for place in np.flatnonzero(by_games)[:1]:
-        how = f"taken from the games, such as ± {started.standard_error[place]:.3g} after "
+        how = f"calculated from the games, such as ± {started.standard_error[place]:.3g} after "
         yield _remark(tonight, by_games, "without a standard error", f"{how}{read.games[place]:,}")
 
 
@@ -305,14 +305,13 @@ def about_method(tonight: Round) -> Iterator[Remark]:
     if doubtful(tonight):
         yield Remark(
             "Uncertainty of the ratings (±, one standard error)",
-            "each chance and each length is averaged over it, with the errors of two players taken "
+            "each chance and each length allows for it, with the errors of two players taken "
             "as independent and normal",
         )
     if tonight.form:
         yield Remark(
             "Day-to-day form",
-            "each chance and each length is averaged over it; the chance of a single game stays "
-            "the same",
+            "each chance and each length allows for it; the chance of a single game stays the same",
         )
     for end in tonight.evening:
         if not end.exact:

@@ -78,8 +78,8 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
     if levels.race:
         error = _error(choice, "race", 1.0, decimals(2), "")
         yield (
-            f"The stated races count too: before any result, two players are taken to differ by "
-            f"{levels.race:.2f} times what their races take back{error}."
+            f"The handicap races were used too: players are assumed to differ by {levels.race:.2f}"
+            f"{error} times what their races give back."
         )
     for kind in GROUPS:
         groups = [group for group in ratings.groups if group.kind == kind]
@@ -107,7 +107,7 @@ def _beginning_words(ratings: Ratings) -> Iterator[str]:
     if beginning.unknown_error:
         points, by_games = _ONE(ratings.scale.points(off)), beginning.by_games.any()
         open_ = f"what its games leave open, and another {points} points"
-        text += f", which is taken to be off by {open_ if by_games else f'{points} points or so'}"
+        text += f", which is assumed to be off by {open_ if by_games else f'{points} points or so'}"
     if 0 < len(others) <= _FEW:
         text += f"; {listed(others)} {'does' if len(others) == 1 else 'do'} not"
     yield f"{text}."
@@ -116,15 +116,15 @@ def _beginning_words(ratings: Ratings) -> Iterator[str]:
 def _group_words(group: Group) -> str:
     side = "above" if group.above >= 0 else "below"
     return (
-        f"{group.name} is {_ONE(abs(group.above))} points {side} the average {group.kind}, give or "
-        f"take {_ONE(group.standard_error)}"
+        f"{group.name} is {_ONE(abs(group.above))} ± {_ONE(group.standard_error)} points "
+        f"{side} the average {group.kind}"
     )
 
 
 def _error(choice: PriorChoice | None, of: str, unit: float, show: Show, sign: str) -> str:
     """Return how far off what was chosen may be, '' where that is not known."""
     known = _error_of(choice, of)
-    return "" if known is None else f", give or take {show(unit * known)}{sign}"
+    return "" if known is None else f" ± {show(unit * known)}{sign}"
 
 
 def _error_of(choice: PriorChoice | None, of: str) -> float | None:
@@ -150,7 +150,7 @@ def _field_words(share: float, error: float | None) -> Sentence:
         )
     return say(
         "Newcomers start where the field at their first event suggests: {share} of its "
-        "distance from the usual field counts for them too, give or take {error}.",
+        "distance from the usual field counts for them too (± {error}).",
         share=Figure(share, ".0%"),
         error=Figure(error, ".0%"),
     )
@@ -237,7 +237,7 @@ def prior_words(ratings: Ratings) -> str:
     start = "average" if ratings.named else f"at {round(ratings.anchor, 1):g}"
     apart = ", apart from what is known about them," if ratings.levels else ""
     return (
-        f"Before any result, every player{apart} is assumed to be {start}, give or take {width} "
+        f"Before any result, every player{apart} is assumed to be {start}, ± {width} "
         "points (the prior)."
     )
 

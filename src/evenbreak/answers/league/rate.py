@@ -58,7 +58,7 @@ def rate_answer(
     >>> night = Results.from_names(["Ann"], ["Bo"], [7], [4])
     >>> answer = rate_answer(ResultsFile(night, "r.csv", (), (), ""), fit(night), pairs=[(0, 1)])
     >>> print(answer.sentences[0])
-    Ann is rated 17.3 points above Bo, give or take 22.6, and wins a game between them 60% of the
+    Ann is rated 17.3 points above Bo (± 22.6) and wins a game between them 60% of the
     time.
     """
     if pairs:
@@ -152,8 +152,8 @@ def _pair_in_words(row: Sequence[Any]) -> str:
         return f"{a} and {b} cannot be compared: {note}."
     strong, weak, p = (a, b, p_game) if difference >= 0 else (b, a, 1.0 - p_game)
     return (
-        f"{strong} is rated {_ONE(abs(difference))} points above {weak}, give or take "
-        f"{_ONE(error)}, and wins a game between them {percent(p)} of the time."
+        f"{strong} is rated {_ONE(abs(difference))} points above {weak} (± "
+        f"{_ONE(error)}) and wins a game between them {percent(p)} of the time."
     )
 
 
@@ -162,11 +162,11 @@ def _highest_in_words(ratings: Ratings) -> str:
     best = next((k for k in first if not ratings.provisional[k]), None)
     where = " in the largest group" if ratings.component.max() > 1 else ""
     if best is None:
-        return f"Nobody{where} has a place yet."
+        return f"No one{where} has a place yet."
     return (
-        f"{ratings.players[best]} is rated highest{where}: {_ONE(ratings.rating[best])}, give or "
-        f"take {_ONE(ratings.standard_error[best])}. A player's true rating is within the give or "
-        "take about two times in three."
+        f"{ratings.players[best]} is rated highest{where}: {_ONE(ratings.rating[best])} ± "
+        f"{_ONE(ratings.standard_error[best])}. A player's true rating is within the ± about two "
+        "times in three."
     )
 
 
@@ -217,18 +217,18 @@ def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]
         names = [f"{name} has {points:g}" for name, points in ratings.named]
         on_average, other = (" on average", "their mean") if names[1:] else ("", "that player")
         yield (
-            f"Ratings are set so that {listed(names)}{on_average}; 'give or take' is the "
+            f"Ratings are set so that {listed(names)}{on_average}; '±' is the "
             f"uncertainty of the difference from {other}."
         )
     if ratings.half_life is not None:
         yield (
-            f"A match counts half after {ratings.half_life:g} days; so weighted, the results "
-            f"count as much as {ratings.weight:,.0f} games played on the last day."
+            f"A match counts half after {ratings.half_life:g} days; weighted this way, the "
+            f"history is worth {ratings.weight:,.0f} recent games."
         )
     if ratings.break_advantage is not None:
         points, error = ratings.break_advantage, ratings.break_error
         stronger = "higher" if points >= 0 else "lower"
-        known = ", as given" if error is None else f", give or take {_ONE(error)}"
+        known = ", as given" if error is None else f", ± {_ONE(error)}"
         yield f"The breaker plays as if rated {_ONE(abs(points))} points {stronger}{known}."
 
 

@@ -18,7 +18,7 @@ from evenbreak.answers.league.sheet import places_in_list
 from evenbreak.errors import DataError
 from evenbreak.files.lists.roster import RosterFile
 from evenbreak.files.results.results_file import ResultsFile
-from evenbreak.files.tables.problems import Problems, quoted
+from evenbreak.files.tables.problems import Problems, quoted, quoted_list
 from evenbreak.files.tables.similar_names import similar_names
 from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.systems.by_match import StepSystem
@@ -422,13 +422,14 @@ def rating_changes_of_files(
 ) -> RatingChanges:
     """Return how a night's results change the ratings of a list.
 
-    A DataError names each line that prevents it: a player not on the list, a match without a
+    A DataError names each line that prevents it: players not on the list, a match without a
     winner.
     """
     results = tonight.results
     found = night_problems(system, last.roster, results, chart=chart)
     strangers = set(results.players).difference(last.roster.players)
     alike = _alike(strangers, last.roster.players)
+    found = _told_once(found, results, [name for name in strangers if not alike[name]])
     problems = Problems(tonight.source)
     open_rows = [problem.row for problem in found if _needs_chart(problem, results, chart)]
     for problem in found:
@@ -441,12 +442,29 @@ def rating_changes_of_files(
                 n_open_rows=len(open_rows),
                 chart=Parameter("chart"),
             )
-        side = {"player_a": results.player_a, "player_b": results.player_b}.get(problem.column)
-        if side is not None:
-            message += _suggestion(alike.get(results.players[side[problem.row]], ()))
+        message += _suggestion(alike.get(_player_of(problem, results), ()))
         problems.add(_line(tonight, problem.row), message)
     problems.raise_any()
     return apply_results(system, last.roster, results, chart=chart, so_far=so_far)
+
+
+def _player_of(problem: Problem, results: Results) -> str:
+    """Return the player whom a problem is about, '' if it is about no single one."""
+    if problem.column not in ("player_a", "player_b"):
+        return ""
+    sides = {"player_a": results.player_a, "player_b": results.player_b}
+    return str(results.players[sides[problem.column][problem.row]])
+
+
+def _told_once(found: list[Problem], results: Results, unknown: Sequence[str]) -> list[Problem]:
+    """Return problems with one, at its first row, for all players who are not on the list."""
+    which = [problem for problem in found if _player_of(problem, results) in unknown]
+    if len(which) < 2:
+        return found
+    names = quoted_list([_player_of(problem, results) for problem in which])
+    told = f"{names} aren't on the list. Add them with first ratings, or correct the names."
+    first = which[0]._replace(message=told)
+    return [first if one is which[0] else one for one in found if one not in which[1:]]
 
 
 def _needs_chart(problem: Problem, results: Results, chart: Races | None) -> bool:

@@ -249,13 +249,13 @@ def how_rated(sheet: Sheet) -> str:
     >>> ratings = fit(season, half_life=180, as_of="2026-02-01")
     >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
     >>> print(how_rated(Sheet.of(file, ratings, OfferedRaces(race_to=7), [0, 1])))
-    Every player starts at 80, give or take 30. A match counts half after 180 days, as of
+    Every player starts at 80 ± 30. A match counts half after 180 days, as of
     2026-02-01.
     """
     ratings = sheet.ratings
     prior = float(ratings.scale.points(ratings.prior_sd))
     who = "Apart from what is known beforehand, every player" if ratings.levels else "Every player"
-    text = f"{who} starts at {round(ratings.anchor, 1):g}, give or take {round(prior, 1):g}"
+    text = f"{who} starts at {round(ratings.anchor, 1):g} ± {round(prior, 1):g}"
     if sheet.choice is not None and sheet.choice.learned:
         text += (
             f": of {len(sheet.choice.tried)} values tried, this one predicted "
@@ -283,8 +283,8 @@ def rating_model(sheet: Sheet) -> str:
         breaks = f"the breaker playing {ratings.break_advantage:.3g} points better"
     return (
         f"Bradley\N{EN DASH}Terry on games{races}: {game_chance(ratings.scale)}, {breaks}; "
-        f"{together}{alike}. The starting rating is a normal prior, and the "
-        "give or take its standard deviation."
+        f"{together}{alike}. The starting rating is a normal prior, and ± its "
+        "standard deviation."
     )
 
 

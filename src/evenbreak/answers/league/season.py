@@ -83,8 +83,8 @@ def _assumed(players: int, drawn: int, exact: int) -> Iterator[str]:
         )
     if exact:
         yield (
-            f"The rating of {exact:,} of {players:,} players is taken as their true skill at the "
-            "start: the roster gives neither skill nor standard_error."
+            f"The rating of {exact:,} of {players:,} players is treated as their true skill at "
+            "the start: the roster gives neither skill nor standard_error."
         )
 
 
@@ -98,7 +98,8 @@ def _ratings(weeks: pd.DataFrame, season: Season) -> str:
         f"are within {points} points of the true skill (a sixth of a doubling of the odds); "
         f"{_end(int(last['week']), season.system.cycle)}, "
         f"{_percent(last['p_near'], last['p_near_se'])} are, and 9 out of 10 are off by "
-        f"{last['error_p05']:+.0f} to {last['error_p95']:+.0f} points (minus: rated too low)."
+        f"{last['error_p05']:+.0f} to {last['error_p95']:+.0f} points (a minus "
+        "means rated too low)."
     )
     empty = int((weeks["players"][1:] == 0).sum())
     if not empty:

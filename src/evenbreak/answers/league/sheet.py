@@ -76,7 +76,7 @@ def find_players(
             found[place] = None
     if unknown:
         raise InputError(
-            "{said}: not in {where}: {names}. Write names as they are there.",
+            "{said}: not in {where}: {names}. Write each name as it is in that file.",
             said=said,
             where=FilePath(where),
             names=joined(unknown, ", "),

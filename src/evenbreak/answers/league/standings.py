@@ -108,7 +108,7 @@ def _ties(table: LeagueTable) -> list[str]:
 
 
 _DECIDED = {
-    HEAD_TO_HEAD: "their meetings",
+    HEAD_TO_HEAD: "head to head",
     DIFFERENCE: "{score} won less lost",
     SCORED: "{score} won",
     WINS: "matches won",
@@ -165,7 +165,7 @@ def rules_words(
     elif rules.a_set:
         text += f", {rules.a_set:g} for each {unit}"
     if rules.shutout:
-        text += f", {rules.shutout:g} for a win to nil"
+        text += f", {rules.shutout:g} for a shutout"
     named = {
         **_DECIDED,
         HEAD_TO_HEAD: "the matches among those level",

@@ -267,7 +267,7 @@ def _against(starts: Starts | None, way: int, scale: Scale) -> str:
         return ""
     text = (
         f"On average they take back {scale.points(starts.taken):.0f} points and should take back "
-        f"{scale.points(starts.stronger.value):.0f}, give or take {_error(starts.stronger, scale)}"
+        f"{scale.points(starts.stronger.value):.0f} ± {_error(starts.stronger, scale)}"
     )
     groups = _by_games(starts)
     sizes = [
@@ -284,7 +284,7 @@ def _against(starts: Starts | None, way: int, scale: Scale) -> str:
 
 def _class_worth(starts: Starts, a_class: Estimate, way: int, scale: Scale) -> str:
     one, many = ("level", "levels") if starts.numbered else ("class", "classes")
-    worth = f"{one} is worth {_points(a_class, scale)}, give or take {_error(a_class, scale)}"
+    worth = f"{one} is worth {scale.points(a_class.value):z.0f} ± {_error(a_class, scale)} points"
     if not clearly_off(a_class, 0.0):
         return f"The {many} make no clear difference: a {worth}."
     chance = percent(float(scale.win_probability(scale.points(a_class.value))))
@@ -323,13 +323,13 @@ def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
         if error > SURE * points.value or not agrees:
             return "", ""
         return (
-            f"The chart takes {fair.assumed:.3g} points to double the odds of winning a game. The "
-            f"results agree: they say {points.value:.1f}, give or take {error:.1f}."
+            f"The chart assumes that {fair.assumed:.3g} points double the odds of winning a game. "
+            f"The results agree: they give {points.value:.1f} ± {error:.1f}."
         ), ""
     low, high = fair.games
     return (
-        f"{points.value:.1f} points double the odds of winning a game in this league, give or take "
-        f"{error:.1f}; the chart assumes {fair.assumed:.3g}. This makes a chart that fits:",
+        f"{points.value:.1f} ± {error:.1f} points double the odds of winning a game in this "
+        f"league; the chart assumes {fair.assumed:.3g}. This makes a chart that fits:",
         f"evenbreak chart design --games {low}..{high} --least {race(fair.least)} "
         f"--scale {points.value:.1f}",
     )

@@ -181,7 +181,7 @@ def refuse_giants(match: Match, most: int = MOST_SCORES) -> None:
     scores *= getattr(match.rack, "m", 1) * getattr(match.rack, "n", 1)
     if scores > most:
         refuse(
-            "{match} can still come to about {scores:,} scores. Ask for a match with at "
+            "{match} still has about {scores:,} possible scores. Give a match with at "
             "most {most:,}.",
             match=match_words(match),
             scores=scores,
@@ -267,7 +267,11 @@ def _places(asked: Players, file: RosterFile) -> list[int]:
     )
     if len(places) < 2:
         one, other = asked.ratings
-        refuse("{one!r} and {other!r} are one player. Name two.", one=one, other=other)
+        refuse(
+            "{one!r} and {other!r} are the same player. Name two different ones.",
+            one=one,
+            other=other,
+        )
     return places
 
 
@@ -408,7 +412,7 @@ def _line(players: TwoPlayers, hold: str | None) -> dict[str, Any]:
     p1, p2 = players.rack.p1, players.rack.p2
     if p2 is None:
         if hold is not None:
-            refuse("{hold} goes with {p1} and {p2}, which aren't given. Leave it out.")
+            refuse("{hold} needs {p1} and {p2}. Give them, or leave it out.")
         return {}
     line: dict[str, Any] = {"breaks": players.break_format, "first_breaker": players.first_breaker}
     if hold != "break":

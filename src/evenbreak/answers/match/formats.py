@@ -232,7 +232,7 @@ def _in_a_session(best: BreakFormatValue) -> str:
     ahead = f"{count_of(abs(points), 'point')} {'ahead' if points > 0 else 'behind'}"
     return (
         f"Over 100 racks with {best.name} breaks, A comes out {ahead if points else 'even'} on "
-        f"average, give or take {10 * best.sd_points:,.0f}."
+        f"average, ± {10 * best.sd_points:,.0f}."
     )
 
 

@@ -41,7 +41,7 @@ FORMATS = {
 }
 """Break formats as people name them; A is player 1."""
 
-_AVERAGED = say("All of this is averaged over how far off that may be.")
+_AVERAGED = say("All of this allows for how far off that may be.")
 
 
 @dataclass(frozen=True)
@@ -375,11 +375,9 @@ def races_for(players: TwoPlayers, asked: Fair) -> list[FairRace]:
 def _refuse_without_odds(players: TwoPlayers, asked: Fair) -> None:
     """Refuse chances that day-to-day form cannot change, or about which it says nothing."""
     if players.p_game_a is None:
-        asked.refuse("{form} knows nothing of the break here. Give {p}, or two ratings.")
+        asked.refuse("{form} doesn't allow for the break. Give {p}, or two ratings.")
     if players.p_game_a in (0.0, 1.0):
-        asked.refuse(
-            "{form} changes nothing where {p} is {chance:g}. Leave it out.", chance=asked.p
-        )
+        asked.refuse("{form} changes nothing when {p} is {chance:g}. Leave it out.", chance=asked.p)
 
 
 def fair_answer(

@@ -130,13 +130,13 @@ def _advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot], look_
         return f"Shots {listed(equals)} are equally good: {wins}."
     name, second = best.shot.name, ranked[1]
     text = (
-        f"Take shot {name}: {wins}, against {percent(second.win)} with shot {second.shot.name}.\n"
-        f"Shot {name} stays the best "
+        f"Take shot {name}: {wins}, compared with {percent(second.win)} with shot "
+        f"{second.shot.name}.\nShot {name} is best "
     )
     if best.turning_p2 is None:
         text += "whatever a miss leaves."
     else:
-        text += f"as long as a miss leaves the opponent a chance below {chance(best.turning_p2)}."
+        text += f"as long as a miss leaves your opponent a chance below {percent(best.turning_p2)}."
     if next(one for one in otherwise if one.shot is best.shot).behind > SAME:
         other = "two shots" if look_ahead == "infinite" else "infinite"
         text += f"\nBut {_SUPPOSED[other]}, shot {otherwise[0].shot.name} is better."

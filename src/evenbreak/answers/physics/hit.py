@@ -261,7 +261,8 @@ def aim_words(offset: float, cut: float, hit: Hit, length: Unit) -> str:
         thinness = f"a cut to the {hit.away}"
     note = f" ({thinness})" if hit.cut else ""
     return (
-        f"Aim {amount} to the {side} of the middle of the pocket{note}; throw brings the ball back."
+        f"Aim {amount} to the {side} of the middle of the pocket{note}; throw brings it back in "
+        "line."
     )
 
 

@@ -269,6 +269,6 @@ def _aim_in_words(aimed: AimedShot, pocket: Pocket, units: Units) -> list[str]:
     side = "right" if right > 0.0 else "left"
     aim = f"Aim {amount} to the {side} of {goal}"
     if aimed.unaided.throw is None:
-        return [*sentences, f"{aim}: throw brings the ball back."]
+        return [*sentences, f"{aim}: throw brings it back in line."]
     miss = length.text(abs(aimed.miss), 2)
     return [*sentences, f"{aim}; without that, throw takes the ball {miss} off line."]

@@ -54,13 +54,13 @@ def _advice(statistics: DrillStatistics) -> str:
         return "More success at any level would not raise your average level."
     lift = statistics.lift[level - 1]
     return (
-        f"Practice level {level}: {better(statistics.drill.success[level - 1])} there raise your "
+        f"Practice level {level}: {better(statistics.drill.success[level - 1])} there raises your "
         f"average level by {lift:.2f}, more than at any other level."
     )
 
 
 def _settled(law: Distribution) -> str:
-    return f"For now you settle at an average level of {law.mean:.2f}."
+    return f"For now your average level settles at {law.mean:.2f}."
 
 
 GAIN_WORDS = (
@@ -76,7 +76,7 @@ def spread(law: Distribution) -> list[Quantity]:
 
 def better(p: float) -> str:
     """Return the improvement by which levels are compared, from a chance p."""
-    return "five more successes in 100" if p <= 1.0 - MORE else "successes without a miss"
+    return "making five more in 100" if p <= 1.0 - MORE else "making every one"
 
 
 UNLIKELY = 0.05
@@ -154,7 +154,7 @@ def _table(analysis: LogAnalysis) -> Table:
         columns,
         analysis.levels,
         "Your success rate at each level, with its 95% interval; the share of your attempts at "
-        "that level, so far and in the long run; its lift: how much five more successes in 100 "
+        "that level, so far and in the long run; its lift: how much making five more in 100 "
         "there would raise your average level; and how likely it is to be the best level to "
         "practice:",
     )
@@ -189,12 +189,12 @@ def _practice(analysis: LogAnalysis) -> str:
             "log would show it."
         )
     text = (
-        f"Practice level {best.level} next: {better(best.p or 0.0)} there raise your average level "
-        f"by {best.lift:.2f} (between {best.lift_low:.2f} and {best.lift_high:.2f}). "
+        f"Practice level {best.level} next: {better(best.p or 0.0)} there raises your average "
+        f"level by {best.lift:.2f} (between {best.lift_low:.2f} and {best.lift_high:.2f}). "
     )
     if not others:
         return f"{text}It is the only level that you missed."
-    text += f"It is {_percent(best.p_best)} certain that no other level helps more"
+    text += f"The chance that no other level helps more is {_percent(best.p_best)}"
     if best.p_best >= SURE:
         return f"{text}."
     return (
@@ -254,8 +254,8 @@ def _findings(analysis: LogAnalysis) -> Iterator[str]:
     if model is not None and model.p_value < UNLIKELY and off is not None:
         usual = off.attempts * (off.p_model or 0.0)
         found.append(
-            f"Level {off.level} is out of line: you made {off.successes} of {off.attempts} where "
-            f"{usual:.0f} would fit your other levels."
+            f"Level {off.level} doesn't fit the rest: you made {off.successes} of {off.attempts}; "
+            f"going by your other levels, {usual:.0f} would be normal."
         )
     if not found:
         yield "Nothing else in the log stands out beyond chance."

@@ -94,7 +94,7 @@ def _change_in_words(found: Comparison) -> str:
     p = found.welch.p_value
     if p >= LUCK:
         return (
-            f"No sign of a change: {change}, but luck alone makes a difference this large "
+            f"No sign of a change: {change}, but luck alone would make a difference this large "
             f"{how_often(p)}."
         )
     return (
@@ -235,7 +235,7 @@ def _trend_in_words(file: ScoresFile, own: MeanInterval | None, line: Trend | No
         if line.p_value < LUCK:
             return f"{change}; {luck_words(line.p_value)}."
         return (
-            f"No sign of a change. {change}, but luck alone does as much "
+            f"No sign of a change. {change}, but luck alone would do as much "
             f"{percent(line.p_value)} of the time."
         )
     if len(file.scores) == 1:

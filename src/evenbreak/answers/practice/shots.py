@@ -35,8 +35,8 @@ def shots_answer(file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.
     >>> days = np.array(["2025-01-03", "2025-02-03"], dtype="M8[D]")
     >>> log = ShotLog(("cut", "bank"), [0, 1, 0, 1], [12, 4, 15, 5], [20] * 4, days.repeat(2))
     >>> print(shots_answer(ShotsFile(log, "shots.csv", ()), analyse_shots(log)).sentences[0])
-    Practice bank next: you make it 24% of the time, and it is more than 99% sure to be your weakest
-    shot.
+    Practice bank next: you make it 24% of the time, and the chance that it's your weakest shot
+    is more than 99%.
     """
     log, since = file.log, None if found.since is None else str(found.since)
     made, tried = int(log.made.sum()), int(log.tried.sum())
@@ -76,8 +76,8 @@ def _next_words(found: ShotAnalysis) -> str:
     if first.p_weakest >= _CLEAR:
         sure = "more than 99%" if first.p_weakest > 0.99 else percent(first.p_weakest)
         return (
-            f"Practice {first.name} next: you make it {percent(first.chance)} of the time, and it "
-            f"is {sure} sure to be your weakest shot."
+            f"Practice {first.name} next: you make it {percent(first.chance)} of the time, and "
+            f"the chance that it's your weakest shot is {sure}."
         )
     return (
         f"Practice {first.name} or {second.name} next: you make them {percent(first.chance)} and "
@@ -93,10 +93,10 @@ def _better_words(found: ShotAnalysis, since: str | None) -> str:
     if change is None:
         return "No shot was tried in both halves, so the log cannot show whether you got better."
     seen = f"before {since} you made {percent(change.before)}, since then {percent(change.after)}"
-    same = ", at the same mix of shots" if len(found.shots) > 1 else ""
+    same = ", with the same mix of shots" if len(found.shots) > 1 else ""
     if change.p_value >= LUCK:
         return (
-            f"No sign of a change: {seen}{same}, but luck alone changes as much "
+            f"No sign of a change: {seen}{same}, but luck alone would do as much "
             f"{how_often(change.p_value)}."
         )
     got = "better" if change.ratio > 1.0 else "worse"

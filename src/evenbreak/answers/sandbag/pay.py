@@ -20,7 +20,7 @@ from evenbreak.league.sandbag_pay import (
 )
 
 CYCLE = 10
-"""The matches of the cycles of dumping and playing in earnest that are looked at."""
+"""The matches of the cycles of dumping and playing for real that are looked at."""
 
 
 class PayQuestion(NamedTuple):
@@ -43,7 +43,7 @@ class PayFindings(NamedTuple):
     """What sandbagging pays on one ladder.
 
     `all_pays` goes on to as many dumped matches as the ladder allows; `cycle` is the most
-    profitable one for a player willing to be a doubling under-rated (None: not looked for);
+    profitable one for a player willing to be a doubling underrated (None: not looked for);
     `enters` has the extra wins of a player who enters a doubling too low, established or as a
     newcomer.
     """
@@ -127,9 +127,9 @@ def sandbag_pay_answer(
 
 
 _EXPLANATION = (
-    "'Given away': how many of the dumped matches an honest player would have won. 'Extra wins': "
-    "how many more of the matches that count the sandbagger wins; 'by the last': how many "
-    "of these come from the last match dumped. 'Pays from': how many times as much "
+    "'Wins given up': how many of the dumped matches an honest player would have won. 'Extra "
+    "wins': how many more of the matches that count the sandbagger wins; 'from the last': how "
+    "many of these come from the last match dumped. 'Pays from': how many times as much "
     "as a win in a dumped match a win that counts must be worth. 'Profit': the gain over an honest "
     "player, in the unit of the stakes."
 )
@@ -175,16 +175,16 @@ def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
     if cycle is not None and cycle.dumped and cycle.profit > 0.0:
         yield (
             f"In cycles of {CYCLE} matches, the most profitable plan for a player willing to be "
-            f"{found.doubling} points under-rated is to dump {cycle.dumped} and play "
+            f"{found.doubling} points underrated is to dump {cycle.dumped} and play "
             f"{cycle.earnest} that count. They are then {-cycle.rating_error:.1f} points "
-            f"under-rated when they start to play for real, win {percent(cycle.p_win)} of these "
+            f"underrated when they start to play for real, win {percent(cycle.p_win)} of these "
             f"matches and gain {cycle.profit:.2f} a match."
         )
     steps = ""
     if "newcomer" in found.enters:
         steps = f"; with the newcomer steps, {found.enters['newcomer']:.2f} more"
     yield (
-        f"A player who enters the league {found.doubling} points under-rated wins "
+        f"A player who enters the league {found.doubling} points underrated wins "
         f"{found.enters['established']:.2f} more of their first {question.earnest} matches than a "
         f"correctly rated player{steps}."
     )
@@ -232,7 +232,7 @@ def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -
             "Each row is for the number of dumped matches that pays most. 'Pays from': how many "
             "times as much as a win in a dumped match a win that counts must be worth. 'Enters "
             f"low': how many more of their first {question.earnest} matches a player wins who "
-            f"enters the league {found[0].doubling} points under-rated.",
+            f"enters the league {found[0].doubling} points underrated.",
         ],
     )
 

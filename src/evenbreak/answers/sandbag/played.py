@@ -62,7 +62,7 @@ def dumping_answer(
         for row in rows
     ]
     best = max(rows, key=lambda row: (profit(row), -row.dumped))
-    error = f", give or take {question.stake * best.error:.2f}" if leagues else ""
+    error = f" ± {question.stake * best.error:.2f}" if leagues else ""
     first = (
         "Sandbagging pays at these stakes, most of all with "
         f"{count_of(best.dumped, 'match', 'matches')} dumped: a profit of "
@@ -74,7 +74,7 @@ def dumping_answer(
     )
     how = (
         f"Played in {leagues:,} leagues for each number of matches dumped, all with the same "
-        "random numbers; 'give or take' is one standard error."
+        "random numbers; '±' is one standard error."
         if leagues
         else "Exact: nothing is simulated."
     )

@@ -168,16 +168,15 @@ def clock_words(state: TeamEvening, clock: NightClock) -> list[Sentence]:
             continue
         lines.append(
             say(
-                "Set {n} starts at about {middle}; eight times out of ten between {early} and "
-                "{late}.",
+                "Set {n} starts at about {middle} (8 nights in 10: {early} to {late}).",
                 n=number,
                 **_times(clock.now, band),
             )
         )
     lines.append(
         say(
-            "If every set is played, the night ends at about {middle}; eight times out of ten "
-            "between {early} and {late}.",
+            "If every set is played, the night ends at about {middle} (8 nights in 10: {early} to "
+            "{late}).",
             **_times(clock.now, clock.end),
         )
     )

@@ -163,7 +163,7 @@ def _in_words(found: Advice, named: Sequence[str]) -> Sentence:
         )
     if found.ours and named:
         return say(
-            "Answer {theirs} with {pick}: you win the night {p} of the time.",
+            "Against {theirs}, put up {pick}: you win the night {p} of the time.",
             theirs=names_words(named),
             pick=_name(best),
             p=p,
@@ -231,7 +231,7 @@ def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | N
         return toss, say("The toss makes no difference.")
     return toss, say(
         "If you win the toss, {choice}: you win {better} of such nights, compared with {worse} the "
-        "other way round.",
+        "other way around.",
         choice=say("answer") if second > first else say("put up first"),
         better=percent(max(first, second)),
         worse=percent(min(first, second)),
@@ -253,11 +253,11 @@ def _orders(meeting: Meeting, solution: SolvedNight) -> Table:
 
 
 def _order_words(name: str, order: str) -> str:
-    who = say("you") if order[0] == OURS else say("they")
+    who = say("you") if order[0] == OURS else say("them")
     return {
         "alternate": say("in turn, {who} in set 1", who=who),
         "home": say("always {who}", who=who),
-        "blind": say("both at once, unseen"),
+        "blind": say("both at once, blind"),
         "winner": say("the winner of the last set, {who} in set 1", who=who),
         "loser": say("the loser of the last set, {who} in set 1", who=who),
     }[name]

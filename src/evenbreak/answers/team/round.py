@@ -129,15 +129,15 @@ def _csi(
     start = found.points if found.to_team == 1 else -found.points
     weaker, times = names[law.mean > 0], f", then times {games}" if games > 1 else ""
     text = (
-        f"CSI's way (from the two averages, one game of each match, rounded down{times}) gives "
+        f"CSI's formula (from the two averages, one game of each match, rounded down{times}) gives "
         f"{count_of(found.points, 'game')}"
     )
     if found.points:
         text += f" to {names[(found.to_team or 1) - 1]}"
     if found.given_away > 0.005:
         text += (
-            f"; {found.even_points:.2f} would even out the averages, so the rounding keeps "
-            f"{percent(found.given_away)} of them from {weaker}"
+            f"; {found.even_points:.2f} would even out the averages, so rounding costs "
+            f"{weaker} {percent(found.given_away)} of them"
         )
     seen = law.with_start(start)
     return start, f"{text}. Then {names[0]} {_in_words(seen, 'wins', 'loses', 'ties')}."
@@ -146,7 +146,7 @@ def _csi(
 _IN_WORDS = {
     "alternate": "in turn, A in set 1",
     "home": "always A",
-    "blind": "both at once, unseen",
+    "blind": "both at once, blind",
     "winner": "the winner of the last set, A in set 1",
     "loser": "the loser of the last set, A in set 1",
 }
@@ -225,7 +225,7 @@ def team_rules_answer(
     >>> rules = LeagueRules(rosters, squads, levels, 5, SCALES["fargo"], 2, "AB")
     >>> answer = team_rules_answer(rules)
     >>> print(answer.sentences[0])
-    In the order AB, putting up first in set 1 costs 0.9 points of winning chance on average; \
+    In the order AB, putting up first in set 1 costs 0.9 percentage points on average; \
 between two teams of yours at most 0.9.
     """
     rules.check()
@@ -249,7 +249,7 @@ between two teams of yours at most 0.9.
 
 
 def _points(change: float) -> str:
-    return f"{100.0 * abs(change):.1f} points of winning chance"
+    return f"{100.0 * abs(change):.1f} percentage points"
 
 
 def _order_words(order: str, nights: Floats) -> str:

@@ -51,7 +51,7 @@ def team_season_answer(
     matches = count_of(len(season.played), "match", "matches")
     return Answer(
         f"{count_of(len(season.teams), 'team')}: {matches} played, {len(season.to_come)} left\n"
-        + rules_words(season.rules, sets=True, level="teams that are level", last="lot"),
+        + rules_words(season.rules, sets=True, level="teams that are level", last="drawing lots"),
         parts,
         details=[_places(found)],
         data={"exact": found.exact, "seasons": found.seasons, "standard_error": _error(found)},
@@ -111,8 +111,8 @@ def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table
         "to_be_sure",
         columns,
         [row for row in rows if any(value is not None for value in row[1:])],
-        title="Points that a team still needs to be sure, whatever the others do (blank: its own "
-        "matches cannot make it sure)",
+        title="Points needed to clinch, whatever the others do (blank: can't clinch by winning its "
+        "own matches)",
     )
 
 
@@ -133,9 +133,9 @@ def _tonight(found: SeasonChances, up: int | None, down: int | None, rounds: str
         return None
     aims = [(1, "title", False)]
     if up is not None and up > 1:
-        aims.append((up, f"the first {up}", False))
+        aims.append((up, f"the top {up}", False))
     if down is not None:
-        aims.append((len(season.teams) - down, f"the last {down}", True))
+        aims.append((len(season.teams) - down, f"the bottom {down}", True))
     rows: list[list[Any]] = []
     for row, match in enumerate(matches):
         home, away = season.to_come[match].tolist()
@@ -156,7 +156,7 @@ def _tonight(found: SeasonChances, up: int | None, down: int | None, rounds: str
                 rows.append([season.teams[team], season.teams[other], float(p_win), *best[1]])
     rows.sort(key=lambda row: -abs(row[4] - row[5]))
     columns = columns_of("team opponent p_win_next at_stake p_if_won p_if_lost")
-    title = f"What {rounds or 'the next matches'} can change, the most first"
+    title = f"What's at stake in {rounds or 'the next matches'}, biggest swing first"
     return Table("tonight", columns, rows, title=title)
 
 

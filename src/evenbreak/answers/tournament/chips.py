@@ -37,8 +37,8 @@ def chip_heading(state: Evening) -> Sentence:
     """Return what is played, in words."""
     chart = "" if state.plan.chips is None else state.plan.chips.name
     return say_count(
-        "Chips by the chart {chart}, on {n} table",
-        "Chips by the chart {chart}, on {n} tables",
+        "Chips from the chart {chart}, on {n} table",
+        "Chips from the chart {chart}, on {n} tables",
         state.plan.tables,
         chart=chart,
     )
@@ -89,7 +89,7 @@ def chip_changes(before: Evening, after: Evening) -> list[Sentence]:
     said += [say("Set aside: {result}.", result=words) for words in came]
     back = gone & after.counted.keys()
     return said + [
-        say("Counts again: {results}.", results=rack_words(after.counted[name]))
+        say("Counted again: {results}.", results=rack_words(after.counted[name]))
         for name in sorted(back)
     ]
 

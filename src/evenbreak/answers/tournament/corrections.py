@@ -89,7 +89,7 @@ def _stop_details(stop: Evening, lost: Sequence[Loss]) -> list[Sentence]:
                 )
             )
         else:
-            said.append(say("Open again: {match}.", match=open_words(stop, one.match)))
+            said.append(say("Reopened: {match}.", match=open_words(stop, one.match)))
         if one.result is not None:
             said[-1] = say("{open} {result} no longer counts.", open=said[-1], result=number)
     scores = [tally(one.score) for one in lost if one.score and any(one.score)]

@@ -42,7 +42,7 @@ def favors_words(ratings: Floats, odds: PlaceOdds) -> str:
     >>> from evenbreak.tournaments import single_elimination, title_odds
     >>> odds = title_odds(single_elimination(2), [[0.5, 0.6], [0.4, 0.5]])
     >>> favors_words(np.array([600.0, 500.0]), odds)
-    'The races favor the stronger half of the field: it wins the title 60% of the time, where
+    'The races favor the stronger half of the field: it wins the title 60% of the time, and
      50% would be fair.'
     """
     upper = upper_half(ratings, odds.title)
@@ -53,7 +53,7 @@ def favors_words(ratings: Floats, odds: PlaceOdds) -> str:
         verdict = f"favor the {'stronger' if stronger else 'weaker'} half of the field: it"
         upper = upper if stronger else 1.0 - upper
     often = percent(upper)
-    return f"The races {verdict} wins the title {often} of the time, where 50% would be fair."
+    return f"The races {verdict} wins the title {often} of the time, and 50% would be fair."
 
 
 def favors(ratings: Floats, odds: PlaceOdds) -> list[Quantity]:
@@ -74,9 +74,11 @@ def fairer_races(tournament: Tournament) -> list[Part]:
     """
     bracket, races = tournament.bracket, tournament.races
     if isinstance(races.race, int):
-        raise InputError("even races have no handicap to make fairer. Give the handicapped ones.")
+        raise InputError("even races have no handicap to make fairer. Use handicapped races.")
     if tournament.to_draw or exact_plan(bracket) is None:
-        raise InputError("fairer races are found for brackets with exact odds that are drawn")
+        raise InputError(
+            "fairer races need a bracket that is drawn and small enough for exact odds"
+        )
     asked: Any = {"scale": tournament.scale, "form": tournament.file.form}
     today = tournament_fairness(bracket, tournament.ratings, races, **asked)
     sides = {match.side for match in bracket.matches}
@@ -100,8 +102,8 @@ def fairer_races(tournament: Tournament) -> list[Part]:
         table,
         *by_round,
         "Unfairness is 0 if everyone has the same title odds, and 1 if they are off by an equal "
-        "share on average (root mean square). The stronger player needs the games in the table, "
-        "the weaker as many as is fairest.",
+        "share on average (root mean square). The stronger player races to the games in the table; "
+        "the weaker gets the fairest race.",
     ]
 
 

@@ -189,14 +189,14 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentenc
     gone = [n for n in before.counted if n not in after.counted and n in there and n != besides]
     if gone:
         again = some_of([open_words(after, name) for name in gone])
-        said.append(say("Open again: {matches}.", matches=again))
+        said.append(say("Reopened: {matches}.", matches=again))
     back = [
         say("{result} in {match}", result=after.result_words(result), match=after.match_words(name))
         for name, result in after.counted.items()
         if name not in before.counted and name != besides and name in after.records
     ]
     if back:
-        said.append(say("Counts again: {results}.", results=joined(back, "; ")))
+        said.append(say("Counted again: {results}.", results=joined(back, "; ")))
     return said
 
 
@@ -314,7 +314,7 @@ def _entered(state: Evening, name: str) -> Sentence:
             other = seats[1 - seats.index(seat)]
             rival = say("an opponent not yet known") if other is None else state.order[other]
             return say(
-                "{player} has entered in place of a bye and meets {opponent} in {match}.",
+                "{player} takes the place of a bye and meets {opponent} in {match}.",
                 player=name,
                 opponent=rival,
                 match=state.match_words(match),
@@ -326,7 +326,7 @@ def draw_words(before: Evening, after: Evening) -> Sentence:
     """Return what was drawn."""
     said: list[Sentence] = []
     if not before.drawn:
-        said.append(say("{n} players are drawn.", n=len(after.order)))
+        said.append(say("The draw is made: {n} players.", n=len(after.order)))
     for stage in after.later.keys() - before.later.keys():
         if stage == KNOCK_OUT:
             said.append(say("The losers' qualifiers are drawn."))

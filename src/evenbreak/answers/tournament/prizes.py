@@ -137,7 +137,7 @@ def calcutta_answer(
     else:
         words = (
             f"{count_of(len(sold), 'player')} sold for {bids:.2f}. {rows[0][0]} is worth a bid of "
-            f"up to {rows[0][2]:.2f} now."
+            f"up to {rows[0][2]:,.2f} now."
         )
     parts: list[Part] = [
         words,

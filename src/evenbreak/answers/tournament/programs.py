@@ -34,7 +34,9 @@ def scope_in(text: str, plan: Plan) -> str:
         return at_table(plan.table_number(table))
     if text.strip() not in (SCORES, DIRECTOR):
         raise InputError(
-            "{may} {value!r} isn't scores, table:4 or director", may=Parameter("may"), value=text
+            "{may} must be scores, a table such as table:4, or director; you gave {value!r}",
+            may=Parameter("may"),
+            value=text,
         )
     return text.strip()
 

@@ -48,7 +48,7 @@ def ends_words(early: float, middle: float, late: float) -> Sentence:
     """Return when something ends, all times in minutes after the midnight before it started.
 
     >>> ends_words(23 * 60, 24 * 60 + 15, 26 * 60)
-    'It ends at about 00:15 the next day; eight times out of ten between 23:00 and 02:00.'
+    'It ends at about 00:15 the next day (8 nights in 10: 23:00 to 02:00).'
     """
     days = round(middle) // _DAY
     end: str = time_of_day(middle)
@@ -57,7 +57,7 @@ def ends_words(early: float, middle: float, late: float) -> Sentence:
     elif days > 1:
         end = say("{time} {days} days later", time=end, days=days)
     return say(
-        "It ends at about {end}; eight times out of ten between {early} and {late}.",
+        "It ends at about {end} (8 nights in 10: {early} to {late}).",
         end=end,
         early=time_of_day(early),
         late=time_of_day(late),
@@ -120,7 +120,7 @@ def tournament_time_answer(
     >>> tonight = Tournament(file, club, *asked)
     >>> answer = tournament_time_answer(tonight, tables=2, pace="9-ball", start=19 * 60)
     >>> print(answer.sentences[0].splitlines()[0])
-    It ends at about 22:26; eight times out of ten between 21:37 and 23:28.
+    It ends at about 22:26 (8 nights in 10: 21:37 to 23:28).
     """
     asked: Any = {"pace": event_pace(pace, earlier), "turnover": turnover, "seed": seed}
     laws_now = tournament.laws
@@ -152,7 +152,7 @@ def tournament_time_answer(
 def _takes(found: Finish) -> str:
     early, middle, late = map(clock, found.bands)
     return say(
-        "It takes about {middle}; eight times out of ten between {early} and {late}.",
+        "It takes about {middle} (8 nights in 10: {early} to {late}).",
         middle=middle,
         early=early,
         late=late,
@@ -244,7 +244,7 @@ WORTH_SAYING = 10.0
 
 CHANGES = {
     "one_more_table": say("one more table"),
-    "one_table_fewer": say("one table fewer"),
+    "one_table_fewer": say("one fewer table"),
     "races_one_shorter": say("all races one game shorter"),
     "losers_races_one_shorter": say("the losers' side one game shorter"),
 }

@@ -138,7 +138,7 @@ def _by_points(
     from evenbreak.answers.league.matchups import points_matchups_answer
 
     if asked.games is not None or asked.race_to is not None:
-        refuse(f"{chart.name} is a chart of points, and no race in games goes with it")
+        refuse(f"{chart.name} is a chart of points, so it sets no race in games")
     file, _ = by_level(file, chart)
     file, notes = with_known_level(file, asked.starter, asked.results)
     warnings = [*warnings, *map(str, notes)]
@@ -269,8 +269,8 @@ def _next_night(
 def _refuse_too_many(pairs: str, many: int, tables: int | None, face: str) -> None:
     meet = "name those who meet with --pairs PAIRS.csv"
     if tables is not None and many > MOST_MATCHES:
-        refuse(f"{pairs}, and {MOST_MATCHES:,} are the most for one evening; {meet}")
+        refuse(f"{pairs}; the limit for one evening is {MOST_MATCHES:,}. To choose, {meet}.")
     if many > MOST_PAIRS:
-        refuse(f"{pairs}, and {MOST_PAIRS:,} are the most; {meet}")
+        refuse(f"{pairs}; the limit is {MOST_PAIRS:,}. To choose, {meet}.")
     if many > MOST_SHOWN and face != "csv":
         refuse(f"{pairs}, too many for {face}. Write them with --csv > pairs.csv, or {meet}.")

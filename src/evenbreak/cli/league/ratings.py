@@ -179,7 +179,7 @@ def why(asked: Why) -> Answer:
     names = (asked.player_a, asked.player_b)
     pair = answers.find_players(file.results, names, said="why", where=file.source)
     if len(pair) < 2:
-        refuse(f"{names[0]!r} and {names[1]!r} are one player. Name two.")
+        refuse(f"{names[0]!r} and {names[1]!r} are the same player. Name two different ones.")
     ratings, choice = rated(asked, file, scale_by_chart(asked))
     played = int(ratings.games[pair].sum())
     if played * len(file.results) > MANY:

@@ -80,10 +80,11 @@ def _say_pairs(asked: Report, chosen: int, players: int) -> None:
     if chosen == players and pairs <= MANY_PAIRS:
         return
     named = asked.players or asked.players_file
-    why = " who have played most" if chosen < players and not named else ""
+    which = "the " if chosen < players and not named else ""
+    why = " who have played most" if which else " of them"
     hint = "" if named or asked.top else " (or --top N, or --players to name them)"
     long = f": {pairs:,} pairs, which takes minutes" if pairs > MANY_PAIRS else ""
-    say(f"Pairing {chosen:,} of them{why}{hint}{long}")
+    say(f"Pairing {which}{chosen:,}{why}{hint}{long}")
 
 
 def _read(asked: Report) -> tuple[files.ResultsFile, Sequence[str]]:

@@ -52,7 +52,7 @@ def round_(asked: Round) -> Answer:
     rosters, warnings = found.rosters, found.warnings
     if not asked.everybody and len(rosters[0]) != len(rosters[1]):
         asked.refuse(
-            "{first} has {m} players and {second} {n}. Leave out those who don't play, "
+            "{first} has {m} players, and {second} has {n}. Leave out those who don't play, "
             "or give {everybody}.",
             first=asked.ours,
             m=len(rosters[0]),
@@ -91,7 +91,7 @@ def round_(asked: Round) -> Answer:
 
 @command_of(Caps, "caps")
 def caps(asked: Caps) -> Answer:
-    """Find what a cap and the order of nomination do to a team league."""
+    """Find what a cap and the order of putting up players do to a team league."""
     from evenbreak.answers.league.prior import starters_words
     from evenbreak.answers.team.round import LeagueRules, team_rules_answer
 
@@ -142,7 +142,7 @@ def season(asked: Season) -> Answer:
             )
     if (asked.up or 0) + (asked.down or 0) > count:
         asked.refuse(
-            "{up} {m} and {down} {n} are more than the {count} teams. Give fewer.",
+            "{up} {m} and {down} {n} add up to more than the {count} teams. Give fewer.",
             m=asked.up,
             n=asked.down,
             count=count,
@@ -213,7 +213,7 @@ def _length(asked: Season, scores: Any) -> dict[str, int]:
         if (sizes != stated).any():
             a, b = scores[int((sizes != stated).argmax())].tolist()
             asked.refuse(
-                "{part} {stated} doesn't fit the score {a}:{b} in the results",
+                "{part} {stated} doesn't fit the score {a}-{b} in the results",
                 part=Parameter(name),
                 stated=stated,
                 a=a,
@@ -358,7 +358,7 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
     scales = [each.file.scale for each in lists if each.file.scale is not None]
     if any(not scales[0].same_points(other) for other in scales[1:]):
         sources = " and ".join(dict.fromkeys(each.file.source for each in lists))
-        refuse(f"{sources}: different scales are stated. Put all ratings on one.")
+        refuse(f"{sources}: the ratings are on different scales. Put all of them on one.")
     rated = np.concatenate([each.file.roster.rating for each in lists])
     names = [name for each in lists for name in each.file.roster.players]
     scale = stated or next(iter(scales), None)

@@ -10,6 +10,7 @@ from evenbreak.cli.team.league import race_of, two_teams, weights_of
 from evenbreak.files.lists.teams import form_of_lists
 from evenbreak.files.tables.names import KnownNames
 from evenbreak.questions.teams import InPlay, Lineup, usual_sets
+from evenbreak.ratings.results_frame import without_accents
 from evenbreak.teams.evening.events import meeting_by
 from evenbreak.teams.meeting import SEALED, Meeting
 from evenbreak.teams.night import LOSER, WINNER, order_of
@@ -130,8 +131,8 @@ def _player(
 
 def _by_beginning(players: list[tuple[int, str]], wanted: str) -> list[tuple[int, str]]:
     """Return the one player whose first or last name starts like this; none if there are more."""
-    begin = f" {wanted.casefold()}"
-    such = [(side, name) for side, name in players if wanted and begin in f" {name.casefold()}"]
+    begin = f" {without_accents(wanted)}"
+    such = [one for one in players if wanted and begin in f" {without_accents(one[1])}"]
     return such if len(such) == 1 else []
 
 

@@ -177,8 +177,8 @@ def import_(asked: Import) -> Answer:
     )
     if is_database(saved):
         refuse(
-            f"{saved} is a database already; go on with it as --file {saved}, or import what "
-            "evenbreak tournament export --events writes of it"
+            f"{saved} is already a tournament's database. Continue it with --file {saved}, or "
+            "import the output of evenbreak tournament export --events."
         )
     if is_event_list(saved):
         events = read_event_list(saved)

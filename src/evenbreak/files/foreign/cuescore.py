@@ -67,7 +67,7 @@ def _played(match: Mapping[str, Any], event: str, default: Any) -> tuple[Played,
         return (played._replace(forfeit=True, remarks=(Remark.FORFEIT,)),)
     if min(played.score_a, played.score_b) < 0 or (race and race <= max(start_a, start_b)):
         raise ExportError(
-            "({a}, {b}) has a head start of {start_a}:{start_b}, which doesn't fit its "
+            "({a}, {b}) has a head start of {start_a}-{start_b}, which doesn't fit its "
             "score {score_a}-{score_b} in a race to {race}",
             a=a,
             b=b,

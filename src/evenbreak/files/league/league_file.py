@@ -42,7 +42,7 @@ class LeagueFiles:
     ] = None
     fixtures: Annotated[str | None, Field(values.FILE, "Who plays who, and when.")] = None
     teams: Annotated[
-        str | None, Field(values.FILE, "All teams, with points they have besides.")
+        str | None, Field(values.FILE, "All teams, with any extra points they have.")
     ] = None
     team_results: Annotated[
         str | None, Field(values.FILE, "The results of teams: home, away and the sets of each.")
@@ -97,7 +97,7 @@ class StandingsRules:
     ] = None
     ties: Annotated[
         tuple[str, ...] | None,
-        Field(values.TIES, "What separates those with equal points, in this order."),
+        Field(values.TIES, "Tiebreakers, in this order."),
     ] = None
 
     @property
@@ -120,7 +120,7 @@ class Published:
     """`[publish]`: what the league's site shows."""
 
     color: Annotated[str | None, Field(values.COLOR, "The color of the site.")] = None
-    logo: Annotated[str | None, Field(values.FILE, "A picture for its head.")] = None
+    logo: Annotated[str | None, Field(values.FILE, "A logo for the top of the site.")] = None
     names: Annotated[
         str, Field(values.NAMES, "Players' names in full, as initials, or not at all (hidden).")
     ] = "full"

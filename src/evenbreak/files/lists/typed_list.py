@@ -142,8 +142,8 @@ def _left_out(read: Sequence[Reading], source: str) -> list[str]:
     if [one.front for one in numbered] != list(range(1, len(numbered) + 1)):
         first = numbered[0]
         left_out = say(
-            "the number {n} in front of {name} is left out, and so are the others; the order is "
-            "that of the lines",
+            "the numbers in front of names, such as the {n} before {name}, are left out; the order "
+            "is that of the lines",
             n=first.front,
             name=quoted(first.players[0].name),
         )

@@ -15,7 +15,7 @@ from evenbreak.handicaps.charts.chart import Chart
 from evenbreak.handicaps.charts.level_chart import PointsChart
 from evenbreak.handicaps.charts.played_chart import level_numbers_of
 from evenbreak.ratings.results import Results
-from evenbreak.words import say, say_count
+from evenbreak.words import race, say, say_count
 
 
 def races_by_chart(
@@ -33,7 +33,7 @@ def races_by_chart(
     of points, and it sets the points to win.
     """
     of_league = find_chart(chart)
-    race_a, race_b = (race.copy() for race in results.races)
+    race_a, race_b = (needed.copy() for needed in results.races)
     score_a, score_b = results.score_a, results.score_b
     unset = results.counted & (race_a == 0) & (race_b == 0) & (score_a + score_b > 0)
     if not unset.any():
@@ -93,14 +93,13 @@ def races_by_chart(
     if (unfit := unset & known & ~ends).any():
         row = int(unfit.argmax())
         text = say_count(
-            "the score {a}-{b} doesn't end the race {m}-{n} of the levels stated. Check it.",
-            "the score {a}-{b} doesn't end the race {m}-{n} of the levels stated, nor do "
+            "the score {a}-{b} doesn't end the race {race} of the levels stated. Check it.",
+            "the score {a}-{b} doesn't end the race {race} of the levels stated, nor do "
             "those of {more:,} more matches theirs. Check them.",
             int(unfit.sum()),
             a=int(score_a[row]),
             b=int(score_b[row]),
-            m=int(m[row]),
-            n=int(n[row]),
+            race=race((int(m[row]), int(n[row]))),
             more=int(unfit.sum()) - 1,
         )
         told.append(warning(source, lines[row] if len(lines) else None, text))

@@ -349,7 +349,7 @@ def _keep_old(folder: Path, entries: Tree) -> list[_Change]:
     for number, (name, content) in enumerate(entries.items()):
         place = folder / name
         if place.is_dir() and not place.is_symlink():
-            raise IsADirectoryError(errno.EISDIR, f"{name} in it's a folder")
+            raise IsADirectoryError(errno.EISDIR, f"{name} in it is a folder. Move it away.")
         place.parent.mkdir(parents=True, exist_ok=True)
         existed = os.path.lexists(place)
         if existed:

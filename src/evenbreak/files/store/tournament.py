@@ -120,7 +120,9 @@ def begin_beside(
         first = events[0]
         assert isinstance(first.what, Opened)  # noqa: S101
         if "chips" in {first.what.plan.form, *(one.plan.form for one in states.values())}:
-            raise InputError("a chip tournament has the tables for itself")
+            raise InputError(
+                "a chip tournament needs all the tables, so no other event can run beside it"
+            )
         plan = first.what.plan.at_tables_of(house.plan)
         events[0] = replace(first, what=replace(first.what, plan=plan))
         night = together({**states, number: _shown(evening(events))})

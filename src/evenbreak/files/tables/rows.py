@@ -419,8 +419,8 @@ def _skipped(lines: list[int], rows: list[list[str]], fit: Fit, source: str) -> 
     if not any(texts):
         return []
     header = say_count(
-        "the header is in this line; the line above it is not used: {texts}",
-        "the header is in this line; {n} lines above it are not used: {texts}",
+        "the header is in this line; the line above it was ignored: {texts}",
+        "the header is in this line; {n} lines above it were ignored: {texts}",
         len(rows),
         texts=quoted_list([text for text in texts if text]),
     )

@@ -8,7 +8,6 @@ work grows with the number of names and not with its square, however many of the
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections import defaultdict
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
@@ -16,6 +15,7 @@ from itertools import combinations
 import numpy as np
 
 from evenbreak.files.tables.problems import first_ones, quoted, warning
+from evenbreak.ratings.results_frame import without_accents
 from evenbreak.words import listed, say
 
 SHORTEST_WORD = 4
@@ -34,9 +34,6 @@ MOST_LISTED = 20
 Words = tuple[str, ...]
 
 # Letters that Unicode does not decompose into a letter and an accent.
-_PLAIN = str.maketrans(
-    {"ø": "o", "ł": "l", "đ": "d", "ð": "d", "ı": "i", "æ": "ae", "œ": "oe", "þ": "th"}
-)
 _UMLAUT = re.compile("([aou])e")
 _WORD = re.compile(r"[^\W_]+")
 _LONG = re.compile(rf"\S{{{SHORTEST_WORD},}}")
@@ -78,13 +75,13 @@ def similar_name_warnings(
     """Return a warning for each group of names in a file that may mean one player, or team.
 
     >>> similar_name_warnings([("CY", "Cy")], "r.csv", "If so, keep one of them.")
-    ["r.csv: 'CY' and 'Cy' may be one player. If so, keep one of them."]
+    ["r.csv: 'CY' and 'Cy' may be the same player. If so, keep one of them."]
     """
     warnings = [
         warning(
             source,
             None,
-            "{names} may be one {kind}. {remedy}",
+            "{names} may be the same {kind}. {remedy}",
             names=listed(list(map(quoted, group))),
             kind=of,
             remedy=remedy,
@@ -99,11 +96,7 @@ def similar_name_warnings(
 def _words(name: str) -> Words:
     """Return the words of a name, given names first, without accents and in one case."""
     last, _, given = name.partition(",")
-    bare = f"{given} {last}".casefold()
-    if not bare.isascii():
-        letters = unicodedata.normalize("NFKD", bare.translate(_PLAIN))
-        bare = "".join(letter for letter in letters if not unicodedata.combining(letter))
-    return tuple(_WORD.findall(bare))
+    return tuple(_WORD.findall(without_accents(f"{given} {last}")))
 
 
 def _without_umlauts(word: str) -> str:

@@ -331,8 +331,8 @@ class Gap:
         else:
             if (many := (high * (high + 1) - low * (low - 1)) // 2) > MOST_RACES:
                 raise InputError(
-                    "games {low}..{high} offers {many:,} races, and {most_races:,} are "
-                    "the most. Give fewer games.",
+                    "games {low}..{high} offers {many:,} races; the limit is {most_races:,}. "
+                    "Give fewer games.",
                     low=low,
                     high=high,
                     many=many,

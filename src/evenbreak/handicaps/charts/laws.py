@@ -40,7 +40,7 @@ def lawful_chart(chart: Any) -> AnyChart:
     """Return a chart that breaks no law, or refuse it by the first that it breaks."""
     if not isinstance(chart, Chart | LevelChart | PointsChart):
         raise InputError(
-            "it is of the type {type}. Let it be a Chart, a LevelChart or a PointsChart.",
+            "it must be a Chart, a LevelChart or a PointsChart; it is a {type}",
             type=type(chart).__name__,
         )
     return cast("AnyChart", lawful(chart, broken_chart_laws(chart)))

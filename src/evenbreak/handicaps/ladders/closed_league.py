@@ -63,7 +63,7 @@ class ClosedPair:
     -----
     A pair of equal players with equal ratings at the start has the standard deviation 3.04 on
     chart 10, where an open ladder has 4.63: one player is over-rated by as much as the other is
-    under-rated, so the chart sees twice the error.
+    underrated, so the chart sees twice the error.
 
     >>> from evenbreak.handicaps import chart
     >>> pair = ClosedPair("npl", chart("npl_10"))

@@ -225,7 +225,7 @@ def night_problems(
     >>> night = Results.from_names(["Ann", "Ann"], ["Bo", "Boo"], [5, 5], [3, 3], winner=[0, 1])
     >>> for problem in night_problems(system_of("npl"), club, night):
     ...     print(problem.row, problem.message)
-    0 neither the race nor the winner is stated ('Ann' - 'Bo', 5-3). Add the chart that was used
+    0 neither the race nor the winner is given ('Ann' - 'Bo', 5-3). Add the chart that was used
     (npl_8, npl_10, npl_12 or npl_20), or the columns race_a and race_b.
     1 'Boo' isn't on the list. Add the player with a first rating, or correct the name.
     """
@@ -317,7 +317,7 @@ def _no_end(roster: Roster, night: NightTable, chart: Chart | System | str, row:
 def _no_winner(system: System, results: Results, row: int) -> str:
     name_a, name_b = results.players[results.player_a[row]], results.players[results.player_b[row]]
     return (
-        f"neither the race nor the winner is stated ({name_a!r} - {name_b!r}, "
+        f"neither the race nor the winner is given ({name_a!r} - {name_b!r}, "
         f"{results.score_a[row]}-{results.score_b[row]}). {_give_chart(system)}"
     )
 

@@ -153,7 +153,7 @@ def checked_ratings(system: System, ratings: Any, shape: tuple[int, ...], method
     values = np.asarray(ratings, dtype=float)
     if values.shape != shape:
         raise InputError(
-            "{method} of the system {name} returned the shape {got}. Let it return one "
+            "{method} of the system {name} returned the shape {got}. It must return one "
             "number for each player, in the shape {shape}.",
             method=method,
             name=system.name,
@@ -163,7 +163,7 @@ def checked_ratings(system: System, ratings: Any, shape: tuple[int, ...], method
     wrong = ~np.isfinite(values)
     if wrong.any():
         raise InputError(
-            "{method} of the system {name} returned {value} for player {player}. Let it "
+            "{method} of the system {name} returned {value} for player {player}. It must "
             "return finite numbers.",
             method=method,
             name=system.name,
@@ -178,7 +178,7 @@ def checked_races(system: System, a: Any, b: Any) -> tuple[Ints, Ints]:
     races = system.race(a, b)
     if not isinstance(races, tuple) or len(races) != 2:
         raise InputError(
-            "race of the system {name} returned {races!r}. Let it return two arrays (m, "
+            "race of the system {name} returned {races!r}. It must return two arrays (m, "
             "n), the games that each player needs.",
             name=system.name,
             races=races,
@@ -187,7 +187,7 @@ def checked_races(system: System, a: Any, b: Any) -> tuple[Ints, Ints]:
     for needs in map(np.asarray, races):
         if needs.shape != shape or not (needs >= 1).all() or (needs != np.floor(needs)).any():
             raise InputError(
-                "race of the system {name} returned {needs!r}. Let it return whole "
+                "race of the system {name} returned {needs!r}. It must return whole "
                 "games, 1 or more, for each pair of ratings.",
                 name=system.name,
                 needs=needs,

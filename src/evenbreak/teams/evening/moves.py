@@ -114,7 +114,7 @@ def propose(state: TeamEvening, team: int, number: int, score: Score) -> list[Wh
         return []
     if line.score is not None:
         raise InputError(
-            "{a}:{b} counts in set {n}; the director can correct it",
+            "set {n} already has the result {a}-{b}; only the director can correct it",
             a=line.score[0],
             b=line.score[1],
             n=number,

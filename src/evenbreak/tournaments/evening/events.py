@@ -373,7 +373,9 @@ def score_words(found: Result, needs: tuple[int, int] | None = None) -> Sentence
     if found.stands:
         beaten = replace(found, winner=found.loser, stands=False)
         return say(
-            "{result}, but {winner} has played on", result=score_words(beaten, needs), **names
+            "{result}, but {winner} keeps the winner's place",
+            result=score_words(beaten, needs),
+            **names,
         )
     if needs is not None and needs[0] != needs[1] and not found.ended:
         each = dict(zip(found.players, needs, strict=True))

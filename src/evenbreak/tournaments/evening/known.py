@@ -7,7 +7,7 @@ import re
 from difflib import get_close_matches
 
 from evenbreak.errors import InputError
-from evenbreak.ratings.results_frame import folded
+from evenbreak.ratings.results_frame import folded, without_accents
 from evenbreak.tournaments.brackets.bracket import some_of
 from evenbreak.tournaments.evening.chip_night import chips_of
 from evenbreak.tournaments.evening.events import Entrant, race_words
@@ -61,29 +61,29 @@ def typed(state: Evening, match: str) -> str:
 def known_player(state: Evening, text: str) -> str:
     """Return the name of a player, in whatever case and spacing it was written.
 
-    The beginning of a first or last name will do if no one else's starts like that.
+    The beginning of a first or last name will do if no one else's starts like that. Accents may be
+    left out.
     """
-    wanted = " ".join(text.split()).casefold()
-    names = {name.casefold(): name for name in state.entrants}
-    if wanted not in names:
-        begin = [name for name in names if wanted and f" {wanted}" in f" {name}"]
-        if len(begin) == 1:
-            return names[begin[0]]
-        if begin:
-            raise InputError(
-                "{text!r} could be {players}",
-                text=text,
-                players=some_of([names[name] for name in begin]),
-            )
-        near = get_close_matches(wanted, names, 1)
-        if near:
-            raise InputError(
-                "{player!r} isn't in this tournament; did you mean {near}?",
-                player=text,
-                near=names[near[0]],
-            )
-        raise InputError("{player!r} isn't in this tournament", player=text)
-    return names[wanted]
+    exact = " ".join(text.split()).casefold()
+    wanted = without_accents(text)
+    plain = {name: without_accents(name) for name in state.entrants}
+    for found in (
+        [name for name in plain if name.casefold() == exact],
+        [name for name, one in plain.items() if one == wanted],
+        [name for name, one in plain.items() if wanted and f" {wanted}" in f" {one}"],
+    ):
+        if len(found) == 1:
+            return found[0]
+        if found:
+            raise InputError("{text!r} could be {players}", text=text, players=some_of(found))
+    near = get_close_matches(wanted, list(plain.values()), 1)
+    if near:
+        raise InputError(
+            "{player!r} isn't in this tournament; did you mean {near}?",
+            player=text,
+            near=next(name for name, one in plain.items() if one == near[0]),
+        )
+    raise InputError("{player!r} isn't in this tournament", player=text)
 
 
 def check_entrant(state: Evening, entrant: Entrant, besides: str = "") -> None:
@@ -107,7 +107,7 @@ def entered(state: Evening, name: str) -> str:
     if name in state.entrants:
         return name
     full = known_player(state, name)
-    if full.casefold() != " ".join(name.split()).casefold():
+    if without_accents(full) != without_accents(name):
         raise InputError(
             "{player!r} isn't a full name; if you mean {full}, write that", player=name, full=full
         )
@@ -122,7 +122,7 @@ def games_in(
         return score
     if state.plan.form != "chips":
         raise InputError(
-            "{score!r} isn't a score. Write the games of each player, such as 7:5.", score=score
+            "{score!r} isn't a score. Write the games of each player, such as 7-5.", score=score
         )
     winner = known_player(state, score)
     refuse_stranger(state, winner, name, pair)
@@ -184,7 +184,7 @@ def winner_of(
         refuse_stranger(state, stated, name, pair)
     if ended and one < m and other < n:
         if ended not in ENDINGS or state.plan.form == "chips":
-            raise InputError("a rack is played out. Enter who won it.")
+            raise InputError("a rack can't end early. Enter who won it.")
         if stated:
             return stated
         if ended == "time" and m - one != n - other:

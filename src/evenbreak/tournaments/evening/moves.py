@@ -64,7 +64,7 @@ def draw(state: Evening, rng: np.random.Generator, *, without: Sequence[str] = (
     names = [name for name in state.entrants if name not in without]
     if len(names) < 2:
         raise InputError(
-            "a tournament takes 2 to {most} players, and {entered:,} entered",
+            "a tournament takes 2 to {most} players; {entered:,} have entered",
             most=MOST_PLAYERS,
             entered=len(names),
         )
@@ -320,7 +320,7 @@ def call(state: Evening, match: str, table: int | None) -> Called:
     if table is None and not (free := state.free_tables):
         if kept := [names(k) for k in state.kept_tables]:
             raise InputError(
-                "the only free tables are those called by hand ({tables}). Name one of them.",
+                "the only free tables are those assigned by hand ({tables}). Name one of them.",
                 tables=", ".join(kept),
             )
         raise InputError("no table is free (there are {tables})", tables=state.plan.tables)

@@ -84,7 +84,7 @@ def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
     names = tuple(one.name for one in entrants)
     if len(names) == 1 or len(names) > MOST_PLAYERS:
         raise InputError(
-            "a tournament takes 2 to {most} players, and {entered:,} entered",
+            "a tournament takes 2 to {most} players; {entered:,} have entered",
             most=MOST_PLAYERS,
             entered=len(names),
         )
@@ -213,7 +213,7 @@ def pairings(drawn: Drawn, counted: Mapping[str, Result] | None = None) -> list[
     found = []
     for number in range(1, len(drawn) + 1):
         if (seats := drawn.get(f"R{number}")) is None:
-            raise InputError("round {n} isn't drawn, and a later one is", n=number)
+            raise InputError("round {n} hasn't been drawn, but a later one has", n=number)
         pairs = [(str(one), other) for one, other in zip(seats[::2], seats[1::2], strict=True)]
         pairs.sort(key=lambda pair: pair[1] is None)
         names = [f"R{number}.{k}" for k in range(1, len(pairs) + 1)]

@@ -22,7 +22,7 @@ def rename(state: Evening, player: str, to: str) -> Renamed:
     """Give a player, by their full name, another name, at any time."""
     before = state.entrants[entered(state, player)]
     if to == player or not to.strip():
-        raise InputError("{player} keeps that name. Enter another.", player=player)
+        raise InputError("{player} already has that name. Enter a different one.", player=player)
     check_entrant(state, Entrant(to, before.rating), besides=player)
     return Renamed(player, to)
 

@@ -53,7 +53,7 @@ def stand(state: Evening, match: str) -> list[Result]:
         if before is None:
             first = slot.match if isinstance(slot, Source) else name
             raise InputError(
-                "{first}, which leads to {match}, is open; settle {first} first",
+                "{first} leads to {match}, and it is still open. Settle {first} first.",
                 first=state.match_words(first),
                 match=state.match_words(name),
             )

@@ -36,7 +36,7 @@ EVENT = Declared(
     "event",
     Field(
         Whole(1, 99),
-        "The number of the event, of a night that has several.",
+        "The number of the event, on a night with several.",
         usual="the first; of the queue all",
     ),
     None,

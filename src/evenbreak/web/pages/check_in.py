@@ -64,7 +64,9 @@ async def register(request: Request) -> Response:
 
     def decide(state: Evening) -> list[Event]:
         if len(state.registered) >= _MOST_ASKING:
-            raise RefusalError("Many are waiting already. Ask the director.", status=429)
+            raise RefusalError(
+                "Too many people are waiting to be let in. Ask the director.", status=429
+            )
         return [Event(night.clock(), roster.register(state, name, rating))]
 
     key = form.key(request.url.path)

@@ -210,7 +210,7 @@ def _claim(request: Request, name: str, key: str, *, by_code: bool = False) -> N
             return None
         if holder and not by_code:
             raise RefusalError(
-                "Another phone is {name}'s already. If that's you, type the code from your score "
+                "{name} is already on another phone. If that's you, type the code from your score "
                 "card; if it isn't, ask the director to release it.",
                 status=409,
                 name=name,
