@@ -89,7 +89,10 @@ def test_a_match_stands_and_results_count_again(begun):
         begun("result", match, score)
     asked = begun.run("tournament", "correct", "W1.1", "0:3", "--file", begun.file)
     assert asked.exit_code == 2
-    assert "Ann beat Bo 3-1 (match 3) would no longer count. If that's what you want, add --yes" in asked.stderr
+    assert (
+        "Ann beat Bo 3-1 (match 3) would no longer count. If that's what you want, add --yes"
+        in asked.stderr
+    )
     wrong = begun("correct", "W1.1", "0:3", "--yes")
     assert [one["match"] for one in wrong["set_aside"]] == [3]
     shown = begun.run("tournament", "stand", "W2.1", "--file", begun.file, "--text").stdout
