@@ -31,6 +31,7 @@ PLAN = Plan(
     starter=500.0,
     starter_error=100.0,
     tables=4,
+    name="Tuesday 9-Ball",
 )
 
 
