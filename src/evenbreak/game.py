@@ -97,8 +97,9 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
         raise GameError(f"the game is the class {game.__name__}. Give one of its objects.")
     if not hasattr(game, "moves"):
         raise GameError(
-            f"{game!r} isn't a game. Give an object with start, moves and winner, or make a chain "
-            "of a graph, dict or matrix: chain_of(graph, start=state)."
+            "{game} isn't a game. Give an object with start, moves and winner, or make a chain "
+            "of a graph, dict or matrix: chain_of(graph, start=state).",
+            game=repr(game),
         )
     offer = getattr(game, "arcs", None)
     if offer is not None and (start is None or start == game.start):

@@ -283,7 +283,8 @@ class Chain:
         if self.start is None:
             raise ChainError(
                 "the chain has no start of its own. Give a start state, such as "
-                f"start={self.states[0]!r}; chain_of(graph, start=...) sets it for every question."
+                "start={state}; chain_of(graph, start=...) sets it for every question.",
+                state=repr(self.states[0]),
             )
         return self.start
 

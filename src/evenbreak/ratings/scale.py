@@ -299,10 +299,11 @@ def unstated_scale(
     if not rated:
         return SCALES[DEFAULT_SCALE]
     (low, last), (high, first) = min(rated), max(rated)
+    where = f"{source}: " if source else ""
     if len(rated) > 1 and {rating for rating, _ in rated} <= {*range(1, HIGHEST_LEVEL + 1)}:
         raise InputError(
             "{where}{low:g} to {high:g} look like skill levels, not ratings. {remedy}",
-            where=f"{source}: " if source else "",
+            where=where,
             low=low,
             high=high,
             remedy=levels or remedy,
@@ -310,7 +311,6 @@ def unstated_scale(
     possible = [name for name, (least, most) in USUAL.items() if least <= low <= high <= most]
     if len(possible) == 1:
         return SCALES[possible[0]]
-    where = f"{source}: " if source else ""
     if low == high:
         raise InputError(
             "{where}the rating {high:g} doesn't show its scale. {remedy}",

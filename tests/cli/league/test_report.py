@@ -342,10 +342,12 @@ def test_wrong_usage_ends_with_2_and_writes_nothing(run, tmp_path, words):
     assert not (tmp_path / "sheet").exists()
 
 
-def test_out_is_needed_and_must_not_be_a_file(run, tmp_path):
-    assert run("report", str(DEMO)).exit_code == 2
-    (tmp_path / "sheet").write_text("")
-    assert run("report", str(DEMO), "--out", str(tmp_path / "sheet")).exit_code == 2
+def test_out_is_sheet_and_must_not_be_a_file(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run("report", "-", stdin=SMALL).exit_code == 0
+    assert (tmp_path / "sheet" / "sheet.pdf").exists()
+    (tmp_path / "file").write_text("")
+    assert run("report", str(DEMO), "--out", str(tmp_path / "file")).exit_code == 2
 
 
 @pytest.mark.parametrize(
