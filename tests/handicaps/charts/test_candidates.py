@@ -62,7 +62,10 @@ def test_a_limit_on_the_length_that_no_race_keeps_is_refused():
 @pytest.mark.slow_after(1)
 @pytest.mark.parametrize(
     ("games", "up_to", "wrong"),
-    [((1, 999), None, "250000 races"), ((5, 7), 0, "up_to is 0")],
+    [
+        ((1, 999), None, "250000 races"),
+        ((5, 7), 0, "up_to must be a whole number, 1 or more; you gave 0"),
+    ],
 )
 def test_too_much_to_try_is_refused(games, up_to, wrong):
     with pytest.raises(InputError, match=wrong):
