@@ -49,7 +49,7 @@ SCHEMAS = {
 }
 
 
-def table_of(schema: Schema, *, full: bool = True) -> str:
+def table_of(schema: Schema, *, full: bool) -> str:
     """Return the table of the columns that a person writes, in full with their other titles."""
     told = [(name, column) for name, column in schema.columns.items() if _is_told(column)]
     rows = [

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from pathlib import Path
 from typing import Any
 
 import click
@@ -20,7 +19,6 @@ from evenbreak.cli.kit.said import said
 from evenbreak.cli.program import program
 from evenbreak.fields.question import Declared, declared, worded
 
-PAGES = Path(__file__).parent / "reference" / "commands"
 MARK = re.compile(r"^<!-- options: ([^>]+) -->$", re.MULTILINE)
 
 

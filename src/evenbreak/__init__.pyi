@@ -73,7 +73,7 @@ from .matches.win import win_probability as win_probability
 from .matches.win_formula import win_formula as win_formula
 from .practice.breaks import compare_break_formats as compare_break_formats
 from .practice.drills import drill_statistics as drill_statistics
-from .practice.log_analysis import analyse_log as analyse_log
+from .practice.log_analysis import analyze_log as analyze_log
 from .practice.shots import ShotChoice as ShotChoice
 from .practice.shots import compare_shots as compare_shots
 from .ratings.fit import fit as fit

@@ -70,7 +70,7 @@ def test_alternate_breaks_two_ahead() -> None:
             ),
         ),
         ({"rack": Rack(0.5, 0.5)}, "breaks is missing"),
-        ({"score": (4, 0)}, "score is 4:0, which can't be reached"),
+        ({"score": (4, 0)}, "score is 4-0, which can't be reached"),
     ],
 )
 def test_what_a_match_cannot_be(parameters: dict[str, object], words: str) -> None:

@@ -210,10 +210,10 @@ def test_the_set_winner_breaks() -> None:
             {"score": (0, 1.5)},
             r"score of player 2 must be a whole number, 0 or more; you gave 1\.5",
         ),
-        ({"score": (6, 0)}, "score is 6:0, which can't be reached"),
-        ({"score": (5, 4)}, "score is 5:4, which can't be reached"),
-        ({"score": (6, 4)}, "score is 6:4, which can't be reached"),
-        ({"score": (7, 3), "win_by": 2}, "score is 7:3, which can't be reached"),
+        ({"score": (6, 0)}, "score is 6-0, which can't be reached"),
+        ({"score": (5, 4)}, "score is 5-4, which can't be reached"),
+        ({"score": (6, 4)}, "score is 6-4, which can't be reached"),
+        ({"score": (7, 3), "win_by": 2}, "score is 7-3, which can't be reached"),
     ],
 )
 def test_what_a_race_cannot_be(parameters: dict[str, object], words: str) -> None:

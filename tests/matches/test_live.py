@@ -177,7 +177,7 @@ def test_a_long_unbounded_match():
 @pytest.mark.parametrize(
     ("match", "winners", "options", "remedy"),
     [
-        (Race(2, 2, Rack(0.5)), [1, 1, 2], {}, r"over after 2 of 3 racks, at 2:0\. Leave out"),
+        (Race(2, 2, Rack(0.5)), [1, 1, 2], {}, r"over after 2 of 3 racks, at 2-0\. Leave out"),
         (Race(2, 2, Rack(0.5)), [3], {}, "winner of rack 1 must be 1 or 2; you gave 3"),
         (Race(2, 2, Rack([0.5, 0.6])), [], {}, "one number"),
         (
@@ -190,8 +190,8 @@ def test_a_long_unbounded_match():
             ),
         ),
         (Race(2, 2, Rack(0.5)), [], {"set_score": (1, 0)}, "Leave it out"),
-        (SETS, [], {"set_score": (3, 1)}, "set_score is 3:1"),
-        (SETS, [], {"set_score": (4, 1)}, "set_score is 4:1, which can't be reached"),
+        (SETS, [], {"set_score": (3, 1)}, "set_score is 3-1"),
+        (SETS, [], {"set_score": (4, 1)}, "set_score is 4-1, which can't be reached"),
         (Race(1, 1, SETS.rack, score=(1, 0)), [], {"set_score": (1, 0)}, r"is over\. Leave"),
     ],
 )

@@ -204,7 +204,7 @@ def test_a_score_mid_match_is_a_shorter_match() -> None:
     assert win_probability(Ahead(3, 2, Rack(0.6)), (2, 1)) == pytest.approx(
         win_probability(Ahead(2, 3, Rack(0.6))), rel=1e-15
     )
-    with pytest.raises(InputError, match="score is 8:0, which can't be reached"):
+    with pytest.raises(InputError, match="score is 8-0, which can't be reached"):
         win_probability(race, (8, 0))
     with pytest.raises(InputError, match="player must be 1 or 2; you gave 3"):
         win_probability(race, player=3)

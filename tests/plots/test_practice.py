@@ -18,7 +18,7 @@ from evenbreak.plots.practice import (
     draw_spot,
     draw_two_lists,
 )
-from evenbreak.practice import DrillLog, analyse_log, analyse_shots, drill_statistics
+from evenbreak.practice import DrillLog, analyze_log, analyze_shots, drill_statistics
 from evenbreak.stats import InningsScore, RunLength, mean_interval
 from places import DATA
 
@@ -154,7 +154,7 @@ def test_a_bar_for_each_level():
 
 def test_a_pair_of_bars_for_each_level_told_apart_without_color():
     log = DrillLog([1, 2, 3, 2, 1, 1], [1, 1, 0, 0, 0, 1])
-    analysis = analyse_log(log, rng=np.random.default_rng(1), replicas=9)
+    analysis = analyze_log(log, rng=np.random.default_rng(1), replicas=9)
     axes = draw_log(analysis)
     assert heights(axes) == pytest.approx([3 / 6, 2 / 6, 1 / 6, *analysis.implied.probability])
     ends = next(line for line in axes.lines if "interval" in str(line.get_label()))
@@ -170,12 +170,12 @@ def test_many_levels_have_no_crowd_of_ticks():
 
 def test_a_log_of_shots_is_drawn_with_the_halves_that_its_text_states():
     file = read_practice(DATA / "practice_shots.csv")
-    found = analyse_shots(file.log)
+    found = analyze_shots(file.log)
     axes = draw_practice_shots(file, found)
     texts = [text.get_text() for text in axes.figure.legends[0].get_texts()]
     assert texts[-2:] == ["before 2024-10-01: 50%", "since 2024-10-01: 62%"]
     halves = {float(line.get_ydata()[0]) for line in axes.lines if len(line.get_ydata()) == 2}
     assert halves == {found.change.before, found.change.after}
     undated = file._replace(log=replace(file.log, day=None))
-    axes = draw_practice_shots(undated, analyse_shots(undated.log))
+    axes = draw_practice_shots(undated, analyze_shots(undated.log))
     assert len(axes.get_xticklabels()) == 5

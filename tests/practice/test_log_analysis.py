@@ -9,7 +9,7 @@ from evenbreak.games import Drill
 from evenbreak.practice import (
     DrillLog,
     LogAnalysis,
-    analyse_log,
+    analyze_log,
     drill_statistics,
     fit_progressive,
 )
@@ -37,7 +37,7 @@ def played(
 
 
 def analyzed(log: DrillLog, *, seed: int = 1, replicas: int = 499) -> LogAnalysis:
-    return analyse_log(log, rng=np.random.default_rng(seed), replicas=replicas)
+    return analyze_log(log, rng=np.random.default_rng(seed), replicas=replicas)
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ from scipy.stats import binomtest, fisher_exact
 from scipy.stats.contingency import odds_ratio
 
 from evenbreak.errors import InputError
-from evenbreak.practice.single_shots import ShotLog, analyse_shots, change_of
+from evenbreak.practice.single_shots import ShotLog, analyze_shots, change_of
 from rows import each_of
 
 DAYS = np.array(["2025-01-01", "2025-01-08", "2025-01-15"], dtype="M8[D]")
@@ -22,7 +22,7 @@ def log_of(made, tried, day=None):
 
 def test_the_interval_of_a_shot_is_the_exact_one() -> None:
     made, tried = [0, 3, 20, 7], [5, 10, 20, 30]
-    found = {one.name: one for one in analyse_shots(log_of(made, tried), confidence=0.9).shots}
+    found = {one.name: one for one in analyze_shots(log_of(made, tried), confidence=0.9).shots}
     for k, (won, n) in enumerate(zip(made, tried, strict=True)):
         wanted = binomtest(won, n).proportion_ci(0.9, method="exact")
         assert (found[f"shot {k}"].low, found[f"shot {k}"].high) == pytest.approx(tuple(wanted))
@@ -67,12 +67,12 @@ def test_several_shots_together_equal_every_way_of_sharing_out_what_was_made() -
 
 def test_the_half_is_of_the_tries_and_does_not_look_at_what_was_made() -> None:
     log = ShotLog(("a",), [0, 0, 0], [0, 1, 4], [4, 5, 5], DAYS)
-    found = analyse_shots(log)
+    found = analyze_shots(log)
     assert found.since == DAYS[2]
     assert found.change is not None
     assert (found.change.before, found.change.after) == (1 / 9, 4 / 5)
-    assert analyse_shots(ShotLog(("a",), [0], [1], [4], DAYS[:1])).since is None
-    assert analyse_shots(ShotLog(("a", "b"), [0, 1], [1, 1], [4, 4], DAYS[:2])).change is None
+    assert analyze_shots(ShotLog(("a",), [0], [1], [4], DAYS[:1])).since is None
+    assert analyze_shots(ShotLog(("a", "b"), [0, 1], [1, 1], [4, 4], DAYS[:2])).change is None
 
 
 def players(rng: np.random.Generator, many: int, shots: int = 8):
@@ -93,7 +93,7 @@ def test_shots_drawn_together_are_nearer_to_the_truth_and_the_weakest_is_as_like
     off = {"raw": 0.0, "shrunk": 0.0}
     stated, right = [], []
     for true, made, tried in players(rng, 150):
-        reports = {one.name: one for one in analyse_shots(log_of(made, tried)).shots}
+        reports = {one.name: one for one in analyze_shots(log_of(made, tried)).shots}
         chance = np.array([reports[f"shot {k}"].chance for k in range(8)])
         off["raw"] += ((made / tried - true) ** 2).mean()
         off["shrunk"] += ((chance - true) ** 2).mean()

@@ -218,9 +218,9 @@ def write_title(figure: Figure, text: str) -> None:
     """Write what is drawn above all panels of a figure, in lines that fit its width.
 
     >>> axes = new_axes("p", "W")
-    >>> write_title(figure_of(axes), "Race 7:5, score 2:3")
+    >>> write_title(figure_of(axes), "Race 7:5, score 2-3")
     >>> figure_of(axes).get_suptitle()
-    'Race 7:5, score 2:3'
+    'Race 7:5, score 2-3'
     """
     width = int(_LETTERS_AN_INCH * figure.get_figwidth())
     lines = [fill(line, width) for line in text.splitlines()]

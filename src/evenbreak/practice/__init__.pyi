@@ -8,7 +8,7 @@ from .drills import DrillStatistics as DrillStatistics
 from .drills import drill_statistics as drill_statistics
 from .log_analysis import LevelReport as LevelReport
 from .log_analysis import LogAnalysis as LogAnalysis
-from .log_analysis import analyse_log as analyse_log
+from .log_analysis import analyze_log as analyze_log
 from .log_tests import PlayedAgainTest as PlayedAgainTest
 from .log_tests import ProgressiveFit as ProgressiveFit
 from .log_tests import fit_progressive as fit_progressive
@@ -23,5 +23,5 @@ from .single_shots import Change as Change
 from .single_shots import ShotAnalysis as ShotAnalysis
 from .single_shots import ShotLog as ShotLog
 from .single_shots import ShotReport as ShotReport
-from .single_shots import analyse_shots as analyse_shots
+from .single_shots import analyze_shots as analyze_shots
 from .single_shots import change_of as change_of

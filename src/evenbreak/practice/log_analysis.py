@@ -130,7 +130,7 @@ class LogAnalysis:
         return max(self.levels, key=away) if self.model else None
 
 
-def analyse_log(
+def analyze_log(
     log: DrillLog, *, rng: np.random.Generator | int, replicas: int = 1999
 ) -> LogAnalysis:
     """Return what a drill log shows, and with what certainty.
@@ -162,7 +162,7 @@ def analyse_log(
     >>> evening = [(1, 1), (2, 1), (3, 0), (2, 0), (1, 1), (2, 0), (1, 0), (1, 1)]
     >>> level, success = zip(*evening * 20, strict=True)
     >>> log = DrillLog(level, success, session=np.repeat(range(20), 8))
-    >>> analysis = analyse_log(log, rng=np.random.default_rng(1), replicas=199)
+    >>> analysis = analyze_log(log, rng=np.random.default_rng(1), replicas=199)
     >>> round(analysis.visited.mean, 3), round(analysis.implied.mean, 3)
     (1.625, 1.75)
     >>> analysis.practice_next.level, analysis.memory.p_value

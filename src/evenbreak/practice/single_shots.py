@@ -157,7 +157,7 @@ def share_intervals(made: Ints, tried: Ints, confidence: float) -> tuple[Floats,
     return low, np.where(missed > 0, betainccinv(made + 1, np.maximum(missed, 1), tail), 1.0)
 
 
-def analyse_shots(log: ShotLog, *, confidence: float = 0.95, seed: int = 0) -> ShotAnalysis:
+def analyze_shots(log: ShotLog, *, confidence: float = 0.95, seed: int = 0) -> ShotAnalysis:
     """Return the analysis of a log of single shots.
 
     Parameters
@@ -168,7 +168,7 @@ def analyse_shots(log: ShotLog, *, confidence: float = 0.95, seed: int = 0) -> S
         of the chances that are drawn to see which shot is the weakest.
 
     >>> log = ShotLog(("cut", "bank"), [0, 1], [40, 4], [60, 20])
-    >>> [(one.name, round(one.chance, 2), one.p_weakest > 0.99) for one in analyse_shots(log).shots]
+    >>> [(one.name, round(one.chance, 2), one.p_weakest > 0.99) for one in analyze_shots(log).shots]
     [('bank', 0.24, True), ('cut', 0.66, False)]
     """
     share = open_share(confidence)

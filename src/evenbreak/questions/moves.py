@@ -160,6 +160,8 @@ class Ended(TimedUnderWay):
     def check(self) -> None:
         """Refuse a result that is not stated, or stated twice."""
         if (self.score is None) == (self.winner is None) and not (self.score and self.ended):
+            if self.score:
+                self.refuse("give a score or {winner}, not both")
             self.refuse("give a score, such as 7-5, or {winner} with {games}")
         if self.winner is None and self.games is not None:
             self.refuse("{games} needs {winner} NAME. Add it, or give a score such as 7-5.")
@@ -167,7 +169,7 @@ class Ended(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class EnterResult(Ended):
-    """Enter the result of a match: the games of its first player, a colon, those of the second.
+    """Enter the result of a match: the games of its first player, a hyphen, those of the second.
 
     In a chip tournament the number of the table and the winner's name will do; a first name is
     enough if no other player has it.
@@ -176,9 +178,9 @@ class EnterResult(Ended):
     """
 
     examples = """\
-  evenbreak tournament result 12 7:5
+  evenbreak tournament result 12 7-5
   evenbreak tournament result 12 --winner ann --games 5
-  evenbreak tournament result 12 7:5 --at 20:15
+  evenbreak tournament result 12 7-5 --at 20:15
   evenbreak tournament result 3 ann            (a chip tournament: Ann won the rack on table 3)
 """
 
@@ -211,8 +213,8 @@ class Correct(Ended, Entry):
     """
 
     examples = """\
-  evenbreak tournament correct 12 5:7
-  evenbreak tournament correct 12 5:7 --at 20:15
+  evenbreak tournament correct 12 5-7
+  evenbreak tournament correct 12 5-7 --at 20:15
   evenbreak tournament correct R12 bo          (a chip tournament: Bo won rack R12)
 """
     follow: Annotated[

@@ -79,7 +79,7 @@ def set_in_play(text: str) -> InPlay:
         r"\s*(.+?)\s+(?:v|vs|-)\.?\s+(.+?)\s+(\d+)\s*[:/-]\s*(\d+)\s*", text, re.ASCII
     )
     if match is None:
-        message = f'{text!r}; write your player, theirs and the score, such as "Ann v Xi 3:2"'
+        message = f'{text!r}; write your player, theirs and the score, such as "Ann v Xi 3-2"'
         raise InputError(message)
     return _pair_in(match[1]), _pair_in(match[2]), (int(match[3]), int(match[4]))
 
@@ -248,7 +248,7 @@ class Lineup(OfTeams, Capped):
     playing: Annotated[
         tuple[InPlay, ...],
         Field(
-            Named(set_in_play, '"A v B 3:2"'),
+            Named(set_in_play, '"A v B 3-2"'),
             "A set that is being played, your player first, with its score.",
             many=True,
             section=_SO_FAR,

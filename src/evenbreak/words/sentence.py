@@ -216,8 +216,8 @@ class Parameter(_Thing):
 class Command(_Thing):
     """A command of the terminal, or what a page has in its place.
 
-    >>> Command("tournament result", "W1.2", "5:3")
-    'evenbreak tournament result W1.2 5:3'
+    >>> Command("tournament result", "W1.2", "5-3")
+    'evenbreak tournament result W1.2 5-3'
     """
 
     def __new__(cls, name: str, *words: str) -> Command:

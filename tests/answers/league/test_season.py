@@ -61,10 +61,10 @@ def test_nobody_is_named_where_all_are_alike(players, many):
     """Of 200 some ten are two standard errors off one half; that is luck."""
     answer = asked(Season(LeaguePlayers.of([80] * players), "npl", weeks=8), many, 5)
     assert "player 1" not in who_gains(answer)
-    assert "Nobody" in who_gains(answer)
+    assert "No one" in who_gains(answer)
 
 
-@pytest.mark.parametrize(("skill", "words"), [(110, "nobody clearly"), (50, "Nobody clearly")])
+@pytest.mark.parametrize(("skill", "words"), [(110, "no one clearly"), (50, "No one clearly")])
 def test_only_clear_cases_are_named(skill, words):
     """Forty gain or lose a little by the one whose rating is wrong: none of them clearly."""
     players = LeaguePlayers.of([80] * 41, skill=[skill, *[80] * 40])

@@ -5,14 +5,14 @@ import pytest
 
 from evenbreak.answers.practice.drill import drill_log_answer
 from evenbreak.files.practice import DrillLogFile
-from evenbreak.practice import DrillLog, LogAnalysis, PlayedAgainTest, analyse_log
+from evenbreak.practice import DrillLog, LogAnalysis, PlayedAgainTest, analyze_log
 
 LOG = DrillLog([1, 2, 3, 2, 3, 2, 1, 1, 2], [1, 1, 0, 1, 0, 0, 0, 1, 1])
 UNLIKELY, LIKELY = PlayedAgainTest(0.25, 0.05, 0.001), PlayedAgainTest(0.25, 0.2, 0.4)
 
 
 def analyzed(log: DrillLog) -> LogAnalysis:
-    return analyse_log(log, rng=np.random.default_rng(1), replicas=99)
+    return analyze_log(log, rng=np.random.default_rng(1), replicas=99)
 
 
 @pytest.fixture(scope="module")

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import shlex
 
 import pytest
 
@@ -93,7 +94,7 @@ def test_a_player_who_drops_out_forfeits(night):
     [
         (["result", "X1", "3:1"], 2, "X1"),
         (["result", "W1.2", "2:1"], 2, "2-1"),
-        (["result", "W2.1", "3:1"], 2, "'t ready"),
+        (["result", "W2.1", "3:1"], 2, "isn't ready"),
         (["correct", "W1.2", "3:1"], 2, "no result"),
         (["drop", "Nobody"], 2, "Nobody"),
         (["late", "player 01"], 2, "Player 01"),
@@ -112,6 +113,19 @@ def test_the_file_must_be_a_tournament(night, tmp_path):
     result = night.run("tournament", "show", "--file", str(tmp_path / "entrants.csv"))
     assert result.exit_code == 3
     assert "entrants.csv" in result.stderr
+
+
+def test_the_commands_in_remedies_run_as_they_stand(night, tmp_path):
+    night("draw")
+    for wrong in (("correct", "W1.2", "3-1"), ("score", "W1.3", "3-1")):
+        told = night.run("tournament", *wrong, "--file", night.file).stderr
+        remedy = told.partition("evenbreak ")[2]
+        assert night.run(*shlex.split(remedy)).exit_code == 0, told
+    told = night.run("tournament", "show", "--file", str(tmp_path / "new.db")).stderr
+    remedy = told.partition("evenbreak ")[2].replace("ENTRANTS.csv", str(tmp_path / "entrants.csv"))
+    assert night.run(*shlex.split(remedy)).exit_code == 0, told
+    both = night.run("tournament", "result", "W1.4", "3-1", "--winner", "Zed", "--file", night.file)
+    assert "not both" in both.stderr
 
 
 def test_moves_before_the_draw_are_refused(night):

@@ -147,8 +147,8 @@ def test_the_race_of_the_tournament_is_that_of_its_matches(read):
 @pytest.mark.parametrize(
     ("match", "told"),
     [
-        (cue("Ann", "Bo", (7, 1), starts=(0, 2)), ":1: match 1 (Ann, Bo) has a head start of 0:2"),
-        (cue("Ann", "Bo", (7, 5), starts=(7, 0)), "a head start of 7:0"),
+        (cue("Ann", "Bo", (7, 1), starts=(0, 2)), ":1: match 1 (Ann, Bo) has a head start of 0-2"),
+        (cue("Ann", "Bo", (7, 5), starts=(7, 0)), "a head start of 7-0"),
         (cue("Ann", "Bo", (7, "x")), ":1: match 1 has scoreB 'x'"),
         (cue("Ann", "Bo", (7, 2.5)), "has scoreB 2.5"),
         (cue("Ann", "Bo", (7, True)), "has scoreB True"),
@@ -160,8 +160,8 @@ def test_the_race_of_the_tournament_is_that_of_its_matches(read):
         (cue("An\ud800", "Bo", (7, 5)), "can't be printed"),
         (cue("Ann", "Ann", (7, 5)), "'Ann' is on both sides"),
         (cue("Ann", "Bo", (7, 5), status="waiting"), "has no match that was played; left out: 1"),
-        (None, "'t built as expected"),
-        ([], "'t built as expected"),
+        (None, "isn't built as expected"),
+        ([], "isn't built as expected"),
     ],
 )
 def test_what_is_wrong_in_a_cuescore_file_is_one_problem(read, match, told):
@@ -262,8 +262,8 @@ def test_what_was_not_played_in_challonge_is_left_out_and_counted(read):
         ({"tournament": {"participants": [{"id": 1}]}}, "holds no matches"),
         (challonge(bout("7:x")), "has the score '7:x'"),
         (challonge(bout("7-5", player1_id=99)), "number 99"),
-        (challonge(bout("7-5"), people=[{"name": "Ann"}]), "'t built as expected"),
-        (challonge(bout(7)), "'t built as expected"),
+        (challonge(bout("7-5"), people=[{"name": "Ann"}]), "isn't built as expected"),
+        (challonge(bout(7)), "isn't built as expected"),
         (challonge(), "has no match that was played"),
     ],
 )
@@ -335,7 +335,7 @@ def test_what_was_not_played_in_brackets_manager_is_left_out_and_counted(read):
     [
         (duel(side(8, 7, "win"), side(1, 5)), "number 8"),
         (duel(side(0, -7, "win"), side(1, 5)), "has score -7"),
-        (duel(7, side(1, 5)), "'t built as expected"),
+        (duel(7, side(1, 5)), "isn't built as expected"),
     ],
 )
 def test_what_is_wrong_in_a_brackets_manager_file_is_one_problem(read, match, told):

@@ -156,7 +156,7 @@ def test_every_key_with_a_value_that_it_cannot_have_is_named_with_its_line(folde
         ("begins = 2026-09-01\nends = 2026-08-01", 2, "ends before it starts."),
         ("ends = '1/2/2026'", 1, "'1/2/2026' isn't a date. Write it as 2026-09-01"),
         ("[aliases]\nAl = 'Bo'\nBo = 'Cy'", 2, "'Al' means 'Bo', which means 'Cy'"),
-        ("[publish.players]\n'Ann Lee' = 'none'", 2, "'t one of 'full', 'initials', 'hidden'"),
+        ("[publish.players]\n'Ann Lee' = 'none'", 2, "isn't one of 'full', 'initials', 'hidden'"),
         (
             "[[results]]\nfile = 'autumn.csv'\n[[results]]\nfile = 'spring.csv'\n"
             "[results.columns]\nplayera = 'Heim'",

@@ -1,11 +1,14 @@
 """Results of teams as leagues write them: titles by language, a score in one cell, postponed."""
 
 import re
+from functools import partial
 
 import pytest
 
 from evenbreak.errors import DataError
-from evenbreak.files.lists.teams import TeamNames, read_team_results
+from evenbreak.files.lists.teams import TEAM_RESULTS, TeamNames, read_team_results
+from evenbreak.files.results.columns import RESULTS
+from evenbreak.files.results.results_file import read_results
 
 ROWS = [
     *("1;Racks;Cues;3:2", "1;Balls;Chalk;4 – 1", "2;Racks;Balls;3-2", "2;Cues;Chalk;1/4"),
@@ -34,6 +37,19 @@ def test_unknown_titles_are_one_problem_whose_remedy_reads_the_file(tmp_path):
     columns = dict(part.split("=") for part in re.search(r'"(.*)"', problem)[1].split(","))
     played, _ = read_team_results(path, TeamNames([]), columns=columns)
     assert played.scores.tolist() == [[3, 2], [4, 1], [3, 2], [1, 4]]
+
+
+def test_another_kind_of_file_is_told_the_columns_of_the_one_wanted(tmp_path):
+    of_teams = partial(read_team_results, teams=TeamNames([]))
+    path = tmp_path / "roster.csv"
+    path.write_text("name,rating\nAnn,600\n")
+    for read, columns in ((of_teams, TEAM_RESULTS), (read_results, RESULTS)):
+        with pytest.raises(DataError) as caught:
+            read(path)
+        needed = [name for name, column in columns.columns.items() if column.needed]
+        assert f"Is it the right file? Results have a match per row: {','.join(needed)}." in str(
+            caught.value
+        )
 
 
 def test_rows_that_are_all_wrong_in_one_way_are_one_problem(tmp_path):

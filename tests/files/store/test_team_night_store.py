@@ -35,7 +35,7 @@ def test_a_night_and_a_tournament_share_a_file_whichever_is_first(tmp_path):
         state, added = add(path, Begun(plan(race=6)))
         assert (state.plan.race, added) == (6, True)
         assert len(read_tournament(path).entrants) == 4
-        with pytest.raises(DataError, match=r"\.db already"):
+        with pytest.raises(DataError, match=r"\.db already exists\."):
             new_tournament(path, [Event(AT, OPENED)])
 
 
@@ -77,5 +77,5 @@ def test_another_file_is_refused(tmp_path):
     path = tmp_path / "other.db"
     sqlite3.connect(path).execute("CREATE TABLE x (y)").connection.close()
     for use in (read_team_events, lambda place: add(place, Begun(plan()))):
-        with pytest.raises(DataError, match="'t the file of"):
+        with pytest.raises(DataError, match="isn't the file of"):
             use(path)

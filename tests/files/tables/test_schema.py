@@ -107,7 +107,7 @@ def test_a_schema_can_be_changed_joined_and_cut(written):
 
 
 def test_the_reference_describes_a_column_by_its_declaration():
-    rows = column_tables.table_of(CUES).splitlines()[2:]
+    rows = column_tables.table_of(CUES, full=True).splitlines()[2:]
     assert rows[:2] == [
         "| `owner` | player, who | whose it is | a name; required |",
         "| `weight` | ounces, oz | its weight | a number from 10 to 30; required; empty for a "

@@ -353,7 +353,7 @@ def points_audit_answer(chart: PointsChart, *, warnings: Sequence[str] = ()) -> 
             f"The chart says nothing about how well a level plays. Here a player needs "
             f"{report.innings:g} innings on average to reach their points; each shot is made with "
             "the same chance and counts a point, and a miss ends the inning. The second point of "
-            "the 9, balls that nobody scores and safeties are left out.",
+            "the 9, balls that no one scores and safeties are left out.",
         ],
         warnings=warnings,
         data={

@@ -233,7 +233,7 @@ def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
     if apart:
         yield Remark(
             f"{count_of(len(apart), 'pair')} without a race",
-            "no chain of opponents links the two players, so their ratings cannot be compared",
+            "no chain of opponents links the two players, so their ratings can't be compared",
             apart,
         )
     if "p_win_a" in frame and (uneven := _pairs(frame[unfair(frame["p_win_a"])])):

@@ -149,7 +149,7 @@ def _pair(ratings: Ratings, first: int, second: int) -> tuple[Any, ...]:
 def _pair_in_words(row: Sequence[Any]) -> str:
     a, b, difference, error, p_game, note = row
     if note is not None:
-        return f"{a} and {b} cannot be compared: {note}."
+        return f"{a} and {b} can't be compared: {note}."
     strong, weak, p = (a, b, p_game) if difference >= 0 else (b, a, 1.0 - p_game)
     return (
         f"{strong} is rated {_ONE(abs(difference))} points above {weak} (± "

@@ -145,7 +145,7 @@ def _in_words(moves: RatingChanges) -> str:
     played = (moves.won + moves.lost > 0) & (change == 0)
     if played.any():
         sentences.append(f"Unchanged: {count_of(int(played.sum()), 'player')} who played.")
-    return " ".join(sentences) or "Nobody's rating changed."
+    return " ".join(sentences) or "No one's rating changed."
 
 
 def _numbers_of(moves: RatingChanges) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -221,7 +221,7 @@ def how_even(paired: pd.DataFrame) -> Iterator[str]:
     if missing := len(paired) - len(offered):
         yield (
             f"A dash marks {count_of(missing, 'pair')} without a race: no chain of "
-            "opponents links the two players, so their ratings cannot be compared."
+            "opponents links the two players, so their ratings can't be compared."
         )
 
 

@@ -105,7 +105,7 @@ def _ratings(weeks: pd.DataFrame, season: Season) -> str:
     if not empty:
         return text
     return (
-        f"{text} In {empty:,} of {count_of(len(weeks) - 1, 'week')} nobody is in the league; "
+        f"{text} In {empty:,} of {count_of(len(weeks) - 1, 'week')} no one is in the league; "
         f"these figures are for weeks {max(first['week'], 1):.0f} to {last['week']:.0f}."
     )
 
@@ -161,11 +161,11 @@ def _who_gains(standings: pd.DataFrame, batches: int) -> str:
 
     if above.empty and below.empty:
         return (
-            "Who gains? Nobody, as far as these seasons show: no player clearly wins more or less "
+            "Who gains? No one, as far as these seasons show: no player clearly wins more or less "
             "than half of their matches."
         )
-    most = "Nobody clearly wins more than half of their matches"
-    least = "nobody clearly wins less than half"
+    most = "No one clearly wins more than half of their matches"
+    least = "no one clearly wins less than half"
     if not above.empty:
         most = f"{wins(above.iloc[above['p_win'].argmax()])} of their matches, the most"
     if not below.empty:

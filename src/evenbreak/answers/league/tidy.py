@@ -53,8 +53,8 @@ def tidy_answer(
             ("double", "match that was there twice", "matches that were there twice"),
             (
                 "left out",
-                "row that is no match or cannot be read",
-                "rows that are no matches or cannot be read",
+                "row that is no match or can't be read",
+                "rows that are no matches or can't be read",
             ),
         )
         if changes[kind]
@@ -102,7 +102,7 @@ def tidy_answer(
         ]
     if roster and (strangers := _not_listed(found.results, roster)):
         parts += [
-            "These players of the results are not on the roster; the nearest name there:",
+            "These players of the results aren't on the roster; the nearest name there:",
             Table("not_on_roster", columns_of("tidy_name tidy_matches nearest_name"), strangers),
         ]
         if near := {name: other for name, _, other in strangers if other is not None}:

@@ -323,13 +323,13 @@ def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
         if error > SURE * points.value or not agrees:
             return "", ""
         return (
-            f"The chart assumes that {fair.assumed:.3g} points double the odds of winning a game. "
+            f"The races assume that {fair.assumed:.3g} points double the odds of winning a game. "
             f"The results agree: they give {points.value:.1f} ± {error:.1f}."
         ), ""
     low, high = fair.games
     return (
         f"{points.value:.1f} ± {error:.1f} points double the odds of winning a game in this "
-        f"league; the chart assumes {fair.assumed:.3g}. This makes a chart that fits:",
+        f"league; the races assume {fair.assumed:.3g}. This makes a chart that fits:",
         f"evenbreak chart design --games {low}..{high} --least {race(fair.least)} "
         f"--scale {points.value:.1f}",
     )

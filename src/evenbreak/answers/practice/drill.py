@@ -349,6 +349,6 @@ def _drill_log(asked: DrillPlayed, path: str) -> Answer:
     seed = 1 if asked.seed is None else asked.seed
     file = files.read_drill_log(path, levels=asked.levels, drill=asked.drill)
     replicas = min(1999, max(199, MOST_DRAWS // len(file.log)))
-    analysis = practice.analyse_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
+    analysis = practice.analyze_log(file.log, rng=np.random.default_rng(seed), replicas=replicas)
     answer = drill_log_answer(file, analysis, seed=seed, levels_given=asked.levels is not None)
     return replace(answer, drawn=analysis)

@@ -88,7 +88,7 @@ def _change_in_words(found: Comparison) -> str:
         change = "you average the same as before"
     if 0.0 in (found.before.sd, found.after.sd) or found.welch is None:
         return (
-            f"{change.capitalize()}, but a list of equal scores cannot show how much of that is "
+            f"{change.capitalize()}, but a list of equal scores can't show how much of that is "
             "luck."
         )
     p = found.welch.p_value
@@ -239,9 +239,9 @@ def _trend_in_words(file: ScoresFile, own: MeanInterval | None, line: Trend | No
             f"{percent(line.p_value)} of the time."
         )
     if len(file.scores) == 1:
-        return "A single score cannot show whether you are getting better."
+        return "A single score can't show whether you are getting better."
     if own is None:
-        return "The scores are all equal, so they cannot show whether you are getting better."
+        return "The scores are all equal, so they can't show whether you are getting better."
     if file.dates is None:
         return "Give every score a date to see whether you are getting better."
     return (

@@ -31,10 +31,10 @@ def shots_answer(file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.
     """Return which shot to practice next, and whether the player got better.
 
     >>> import numpy as np
-    >>> from evenbreak.practice import ShotLog, analyse_shots
+    >>> from evenbreak.practice import ShotLog, analyze_shots
     >>> days = np.array(["2025-01-03", "2025-02-03"], dtype="M8[D]")
     >>> log = ShotLog(("cut", "bank"), [0, 1, 0, 1], [12, 4, 15, 5], [20] * 4, days.repeat(2))
-    >>> print(shots_answer(ShotsFile(log, "shots.csv", ()), analyse_shots(log)).sentences[0])
+    >>> print(shots_answer(ShotsFile(log, "shots.csv", ()), analyze_shots(log)).sentences[0])
     Practice bank next: you make it 24% of the time, and the chance that it's your weakest shot
     is more than 99%.
     """
@@ -91,7 +91,7 @@ def _better_words(found: ShotAnalysis, since: str | None) -> str:
         return "Give every row a date, of two days or more, to see whether you are getting better."
     change = found.change
     if change is None:
-        return "No shot was tried in both halves, so the log cannot show whether you got better."
+        return "No shot was tried in both halves, so the log can't show whether you got better."
     seen = f"before {since} you made {percent(change.before)}, since then {percent(change.after)}"
     same = ", with the same mix of shots" if len(found.shots) > 1 else ""
     if change.p_value >= LUCK:
@@ -152,7 +152,7 @@ def _shots(asked: Scores, file: ShotsFile) -> Answer:
                 part=Parameter(name),
                 source=file.source,
             )
-    found = practice.analyse_shots(file.log, confidence=asked.confidence)
+    found = practice.analyze_shots(file.log, confidence=asked.confidence)
     answer = shots_answer(file, found, confidence=asked.confidence)
     return replace(answer, drawn=(file, found))
 

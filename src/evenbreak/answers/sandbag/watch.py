@@ -87,7 +87,7 @@ def sandbag_watch_answer(
             say(
                 "A player is flagged when the evidence reaches {evidence}. It starts at 1, rises "
                 "with each result that is likelier from a sandbagger than from an honest player, "
-                "and falls with the others. It is not a verdict: look at the player's matches "
+                "and falls with the others. It isn't a verdict: look at the player's matches "
                 "({player}), and ask.",
                 evidence=evidence(1.0 / alpha),
             ),

@@ -156,7 +156,7 @@ def _check_score(asked: Lineup, meeting: Meeting, score: tuple[int, int], over: 
         possible = {(a + x, b + y) for a, b in possible for x, y in each}
     if score not in possible:
         asked.refuse(
-            "{score} {a}:{b} can't be: by the players used {sets}, and {counted} count"
+            "{score} {a}-{b} can't be: by the players used {sets}, and {counted} count"
             + (
                 ". List those who have played with {used}."
                 if asked.count == "sets" and not over
@@ -171,7 +171,7 @@ def _check_score(asked: Lineup, meeting: Meeting, score: tuple[int, int], over: 
         asked.refuse("{last} {how}: by the players used no set is over", how=asked.last)
     if asked.last is not None and asked.count == "sets" and not score[asked.last == "lost"]:
         asked.refuse(
-            "{last} {how} contradicts {score} {a}:{b}", how=asked.last, a=score[0], b=score[1]
+            "{last} {how} contradicts {score} {a}-{b}", how=asked.last, a=score[0], b=score[1]
         )
 
 

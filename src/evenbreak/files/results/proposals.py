@@ -85,7 +85,10 @@ def columns_hint(
         for reading in readings_of(known, titles, rows)
     ]
     if not places and not readings:
-        return say("Is it the right file? Results have a match per row: player_a,player_b,score.")
+        return say(
+            "Is it the right file? Results have a match per row: {columns}.",
+            columns=",".join(called.get(name, name) for name in TEAMS),
+        )
     if not 0 < len(readings) <= _MOST_READINGS:
         return say("Add them. One column score, with 7-5 in a cell, can replace the two.")
     options = [_option(reading) for reading in readings]

@@ -140,8 +140,8 @@ def _checked(place: Path, *, reading: bool) -> Iterator[sqlite3.Connection]:
     if not place.exists():
         raise refused(
             place,
-            "{name} doesn't exist. Start a tournament with {command}.",
-            command=Command("tournament new"),
+            "{name} doesn't exist. Start a tournament: {command}",
+            command=Command("tournament new", "ENTRANTS.csv", "--race", "7"),
         )
     with _connected(place, reading=reading) as base:
         _check(base, place)

@@ -213,7 +213,10 @@ class Header:
                 )
         missing = self._missing({*places, *(() if self._maybe else self._called)})
         if len(missing) == 1 and self._hint is None:
-            problems.add(line, missing_column(missing[0], self.required[missing[0]], among))
+            problem = missing_column(missing[0], self.required[missing[0]], among)
+            if not places:
+                problem = say("{problem} Is it the right file?", problem=problem)
+            problems.add(line, problem)
         elif missing:
             remedy = say("Add them.") if self._hint is None else self._hint(places, titles, sample)
             problem = say_count(

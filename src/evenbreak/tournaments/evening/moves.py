@@ -165,10 +165,11 @@ def correct(
     """
     name = known_match(state, match, over=True)
     if name not in state.counted:
+        refuse_waiting(state, name)
         raise InputError(
-            "{match} has no result to correct; to enter one: {enter}",
+            "{match} has no result to correct. Enter one, for example: {enter}",
             match=state.match_words(name),
-            enter=Command("tournament result", typed(state, name)),
+            enter=_a_result(state, name),
         )
     pair = state.pair(name)
     found = _result(state, name, pair, games_in(state, name, pair, score), ended, winner)
@@ -183,6 +184,13 @@ def correct(
             result=state.result_words(before),
         )
     return found
+
+
+def _a_result(state: Evening, name: str) -> Command:
+    """Return the command that lets the first player of a match win it."""
+    pair = state.pair(name)
+    won = pair[0] if state.plan.form == "chips" else f"{state.needed(name, pair)[0]}-0"
+    return Command("tournament result", typed(state, name), won)
 
 
 def corrections(
@@ -218,8 +226,8 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
     """Enter the score of a match in play."""
     if state.plan.form == "chips":
         raise InputError(
-            "a rack has no score; to enter its winner: {enter}",
-            enter=Command("tournament result", match),
+            "a rack has no score. Enter its winner, for example: {enter}",
+            enter=_a_result(state, undecided(state, match)),
         )
     name = undecided(state, match)
     pair = state.pair(name)
@@ -239,7 +247,7 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
             b=score[1],
             match=state.match_words(name),
             race=race_words(needs),
-            enter=Command("tournament result", typed(state, name), f"{score[0]}:{score[1]}"),
+            enter=Command("tournament result", typed(state, name), f"{score[0]}-{score[1]}"),
         )
     return Scored(name, pair, score)
 
