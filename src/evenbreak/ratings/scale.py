@@ -301,6 +301,7 @@ def unstated_scale(
     (low, last), (high, first) = min(rated), max(rated)
     where = f"{source}: " if source else ""
     if len(rated) > 1 and {rating for rating, _ in rated} <= {*range(1, HIGHEST_LEVEL + 1)}:
+        where = f"{source}: " if source else ""
         raise InputError(
             "{where}{low:g} to {high:g} look like skill levels, not ratings. {remedy}",
             where=where,
