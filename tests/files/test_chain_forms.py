@@ -131,7 +131,10 @@ def test_a_bad_matrix(tmp_path, rows, part) -> None:
         ("%%MatrixMarket matrix coordinate real general\n1 2 1\n1 1 1.0\n", "1 x 2"),
         ("%%MatrixMarket matrix coordinate complex general\n1 1 1\n1 1 1.0 0.5\n", "complex"),
         ("%%MatrixMarket matrix coordinate real general\n1 1 2\n1 1 0.5\n1 1 0.5\n", "twice"),
-        ("%%MatrixMarket matrix coordinate real general\n9999999999 9999999999 1\n", "doesn't hold"),
+        (
+            "%%MatrixMarket matrix coordinate real general\n9999999999 9999999999 1\n",
+            "doesn't hold",
+        ),
         ("%%MatrixMarket matrix array real general\n99999 99999\n1\n", "doesn't hold"),
     ],
 )
