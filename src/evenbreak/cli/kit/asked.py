@@ -174,9 +174,10 @@ class AskedCommand(click.Command):
         try:
             rest = super().parse_args(ctx, args)
         except click.UsageError as error:
-            example, *_ = (*self.question.examples.strip().splitlines(), "")
+            example, *_ = (*str(getattr(self.question, "examples", "")).strip().splitlines(), "")
             if example and error.message.startswith("Got unexpected extra argument"):
-                error.message += f". Write it like this: {example}"
+                said = f"{error.message}. Write it like this: {example}"
+                raise click.UsageError(said, ctx) from None
             raise
         if ctx.ignore_unknown_options and not ctx.resilient_parsing:
             for param in self.params:
