@@ -128,7 +128,7 @@ def limits_over(game_of: Callable[..., Game], /, **chances: ArrayLike) -> Family
         raise InputError(f"game_of must be a class of games or a function; you gave {game_of!r}")
     if not chances:
         raise InputError(
-            "there are no chances. Give arrays of them by name, such as p1=[0.4, 0.6]."
+            "no probabilities were given. Give arrays of them by name, such as p1=[0.4, 0.6]."
         )
     checked = {name: probability(value, name) for name, value in chances.items()}
     shape = together(**checked)

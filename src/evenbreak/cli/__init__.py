@@ -16,7 +16,7 @@ _code: object = 0
 
 
 def main() -> None:
-    """Run the program on the words of the command line, and exit."""
+    """Run the program with the command-line arguments, and exit."""
     global _code
     listen()
     atexit.register(_exit_if_interrupted)  # registered first, called last

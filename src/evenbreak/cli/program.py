@@ -39,7 +39,7 @@ SECTIONS = {
         "report": Entry("The fair-race sheet of a league, from its results.", "league.report"),
         "publish": Entry("The league as a website: a folder of plain files.", "league.publish"),
         "rate": Entry("Ratings from results, and how certain each one is.", "league.ratings:rate"),
-        "why": Entry("Why two players have their ratings and their race.", "league.ratings:why"),
+        "why": Entry("Why two players have the ratings and race they do.", "league.ratings:why"),
         "matchups": Entry("Tonight's races for a list of rated players.", "league.matchups"),
         "validate": Entry(
             "How well the ratings predict your own results.", "league.ratings:validate"

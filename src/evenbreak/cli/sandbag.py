@@ -110,7 +110,7 @@ def _reviewed(
     from evenbreak.handicaps.systems.night_table import listed
 
     if asked.scale is not None and not asked.scale.same_points(SCALES["fargo"]):
-        asked.refuse("{scale} is for systems that move points by match. Leave it out.")
+        asked.refuse("{scale} is for systems that move points after each match. Leave it out.")
     refuse_for_system(first, system)
     if asked.chart is not None and not isinstance(system, handicaps.MarkovSystem):
         system = system.on_chart(files.find_chart(asked.chart))

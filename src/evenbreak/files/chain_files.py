@@ -236,8 +236,9 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
         either = warning(
             source,
             None,
-            "its rows and its columns sum to 1; a column was read as the chances out of its state. "
-            "Give {rows} from if a row holds them, or {rows} to if this is right",
+            "its rows and its columns both sum to 1; each column was read as the probabilities "
+            "of leaving its state. If the rows hold them, give {rows} from; if this is right, "
+            "give {rows} to",
             rows=Parameter("rows"),
         )
         warnings = (either,)

@@ -191,8 +191,8 @@ def _refuse_leaving_early(players: LeaguePlayers) -> None:
     if gone.size:
         leaves, joins = players.leaves[gone[0]], players.joins[gone[0]]
         raise InputError(
-            "a player leaves in week {leaves} and joins in week {joins}. Give a week not "
-            "before that, or 0 if the player stays.",
+            "a player joins in week {joins} but leaves in week {leaves}. Make the leaving week "
+            "no earlier than the joining week, or 0 if the player stays.",
             leaves=leaves,
             joins=joins,
         )

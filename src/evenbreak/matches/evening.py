@@ -204,7 +204,7 @@ def _calculated(end: End, pace: Pace) -> Evening:
 
 
 def _with_pace(mean: float, sd: float, pace: Pace) -> float:
-    """Return the standard deviation of the end if the pace of the evening is not known."""
+    """Return the standard deviation of the finish time when the pace of the evening isn't known."""
     square = (mean**2 + sd**2) * math.exp(pace.evening_sd**2)
     return math.sqrt(max(square - mean**2, 0.0))
 

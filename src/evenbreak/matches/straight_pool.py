@@ -86,7 +86,7 @@ class StraightPool:
 
 @dataclass(frozen=True)
 class StraightPoolOdds:
-    """The chances of a match of straight pool, and its length.
+    """Win probabilities and length of a straight-pool match.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ Chart: TypeAlias = Annotated[str, Field(_CHART, "The chart.", argument=True)]
 class ChartList(Question):
     """List the charts, ours and those of installed packages.
 
-    Each is shown with its number of different races and the length of its longest match.
+    Each chart is shown with its number of different races and the length of its longest match.
     """
 
 
@@ -45,8 +45,8 @@ class ChartList(Question):
 class Systems(Question):
     """List the handicap systems, ours and those of installed packages.
 
-    Each is shown with the chart that sets its races and the package that it is from; in files, with
-    its rule too.
+    Each system is shown with the chart that sets its races and the package it comes from; files
+    also have its rule.
     """
 
 
@@ -54,8 +54,8 @@ class Systems(Question):
 class ChartShow(Question):
     """Show a chart: who needs how many games.
 
-    NAME_OR_FILE is a chart from `evenbreak chart list` or a CSV file. Into a pipe or a file the
-    chart is written as such a CSV file, which you can edit and use.
+    NAME_OR_FILE is a chart from `evenbreak chart list` or a CSV file. If the output goes to a pipe
+    or a file, the chart is written as a CSV file like that, which you can edit and use.
     """
 
     examples = """\
@@ -86,7 +86,7 @@ class ChartAudit(Question):
     beside: Annotated[
         str | None,
         _BESIDE,
-        Says("Another chart for the picture, in points of the first.", many=False),
+        Says("Another chart to draw in the picture, in the first chart's points.", many=False),
     ] = None
     plot: Annotated[PlotFile, Says(section="", more="Not for a chart by skill level.")] = None
 
@@ -100,8 +100,8 @@ class ChartAudit(Question):
 class ChartDesign(Question):
     """Design the fairest chart for given ratings, within limits on its races.
 
-    Unfairness is how far the stronger player's chance is from the target. Into a pipe or a file the
-    chart is written as a CSV file that the other commands read.
+    Unfairness is how far the stronger player's chance is from the target. If the output goes to a
+    pipe or a file, the chart is written as a CSV file that the other commands read.
     """
 
     examples = """\
@@ -114,7 +114,7 @@ class ChartDesign(Question):
         tuple[int, int],
         Field(
             RACE,
-            "The fewest games the stronger and the weaker player may need.",
+            "The fewest games that the stronger player and the weaker player may need.",
             metavar="M:N",
         ),
     ] = (2, 2)
@@ -130,7 +130,7 @@ class ChartDesign(Question):
         int, Field(Whole(1, _MOST), "The chart may have at most N rows.", old=("rows",))
     ] = 12
     scale: OnScale = NPL
-    target: Annotated[Target, Says("The target chance of the stronger player.")] = 0.5
+    target: Annotated[Target, Says("The stronger player's target chance.")] = 0.5
     tilt: Annotated[
         float,
         Field(
@@ -146,8 +146,8 @@ class ChartDesign(Question):
         Field(
             Whole(1, _MOST),
             "The largest rating difference that counts.",
-            usual="where the last race of each {beside} chart is even, or else the hardest race "
-            "allowed",
+            usual="where the last race of each {beside} chart is even; otherwise where the "
+            "hardest race allowed is even",
             metavar="D",
         ),
     ] = None
@@ -158,8 +158,8 @@ class ChartDesign(Question):
 class ChartTeam(Question):
     """Find the points that the weaker of two teams gets in a round, as CSI does.
 
-    AVERAGE_1 and AVERAGE_2 are the average ratings of the two teams. The averages of {won} and
-    {lost} are those of 17-point scoring.
+    AVERAGE_1 and AVERAGE_2 are the average ratings of the two teams. By default, {won} and {lost}
+    are the averages in 17-point scoring.
     """
 
     examples = """\

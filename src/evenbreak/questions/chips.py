@@ -92,9 +92,9 @@ class ChipOdds(ChipField):
         dict[str, int] | None,
         Field(
             Named(chips_left, "NAME=CHIPS,..."),
-            "Instead of {chips}: the last players at one table with the chips they have "
-            "left, in line order; the first stays at the table.",
-            more="The second is the challenger. Up to four players are exact.",
+            "Instead of {chips}: the last players, at one table, with the chips they have left, "
+            "in the order of the line; the first one holds the table.",
+            more="The second is the challenger. With up to four players the odds are exact.",
         ),
     ] = None
 
@@ -108,8 +108,8 @@ class ChipOdds(ChipField):
 class ChipAudit(ChipField):
     """Check who a chip chart favors: hoboken, pharaohs, or one in a file.
 
-    Over a whole tournament, and between the last two players if both have all their chips. The
-    ratings are treated as exact.
+    It checks a whole tournament, and the last two players if both have all their chips. The ratings
+    are treated as exact.
     """
 
     examples = """\
@@ -131,8 +131,9 @@ class ChipAudit(ChipField):
 class ChipDesign(ChipField):
     """Design a chip chart that makes a tournament as even as possible for its players.
 
-    Without ENTRANTS.csv, the field is 16 players, spread over four doublings of the odds. Into a
-    file the chart is CSV that chips audit and chips odds read. The ratings are treated as exact.
+    Without ENTRANTS.csv, the field is 16 players, spread over four doublings of the odds. If the
+    output goes to a file, the chart is CSV that chips audit and chips odds read. The ratings are
+    treated as exact.
     """
 
     examples = """\
@@ -142,8 +143,10 @@ class ChipDesign(ChipField):
     entrants: Annotated[
         str | None, Field(File("ENTRANTS.csv"), metavar="[ENTRANTS.csv]", argument=True)
     ] = None
-    fewest: Annotated[Chips, Says("Fewest chips. More chips make a longer tournament.")] = 2
-    most: Annotated[Chips, Says("Most chips.")] = 10
+    fewest: Annotated[
+        Chips, Says("The fewest chips a player starts with. More chips make a longer tournament.")
+    ] = 2
+    most: Annotated[Chips, Says("The most chips a player starts with.")] = 10
     bands: Annotated[
         list[float] | None,
         Field(

@@ -73,7 +73,7 @@ Seed: TypeAlias = Annotated[
 GAMES = Field(
     SPAN,
     "Races whose longest possible match has LO to HI games.",
-    more="The longest possible match of a race m:n has m + n − 1 games.",
+    more="In an m:n race, the longest possible match has m + n − 1 games.",
 )
 RACE_TO = Field(Whole(1, LONGEST), "Races in which the stronger player needs N games.")
 EntrantsFile: TypeAlias = Annotated[
@@ -84,8 +84,8 @@ EntrantsFile: TypeAlias = Annotated[
         more="[Entrants missing from the list](../files.md#entrants) are new players.",
     ),
 ]
-Target: TypeAlias = Annotated[float, Field(CHANCE, "The target chance of winning for A.")]
-ChartName: TypeAlias = Annotated[str | None, Field(CHART, "The chart of the races.")]
+Target: TypeAlias = Annotated[float, Field(CHANCE, "A's target chance of winning.")]
+ChartName: TypeAlias = Annotated[str | None, Field(CHART, "The race chart.")]
 LevelResults: TypeAlias = Annotated[
     str | None,
     Field(
@@ -96,7 +96,7 @@ LevelResults: TypeAlias = Annotated[
     ),
 ]
 _RACE = Whole(1, LONGEST_RACE)
-EvenRace: TypeAlias = Annotated[int | None, Field(_RACE, "Even races to N games.")]
+EvenRace: TypeAlias = Annotated[int | None, Field(_RACE, "Play even races to N games.")]
 HandicappedRace: TypeAlias = Annotated[
     int | None,
     Field(
@@ -105,7 +105,7 @@ HandicappedRace: TypeAlias = Annotated[
     ),
 ]
 ChartOfRaces: TypeAlias = Annotated[
-    ChartName, Says("Races by this chart of rating differences instead.")
+    ChartName, Says("Use the races in this chart of rating differences instead.")
 ]
 Sure: TypeAlias = Annotated[
     bool, Field(Flag(), "Treat the ratings as exact, even if they have standard errors.")
@@ -114,7 +114,7 @@ Jobs: TypeAlias = Annotated[
     int,
     Field(
         Whole(1, MOST_JOBS),
-        "Number of parallel processes; the answer is the same.",
+        "Number of parallel processes; it doesn't change the answer.",
         metavar="J",
     ),
 ]
@@ -153,9 +153,9 @@ FormOfDay: TypeAlias = Annotated[
     Field(
         Number(0.0, 3.0, " isn't a number from 0 to 3, such as 0.35", metavar="SD"),
         "Day-to-day form: how much the log-odds of a game vary from match to match.",
-        usual="the value in the list of ratings, otherwise 0",
+        usual="the value in the ratings list, otherwise 0",
         section="Details",
-        more="A standard deviation, as `evenbreak rate` finds it. See [day-to-day "
+        more="This is a standard deviation; `evenbreak rate` finds its value. See [day-to-day "
         "form](../../explanation/ratings.md#day-to-day-form).",
     ),
 ]
@@ -163,12 +163,12 @@ ByWay: TypeAlias = Annotated[
     Way | None,
     Field(
         Choice(tuple(WAYS)),
-        "The way to the answer: a formula, or the game's graph and matrix.",
+        "How the answer is calculated: with a formula, or from the game's graph and matrix.",
         section="Details",
         rare=True,
-        more="The fast formula (kernel), elimination of states, or eigenvectors; they are "
-        "compared. See [the same answer by another way]"
-        "(../../how-to/your-own-chain.md#the-same-answer-by-another-method).",
+        more="The ways are the fast formula (kernel), elimination of states, and eigenvectors; "
+        "their answers are compared. See [the same answer by another "
+        "way](../../how-to/your-own-chain.md#the-same-answer-by-another-method).",
     ),
 ]
 
@@ -242,13 +242,13 @@ class Lengths(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class Starters(Question):
-    """The rating of new players."""
+    """The rating that new players get."""
 
     starter: Annotated[
         float | None,
         Field(
             Number(-1e6, 1e6, " isn't a rating. Give a number of points, such as 80"),
-            "The rating of a new player.",
+            "The rating that a new player gets.",
             usual="the middle of the scale",
             more="80 on the NPL scale, 500 on Fargo's, 1500 on Elo's.",
             metavar="RATING",

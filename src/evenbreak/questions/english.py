@@ -52,7 +52,7 @@ def english_in(text: str) -> tuple[float, str]:
         )
     over, _, under = match["many"].replace(",", ".").partition("/")
     if under and not int(under):
-        raise InputError("{value!r} isn't a part of a tip", value=text)
+        raise InputError("{value!r} isn't a fraction of a tip", value=text)
     many = math.prod(words) if words else float(over) / float(under or 1.0)
     share = many / (100.0 if percent else TIPS_OF_MOST_ENGLISH)
     if not 0.0 <= share <= 1.0:

@@ -76,8 +76,9 @@ class TimedUnderWay(UnderWay):
 class SecondChance(TimedUnderWay):
     """Start a second event on the same tables for players already knocked out.
 
-    It is a single elimination. The last player knocked out is the top seed. More can enter until
-    its draw is made; the other commands then go by its number, such as {event} 2.
+    It is a single elimination, and the last player knocked out is the top seed. More players can
+    enter until its draw is made. To use the other commands on this event, give its number, such as
+    {event} 2.
     """
 
     race: Annotated[
@@ -107,8 +108,8 @@ class Show(TimedUnderWay, OnPaper):
 class Programs(TimedUnderWay):
     """Create a token for another program, such as a scoreboard; without NAME, list who has one.
 
-    The token is shown once. With it, the program enters what happens, at the addresses that
-    evenbreak serve has under /api/v1/tonight; its name is shown in the history.
+    The token is shown only once. The program uses it to enter what happens, at the addresses that
+    evenbreak serve has under /api/v1/tonight; the program's name is shown in the history.
     """
 
     examples = """\
@@ -121,8 +122,8 @@ class Programs(TimedUnderWay):
         str,
         Field(
             Text("scores|table:T|director"),
-            "What it may enter: scores, results and calls; the score and result of one "
-            "table; or anything a director can.",
+            "What the program may enter: scores, results and calls; one table's score and "
+            "result; or anything a director can.",
         ),
     ] = "scores"
     revoke: Annotated[bool, Field(Flag(), "Revoke the token of NAME at once.")] = False
@@ -140,22 +141,24 @@ class Next(TimedUnderWay):
     """Show what is on the tables and which match to call next, so that it ends soonest.
 
     Each match that can be played is listed with what it decides: the title odds that its result
-    moves from some players to others, and how much later the tournament would end if it were
-    called first. In a chip tournament it shows who is at which table and who is next in the line.
+    moves from some players to others. The list also shows how much later the tournament would end
+    if that match were called first. In a chip tournament the command shows who is at each table and
+    who is next in line.
     """
 
     examples = """\
   evenbreak tournament next
   evenbreak tournament next --prizes 500,300,150
 """
-    prizes: Annotated[Prizes, Says(more="Adds what each match decides in money.")] = None
+    prizes: Annotated[Prizes, Says(more="Adds how much prize money each match decides.")] = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class Export(UnderWay):
     """List the matches that were played, as CSV that evenbreak rate reads.
 
-    Matches that no longer count in the bracket after a correction are in it: they were played.
+    Matches that no longer count in the bracket after a correction are included, because they were
+    played.
     """
 
     examples = """\
@@ -169,8 +172,8 @@ class Export(UnderWay):
         str | None,
         Field(
             File("FILE.csv"),
-            "Write to this file. .html is the whole night as one page to share; with "
-            "{story}, .svg is a chart.",
+            "Write to this file. An .html file is the whole night as one page to share; with "
+            "{story}, an .svg file is a chart.",
         ),
     ] = None
     events: Annotated[
@@ -196,10 +199,10 @@ class Export(UnderWay):
 class Print(UnderWay, OnPaper):
     """Write score cards, the bracket or the draw as a PDF to print.
 
-    Cards are made for all matches whose players are known and that are not over: one each, with
-    boxes to tick, where winner and loser go next, and room to sign. The bracket is on one sheet if
-    it can be read there, else on larger paper. The draw lists everyone by name, with their first
-    match.
+    One card is made for each unfinished match whose players are known, with boxes to tick, where
+    the winner and loser go next, and room to sign. The bracket is printed on one sheet if it is
+    readable at that size, otherwise on larger paper. The draw lists everyone by name, with their
+    first match.
     """
 
     examples = """\
@@ -244,8 +247,8 @@ MONEY = Number(0.0, 1e9, " isn't an amount of money. Give a number, such as 20",
 class PayOut(TimedUnderWay):
     """Find what each place pays, and each player's expected prize.
 
-    With {calcutta}, find what each player still to be sold is worth: the share of the pot, and the
-    bid at which it wins back what it costs.
+    With {calcutta}, find what each unsold player is worth: their expected share of the pot, and the
+    bid at which a buyer breaks even.
     """
 
     examples = """\
@@ -283,7 +286,8 @@ class PayOut(TimedUnderWay):
         bool,
         Field(
             Flag(),
-            "Keep them with the tournament: the page and this command show them from then on.",
+            "Save the prizes with the tournament; the page and this command show them from then "
+            "on.",
         ),
     ] = False
     calcutta: Annotated[
@@ -314,7 +318,7 @@ class PayOut(TimedUnderWay):
 class Import(Question):
     """Import a tournament from a file that CueScore, Challonge or brackets-manager has saved.
 
-    The bracket, the results and the times are those of FILE; continue with the other commands. FILE
+    The bracket, the results and the times come from FILE; continue with the other commands. FILE
     may also be the CSV of evenbreak tournament export --events. Players without a rating are
     treated as average.
     """

@@ -62,7 +62,7 @@ def _shot(text: str) -> Shots:
 
 @dataclass(frozen=True, kw_only=True)
 class Breaks(Question):
-    """Compare break formats for two players in the long run, the best for A first."""
+    """Compare break formats for two players over the long run, listing A's best format first."""
 
     examples = """\
   evenbreak breaks --p1 0.6 --p2 0.55
@@ -84,7 +84,7 @@ class Breaks(Question):
     via: ByWay = None
     plot: Annotated[
         PlotFile,
-        Says(more="The two players as a dot on the contour lines of A's share of the racks."),
+        Says(more="Draw the two players as a dot on contour lines of A's share of the racks."),
     ] = None
 
     def check(self) -> None:
@@ -112,11 +112,13 @@ class Straight(Question):
     ] = None
     p1: Annotated[Chance, Says("Chance that A makes a shot.")] = None
     p2: Annotated[Chance, Says("Chance that B makes a shot.")] = None
-    points: Annotated[tuple[int, int], Field(RACE, "The points to win: A needs M, B needs N.")]
+    points: Annotated[
+        tuple[int, int], Field(RACE, "Points needed to win: A needs M, and B needs N.")
+    ]
     safety: Safety = 1.0
-    first: Annotated[str, Field(Choice(("a", "b")), "The player with the first inning.")] = "a"
+    first: Annotated[str, Field(Choice(("a", "b")), "The player who shoots first.")] = "a"
     plot: Annotated[
-        PlotFile, Says(more="A's chance against the points that the weaker player needs.")
+        PlotFile, Says(more="Plot A's chance against the points that the weaker player needs.")
     ] = None
 
     def check(self) -> None:
@@ -137,9 +139,9 @@ LOOK_AHEADS = {"infinite": "infinite", "two": "two shots", "all": "all shots"}
 class OneBall(Question):
     """Choose the best shot in the one-ball game, and give your odds of winning it.
 
-    Of each {shots} P1 is your chance of making the shot, P2 the opponent's chance of making what
-    your miss leaves. If you know more, give the chances of the shots after those two: P3 is yours,
-    P4 the opponent's, and so on.
+    In each {shots}, P1 is your chance of making the shot, and P2 is the opponent's chance of making
+    what your miss leaves. If you know more, give the chances for later shots too: P3 is for your
+    next shot, P4 is for the opponent's, and so on.
     """
 
     examples = """\
@@ -152,7 +154,7 @@ class OneBall(Question):
         tuple[Shots, ...],
         Field(
             Named(_shot, "P1:P2[:P3...]"),
-            "A shot that you could take.",
+            "A shot you could take.",
             many=True,
             option="shot",
             old=("or",),
@@ -162,16 +164,17 @@ class OneBall(Question):
         str | None,
         Field(
             Choice(LOOK_AHEADS),
-            "Rank by the first two shots repeated until one is made, or by the first two or all of "
-            "the shots, after which the game is even.",
-            usual="all if there is a P3, else infinite",
+            "Rank by the first two shots, repeated until one is made; or by the first two "
+            "shots, or all of them, assuming that the game is even after that.",
+            usual="all if there is a P3, otherwise infinite",
         ),
     ] = None
     via: ByWay = None
     plot: Annotated[
         PlotFile,
         Says(
-            more="The shots on the contour lines of the chance of winning; the thick line is even."
+            more="Draw the shots on contour lines of the chance of winning; on the thick line "
+            "the game is even."
         ),
     ] = None
 
@@ -198,8 +201,8 @@ class ChainFile(Question):
         str | None,
         Field(
             Text("STATE"),
-            "Where it starts.",
-            usual="the start that the file names, else the first state",
+            "The state the chain starts in.",
+            usual="the start that the file names, otherwise the first state",
             old=("start",),
         ),
     ] = None
@@ -207,7 +210,7 @@ class ChainFile(Question):
         str | None,
         Field(
             File("STATES.csv"),
-            "The names of the states of a matrix, in its order.",
+            "The names of a matrix's states, in its order.",
             usual="1, 2, ...",
         ),
     ] = None
@@ -215,7 +218,8 @@ class ChainFile(Question):
         Rows | None,
         Field(
             Choice(("from", "to")),
-            "What a row of a matrix holds: the chances out of its state, or into it.",
+            "What each row of a matrix holds: the probabilities of leaving its state, or of "
+            "entering it.",
             usual="to, so that columns sum to 1",
         ),
     ] = None
@@ -226,9 +230,9 @@ class Chain(ChainFile):
     """Find where any Markov chain ends, or its long-run average, from a file.
 
     FILE is a CSV file of arcs with the columns source, target and probability (- reads one from
-    standard input), a graph in GraphML (.graphml) or node-link JSON (.json), or a transition
-    matrix in Matrix Market form (.mtx). The arcs out of each state sum to 1; the chain ends in a
-    state that is only a target.
+    standard input), a graph in GraphML (.graphml) or node-link JSON (.json), or a transition matrix
+    in Matrix Market form (.mtx). The probabilities of the arcs out of each state sum to 1; the
+    chain ends in a state that appears only as a target.
     """
 
     examples = """\
@@ -241,7 +245,8 @@ class Chain(ChainFile):
     steps: Annotated[
         int | None,
         Field(
-            Whole(0, 10**40), "Also show the probabilities after N steps; CSV then has only these."
+            Whole(0, 10**40),
+            "Also show the probabilities after N steps; CSV output then has only these.",
         ),
     ] = None
     via: ByWay = None
@@ -249,15 +254,15 @@ class Chain(ChainFile):
 
 @dataclass(frozen=True, kw_only=True)
 class Graph(ChainFile):
-    """Write a game, or a graph of your own, as graph, matrix, eigenvalues and limit.
+    """Write a game, or your own graph, as a graph, a matrix, eigenvalues and a limit.
 
     GAME is one-ball; series, with winner, loser or alternate breaks; drill 9-ball or drill 8-ball;
-    a match, such as 9:5, "7:7 win by 2", race to 7 or n-ahead 3; another game of the catalog; or
-    a chart, such as npl_10, for the ladder of rating errors that it makes. Without {p}, or {p1} and
-    {p2}, a game of the catalog has example chances; any other match needs them. FILE is any chain
+    a match, such as 9:5, "7:7 win by 2", race to 7 or n-ahead 3; another game in the catalog; or a
+    chart, such as npl_10, for the ladder of rating errors it leads to. Without {p}, or {p1} and
+    {p2}, a game in the catalog uses example chances; any other match needs them. FILE is any chain
     that evenbreak chain reads: a CSV file of arcs, GraphML (.graphml), node-link JSON (.json) or a
-    matrix in Matrix Market form (.mtx). All of these are written, with tables of the rest and a
-    picture, and can be read again.
+    matrix in Matrix Market form (.mtx). The command writes all of these formats, which can be read
+    again, plus tables of the rest and a picture.
     """
 
     examples = """\
@@ -268,9 +273,9 @@ class Graph(ChainFile):
   evenbreak graph matrix.mtx --states states.csv --out mine
 """
     game: Annotated[tuple[str, ...], Field(File("GAME|FILE"), argument=True, many=True)]
-    p: Annotated[
-        Chance, Says("Chance that A wins a game, or in a drill the chance of making a shot.")
-    ] = None
+    p: Annotated[Chance, Says("Chance that A wins a game or, in a drill, that a shot is made.")] = (
+        None
+    )
     p1: Annotated[
         Chance, Says("Chance that A wins a game that A breaks, or makes the one ball.")
     ] = None

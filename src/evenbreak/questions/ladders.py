@@ -24,20 +24,21 @@ _OPPONENTS, _FORM, _SETTLING = "Opponents", "Form and skill", "How a new player 
 _MONEY = Number(0.0, 1e9, " isn't a number from 0 to 1,000,000,000")
 _START_ERROR = Field(
     Whole(-LARGEST, LARGEST),
-    "Rating minus skill at the start, in points.",
+    "The player's rating minus their skill at the start, in points.",
     metavar="ERROR",
     old=("from",),
 )
-_COMPARE = Field(Flag(), "Compare the charts of the system.")
+_COMPARE = Field(Flag(), "Compare the system's charts.")
 
 
 @dataclass(frozen=True, kw_only=True)
 class LadderErrors(BySystem):
-    """Show how far off a league's ratings are in the long run, and how fair its matches.
+    """Show how far off a league's ratings are in the long run, and how fair its matches are.
 
-    A rating goes up with each match won and down with each match lost, and the chart turns the
-    difference of two ratings into a race. Opponents are as strong as the player and correctly
-    rated, unless an option says otherwise. With a chart of skill levels the levels are followed.
+    A rating goes up with each win and down with each loss, and the chart turns the difference
+    between two ratings into a race. Opponents are as strong as the player and correctly rated,
+    unless an option says otherwise. With a chart of skill levels, the command follows the levels
+    instead.
     """
 
     examples = """\
@@ -50,7 +51,9 @@ class LadderErrors(BySystem):
     step: Annotated[
         int | None,
         Field(
-            Whole(1, 100), "Instead of {system}: up K for a win, down K for a loss.", metavar="K"
+            Whole(1, 100),
+            "Instead of {system}: ratings go up K for a win and down K for a loss.",
+            metavar="K",
         ),
     ] = None
     scale: Annotated[
@@ -67,7 +70,7 @@ class LadderErrors(BySystem):
         int | None,
         Field(
             Whole(0, LARGEST),
-            "How close to the skill a rating counts as settled.",
+            "How close a rating must be to the skill to count as settled.",
             usual="a sixth of a doubling of the odds",
             metavar="POINTS",
             section=_SETTLING,
@@ -78,7 +81,7 @@ class LadderErrors(BySystem):
         bool,
         Field(
             Flag(),
-            "That player moves by the system's longer steps for newcomers at first.",
+            "At first, that player's rating moves by the system's longer steps for newcomers.",
             section=_SETTLING,
         ),
     ] = False
@@ -89,15 +92,15 @@ class LadderErrors(BySystem):
         PlotFile,
         Says(
             section="",
-            more="The distribution of the error and how players settle, or with `--compare` the "
-            "systems.",
+            more="Draw the distribution of the error and how players settle or, with "
+            "`--compare`, the systems.",
         ),
     ] = None
     autocorrelated: Annotated[
         bool,
         Field(
             Flag(),
-            "Opponents are rated at the player's skill, with errors like the player's.",
+            "Opponents have the player's skill as their rating, with errors like the player's.",
             section=_OPPONENTS,
         ),
     ] = False
@@ -133,7 +136,7 @@ class LadderErrors(BySystem):
         int | None,
         Field(
             Whole(1, MOST_A_NIGHT),
-            "With {day_sd}: how many matches are played with the form of one day.",
+            "With {day_sd}: how many matches are played on the same day, with the same form.",
             usual="1",
             section=_FORM,
         ),
@@ -150,14 +153,15 @@ class LadderErrors(BySystem):
         float,
         Field(
             Number(-MOST_DRIFT, MOST_DRIFT, f" isn't a number from {-MOST_DRIFT} to {MOST_DRIFT}"),
-            "How much the player's skill rises with each match on average: by a whole point, with "
-            "this chance; below 0 it falls.",
+            "How much the player's skill rises per match on average: it rises by a whole point "
+            "with this probability. If negative, skill falls.",
             metavar="POINTS",
             section=_FORM,
         ),
     ] = 0.0
     via: Annotated[
-        ByWay, Says("The way to the distribution of the error, given the chances in each match.")
+        ByWay,
+        Says("How the distribution of the error is calculated from the chances in each match."),
     ] = None
 
     def check(self) -> None:
@@ -169,11 +173,12 @@ class LadderErrors(BySystem):
             self.refuse("- means standard input, which only one file can be. Name the other.")
         if self.system is not None and self.step is not None:
             self.refuse(
-                "{step} {k} is a system of its own. Leave out {system} or {step}.", k=self.step
+                "{step} {k} is a system by itself. Leave out {system} or {step}.", k=self.step
             )
         if self.matches_a_night is not None and not self.day_sd:
             self.refuse(
-                "{matches_a_night} is how long a day's form lasts. Give {day_sd}, or leave it out."
+                "{matches_a_night} is how long a day's form lasts. Give {day_sd}, or leave "
+                "{matches_a_night} out."
             )
         meets = [f"{{{name}}}" for name in _MEETS if getattr(self, name)]
         if len(meets) > 1:
@@ -181,8 +186,8 @@ class LadderErrors(BySystem):
             self.refuse(f"{listed} can't be used together. Keep one.")
         if self.skill is not None and self.league is None:
             self.refuse(
-                "{skill} is the player's own in a league. Give {league} ROSTER.csv, or "
-                "leave it out."
+                "{skill} is for a player in a league. Give {league} ROSTER.csv, or leave "
+                "{skill} out."
             )
 
 
@@ -192,11 +197,12 @@ _COMPARED = ("compare", "chart", "plot", "skill", *_MEETS)
 
 @dataclass(frozen=True, kw_only=True)
 class SandbagPay(BySystem):
-    """Show what it pays to lose matches on purpose.
+    """Show how much losing matches on purpose pays.
 
     Opponents are as strong as the player and correctly rated. The player loses up to D matches on
-    purpose, then plays E that count while the rating climbs back. Systems that move ratings or
-    levels match by match are solved; the others are played many times, and the error is stated.
+    purpose, then plays E matches that count while the rating climbs back. Systems that move ratings
+    or levels after each match are solved exactly; the others are simulated many times, and the
+    error is stated.
     """
 
     examples = """\
@@ -212,23 +218,23 @@ class SandbagPay(BySystem):
             Whole(1, 100),
             "The most matches to lose on purpose.",
             metavar="D",
-            more="The table has a row for each number up to it.",
+            more="The table has a row for each number up to this one.",
         ),
     ] = 12
     earnest: Annotated[int, Field(Whole(1, 500), "Matches that count afterward.", metavar="E")] = 20
     stake: Annotated[
-        float, Field(_MONEY, "The value of winning a match that counts, over losing it.")
+        float, Field(_MONEY, "How much more a win is worth than a loss in a match that counts.")
     ] = 10.0
     dumped_stake: Annotated[
-        float, Field(_MONEY, "The value of winning one of the dumped matches.")
+        float, Field(_MONEY, "How much winning one of the dumped matches is worth.")
     ] = 1.0
     in_a_row: Annotated[
         int,
         Field(
             Whole(1, 50),
-            "Wins in a row that win a tournament.",
+            "The number of wins in a row that wins a tournament.",
             metavar="K",
-            more="The players keep the ratings with which they enter it.",
+            more="Players keep the ratings they enter it with.",
         ),
     ] = 3
     prize: Annotated[
@@ -241,26 +247,26 @@ class SandbagPay(BySystem):
     ] = 0.0
     start_error: Annotated[int, _START_ERROR, Says(kind=Whole(-100, 100))] = 0
     compare: Annotated[
-        bool, _COMPARE, Says(more="Each with the number of dumped matches that pays most.")
+        bool, _COMPARE, Says(more="Each is shown with the number of dumped matches that pays most.")
     ] = False
     plot: Annotated[
-        PlotFile, Says(section="", more="The chance of winning each match that counts.")
+        PlotFile, Says(section="", more="Draw the chance of winning each match that counts.")
     ] = None
 
     def check(self) -> None:
         """Refuse one chart where all are compared."""
         if self.compare and (self.chart is not None or self.plot is not None):
-            self.refuse("{compare} takes all charts of the system. Leave {chart} and {plot} out.")
+            self.refuse("{compare} takes all of the system's charts. Leave {chart} and {plot} out.")
 
 
 @dataclass(frozen=True, kw_only=True)
 class SandbagWatch(BySystem, Reading):
-    """Check the results of a league for sandbagging.
+    """Check a league's results for sandbagging.
 
-    RESULTS.csv is a file as for `report`; - reads standard input. The ratings of ROSTER.csv are
-    updated night by night. The evidence against a player grows with results that are likelier from
-    a sandbagger than from an honest player; at 1 / alpha the player is flagged. It is evidence, not
-    a verdict.
+    RESULTS.csv is a file like the ones `report` reads; - reads standard input. The ratings of
+    ROSTER.csv are updated night by night. The evidence against a player grows with each result that
+    is likelier from a sandbagger than from an honest player; when it reaches 1 / alpha, the player
+    is flagged. This is evidence, not a verdict.
     """
 
     examples = """\
@@ -279,10 +285,10 @@ class SandbagWatch(BySystem, Reading):
     chart: Annotated[
         ChartName,
         Says(
-            "The chart that sets the races where the results do not state them.",
+            "The chart that sets the races if the results don't state them.",
             usual="",
-            more="Without it such a match is read as an even race to the winner's games, as "
-            "`validate` does, with a warning.",
+            more="Without it, such a match is read as an even race to the winner's games, with "
+            "a warning, as in `validate`.",
         ),
     ] = None
     scale: Annotated[
@@ -318,29 +324,29 @@ class SandbagWatch(BySystem, Reading):
         DAY_SD,
         Says(
             "Variation of honest players' form from day to day (standard deviation).",
-            more="If their form really varies much, honest players are flagged too often with 0; a "
-            "warning then says so, with the value that fits the results.",
+            more="If their form really varies a lot, honest players are flagged too often with "
+            "0; a warning then says so and gives the value that fits the results.",
         ),
     ] = 0.0
     dumps_in: Annotated[
         tuple[str, ...],
         Field(
             Text("EVENT"),
-            "An event that counts for little: only its matches may be dumped.",
-            usual="each event of the file is tried",
+            "An event that counts for little; only matches in it may be dumped.",
+            usual="each event in the file is tried",
             many=True,
-            more="The 20 with the most matches if there are more.",
+            more="If there are more than 20, only the 20 with the most matches are tried.",
         ),
     ] = ()
     player: Annotated[
         str | None,
         Field(
             Text("NAME"),
-            "Show what each match of one player adds to the evidence.",
+            "Show what each of one player's matches adds to the evidence.",
             more="Case and blanks in the name do not matter.",
         ),
     ] = None
-    plot: Annotated[PlotFile, Says(section="", more="The evidence match by match.")] = None
+    plot: Annotated[PlotFile, Says(section="", more="Draw the evidence match by match.")] = None
 
     def check(self) -> None:
         """Refuse standard input for several files."""

@@ -55,13 +55,13 @@ def _spelled(systems: tuple[System, ...]) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Matchups(Lengths, Starters, Pace):
-    """Find the race for each pair of players tonight, and how often each wins it.
+    """Find the race for each pair of players tonight, and how often each player wins it.
 
     ROSTER.csv has a row for each player, with the columns player and rating and, if you have them,
     standard_error and games; - reads standard input. {chart} looks the races up, {games} or
     {race_to} finds the fairest ones; with both, they are shown side by side. {players_file} says
-    who has entered, if not all of them; those not on the list are new players. Where standard
-    errors are given, the chances are averaged over how far the ratings may be off.
+    who has entered, if not everyone has; players missing from ROSTER.csv are new. If standard
+    errors are given, the chances are averaged over how far off the ratings may be.
     """
 
     examples = """\
@@ -75,9 +75,9 @@ class Matchups(Lengths, Starters, Pace):
         ChartName,
         Says(
             "The league's chart, by name or in a file.",
-            more="Ratings are rounded to whole points to look it up. A chart by skill level, such "
-            "as apa_8ball, is looked up with the column level; the chances come from the ratings "
-            "if there are any, else from the levels.",
+            more="To look up a race, ratings are rounded to whole points. In a chart by skill "
+            "level, such as apa_8ball, races are looked up by the `level` column; the "
+            "chances come from the ratings if there are any, otherwise from the levels.",
         ),
     ] = None
     race_to: Annotated[int | None, RACE_TO] = None
@@ -99,7 +99,7 @@ class Matchups(Lengths, Starters, Pace):
     minutes_per_game: Annotated[
         float | None, MINUTES, Says("Show lengths in minutes, at this average pace.")
     ] = None
-    tables: Annotated[Tables | None, Says("Show the finish time of the round on T tables.")] = None
+    tables: Annotated[Tables | None, Says("Show when the round ends if there are T tables.")] = None
     turnover: Annotated[Turnover, Says(usual="10.8", section="Details")] = None
     form: FormOfDay = None
     seed: Annotated[Seed, Says("The seed of the simulated evenings.")] = 0
@@ -110,8 +110,8 @@ class Matchups(Lengths, Starters, Pace):
             self.refuse("Add a race: {chart} NAME, {games} LO..HI or {race_to} N.")
         if self.results is not None and not has_levels(self.chart):
             self.refuse(
-                "{results} is for chances by skill level. Add a chart of levels, "
-                "such as {chart} apa_8ball."
+                "{results} is for chances based on skill levels. Add a chart of levels, such as "
+                "{chart} apa_8ball."
             )
         paced = self.discipline is not None or self.minutes_per_game is not None
         if self.tables is not None and not paced:
@@ -127,14 +127,15 @@ class Matchups(Lengths, Starters, Pace):
 
 @dataclass(frozen=True, kw_only=True)
 class Simulate(BySystem):
-    """Simulate a season many times: accuracy of ratings, fairness of matches, who gains.
+    """Simulate a season many times: how accurate ratings are, how fair matches are, and who gains.
 
     ROSTER.csv has one player per row, with the columns player and rating (or level) and,
     optionally, standard_error, matches, skill, day_sd, drift, joins, leaves, absence and team; -
-    reads standard input. A player without a skill gets one drawn for each season from rating and
-    standard error. {players_file} says who plays, if not everyone; those not on the list are new
-    players. {compare} puts handicap systems side by side: the same players, nights and luck under
-    each of them. matches.csv is one season in full, which `rate` and `validate` can read.
+    reads standard input. For a player without a skill, one is drawn for each season from the rating
+    and standard error. {players_file} says who plays, if not everyone does; players missing from
+    ROSTER.csv are new. {compare} puts handicap systems side by side, with the same players, nights
+    and luck under each system. matches.csv is one full season, which `rate` and `validate` can
+    read.
     """
 
     examples = """\
@@ -154,9 +155,9 @@ class Simulate(BySystem):
             Named(_systems, "SYSTEM", offers="systems", spelled=_spelled),
             "Compare handicap systems, as {system} names them; the first is the league's own.",
             many=True,
-            more='Or several in one, with commas: `--compare "npl, step 2"`. With {system}, '
-            "that is the first. See [compare two systems]"
-            "(../../how-to/compare-handicap-systems.md).",
+            more='Or give several at once, separated by commas: `--compare "npl, step 2"`. If '
+            "{system} is given, it comes first. See [compare two "
+            "systems](../../how-to/compare-handicap-systems.md).",
         ),
     ] = ()
     players_file: Annotated[
@@ -224,7 +225,7 @@ class Simulate(BySystem):
         Field(Whole(1, 50), "Seasons played in a row, with ratings carried over.", section=_LEAGUE),
     ] = 1
     newcomers: Annotated[
-        float, Field(SHARE_OF, "The share of players who are new in each season.", section=_LEAGUE)
+        float, Field(SHARE_OF, "The share of players who are new each season.", section=_LEAGUE)
     ] = 0.2
     sandbaggers: Annotated[
         float,
@@ -236,13 +237,13 @@ class Simulate(BySystem):
         ),
     ] = 0.05
     sets: Annotated[
-        int, Field(Whole(1, 15), "Matches of two teams on a night.", section=_LEAGUE)
+        int, Field(Whole(1, 15), "Matches between two teams in one night.", section=_LEAGUE)
     ] = 5
     cap: Annotated[
         float | None,
         Field(
             Number(0.0, 1000.0, " isn't a sum of levels, such as 23"),
-            "The most that the levels of a team's line-up may add up to.",
+            "The most that the levels of a team's lineup may add up to.",
             section=_LEAGUE,
             metavar="LEVELS",
         ),
@@ -251,7 +252,7 @@ class Simulate(BySystem):
         bool,
         Field(
             Flag(),
-            "Captains field their best line-up by the published numbers, not just anyone present.",
+            "Captains field their best lineup by the published numbers, not just anyone present.",
             section=_LEAGUE,
             more="Much slower: a few tenths of a second per season.",
         ),
@@ -272,7 +273,7 @@ class Simulate(BySystem):
             "Play rack by rack instead of drawing the winner of each match.",
             section=_WORK,
             old=("racks",),
-            more="The same distribution, but slower.",
+            more="The distribution is the same, but this is slower.",
         ),
     ] = False
     no_matches: Annotated[
@@ -281,7 +282,7 @@ class Simulate(BySystem):
             Flag(),
             "Don't write matches.csv and truth.csv.",
             section=_WORK,
-            more="They take long for a large league.",
+            more="For a large league, writing them takes long.",
         ),
     ] = False
     seed: Annotated[Seed, Says("The same seed gives the same files.", section=_WORK)] = 1

@@ -42,7 +42,7 @@ class Players(Question):
         tuple[str, ...],
         Field(
             Named(str, "[A B]", offers="players", number=True),
-            "The ratings of A and B.",
+            "A's and B's ratings.",
             argument=True,
             many=True,
         ),
@@ -53,9 +53,9 @@ class Players(Question):
             File("RATINGS.csv"),
             "Look A and B up by name in this list of ratings, with its scale and errors.",
             option="from",
-            more="A [list](../files.md#roster). Everything is averaged over the errors that it "
-            "states, as in [matchups](league.md#evenbreak-matchups); JSON has `player_a` and "
-            "`player_b` too.",
+            more="The file is a [list](../files.md#roster). Everything is averaged over the "
+            "errors stated in it, as in [matchups](league.md#evenbreak-matchups); JSON "
+            "output also has `player_a` and `player_b`.",
         ),
     ] = None
     scale: ScaleOf = None
@@ -64,8 +64,9 @@ class Players(Question):
         Says(
             "The league's chart, by name or in a file; with a chart by skill level, such as "
             "apa_8ball, A and B are levels.",
-            more="It sets the race where none is given. The names of a list need its column level; "
-            "the chances come from its ratings if there are any, else from the levels.",
+            more="The chart sets the race if none is given. If A and B are names in a list, the "
+            "list needs a `level` column; the chances come from its ratings if there are "
+            "any, otherwise from the levels.",
         ),
     ] = None
     results: LevelResults = None
@@ -139,8 +140,8 @@ class Players(Question):
         """Refuse a chart that does not go with the players, and what does not go with it."""
         if self.results is not None and not has_levels(self.chart):
             self.refuse(
-                "{results} is for chances by skill level. Add a chart of levels, "
-                "such as {chart} apa_8ball."
+                "{results} is for chances based on skill levels. Add a chart of levels, such as "
+                "{chart} apa_8ball."
             )
         if self.chart is None:
             return
@@ -173,8 +174,8 @@ class Players(Question):
         for word in self.ratings:
             if not NUMBER.fullmatch(word) or float(word) not in levels:
                 self.refuse(
-                    "{word} isn't a skill level of {name}, whose levels are {levels}; "
-                    "for ratings leave {chart} out, or give one of rating differences",
+                    "{word} isn't a skill level in {name}, whose levels are {levels}; for "
+                    "ratings leave {chart} out, or give a chart of rating differences",
                     word=word,
                     levels=", ".join(map(str, levels)),
                     name=name,
@@ -210,10 +211,10 @@ class Played(Question):
     """The match: a race or n-ahead, perhaps in sets, perhaps from a score on."""
 
     race: Annotated[
-        tuple[int, int] | None, Field(RACE, "A needs M games, B needs N; 7 means 7:7.")
+        tuple[int, int] | None, Field(RACE, "A needs M games, and B needs N; 7 means 7:7.")
     ] = None
     ahead: Annotated[
-        tuple[int, int] | None, Field(RACE, "A wins by leading by M games, B by leading by N.")
+        tuple[int, int] | None, Field(RACE, "A wins with a lead of M games, B with a lead of N.")
     ] = None
     set_: Annotated[
         tuple[int, int] | None,
@@ -223,8 +224,8 @@ class Played(Question):
         tuple[int, int] | None,
         Field(
             SCORE,
-            "The score so far: I for A, J for B.",
-            more="Games on the wire, or a match under way; sets with `--set`.",
+            "The score so far: A has I, and B has J.",
+            more="For games on the wire, or a match under way; with `--set`, it counts sets.",
         ),
     ] = None
     win_by: Annotated[
@@ -253,8 +254,8 @@ class Odds(Players, Played):
     """Give the odds of a match, and how long it lasts.
 
     Describe the players by two ratings A B, by two skill levels with {chart}, by two names with
-    {from_file}, by {p}, or by {p1}, {p2} and {breaks}; the match by {race} or {ahead}, perhaps in
-    sets, or by the {chart}.
+    {from_file}, by {p}, or by {p1}, {p2} and {breaks}; describe the match by {race} or {ahead},
+    perhaps in sets, or by the {chart}.
     """
 
     examples = """\
@@ -278,7 +279,7 @@ class Odds(Players, Played):
         """Refuse ways to the answer that do not go with the players."""
         if self.exact and self.ratings:
             self.refuse(
-                "{exact} needs the chances themselves: give {p}, or {p1} and {p2}, not ratings"
+                "{exact} needs the chances themselves. Give {p}, or {p1} and {p2}, not ratings."
             )
         if self.exact and self.via is not None:
             self.refuse("{exact} has a way of its own. Leave {via} out.")
@@ -355,10 +356,10 @@ def winners(text: str) -> list[int]:
 
 @dataclass(frozen=True, kw_only=True)
 class Live(Players, Played):
-    """Follow a match under way: the odds now, the worth of the next game, the turning point.
+    """Follow a match under way: the odds now, what the next game is worth, and the turning point.
 
-    Describe the players and the match as for `odds`, and the score by {racks}, by {score},
-    or by both: the racks are then those played since that score.
+    Describe the players and the match as for `odds`. Give the score by {racks}, by {score}, or by
+    both; {racks} then starts from that score.
     """
 
     examples = """\
@@ -379,7 +380,7 @@ class Live(Players, Played):
         Field(Flag(), "Add the comeback table: the odds at every possible score.", old=("table",)),
     ] = False
     form: FormOfDay = None
-    plot: Annotated[PlotFile, Says(more="The match so far; needs `--racks`.")] = None
+    plot: Annotated[PlotFile, Says(more="Draw the match so far; needs `--racks`.")] = None
 
     def check(self) -> None:
         """Refuse what needs something else."""
@@ -427,7 +428,7 @@ class Compare(Players):
         ),
     ] = None
     plot: Annotated[
-        PlotFile, Says(more="A's chance in each format against the chance in a game.")
+        PlotFile, Says(more="Plot A's chance in each format against the chance in a game.")
     ] = None
 
     @classmethod

@@ -43,10 +43,10 @@ class _ScoreOrName(Named):
 PLAYER = Text("PLAYER")
 """The name of somebody who has entered; on the terminal its beginning will do."""
 Winner: TypeAlias = Annotated[
-    str | None, Field(PLAYER, "The winner, in place of a score; with {games}.")
+    str | None, Field(PLAYER, "The winner, instead of a score; needs {games}.")
 ]
 Games: TypeAlias = Annotated[
-    int | None, Field(Whole(0, LONGEST_RACE - 1), "The games of the loser, with {winner}.")
+    int | None, Field(Whole(0, LONGEST_RACE - 1), "Games the loser has won; needs {winner}.")
 ]
 Match: TypeAlias = Annotated[
     str,
@@ -66,7 +66,7 @@ Result: TypeAlias = Annotated[
     tuple[int, int] | str,
     Field(
         _ScoreOrName(score_or_name, "SCORE"),
-        "The games of each player, the first one's first; in a chip tournament the winner's name.",
+        "Games each player has won, first player first; in a chip tournament, the winner's name.",
         argument=True,
     ),
 ]
@@ -78,7 +78,7 @@ Rating: TypeAlias = Annotated[
     ),
 ]
 Lots: TypeAlias = Annotated[
-    Seed, Says("The seed of the lots.", usual="a new one each time", rare=False)
+    Seed, Says("The seed for drawing lots.", usual="a new one each time", rare=False)
 ]
 
 
@@ -97,10 +97,10 @@ class Entry(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class MakeDraw(Entry):
-    """Make the draw as {seeding} of evenbreak tournament new set it.
+    """Make the draw in the way that {seeding} of evenbreak tournament new set.
 
-    Later it draws the next stage: the next round of a Swiss once a round is over, or, with
-    {placement} redraw, the losers' side's qualifiers for the knockout.
+    Later, the command draws the next stage: the next Swiss round once a round is over or, with
+    {placement} redraw, the knockout places of the losers' side's qualifiers.
     """
 
     seed: Annotated[Lots | None, Says("The seed of a blind draw.")] = None
@@ -113,9 +113,9 @@ class MakeDraw(Entry):
 class Call(TimedUnderWay):
     """Call a match to a table, or move it; without MATCH, call the next to all free tables.
 
-    In a chip tournament players come to the tables by themselves, in the order of the line.
+    In a chip tournament players go to the tables without being called, in the order of the line.
 
-    The times of calls and results show how fast this evening is, and so when it ends.
+    The times of calls and results show how fast this evening is going, and so when it will end.
     """
 
     match: Annotated[Match | None, Says(metavar="[MATCH]")] = None
@@ -136,7 +136,7 @@ class Call(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class Uncall(TimedUnderWay):
-    """Take a match off its table; it keeps its score, and can be called again later."""
+    """Take a match off its table; it keeps its score and can be called again later."""
 
     match: Match
 
@@ -169,10 +169,10 @@ class Ended(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class EnterResult(Ended):
-    """Enter the result of a match: the games of its first player, a hyphen, those of the second.
+    """Enter a match result: games the first player won, a hyphen, and games the second won.
 
-    In a chip tournament the number of the table and the winner's name will do; a first name is
-    enough if no other player has it.
+    In a chip tournament, give the table number and the winner's name; a first name is enough if no
+    other player has it.
 
     If a forfeit was meant, use evenbreak tournament forfeit.
     """
@@ -187,7 +187,7 @@ class EnterResult(Ended):
 
 @dataclass(frozen=True, kw_only=True)
 class EnterScore(TimedUnderWay):
-    """Enter the score of a match in play; the odds and the finish go by it from then on.
+    """Enter the score of a match in play; it then counts in the odds and the finish time.
 
     It's optional: the result alone is enough.
     """
@@ -195,7 +195,7 @@ class EnterScore(TimedUnderWay):
     match: Match
     score: Annotated[
         tuple[int, int],
-        Field(SCORE, "The games of each player so far.", metavar="SCORE", argument=True),
+        Field(SCORE, "Games each player has won so far.", metavar="SCORE", argument=True),
     ]
 
 
@@ -203,13 +203,13 @@ class EnterScore(TimedUnderWay):
 class Correct(Ended, Entry):
     """Correct the result of a match, at any time.
 
-    If others move on because of it, later matches that the wrong players have played are open
-    again, and those that they are playing leave their tables: it is then refused without {yes} or
+    If this changes who moves on, later matches that the wrong players have played are open again,
+    and matches they are playing leave their tables. The correction is then refused without {yes} or
     {follow}. Results and scores are kept, and count again if the correction is undone or corrected.
 
-    In a chip tournament name the winner, and the rack or, for the last rack on a table, the table.
-    The chip goes back to its owner; racks that were played since still count, unless a player had
-    no chips left by then.
+    In a chip tournament, name the winner and the rack; for a table's last rack, name the table
+    instead. The chip goes back to its owner. Racks played since then still count, unless a player
+    had no chips left by then.
     """
 
     examples = """\
@@ -230,7 +230,7 @@ class Correct(Ended, Entry):
 class Stand(Entry):
     """Keep the result of a match that was played before a correction sent someone else into it.
 
-    The corrected score is kept, but those who have played on stay where they are.
+    The corrected score is kept, but players who have played on stay where they are.
     """
 
     match: Match
@@ -240,9 +240,9 @@ class Stand(Entry):
 class Change(Entry):
     """Change the tables, the pace, or the races of matches that haven't started.
 
-    A match on a table that is closed goes back to the queue, and keeps its score.
+    If a table is closed, its match goes back to the queue and keeps its score.
 
-    What it would bring is in evenbreak tournament time, under What if.
+    To see what a change would do, look under What if in evenbreak tournament time.
     """
 
     examples = """\
@@ -266,9 +266,7 @@ class Change(Entry):
     ] = None
     streamed: Annotated[
         tuple[str, ...] | None,
-        Field(
-            Named(names_in, "TABLE,...", number=True), "Tables that are shown on a stream, or none."
-        ),
+        Field(Named(names_in, "TABLE,...", number=True), "Tables shown on a stream, or none."),
     ] = None
     slower: Annotated[
         float | None,
@@ -280,8 +278,8 @@ class Change(Entry):
 class Undo(Entry):
     """Undo the director's last entry; run it again to undo the one before.
 
-    Scores that players tap on their phones stay. What is older, or was entered by both players, is
-    taken back only if {entry} names it and nothing follows from it.
+    Scores that players tap on their phones stay. An older entry, or one that both players made, is
+    taken back only if {entry} names it and nothing depends on it.
     """
 
     entry: Annotated[
@@ -298,11 +296,11 @@ class Undo(Entry):
 class LetIn(TimedUnderWay):
     """Enter PLAYER: before the draw, or later in place of an open bye.
 
-    In a chip tournament they get chips by the chart and go to the end of the line.
+    In a chip tournament they get the chart's number of chips and go to the end of the line.
     """
 
     player: Annotated[NewName, Says(metavar="PLAYER")]
-    rating: Annotated[Rating, Says(usual="that of a new player")] = None
+    rating: Annotated[Rating, Says(usual="a new player's rating")] = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -318,8 +316,8 @@ class Edit(TimedUnderWay):
 class Drop(Entry):
     """Withdraw PLAYER: they forfeit all their remaining matches.
 
-    In the next rounds of a Swiss they are not paired. In a chip tournament they are out, and the
-    next in the line takes their place at the table.
+    In a Swiss they are not paired in later rounds. In a chip tournament they are out, and the next
+    in the line takes their place at the table.
     """
 
     player: Player
@@ -340,8 +338,8 @@ class Forfeit(Entry):
 class TieBreak(TimedUnderWay):
     """Break the ties of a round robin when all its matches are played.
 
-    Players are ranked by matches won, and those who are level by the matches among them. Who is
-    still level is ranked by games won minus games lost, and finally by lot.
+    Players are ranked by matches won; players who are level are then ranked by the matches between
+    them, by games won minus games lost, and finally by lot.
     """
 
     lot: Annotated[bool, Field(Flag(), "Break ties by lot alone; games don't count.")] = False
@@ -396,7 +394,7 @@ class Substitute(Entry):
 
     player: Player
     to: NewName
-    rating: Annotated[Rating, Says(usual="that of a new player")] = None
+    rating: Annotated[Rating, Says(usual="a new player's rating")] = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -409,16 +407,18 @@ class Swap(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class CheckIn(TimedUnderWay):
-    """Note that PLAYER is here, or has paid."""
+    """Note that PLAYER is here or has paid."""
 
     examples = """\
   evenbreak tournament check-in ann --paid yes
 """
     player: Player
     arrived: Annotated[
-        bool | None, Field(YES, "Whether they're here.", usual="yes without {paid}")
+        bool | None, Field(YES, "Whether the player is here.", usual="yes without {paid}")
     ] = None
-    paid: Annotated[bool | None, Field(YES, "Whether they have paid.", usual="as before")] = None
+    paid: Annotated[bool | None, Field(YES, "Whether the player has paid.", usual="as before")] = (
+        None
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -27,9 +27,9 @@ EarlierNights: TypeAlias = Annotated[
         usual="the usual pace",
         many=True,
         section="Details",
-        more="Only nights of the same discipline count. A file also knows the nights that its own "
-        "tournament was planned by, so that the last one will do. How it is done is in "
-        "[Brackets](../../explanation/brackets.md#time).",
+        more="Only nights of the same discipline count. A file also remembers the nights used "
+        "to plan its own tournament, so the latest file is enough. "
+        "[Brackets](../../explanation/brackets.md#time) explains the method.",
     ),
 ]
 

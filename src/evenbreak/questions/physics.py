@@ -75,7 +75,7 @@ def place(text: str) -> tuple[float, float]:
 
 @dataclass(frozen=True, kw_only=True)
 class Units(Question):
-    """The units of what is typed and of the answer."""
+    """Units for input and output."""
 
     metric: Annotated[
         bool, Field(Flag(), "Read and print centimeters, grams and meters per second.")
@@ -100,8 +100,8 @@ class BallFriction(Question):
         str,
         Field(
             Choice(("limited", "shepard")),
-            "limited: it ends when the balls no longer slip; shepard: the law of the source text, "
-            "without that limit.",
+            "limited: throw stops growing when the balls no longer slip; shepard: the source "
+            "text's law, without that limit.",
         ),
     ] = "limited"
 
@@ -114,26 +114,28 @@ class Hit(Units, BallFriction):
         float,
         Field(
             Number(-90.0, 90.0, example="30", metavar="DEGREES"),
-            "Cut angle, to the left below 0; 90 is the limit of thin cuts.",
+            "Cut angle; negative for a cut to the left. 90 is the limit for thin cuts.",
         ),
     ]
-    topspin: Annotated[float, Field(SPIN, "1 is natural roll, 0 stun, below 0 draw.")] = 1.0
+    topspin: Annotated[
+        float, Field(SPIN, "1 is natural roll, 0 is stun, and a negative number is draw.")
+    ] = 1.0
     english: Annotated[
         tuple[float, str] | None,
         Field(
             Named(english_in, "ENGLISH", spelled=english_words),
             'Sidespin in players\' words, such as "1 tip outside", "1/2 tip left" or "50% right".',
-            more="1.4 tips are 100%, more than which the tip usually slips.",
+            more="1.4 tips are 100%; with more, the tip usually slips.",
         ),
     ] = None
     side: Annotated[
         float,
-        Field(SPIN, "Sidespin as J: right english above 0, left english below; 1.25 is 100%."),
+        Field(SPIN, "Sidespin as J: positive for right english, negative for left; 1.25 is 100%."),
     ] = 0.0
     speed: Annotated[
         float | None,
         Field(
-            SPEED, "Speed of the cue ball at the hit; friction then falls with it ({mu} by-speed)."
+            SPEED, "Cue ball speed at the hit; friction then falls as speed rises ({mu} by-speed)."
         ),
     ] = None
 
@@ -160,7 +162,7 @@ class Hit(Units, BallFriction):
 
     @property
     def sidespin(self) -> float:
-        """J_z, above 0 for right english."""
+        """J_z; positive for right english."""
         if self.english is None:
             return self.side
         size, way = self.english
@@ -189,17 +191,17 @@ class Equipment(Question):
         Field(
             Number(0.01, 10.0, example="0.6", metavar="MU"),
             "Static friction between tip and ball.",
-            usual="0.577, a miscue beyond half the radius",
+            usual="0.577, which means a miscue beyond half the radius",
             section=_EQUIPMENT,
         ),
     ] = 1.0 / math.sqrt(3.0)
 
 
 SideOffset: TypeAlias = Annotated[
-    float, Field(OFFSET, "How far right of center the tip hits; below 0, left.")
+    float, Field(OFFSET, "How far right of center the tip hits; negative for left.")
 ]
 Offset: TypeAlias = Annotated[
-    float, Field(OFFSET, "How far above center the tip hits, in ball radii; below 0 for draw.")
+    float, Field(OFFSET, "How far above center the tip hits, in ball radii; negative for draw.")
 ]
 
 
@@ -236,9 +238,9 @@ class TableSpeed(Units):
 class Throw(Hit):
     """Find how far friction throws the object ball off the line of centers.
 
-    Throw above 0 is forward: it makes the cut fuller, and the ball misses thick. Hard shots
-    are thrown less than soft ones: give {speed} to allow for that. Without it, friction is
-    {mu} at any speed.
+    Positive throw is forward: it makes the cut fuller, and the ball misses thick. Hard shots are
+    thrown less than soft ones: give {speed} to allow for that. Without it, friction is {mu} at any
+    speed.
     """
 
     examples = """\
@@ -252,10 +254,10 @@ class Throw(Hit):
 class Aim(Hit):
     """Find where to aim so that the thrown object ball goes in.
 
-    {cut} is the angle at which the object ball has to leave. The answer is a point beside
-    the middle of the pocket: aim at it as if there were no throw. The rule of thumb is
-    friction x distance x sine of the cut angle, for a cue ball that rolls without english.
-    Hard shots are thrown less than soft ones: give {speed} to allow for that.
+    {cut} is the angle at which the object ball has to leave. The answer is a point beside the
+    middle of the pocket: aim at it as if there were no throw. For a cue ball that rolls without
+    english, the rule of thumb is friction x distance x sine of the cut angle. Hard shots are thrown
+    less than soft ones: give {speed} to allow for that.
     """
 
     examples = """\
@@ -268,7 +270,7 @@ class Aim(Hit):
         float,
         Field(
             Named(squirt_in, "SHAFT", spelled=lambda most: f"{most:g}", number=True),
-            "Squirt: that of a regular or a low-deflection shaft (low), or your own, in degrees at "
+            "Squirt: regular for a regular shaft, low for a low-deflection shaft, or degrees at "
             "100% english.",
             more="`regular` is 2.5 degrees, `low` 1.8; `0` leaves squirt out.",
         ),
@@ -293,7 +295,7 @@ class Deflect(Hit):
 
 @dataclass(frozen=True, kw_only=True)
 class Strike(Units, Equipment):
-    """Find the spin and speed that a hit off center gives, and whether it is a miscue.
+    """Find the spin and speed from an off-center hit, and whether it is a miscue.
 
     Offsets are in ball radii: a hit 0.4 above the center gives natural roll at once.
     """
@@ -321,7 +323,7 @@ class Strike(Units, Equipment):
         """Refuse a distance without a speed, and a tip that misses the ball."""
         if self.distance is not None and self.stick_speed is None:
             self.refuse(
-                "{distance} {far:g} needs the speed of the cue. Give {stick_speed}.",
+                "{distance} {far:g} needs the cue's speed. Give {stick_speed}.",
                 far=self.distance,
             )
         if self.off_center >= 1.0:
@@ -341,10 +343,10 @@ class Strike(Units, Equipment):
 
 @dataclass(frozen=True, kw_only=True)
 class BreakCue(Units):
-    """Find the weight of the cue that breaks best.
+    """Find the cue weight that breaks best.
 
-    The best cue passes the largest share of the stroke's energy, that of arm and cue
-    together, on to the cue ball. The forearm is taken as a uniform rod swinging from the elbow.
+    The best cue passes on to the cue ball the largest share of the stroke's energy, which is the
+    energy of arm and cue together. The forearm is treated as a uniform rod swinging from the elbow.
     """
 
     examples = """\
@@ -356,7 +358,7 @@ class BreakCue(Units):
         float,
         Field(
             Number(0.0, 1e6, example="36", metavar="WEIGHT"),
-            "Weight of forearm and hand; of the whole arm if you break from the shoulder.",
+            "Weight of your forearm and hand, or of your whole arm if you break from the shoulder.",
         ),
     ]
     ball: BallWeight = None
@@ -367,9 +369,9 @@ class BreakCue(Units):
 class Shot(Units, BallFriction, Equipment):
     """Trace a shot: where both balls go, and where they stop.
 
-    Say where the object ball is with {cut} and {distance} (the shot then goes along the
-    middle of the table), or give {cue_ball}, {object_ball} and {pocket}, and the shot is
-    aimed there. A ball is followed up to its first cushion.
+    Place the object ball with {cut} and {distance} (the shot then goes along the middle of the
+    table). Or give {cue_ball}, {object_ball} and {pocket}, and the shot is aimed at that pocket. A
+    ball is followed up to its first cushion.
     """
 
     examples = """\
@@ -380,7 +382,8 @@ class Shot(Units, BallFriction, Equipment):
     cut: Annotated[
         float | None,
         Field(
-            Number(-89.0, 89.0, example="30", metavar="DEGREES"), "Cut angle, to the left below 0."
+            Number(-89.0, 89.0, example="30", metavar="DEGREES"),
+            "Cut angle; negative for a cut to the left.",
         ),
     ] = None
     distance: Annotated[float | None, Field(LENGTH, "Between the centers of the two balls.")] = None
@@ -393,7 +396,8 @@ class Shot(Units, BallFriction, Equipment):
         ),
     ] = None
     object_ball: Annotated[
-        tuple[float, float] | None, Field(Named(place, "X,Y"), "Where it is, in place of {cut}.")
+        tuple[float, float] | None,
+        Field(Named(place, "X,Y"), "The cue ball's position, instead of {cut}."),
     ] = None
     pocket: Annotated[
         str | None,
@@ -403,7 +407,7 @@ class Shot(Units, BallFriction, Equipment):
         ),
     ] = None
     speed: Annotated[float | None, Field(PACE, "Speed of the cue ball just after the tip.")] = None
-    stick_speed: Annotated[float | None, Field(PACE, "Speed of the cue, in place of {speed}.")] = (
+    stick_speed: Annotated[float | None, Field(PACE, "Speed of the cue, instead of {speed}.")] = (
         None
     )
     offset: Offset = 0.0
@@ -447,5 +451,5 @@ class Shot(Units, BallFriction, Equipment):
             )
         if (self.speed is None) == (self.stick_speed is None):
             self.refuse(
-                "give either {speed}, that of the cue ball, or {stick_speed}, that of the cue"
+                "give either {speed}, the cue ball's speed, or {stick_speed}, the cue's speed"
             )

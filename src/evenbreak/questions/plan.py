@@ -41,14 +41,14 @@ class TournamentPlan(Format, Question):
             label=say("Format"),
             titles=FORMAT_TITLES,
             metavar="FORMAT",
-            more="`double` elimination, `single` elimination, `pods` (double elimination in pods, "
-            "then single), `groups` (round robin in groups, then knockout), `swiss` (needs "
-            "`pip install 'evenbreak[swiss]'`), `round-robin`, `consolation` (those who lose their "
-            "first match play a second event), `king-of-the-hill` (the first two of the list "
-            "play, the winner meets the third, and so on), or `chips`, which only "
-            "`tournament new` takes: it [runs a chip night]"
-            "(../../how-to/run-a-chip-tournament.md#run-the-night). For its odds before the first "
-            "rack, see [evenbreak chips](#evenbreak-chips).",
+            more="`double` elimination, `single` elimination, `pods` (double elimination in "
+            "pods, then single), `groups` (round robin in groups, then knockout), `swiss` "
+            "(needs `pip install 'evenbreak[swiss]'`), `round-robin`, `consolation` "
+            "(those who lose their first match play a second event), `king-of-the-hill` "
+            "(the first two in the list play, the winner meets the third, and so on), or "
+            "`chips`, which only `tournament new` takes: it [runs a chip "
+            "night](../../how-to/run-a-chip-tournament.md#run-the-night). For the odds "
+            "before the first rack, see [evenbreak chips](#evenbreak-chips).",
         ),
     ] = "double"
     race: EvenRace = None

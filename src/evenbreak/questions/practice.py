@@ -47,9 +47,9 @@ def chances_in(text: str) -> tuple[float, ...]:
 class DrillPlayed(Question):
     """Find where a progressive drill settles, and which level to practice.
 
-    A success leads one level up, a miss one level down. Describe the drill by {p}, {success} or
-    {log}. LOG.csv has the columns level and success, and session or date if there are several
-    sessions, and drill if there are several drills.
+    A success moves you one level up, and a miss moves you one level down. Describe the drill by
+    {p}, {success} or {log}. LOG.csv has the columns level and success; also session or date if
+    there are several sessions, and drill if there are several drills.
     """
 
     examples = """\
@@ -61,16 +61,16 @@ class DrillPlayed(Question):
     p: Annotated[
         Chance,
         Says(
-            "The chance of making a shot; level i takes i - 1 in a row, or i in 8-ball.",
-            more="So level i succeeds with chance P^(i−1), in 8-ball P^i.",
+            "The chance of making a shot; level i takes i - 1 in a row (i in 8-ball).",
+            more="So level i succeeds with probability P^(i−1), or P^i in 8-ball.",
         ),
     ] = None
     game: Annotated[
         Literal["9-ball", "8-ball"] | None,
         Field(
             Choice(("9-ball", "8-ball")),
-            "The drill of {p}: i balls at level i, or in 8-ball i balls of each group and the "
-            "8-ball.",
+            "The drill that {p} is for: i balls at level i or, in 8-ball, i balls of each group "
+            "and the 8-ball.",
             usual="9-ball",
         ),
     ] = None
@@ -86,19 +86,19 @@ class DrillPlayed(Question):
         Field(
             Whole(1, MOST_LEVELS),
             "Number of levels.",
-            usual="9 with {p}, 7 in 8-ball, the highest in the log with {log}",
+            usual="9 with {p}, 7 in 8-ball, and the log's highest level with {log}",
         ),
     ] = None
     drill: DrillName = None
     seed: Annotated[
-        Seed | None, Says("The seed of the simulations that test a log.", usual="1", rare=False)
+        Seed | None, Says("The seed of the simulations used to test a log.", usual="1", rare=False)
     ] = None
     via: Annotated[ByWay, Says(rare=False)] = None
     plot: Annotated[
         PlotFile,
         Says(
-            more="The fraction of attempts at each level, for a log compared with the attempts so "
-            "far."
+            more="Draw the fraction of attempts at each level; for a log, compared with the "
+            "attempts so far."
         ),
     ] = None
 
@@ -119,16 +119,16 @@ class DrillPlayed(Question):
         if self.log is None and self.drill is not None:
             self.refuse("{drill} names a drill of {log}. Leave it out.")
         if self.log is not None and self.via is not None:
-            self.refuse("{via} is for a drill of known chances. Leave it out with {log}.")
+            self.refuse("{via} is for a drill with known chances. Leave it out with {log}.")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Scores(Question):
     """Find out from your practice whether you are getting better, and what to practice next.
 
-    SCORES.csv has a column score, a row for each score of a drill, or the columns shot, made and
-    tried, a row for each shot of a day; and the date, if known. With {new}: was one more score
-    luck? With {versus}: did something help? - reads standard input.
+    SCORES.csv has a score column, with a row for each drill score; or the columns shot, made and
+    tried, with a row for each shot on each day. Add a date column if you can. With {new}: was one
+    more score luck? With {versus}: did something help? - reads standard input.
     """
 
     examples = """\
@@ -194,7 +194,7 @@ class Runs(Question):
                 f" isn't a number of balls per inning from 0 to {MOST_BALLS}",
                 metavar="BALLS",
             ),
-            "The player's average, in balls an inning.",
+            "The player's average, in balls per inning.",
         ),
     ] = None
     p: Annotated[Chance, Says("Or the chance that the player makes a shot.", more="Below 1.")] = (
@@ -204,9 +204,14 @@ class Runs(Question):
         Safety, Says(more="`--mean` is then the average against such an opponent.")
     ] = 1.0
     innings: Annotated[
-        int, Field(Whole(), "Show the score of M innings instead of the run in one.", metavar="M")
+        int,
+        Field(
+            Whole(), "Show the score over M innings instead of the run in one inning.", metavar="M"
+        ),
     ] = 1
-    at_least: Annotated[int | None, Field(Whole(0, MOST_BALLS), "The chance of N or more.")] = None
+    at_least: Annotated[
+        int | None, Field(Whole(0, MOST_BALLS), "Also show the chance of N or more.")
+    ] = None
     between: Annotated[
         tuple[int, int] | None,
         Field(
@@ -219,7 +224,7 @@ class Runs(Question):
                 metavar="LO..HI",
                 rising=True,
             ),
-            "The chance of LO to HI.",
+            "Also show the chance of LO to HI.",
         ),
     ] = None
     over: Annotated[
@@ -232,15 +237,15 @@ class Runs(Question):
                 metavar="N",
             ),
             "A bet on more than N, such as 20 or 20.5.",
-            more="The chance of winning it, and of losing it.",
+            more="Its chances of winning and losing are shown.",
         ),
     ] = None
     plot: Annotated[
         PlotFile,
         Says(
             section="",
-            more="The probability of each score, with mean, median and mode; the scores asked for "
-            "are shaded.",
+            more="Draw the probability of each score, with mean, median and mode; the scores "
+            "asked for are shaded.",
         ),
     ] = None
 

@@ -30,9 +30,9 @@ class Publish(Results, Lengths):
     """Publish a league as a static site: standings, ratings, races, a page for each player.
 
     RESULTS.csv is what `evenbreak report` reads; several files are read as one. The site is a
-    folder of plain files, for any web host, a memory stick or a phone: it fetches nothing from
-    elsewhere, and works without a server. In a league's folder its league.toml gives what is left
-    out, and how single players are named. Files that an earlier run made and that are no longer
+    folder of plain files, for any web host, a memory stick or a phone. It fetches nothing from
+    other sites and works without a server. In a league's folder, league.toml fills in what you
+    leave out and says how single players are named. Files from an earlier run that are no longer
     needed are removed. The same results give the same bytes.
     """
 
@@ -42,10 +42,13 @@ class Publish(Results, Lengths):
   evenbreak publish season.csv --names initials --color "#1b6e53" --logo logo.png
   evenbreak publish season.csv --chart apa_8ball --tournaments nights
 """
-    out: Annotated[OutFolder, Says("The folder of the site; created if needed.")] = "site"
+    out: Annotated[OutFolder, Says("The site's folder; created if needed.")] = "site"
     scale: Annotated[
         ScaleOf,
-        Says(usual="that of {roster} or the chart; else npl, and fargo for skill levels", more=""),
+        Says(
+            usual="the scale of {roster} or the chart; otherwise npl, or fargo for skill levels",
+            more="",
+        ),
     ] = None
     race: EvenRace = None
     chart: Annotated[
@@ -53,8 +56,8 @@ class Publish(Results, Lengths):
         Says(
             "The league's chart, by name or in a file.",
             usual="the fairest races",
-            more="A chart of skill levels reads them from {roster}, or else each player's last one "
-            "in the results.",
+            more="With a chart of skill levels, they are read from {roster}; otherwise each "
+            "player's last level in the results is used.",
         ),
     ] = None
     roster: Annotated[
@@ -66,16 +69,16 @@ class Publish(Results, Lengths):
         str | None,
         Field(
             File("FIXTURES.csv"),
-            "Who plays who, as `evenbreak league fixtures` writes it; the site has the matches "
-            "that are still to be played.",
+            "Who plays who, in a file written by `evenbreak league fixtures`; the site shows "
+            "the matches still to be played.",
         ),
     ] = None
     tournaments: Annotated[
         str | None,
         Field(
             Named(folder, "DIR", offers="files"),
-            "A folder with tournaments that `evenbreak tournament` or the page has kept; those "
-            "that are over are shown with their brackets.",
+            "A folder of tournaments that `evenbreak tournament` or the page has saved; "
+            "finished ones are shown with their brackets.",
         ),
     ] = None
     teams: Annotated[TeamsFile, Says(section=_TABLE)] = None
@@ -92,10 +95,11 @@ class Publish(Results, Lengths):
         str | None,
         Field(
             values.COLOR,
-            "The color of the site, such as #1b6e53.",
+            "The site's color, such as #1b6e53.",
             usual="blue",
             section=_LOOK,
-            more="Where it could not be read, it is made darker by day and lighter by night.",
+            more="Where text in this color would be hard to read, the color is darkened by day "
+            "and lightened by night.",
         ),
     ] = None
     logo: Annotated[

@@ -64,7 +64,7 @@ class Assumed(Question):
                 wanted="a number of days from 0.01 to 1,000,000, such as 180",
                 metavar="DAYS|none",
             ),
-            "After this many days a match counts half; none: no fading.",
+            "After this many days, a match counts half as much; none: no fading.",
             usual="whatever clearly predicts better; none with {prior} POINTS",
             section=_RATING,
         ),
@@ -77,9 +77,9 @@ class Assumed(Question):
             "season, or any list of rated players.",
             section=_RATING,
             more="See [the file](../files.md#ratings-to-begin-from). Ratings without a standard "
-            "error count as far as they help to predict, those from more games more; with "
-            "`--prior POINTS` they are taken to be off by what their games leave open, or half of "
-            "what doubles the odds.",
+            "error count as much as they help prediction, and ratings from more games "
+            "count more. With `--prior POINTS` they are assumed to be off by what their "
+            "games leave open, or by half of what doubles the odds.",
         ),
     ] = None
 
@@ -91,7 +91,7 @@ class HowToRate(Assumed, ByChart):
     as_of: Annotated[
         Day,
         Says(
-            "Rate as of this day, without later matches.",
+            "Rate as of this day, leaving out later matches.",
             usual="the last date",
             section=_RATING,
             more="Such as 2025-03-01, 1.3.2025, or 3/1/2025 with `--dates mdy`. Ages are counted "
@@ -109,7 +109,7 @@ class Rate(Results, HowToRate):
     """Rate players from their results, and show how certain each rating is.
 
     RESULTS.csv has one match per row, with the columns player_a, player_b, score_a and score_b; or
-    winner, loser and score, such as 7-5. Where the score is not known, race and winner will do;
+    winner, loser and score, such as 7-5. If the score isn't known, race and winner are enough;
     racks (who won each rack, such as abba) can replace the score. It may also be a workbook (.xlsx,
     .ods) or a tournament saved from CueScore, Challonge or brackets-manager. - reads standard
     input. Several files, such as one for each season, are rated as one.
@@ -136,11 +136,11 @@ class Rate(Results, HowToRate):
         tuple[str, ...],
         Field(
             Text("POINTS|NAME=POINTS"),
-            "Mean rating, or the rating of a named player.",
+            "The mean rating, or a named player's rating.",
             usual="the middle of the scale",
             many=True,
-            more="The component of several named players is shifted to give them these ratings on "
-            "average.",
+            more="If you name several connected players, all ratings connected to theirs are "
+            "shifted so that the named players have these ratings on average.",
         ),
     ] = ()
     save: Annotated[
@@ -164,8 +164,8 @@ class Rate(Results, HowToRate):
         float | Literal["fit"] | None,
         Field(
             NumberOr("fit", -1e6, metavar="POINTS|fit"),
-            "Points by which the breaker plays better; fit: estimate it if the file says "
-            "who broke.",
+            "How many points better the breaker plays; fit: estimate this if the file says who "
+            "broke.",
             usual="the break does not matter",
             section=_RATING,
         ),
@@ -191,8 +191,8 @@ class Rate(Results, HowToRate):
     chart: Annotated[
         ChartName,
         Says(
-            "The chart that set the races, where the file states skill levels (or ratings) but no "
-            "races; with {system}, where it states neither race nor winner.",
+            "The chart that set the races if the file states skill levels (or ratings) but no "
+            "races; with {system}, if it states neither race nor winner.",
             usual="with {system} the system's chart, if only one fits all scores",
         ),
     ] = None
@@ -231,9 +231,9 @@ class Rate(Results, HowToRate):
 class Why(HowToRate, Lengths):
     """Explain two ratings: the matches behind them, and what one more match would change.
 
-    A and B are two players in RESULTS.csv, which is read as by `report` and `rate`. Each match of
-    the two is left out in turn, to see what it is worth to the rating; and one more match between
-    them is added, won by either.
+    A and B are two players in RESULTS.csv, which is read as by `report` and `rate`. Each of their
+    matches is left out in turn, to see what it is worth to the rating. Then one more match between
+    them is added, won by either player.
     """
 
     examples = """\
@@ -252,11 +252,11 @@ class Why(HowToRate, Lengths):
 
 @dataclass(frozen=True, kw_only=True)
 class Validate(Results, Assumed):
-    """Find out whether the ratings of a league can be trusted.
+    """Find out whether a league's ratings can be trusted.
 
-    RESULTS.csv is a file as for `rate`, with dates; - reads standard input; several are read as
-    one. Each date is predicted from the results of earlier dates alone, and then compared with what
-    happened.
+    RESULTS.csv is a file like the ones `rate` reads, with dates; - reads standard input; several
+    files are read as one. Each date is predicted only from the results of earlier dates, then
+    compared with what happened.
     """
 
     examples = """\
@@ -264,15 +264,13 @@ class Validate(Results, Assumed):
   evenbreak validate season.csv --plot calibration.png
   evenbreak validate season.csv --prior 20 --half-life 365
 """
-    scale: Annotated[
-        ScaleByChart, Says("The scale in whose points priors are given and shown.")
-    ] = None
+    scale: Annotated[ScaleByChart, Says("The scale whose points are used for priors.")] = None
     seed: Annotated[Seed, Says("The seed of the intervals and simulated seasons.", rare=False)] = 1
     plot: Annotated[
         PlotFile,
         Says(
             section="",
-            more="The predicted chances against how often favorites won, with 95% intervals.",
+            more="Plot the predicted chances against how often favorites won, with 95% intervals.",
         ),
     ] = None
     jobs: Annotated[Jobs, Says(section="The work")] = 1
@@ -285,14 +283,15 @@ class Validate(Results, Assumed):
 
 @dataclass(frozen=True, kw_only=True)
 class Report(Results, HowToRate, Lengths):
-    """Make the fair-race sheet of a league from its results.
+    """Make a league's fair-race sheet from its results.
 
     RESULTS.csv has a match in each row, with the columns player_a, player_b, score_a, score_b and,
     if known, date, race_a, race_b, winner, first_break, break_format, racks, event and forfeit;
-    `evenbreak rate --help-all` names other ways. - reads standard input. The sheet gives the rating
-    of each player and the race nearest to even for each pair, and holds all players, the strongest
-    first and those with few games last. Several files are read as one. The sheet is printed here,
-    and sheet.pdf is for the wall; {page} adds a page to hand out, {excel} a workbook.
+    `evenbreak rate --help-all` names other ways. - reads standard input. The sheet gives each
+    player's rating and the race nearest to even for each pair. It lists all players, strongest
+    first, with players who have few games last. Several files are read as one. The sheet is printed
+    here, and sheet.pdf is for the wall; {page} adds a page to hand out, and {excel} adds a
+    workbook.
     """
 
     examples = """\
@@ -321,8 +320,8 @@ class Report(Results, HowToRate, Lengths):
     players_file: Annotated[
         EntrantsFile,
         Says(
-            more="Those without results are [new players](../files.md#entrants) at the mean; a "
-            "rating that the file states for them is not used."
+            more="Players without results are [new players](../files.md#entrants) at the mean; "
+            "a rating stated for them in the file is not used."
         ),
     ] = None
     title: Title = ""

@@ -24,7 +24,7 @@ ROSTER = Field(File("ROSTER.csv"), "The list of ratings before these results.")
 
 DATES = Field(
     Choice(("mdy", "dmy")),
-    "The order in dates such as 9/3/2024: month first or day first.",
+    "The order of month and day in dates such as 9/3/2024: month first or day first.",
     usual="as the file's other dates show",
     section=_READING,
     more="See [dates](../files.md#dates).",
@@ -64,11 +64,12 @@ Columns: TypeAlias = Annotated[
     tuple[dict[str, str], ...],
     Field(
         Named(columns_in, "NAME=TITLE,..."),
-        "The file's names for columns, such as player_a=Home,player_b=Away.",
+        "Your file's column names, such as player_a=Home,player_b=Away.",
         many=True,
         section=_READING,
-        more="With a file's name and a colon before it, such as `autumn.csv:score=Stand`, for "
-        "that file alone. See [other names of columns](../files.md#other-names-of-columns).",
+        more="With a file name and a colon in front, as in `autumn.csv:score=Stand`, a name is "
+        "only for that file. See [other names of "
+        "columns](../files.md#other-names-of-columns).",
     ),
 ]
 
@@ -86,7 +87,7 @@ class Reading(Question):
         str | None,
         Field(
             File("ALIASES.csv"),
-            "File of names that mean the same player (columns name and means).",
+            "A file of names that mean the same player (columns name and means).",
             section=_READING,
             more="See [aliases](../files.md#aliases).",
         ),
@@ -111,7 +112,7 @@ class Reading(Question):
         for k, (name, title) in enumerate(pairs):
             if name in dict(pairs[:k]) or titles[k] in titles[:k]:
                 self.refuse(
-                    "{columns} has {part!r}, but one of them was given before",
+                    "{columns} has {part!r}, but that column was already named",
                     part=f"{name}={title}",
                 )
 

@@ -32,8 +32,8 @@ def _host(text: str) -> str:
 class Demo(Question):
     """Write made-up files to FOLDER, and show three commands to try on them.
 
-    There are a league's results, the players of a tournament, two teams and a player's practice.
-    FOLDER defaults to evenbreak-demo. A file there that is not the demo's is left alone.
+    The files are a league's results, a tournament's players, two teams and a player's practice.
+    FOLDER defaults to evenbreak-demo. A file there that isn't part of the demo is left alone.
     """
 
     examples = """\
@@ -45,12 +45,12 @@ class Demo(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class LeagueInit(Question):
-    """Write the file of a league, league.toml, from what is in its folder.
+    """Write a league's file, league.toml, from what is in its folder.
 
-    FOLDER defaults to the current one. Its files are looked at: results, lists of players,
-    fixtures, a chart. What they do not say is asked, each time with a proposal; in a script, and
-    with {yes}, the proposals are taken. Then every command run in the folder takes its defaults
-    from the file.
+    FOLDER defaults to the current one. The command reads the files there: results, lists of
+    players, fixtures, a chart. If they leave something open, it asks you and suggests an answer; in
+    a script, and with {yes}, the suggestions are taken. After that, every command run in the folder
+    takes its defaults from league.toml.
     """
 
     examples = """\
@@ -67,7 +67,7 @@ class LeagueInit(Question):
     scale: Annotated[ScaleOf, Says(more="")] = None
     chart: Annotated[
         ChartName,
-        Says("Chart of the races: a name, or a file in the folder.", usual="by the players"),
+        Says("The race chart: a name, or a file in the folder.", usual="by the players"),
     ] = None
     race_to: Annotated[
         int | None, HandicappedRace, Says("Instead of a chart: the stronger player needs N games.")
@@ -102,13 +102,13 @@ def origin(text: str) -> str:
 class Serve(Question):
     """Open tonight's tournament or team night as a page, for phones and the screen on the wall.
 
-    FILE.db is the tournament's file, as evenbreak tournament new writes it, or that of a team
-    night; default: tonight.db. If it doesn't exist, the page starts one. The commands of
-    evenbreak tournament can be used on it at the same time.
+    FILE.db is a tournament file, as written by evenbreak tournament new, or a team-night file;
+    default: tonight.db. If it doesn't exist, the page starts one. The commands of evenbreak
+    tournament can be used on it at the same time.
     """
 
     of_league: ClassVar[bool] = True
-    """Forms begin with what the league's file says."""
+    """Forms start with what the league's file says."""
     examples = """\
   evenbreak serve
   evenbreak serve --open
@@ -121,8 +121,8 @@ class Serve(Question):
         Field(
             Flag(),
             "Open a sample tournament, half played.",
-            more="It has 16 players, results, matches on tables and one to call. Its file, which "
-            "is printed, is in a temporary folder of its own.",
+            more="The tournament has 16 players, some results, matches on tables and one to "
+            "call. Its file name is printed; the file is in a temporary folder of its own.",
         ),
     ] = False
     open: Annotated[
@@ -130,9 +130,10 @@ class Serve(Question):
         Field(
             Flag(),
             "Open the page in the browser, as the director.",
-            more="Without FILE.db the tournament is kept in your documents, in the folder "
-            "evenbreak: a file for each day. A second start opens the browser on the first. If the "
-            "port is taken, the next free one is used.",
+            more="Without FILE.db the tournament is kept in the evenbreak folder in your "
+            "documents, with one file for each day. If the page is already running, "
+            "starting it again opens the browser on it. If the port is taken, the next "
+            "free one is used.",
         ),
     ] = False
     lan: Annotated[
@@ -149,19 +150,20 @@ class Serve(Question):
             Named(_host, "NAME[:PORT]"),
             "This computer's address for phones.",
             usual="its own address",
-            more="For `--lan` in a container, where the address that it sees is not the one that "
-            "phones use. Requests by other names are refused.",
+            more="This is for `--lan` in a container, which doesn't see the address that phones "
+            "use. Requests under other names are refused.",
         ),
     ] = None
     allow_origin: Annotated[
         tuple[str, ...],
         Field(
             Named(origin, "ORIGIN"),
-            "Web page elsewhere that may use the JSON interface, such as https://league.example.",
+            "A page on another site that may use the JSON interface, such as "
+            "https://league.example.",
             many=True,
-            more="It reads what everyone in the room sees; to enter something it needs a token "
-            "besides. Without the option no page elsewhere can use the interface. `*` and `null` "
-            "are refused: they would name every page, and every file.",
+            more="It reads what everyone in the room sees; to enter something, it also needs a "
+            "token. Without this option, no page on another site can use the interface. "
+            "`*` and `null` are refused: they would name every page, and every file.",
         ),
     ] = ()
     port: Annotated[int, Field(Whole(1024, 65535), "Port to listen on.")] = 8000
@@ -169,9 +171,10 @@ class Serve(Question):
         str | None,
         Field(
             COLOR,
-            "House color for buttons and chances, such as #7a1f5c.",
+            "Your house color for buttons and chances, such as #7a1f5c.",
             usual="blue",
-            more="Where it could not be read, it is made darker by day and lighter by night.",
+            more="Where text in this color would be hard to read, the color is darkened by day "
+            "and lightened by night.",
         ),
     ] = None
 
@@ -187,12 +190,12 @@ class Serve(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class Reproduce(Question):
-    """Write every table, figure and number of the source text, computed anew.
+    """Recompute and write every table, figure and number in the source text.
 
     Start with DIR/index.md for section 5, statistics, DIR/physics.md for sections 1 to 4, the
     physics of the table, or DIR/graph_to_limit.md for each game as graph, matrix, eigenvalues and
-    limit. They show and explain every number, point out the errors of the text and link to the CSV
-    files. The files are the same to the byte each time. If a number is not the one expected, the
+    limit. They show and explain every number, point out errors in the text and link to the CSV
+    files. The files are identical, byte for byte, every time. If a number isn't as expected, the
     command says so and ends with exit code 1.
     """
 

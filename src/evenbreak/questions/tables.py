@@ -57,7 +57,7 @@ def days_in(text: str) -> tuple[date, ...]:
             ) from None
         many = (ends - begins).days + 1
         if not 1 <= many <= _LONGEST_BREAK:
-            raise InputError("{value!r} isn't a range of days up to a year", value=part.strip())
+            raise InputError("{value!r} isn't a date range of a year or less", value=part.strip())
         found += [begins + timedelta(days=k) for k in range(many)]
     return tuple(found)
 
@@ -83,12 +83,13 @@ TablePoints: TypeAlias = Annotated[
     TableRules,
     Field(
         TABLE_POINTS,
-        "The points of a win, a draw and a loss; or sets: a point for each set or game won; or "
-        "the APA's.",
+        "Points for a win, a draw and a loss; or sets, for a point per set or game won; or the "
+        "APA's points.",
         old=("points",),
-        more="A fourth number gives points for each set or game won (`1,0,0,1`: one a game and one "
-        "for the match), a fifth for a shutout. `apa_8ball` splits 3 points a set (3-0 for a "
-        "shutout, 2-1 if the loser was on the hill, else 2-0), `apa_9ball` 20.",
+        more="A fourth number gives points for each set or game won (`1,0,0,1`: one per game "
+        "and one for the match), and a fifth gives points for a shutout. `apa_8ball` "
+        "splits 3 points per set (3-0 for a shutout, 2-1 if the loser was on the hill, "
+        "otherwise 2-0); `apa_9ball` splits 20.",
     ),
 ]
 Ties: TypeAlias = Annotated[
@@ -97,10 +98,11 @@ Ties: TypeAlias = Annotated[
         TIES,
         "Tiebreakers, in this order: difference and scored (sets or "
         "games), wins, head-to-head, win-share, forfeits.",
-        more="`head-to-head` counts the points of the meetings of all who are level, and again of "
-        "those who still are; it waits until they have met equally often. `win-share` is the share "
-        "of matches won, `forfeits` puts those with fewer ahead. With `points` in the list, points "
-        "count in that turn: `win-share,points`.",
+        more="`head-to-head` counts points from the matches between everyone who is level, then "
+        "again for those who still are; it waits until they have met equally often. "
+        "`win-share` is the share of matches won, and `forfeits` puts whoever has fewer "
+        "ahead. With `points` in the list, points count in that position: "
+        "`win-share,points`.",
     ),
 ]
 
@@ -124,12 +126,12 @@ TeamsFile: TypeAlias = Annotated[
 
 @dataclass(frozen=True, kw_only=True)
 class LeagueTable(Results):
-    """Make the table of a league, of its players or of its teams.
+    """Make a league's table of its players or teams.
 
-    RESULTS.csv has the matches of the players, with team_a and team_b in a league of teams, or the
-    matches of the teams themselves (home, away, home_score, away_score). Rows without a score are
-    left out as not played; a forfeit counts as a win for its winner. {ties} says what separates
-    those with equal points; who is still level shares a place.
+    RESULTS.csv has the players' matches, with team_a and team_b in a team league, or the teams' own
+    matches (home, away, home_score, away_score). Rows without a score are left out as not played; a
+    forfeit counts as a win for its winner. {ties} says how equal points are separated; anyone still
+    level shares a place.
     """
 
     examples = """\
@@ -143,7 +145,7 @@ class LeagueTable(Results):
     of: Annotated[
         Whose,
         Says(
-            "Whose table; teams also where the two of each row are teams.",
+            "Whose table it is; use teams also if each row has two teams.",
             usual="teams where the results have the columns team_a and team_b",
         ),
     ] = None
@@ -152,7 +154,7 @@ class LeagueTable(Results):
         Literal["both", "home", "away"],
         Field(
             Choice(("both", "home", "away")),
-            "Count matches at home, away, or both; the first named is at home.",
+            "Count home matches, away matches, or both; the side named first is at home.",
         ),
     ] = "both"
     count: TeamScore = "sets"
@@ -161,11 +163,11 @@ class LeagueTable(Results):
 
 @dataclass(frozen=True, kw_only=True)
 class Fixtures(Reading):
-    """Make the fixtures of a league: who plays who, at home or away, on which night and table.
+    """Make a league's fixtures: who plays who, at home or away, on which night and table.
 
-    LIST.csv names the players or teams, a name on each line or with the columns of a roster; with
-    the column venue, and tables, teams that share a place with too few tables are at home in turn.
-    Everyone meets everyone, once unless {meetings} says more; home and away change, and a second
+    LIST.csv names the players or teams, with one name per line or the columns of a roster. With the
+    columns venue and tables, teams that share a place with too few tables take turns at home.
+    Everyone meets everyone, once unless {meetings} says more; home and away alternate, and a second
     half mirrors the first. {left} lists what is still to be played.
     """
 
@@ -179,7 +181,7 @@ class Fixtures(Reading):
         None
     )
     schedule: Annotated[
-        str | None, Field(File("FIXTURES.csv"), "Existing fixtures, instead of LIST.")
+        str | None, Field(File("FIXTURES.csv"), "Existing fixtures, to use instead of LIST.")
     ] = None
     meetings: Annotated[
         int, Field(Whole(1, MOST_MEETINGS), "How often each pair meets.", metavar="K")
@@ -199,7 +201,7 @@ class Fixtures(Reading):
         Field(
             Named(weekdays_in, "DAY,...", spelled=weekdays_spelled),
             "The days of the week, such as tue or tue,thu.",
-            usual="that of the first night",
+            usual="the first night's day of the week",
             section=_WHEN,
         ),
     ] = ()
@@ -235,7 +237,7 @@ class Fixtures(Reading):
         int | None,
         Field(
             Whole(0, 2**32 - 1),
-            "Seed of the draw of numbers.",
+            "Seed for the draw of numbers.",
             usual="the order of the list",
             metavar="SEED",
         ),
@@ -260,17 +262,17 @@ class Fixtures(Reading):
 
 @dataclass(frozen=True, kw_only=True)
 class LeagueTidy(Results):
-    """Make one clean list of matches of all results, and list what was changed.
+    """Make one clean list of matches from all results, and list what was changed.
 
-    RESULTS.csv is any number of files that evenbreak reads: CSV, workbooks, JSON of other programs;
-    or leave them out for those of league.toml. A match that two files have counts once; byes, and
-    rows that cannot be read, are left out and listed with file, line and reason. Names that may be
-    one player's are never merged silently: on a terminal you are asked, otherwise they are listed,
-    with the lines for [aliases] in league.toml that settle it.
+    RESULTS.csv is any number of files that evenbreak reads: CSV, workbooks, or JSON from other
+    programs. Leave them out to use the files in league.toml. A match in two files counts once; byes
+    and unreadable rows are left out and listed with file, line and reason. Names that may be the
+    same player's are never merged silently: on a terminal you are asked; otherwise they are listed
+    with lines that you can add to [aliases] in league.toml.
     """
 
     of_form: ClassVar[bool] = True
-    """It says how the league's files are written, which other commands do not repeat."""
+    """It describes how the league's files are written, which other commands don't repeat."""
     examples = """\
   evenbreak league tidy
   evenbreak league tidy autumn.csv spring.xlsx cuescore.json --out season.csv

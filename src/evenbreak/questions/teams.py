@@ -37,13 +37,13 @@ ORDERS = {
     "loser": say("The loser of the last set"),
     "winner": say("The winner of the last set"),
     "blind": say("Both at once, blind"),
-    "sealed": say("Sealed: both line-ups before the match starts"),
+    "sealed": say("Sealed: both lineups before the match starts"),
 }
 """Who names first, by a name of the order, with its words."""
 
 
 USUAL_SETS = 5
-"""The sets of a night under a cap, as in APA leagues."""
+"""The number of sets in a night under a cap, as in APA leagues."""
 
 
 def usual_sets(most: int, cap: float | None) -> int:
@@ -90,10 +90,11 @@ Order: TypeAlias = Annotated[
     str,
     Field(
         Text("PATTERN"),
-        "Who names first in each set: A (you), B (they), = (both, blind), W or L (who won or lost "
-        "the last set), such as ABABA. Or alternate, home, blind, winner, loser or sealed.",
+        "Who names first in each set: A (you), B (they), = (both, blind), W or L (whoever won "
+        "or lost the last set), such as ABABA; or alternate, home, blind, winner, loser or "
+        "sealed.",
         titles=ORDERS,
-        more="A shorter pattern is repeated. `sealed`: both line-ups are handed in before the "
+        more="A shorter pattern is repeated. `sealed`: both lineups are handed in before the "
         "match.",
     ),
 ]
@@ -103,14 +104,15 @@ Count: TypeAlias = Annotated[
     str,
     Field(
         Choice(COUNTS),
-        "What decides the match: sets won, all games won, or match points as in APA 8-ball "
-        "(3-0 for a shutout, 2-1 hill-hill, else 2-0) and 9-ball (20 shared by points made).",
+        "What decides the match: sets won, all games won, or match points as in APA 8-ball (3-0 "
+        "for a shutout, 2-1 if hill-hill, otherwise 2-0) and 9-ball (20 shared by points made).",
         label=say("What decides the match"),
         titles={
             "sets": say("Sets won"),
             "games": say("All games won"),
             "points": say(
-                "Match points: 3-0 for a shutout, 2-1 hill-hill, else 2-0; in APA 9-ball 20 shared"
+                "Match points: 3-0 for a shutout, 2-1 if hill-hill, otherwise 2-0; in APA "
+                "9-ball, 20 shared"
             ),
         },
         section=_RULES,
@@ -124,7 +126,7 @@ Squads: TypeAlias = Annotated[
         File("TEAMS.csv"),
         "A list of all teams: OURS and THEIRS may then be names of teams in it.",
         section=_RULES,
-        more="It has the columns team, player, and rating or level.",
+        more="The list has the columns team, player, and rating or level.",
     ),
 ]
 
@@ -141,10 +143,11 @@ class OfTeams(Starters):
     chart: Annotated[
         ChartOfRaces,
         Says(
-            "Races by this chart instead: of rating differences, or of skill levels.",
-            more="With a chart of skill levels, such as apa_8ball or apa_9ball, the lists need a "
-            "column `level`; the chances come from their ratings if all have them, else from the "
+            "Use the races in this chart instead: a chart of rating differences, or of skill "
             "levels.",
+            more="With a chart of skill levels, such as apa_8ball or apa_9ball, the lists need "
+            "a `level` column; the chances come from the ratings if all players have "
+            "them, otherwise from the levels.",
         ),
     ] = None
     scale: ScaleOf = None
@@ -172,9 +175,9 @@ class Capped(Question):
         float | None,
         Field(
             CAP,
-            "The largest sum of the skill levels of a line-up, such as 23.",
+            "The largest sum of skill levels in a lineup, such as 23.",
             label=say("Cap: the largest sum of skill levels, such as 23 (blank: none)"),
-            more="Without a column `level`, of the ratings.",
+            more="Without a `level` column, it is the largest sum of ratings.",
         ),
     ] = None
     at_most: Annotated[
@@ -197,7 +200,7 @@ class Lineup(OfTeams, Capped):
     """Find who to put up in a team match, and what each choice is worth.
 
     Each file has the columns player and rating, or level; caps count the levels. Both captains are
-    assumed to choose optimally. After each nomination, ask again with {used}, {score} and
+    assumed to choose optimally. Each time a player is put up, ask again with {used}, {score} and
     {named}.
     """
 
@@ -213,7 +216,7 @@ class Lineup(OfTeams, Capped):
     sets: Annotated[
         Sets,
         Says(
-            usual="as many as the smaller team can fill, under a cap 5 at most",
+            usual="as many as the smaller team can fill, but at most 5 under a cap",
             label=say("Sets (blank: one per player of the smaller team; under a cap at most 5)"),
         ),
     ] = None
@@ -230,14 +233,14 @@ class Lineup(OfTeams, Capped):
         Field(
             Named(names_in, "NAME,..."),
             "Players of either team who have already played.",
-            more="Where both teams have a player of that name, write `ours:Ann` or `theirs:Ann`.",
+            more="If both teams have a player with that name, write `ours:Ann` or `theirs:Ann`.",
         ),
     ] = ()
     score: Annotated[
         tuple[int, int] | None,
         Field(
             SCORE,
-            "The score of the match so far, yours first: sets, games or points as they count.",
+            "The match score so far, yours first: sets, games or points, whichever count.",
             metavar="A:B",
         ),
     ] = None
@@ -249,7 +252,7 @@ class Lineup(OfTeams, Capped):
         tuple[InPlay, ...],
         Field(
             Named(set_in_play, '"A v B 3-2"'),
-            "A set that is being played, your player first, with its score.",
+            "A set being played, your player first, with its score.",
             many=True,
             section=_SO_FAR,
         ),
@@ -258,7 +261,7 @@ class Lineup(OfTeams, Capped):
         str | None,
         Field(
             Choice(("won", "lost")),
-            "Whether you won the last set, where its winner or loser names first.",
+            "Whether you won the last set, if its winner or loser names first.",
             section=_SO_FAR,
         ),
     ] = None
@@ -291,7 +294,7 @@ class Lineup(OfTeams, Capped):
     seed: Annotated[
         Seed,
         Says(
-            "The seed of the ratings that are drawn, where they have standard errors.",
+            "The seed for drawing ratings that have standard errors.",
             section="Ratings",
         ),
     ] = 1
@@ -309,9 +312,9 @@ class OnTables:
 class Round(OfTeams):
     """Find who wins a round between two teams, and the head start that makes it even.
 
-    All games of all matches are added up, or with {count} their match points. The files have the
-    columns player and rating, or level; the first player of one meets the first of the other, and
-    so on.
+    The games in all matches are added up or, with {count}, the match points. The files have the
+    columns player and rating, or level; the first player in one file meets the first in the other,
+    and so on.
     """
 
     examples = """\
@@ -344,10 +347,10 @@ class Round(OfTeams):
 
 @dataclass(frozen=True, kw_only=True)
 class Caps(OfTeams, Capped):
-    """Find what a cap and the order of nomination do to a team league.
+    """Find how a cap and the put-up order affect a team league.
 
-    TEAMS.csv has the columns team, player and rating, and for caps a column level. Every team meets
-    every other; each match is solved exactly, with both captains at their best.
+    TEAMS.csv has the columns team, player and rating, and a level column for caps. Every team meets
+    every other; each match is solved exactly, with both captains choosing optimally.
     """
 
     examples = """\
@@ -357,7 +360,7 @@ class Caps(OfTeams, Capped):
 """
     roster: Annotated[str, Field(File("TEAMS.csv"), argument=True)]
     order: Annotated[
-        Order, Says("The order of nomination of your league, as for evenbreak lineup.", more="")
+        Order, Says("Your league's put-up order, as for evenbreak lineup.", more="")
     ] = "alternate"
     sets: Annotated[
         Sets, Says(kind=Whole(1, 9), usual="5, or as many as the smallest team has players")
@@ -370,11 +373,12 @@ _TABLE, _WORK = "The table", "How it is worked out"
 
 @dataclass(frozen=True, kw_only=True)
 class Season(Question):
-    """Find each team's chances of title, promotion and relegation, and what is at stake next.
+    """Find each team's chances of the title, promotion and relegation, and what is at stake next.
 
-    RESULTS.csv has the columns home, away, home_score and away_score (sets), SCHEDULE.csv home and
-    away, and a round if you like. Without a schedule, the matches of RESULTS.csv without a score,
-    or at 0-0, are still to be played. How strong the teams are comes from the sets they have won.
+    RESULTS.csv has the columns home, away, home_score and away_score (sets). SCHEDULE.csv has home
+    and away, plus a round column if you like. Without a schedule, matches in RESULTS.csv without a
+    score, or at 0-0, are still to be played. Team strengths are estimated from the sets they have
+    won.
     """
 
     examples = """\
@@ -401,7 +405,10 @@ class Season(Question):
     sets: Annotated[
         int | None,
         Field(
-            _SETS, "A match has N sets, all of them played.", usual="as in the results", rare=True
+            _SETS,
+            "A match has N sets, and all of them are played.",
+            usual="as in the results",
+            rare=True,
         ),
     ] = None
     race: Annotated[

@@ -23,9 +23,9 @@ Draw: TypeAlias = Annotated[Seed, Says(_DRAW, section="Details")]
 class NewTournament(TournamentPlan, Starters):
     """Start a tournament: write its entrants and what is played to a new file.
 
-    Then make the draw, with evenbreak tournament draw. Players may enter until then, and later in
-    place of a bye, or in a chip tournament at the end of the line. Without a list, all of them
-    enter by evenbreak tournament late or from their phones. The other commands read and write
+    Then make the draw with evenbreak tournament draw. Players may enter until then; later they can
+    replace a bye or, in a chip tournament, join the end of the line. Without a list, everyone
+    enters through evenbreak tournament late or from their phones. The other commands read and write
     tonight.db unless --file or the environment variable EVENBREAK_TOURNAMENT names another file.
     """
 
@@ -103,7 +103,7 @@ class OfEntrants(TournamentPlan, Starters, TimedUnderWay):
             for name in ("file", "at"):
                 if name in self.given:
                     self.refuse(
-                        "{part} is for the tournament under way. Leave out {list} or it.",
+                        "{part} is for the tournament under way. Leave out {list} or {part}.",
                         part=Parameter(name),
                         list=self.entrants,
                     )
@@ -126,7 +126,7 @@ class OfEntrants(TournamentPlan, Starters, TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class TournamentOdds(OfEntrants):
-    """Find each player's odds of winning the tournament, and of each other place.
+    """Find each player's odds of winning the tournament and of finishing in each other place.
 
     ENTRANTS.csv has a row for each entrant, with the columns player and rating and, if you have
     them, standard_error and games. Without it, the answer is about the tournament under way in
@@ -150,8 +150,8 @@ class TournamentOdds(OfEntrants):
             Flag(),
             "With {race_to} or {chart}: also list fairer races of about the same length.",
             section="Details",
-            more="The races by side, and by round, that make the tournament fairest for about as "
-            "many games.",
+            more="These are the races for each side and each round that make the tournament "
+            "fairest with about as many games.",
         ),
     ] = False
     walkovers: Annotated[
@@ -180,12 +180,12 @@ class TournamentOdds(OfEntrants):
 
 @dataclass(frozen=True, kw_only=True)
 class TournamentTime(OfEntrants, Pace):
-    """Find the finish time of the tournament and the start of each match.
+    """Find when the tournament ends and when each match starts.
 
-    ENTRANTS.csv has a row for each entrant, with the columns player and rating; in a plain list
-    of names all are equal. Without it, the answer is about the tournament under way in
-    {file}: its results, the matches on its tables and its pace so far. JSON and CSV have minutes
-    from the start of the tournament.
+    ENTRANTS.csv has a row for each entrant, with the columns player and rating; in a plain list of
+    names, all players are equal. Without it, the answer is about the tournament under way in
+    {file}: its results, the matches on its tables and its pace so far. JSON and CSV output has
+    minutes from the start of the tournament.
     """
 
     examples = """\
@@ -206,7 +206,11 @@ class TournamentTime(OfEntrants, Pace):
     ] = None
     start: Annotated[
         int | None,
-        Field(TIME_OF_DAY, "Start time of the tournament; shows times of day.", section="Details"),
+        Field(
+            TIME_OF_DAY,
+            "Start time of the tournament; times are then shown as times of day.",
+            section="Details",
+        ),
     ] = None
 
     def check(self) -> None:
@@ -217,8 +221,8 @@ class TournamentTime(OfEntrants, Pace):
             self.refuse("missing number of tables: add {tables} N, such as 4")
         if self.discipline is None and self.minutes_per_game is None:
             self.refuse(
-                "missing length of games: give {discipline}, such as 9-ball, or "
-                "{minutes_per_game}, such as 8"
+                "missing game length: give {discipline}, such as 9-ball, or {minutes_per_game}, "
+                "such as 8"
             )
         if self.pace and self.minutes_per_game is not None:
             self.refuse(

@@ -261,7 +261,7 @@ class Knowledge:
 
 
 class _Groups:
-    """The teams, or divisions, of a league, and how often each player was seen in which."""
+    """A league's teams or divisions, and how often each player was seen in each one."""
 
     def __init__(self, results: Results, kind: str) -> None:
         self.kind = kind

@@ -272,7 +272,7 @@ def _differing(scores: Any) -> Floats:
     array = checked_scores(scores, "scores")
     if sd_of(array) == 0.0:
         raise InputError(
-            "scores are all {array:g}. Give scores that differ, to show a spread.",
+            "scores are all {array:g}. Give scores that differ, so there's a spread to show.",
             array=float(array[0]),
         )
     return array

@@ -147,7 +147,7 @@ def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
 def worth_at(solution: SolvedNight, point: Point) -> float:
     """Return the value of the night at a point, even if no one can be named there.
 
-    That is so once all sets have their players, and while the set is being played whose winner or
+    That is so once every set has its players, and while the set is being played whose winner or
     loser names first in the next one. An InputError if the night can't get to this point.
 
     >>> from evenbreak.teams import Squad, TeamNight, solved

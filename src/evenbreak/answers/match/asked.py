@@ -79,9 +79,7 @@ def live(asked: Live) -> Answer:
     refuse_giants(match)
     if players.form and not order_is_free(match):
         if asked.form is not None:
-            refuse(
-                "{form} is for races of games in which the break doesn't matter. Leave it out here."
-            )
+            refuse("{form} is for races in which the break doesn't matter. Leave it out here.")
         players = replace(players, form=0.0)
     odds = live_odds(match, asked.racks, set_score=asked.set_score, form=players.form)
     answer = live_answer(players, match, odds, comebacks=asked.comebacks)

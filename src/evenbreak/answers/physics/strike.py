@@ -82,14 +82,14 @@ def _miscue_words(strike: Strike) -> str:
     limit = miscue_offset(strike.cue.tip_friction)
     if needed > MOST_TIP_FRICTION:
         return say(
-            "This is a miscue: so far from the center the tip slips. Hit no farther from it than "
-            "{limit:.3f} of the radius.",
+            "This is a miscue: the tip slips when you hit that far from the center. Hit no "
+            "farther from it than {limit:.3f} of the radius.",
             limit=limit,
         )
     return say(
-        "This is a miscue: so far from the center the tip slips. Hit no farther from it than "
-        "{limit:.3f} of the radius, or use a tip whose friction is {needed:g} or more ({option} "
-        "{needed:g}).",
+        "This is a miscue: the tip slips when you hit that far from the center. Hit no farther "
+        "from it than {limit:.3f} of the radius, or use a tip whose friction is {needed:g} or "
+        "more ({option} {needed:g}).",
         limit=limit,
         needed=needed,
         option=Parameter("tip_mu"),

@@ -275,8 +275,8 @@ def _sure_words(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -
             pick=best,
         )
     return say(
-        "Given rating uncertainty, {pick} is the best pick {p} of the time and {other} {q}, in "
-        "{draws} draws ({luck}); on average, {pick} comes out ahead.",
+        "Given rating uncertainty, {pick} is the best pick {p} of the time and {other} is {q} "
+        "of the time, in {draws} draws ({luck}); on average, {pick} comes out ahead.",
         pick=best,
         p=percent(share),
         other=names_words(others[0]),
@@ -314,8 +314,8 @@ def sealed_answer(
         )
     else:
         words = say(
-            "Draw one of the line-ups below by its share, and its order at random: you win the "
-            "night {p} of the time, whatever they do.",
+            "Pick one of the lineups below at random, weighted by its share, then pick its "
+            "order at random: you win the night {p} of the time, whatever they do.",
             p=percent(found.worth),
         )
     columns = columns_of("-name sits_out p_win_night cost mix")

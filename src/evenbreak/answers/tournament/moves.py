@@ -473,7 +473,7 @@ def tie_words(found: TieBreak) -> list[Sentence]:
     if found.by_lot:
         said.append(say("Drawn by lot: {players}.", players=", ".join(found.by_lot)))
     elif found.ranked.group.isdigit():  # runners-up
-        said.append(say("Games won minus games lost, for each match, broke the ties."))
+        said.append(say("Ties were broken by games won minus games lost per match."))
     else:
         said.append(say("Games won minus games lost broke the ties."))
     return said

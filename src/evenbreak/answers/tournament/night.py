@@ -222,7 +222,7 @@ def _aside_words(state: Evening, result: Result) -> str:
     if seats is None:  # its draw was undone
         now, play = say("the match is not drawn now"), say("Draw again")
     elif NOBODY in seats:
-        now, play = say("the match is not needed now"), say("Let it stand ({stand})", stand=stand)
+        now, play = say("the match is no longer needed"), say("Let it stand ({stand})", stand=stand)
     elif None in seats:
         now = say("the match is waiting for {matches} now", matches=waits_for(state, name))
     else:

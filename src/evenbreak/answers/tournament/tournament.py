@@ -47,7 +47,7 @@ class Tournament:
 
     @cached_property
     def laws(self) -> dict[str, PairOdds]:
-        """Who wins each match in how many games, if the ratings are right."""
+        """The odds of who wins each match and in how many games, if the ratings are right."""
         return self.laws_of(self.races)
 
     def laws_of(self, races: Races) -> dict[str, PairOdds]:

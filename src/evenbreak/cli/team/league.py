@@ -327,8 +327,8 @@ def strengths_of(asked: OfTeams, lists: Sequence[TeamList], race: Any) -> Streng
         )
     elif asked.results is not None:
         asked.refuse(
-            "{results} is for chances by skill level. Add a chart of levels, "
-            "such as {chart} apa_8ball."
+            "{results} is for chances based on skill levels. Add a chart of levels, such as "
+            "{chart} apa_8ball."
         )
     if levels is not None or isinstance(race, handicaps.PointsChart):
         if asked.scale is not None:

@@ -27,7 +27,7 @@ COMMANDS = {
     ),
     "odds": Entry("Find each player's odds of winning the tournament.", "tournament.odds"),
     "time": Entry(
-        "Find the finish time of the tournament and the start of each match.",
+        "Find when the tournament ends and when each match starts.",
         "tournament.odds:time",
     ),
 }

@@ -196,7 +196,7 @@ def _results_by(path: Path, columns: Mapping[str, str]) -> SeenFile:
     except DataError as error:
         about = say_count(
             "results of matches, with {n} line to fix: see `evenbreak rate {name}`",
-            "results of matches, with {n} lines to fix: see `evenbreak rate {name}`",
+            "match results, with {n} lines to fix: see `evenbreak rate {name}`",
             len(error.problems),
             name=path.name,
         )

@@ -45,7 +45,7 @@ class LeagueFiles:
         str | None, Field(values.FILE, "All teams, with any extra points they have.")
     ] = None
     team_results: Annotated[
-        str | None, Field(values.FILE, "The results of teams: home, away and the sets of each.")
+        str | None, Field(values.FILE, "Team results: home team, away team, and sets won by each.")
     ] = None
 
 
@@ -144,7 +144,7 @@ class LeagueFile:
         Field(values.SCALE, "The scale of the ratings; left out in a league of skill levels."),
     ] = None
     chart: Annotated[
-        str | None, Field(values.FILE, "The chart of the races: a name, or a file of the folder.")
+        str | None, Field(values.FILE, "The race chart: a name, or a file in the folder.")
     ] = None
     race: Annotated[
         int | None, Field(Whole(1, LONGEST_RACE), "Without a chart: even races to so many games.")

@@ -191,7 +191,7 @@ MONEY = Number(0.0, 1e6, " isn't an amount of money, such as 10")
 
 def _currency(text: str) -> str:
     if not 1 <= len(text.strip()) <= 5 or not text.isprintable():
-        raise InputError('{value!r} is no sign of a currency. Write one such as "$".', value=text)
+        raise InputError('{value!r} isn\'t a currency symbol. Use one such as "$".', value=text)
     return text.strip()
 
 

@@ -28,7 +28,7 @@ _LOG = logging.getLogger(__name__)
 _MARK = 0x45564252  # application_id: an evening of this program
 _WAIT = 30.0  # seconds for another program to finish its move
 WHY = {  # by the code of SQLite's error
-    sqlite3.SQLITE_NOTADB: say("{name} isn't the file of a tournament"),
+    sqlite3.SQLITE_NOTADB: say("{name} isn't a tournament file"),
     sqlite3.SQLITE_FULL: say(
         "there's no room on the disk of {name}, so nothing was changed. Make room and try again."
     ),
@@ -208,7 +208,7 @@ def _check(base: sqlite3.Connection, place: Path) -> None:
     """Refuse a database that is not the file of an evening, or not in a known format."""
     mark, version = _number(base, "application_id"), _version(base)
     if mark != _MARK:
-        raise refused(place, "{name} isn't the file of a tournament")
+        raise refused(place, "{name} isn't a tournament file")
     if version > FORMAT:
         raise refused(
             place,

@@ -82,7 +82,7 @@ class _Margin:
 
 
 def margin_system(most: Any = 2) -> StepSystem:
-    """Return the system whose steps depend on the margin of the score, up to `most` points.
+    """Return the system whose steps depend on the margin of victory, up to `most` points.
 
     Scale and charts are those of the National Pool League. Newcomers move like everyone else.
 

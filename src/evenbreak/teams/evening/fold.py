@@ -93,7 +93,7 @@ class TeamEvening:
 
     @property
     def to_name(self) -> SetLine | None:
-        """The set for which someone is put up next; None if all sets have their players."""
+        """The set for which someone is put up next; None if every set has its players."""
         return next((line for line in self.sets if not line.named), None)
 
     @property

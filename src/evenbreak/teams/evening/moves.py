@@ -71,7 +71,7 @@ def _check_turn(state: TeamEvening, team: int, number: int, *, replaces: bool) -
     """Refuse a pick that is not due."""
     line = state.to_name
     if line is None or line.number != number:
-        due = say("set {n} is next", n=line.number) if line else say("all sets have their players")
+        due = say("set {n} is next", n=line.number) if line else say("every set has its players")
         raise InputError("no one can be put up in set {n} now: {due}", n=number, due=due)
     if team in state.due or replaces:
         return

@@ -148,7 +148,9 @@ def second_chance(state: Evening, *, race: int | None = None, name: str = "") ->
     """
     plan = state.plan
     if plan.form not in ELIMINATIONS or not state.drawn:
-        raise InputError("a second chance is for those who are out of an elimination")
+        raise InputError(
+            "a second chance is for players who have been knocked out of an elimination event"
+        )
     names = out(state)
     if len(names) < 2:
         raise InputError("fewer than two players are out, so there's no second chance yet")
