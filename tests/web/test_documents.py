@@ -236,4 +236,4 @@ def test_what_to_open_instead_of_a_damaged_file_is_said(tmp_path: Path, copies: 
     assert f"rename {path.name}" in shown.output
     assert ("20261128-200000.backup.db" in shown.output) == bool(copies)
     (tmp_path / "notes.txt").write_text("Ann plays Bo")
-    assert "notes.txt isn't the file of a tournament" in click(str(tmp_path / "notes.txt")).output
+    assert "notes.txt isn't a tournament file" in click(str(tmp_path / "notes.txt")).output

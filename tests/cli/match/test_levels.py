@@ -87,13 +87,19 @@ def test_points_to_win_are_an_assumption_with_its_range(run, club):
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (("odds", "612", "521", *APA), "612 isn't a skill level of apa_8ball"),
-        (("odds", "5.5", "3", *APA), "5.5 isn't a skill level of apa_8ball"),
+        (("odds", "612", "521", *APA), "612 isn't a skill level in apa_8ball"),
+        (("odds", "5.5", "3", *APA), "5.5 isn't a skill level in apa_8ball"),
         (("odds", "5", "3", "--chart", "fargo_r6_hot"), "5 don't look like Fargo ratings"),
         (("odds", "5", "3", *APA, "--scale", "2"), "--scale is for ratings"),
         (("fair", "5", "3", *APA, "--scale", "npl"), "--scale is for ratings"),
-        (("odds", "5", "3", "--race", "4:2", "--results", "x.csv"), "--results is for chances by"),
-        (("odds", "85", "80", "--chart", "npl_8", "--results", "x"), "--results is for chances by"),
+        (
+            ("odds", "5", "3", "--race", "4:2", "--results", "x.csv"),
+            "--results is for chances based on",
+        ),
+        (
+            ("odds", "85", "80", "--chart", "npl_8", "--results", "x"),
+            "--results is for chances based on",
+        ),
         (("odds", "--p", "0.6", *APA), "--chart is for ratings or skill levels"),
         (("odds", "5", "3", "--race", "5"), "3 to 5 look like skill levels, not ratings. Add --ch"),
         (("fair", "5", "3"), "Add --chart apa_8ball or --chart apa_9ball, or --scale npl if they"),

@@ -158,7 +158,7 @@ def test_own_charts_of_levels_and_ones_own_results(ask, run, lists, tmp_path):
     )
     assert mine == named
     said = run("lineup", *lists, "--chart", "npl_8", "--results", own).stderr
-    assert "--results is for chances by skill level" in said
+    assert "--results is for chances based on skill levels" in said
     said = run("lineup", *lists, "--chart", "apa_8ball", "--scale", "3").stderr
     assert "--scale is for ratings" in said
 

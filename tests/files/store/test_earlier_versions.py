@@ -134,8 +134,8 @@ def test_a_copy_that_cannot_be_made_keeps_the_file_as_it_was(
         ("user_version", 2**31 - 1, "newer version of evenbreak"),
         ("user_version", 0, "damaged .no version of evenbreak has written a format 0.*backup"),
         ("user_version", -7, "damaged .no version of evenbreak has written a format -7"),
-        ("application_id", 0, "isn't the file of a tournament"),
-        ("application_id", 252006674, "isn't the file of a tournament"),
+        ("application_id", 0, "isn't a tournament file"),
+        ("application_id", 252006674, "isn't a tournament file"),
     ],
 )
 def test_other_formats_are_refused_with_the_truth(

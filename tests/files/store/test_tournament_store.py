@@ -108,5 +108,5 @@ def test_other_files_are_refused(tmp_path: Path) -> None:
     other.commit()
     other.close()
     for file in (text, base):
-        with pytest.raises(DataError, match=f"{file.name} isn't the file of a tournament"):
+        with pytest.raises(DataError, match=f"{file.name} isn't a tournament file"):
             read_tournament(file)

@@ -314,7 +314,7 @@ def sealed_answer(
         )
     else:
         words = say(
-            "Pick one of the lineups below at random, weighted by its share, then pick its "
+            "Pick one of the line-ups below at random, weighted by its share, then pick its "
             "order at random: you win the night {p} of the time, whatever they do.",
             p=percent(found.worth),
         )
