@@ -254,15 +254,15 @@ class Chain(ChainFile):
 
 @dataclass(frozen=True, kw_only=True)
 class Graph(ChainFile):
-    """Write a game, or your own graph, as a graph, a matrix, eigenvalues and a limit.
+    """Write a game, or your own graph, as graph, matrix, eigenvalues and limit.
 
     GAME is one-ball; series, with winner, loser or alternate breaks; drill 9-ball or drill 8-ball;
     a match, such as 9:5, "7:7 win by 2", race to 7 or n-ahead 3; another game in the catalog; or a
     chart, such as npl_10, for the ladder of rating errors it leads to. Without {p}, or {p1} and
     {p2}, a game in the catalog uses example chances; any other match needs them. FILE is any chain
     that evenbreak chain reads: a CSV file of arcs, GraphML (.graphml), node-link JSON (.json) or a
-    matrix in Matrix Market form (.mtx). The command writes all of these formats, which can be read
-    again, plus tables of the rest and a picture.
+    matrix in Matrix Market form (.mtx). All of these formats are written, and can be read
+    again; tables of the rest and a picture are added.
     """
 
     examples = """\
