@@ -52,7 +52,7 @@ def bands(text: str) -> list[float]:
         ratings = []
     if not 1 <= len(ratings) <= MOST_ROWS:
         raise InputError(
-            f"{text!r} isn't a list of ratings. Give those at which the rows "
+            f"{text!r} isn't a list of ratings. Give the ratings at which the rows "
             "start, such as 350,450,550."
         )
     return sorted(set(ratings))

@@ -89,7 +89,7 @@ def test_by_name_with_the_ratings_scale_and_errors_of_a_list(listed) -> None:
     [
         (("Ann Lee",), {}, "1 are named"),
         (("Ann Lee", "Bo Dias"), {}, "'Bo Diaz'"),
-        (("Ann Lee", "ann lee"), {}, "one player"),
+        (("Ann Lee", "ann lee"), {}, "the same player"),
         (("Ann Lee", "Cy"), {}, "chain of opponents"),
         (("Ann Lee", "Di"), {}, "no rating"),
         (("Ann Lee", "Bo Diaz"), {"scale": SCALES["npl"]}, "scale"),
