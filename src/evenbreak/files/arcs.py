@@ -37,7 +37,7 @@ ARCS = Schema(
     ),
     probability=Number(
         "p, prob, chance",
-        "of the target, given the source",
+        "P(the target is next), given the source",
         needed=True,
         instead=[WEIGHT],
         filled=True,
@@ -46,7 +46,7 @@ ARCS = Schema(
         write=_CHANCE,
     ),
     weight=Number(
-        about="read where there is no `probability`", filled=True, least=0, most=1, write=_CHANCE
+        about="used if there is no `probability`", filled=True, least=0, most=1, write=_CHANCE
     ),
 )
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 STATES = Schema(
     "states",
     state=Text("name, node", "the name of the state", needed=True),
-    kind=Text(about="`start` for the state in which the chain starts"),
+    kind=Text(about="`start` for the state that the chain starts in"),
     winner=Text(about="the number of the player who has won there"),
 ) | Schema(**dict.fromkeys(("class", "class_kind", "period", "limit"), Text()))
 """A list of states; those that `evenbreak chain` writes have more columns."""

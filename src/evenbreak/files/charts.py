@@ -60,7 +60,7 @@ LEVELS = Schema(
     needs=_GAMES.called("games, own games", "the games that the player of `level` needs"),
     opponent_needs=_GAMES.called(
         "opponent games",
-        "the games that the opponent needs; not needed if every pair is listed both ways round",
+        "the games that the opponent needs; not needed if every pair is in both orders",
         filled=False,
     ),
 )
@@ -69,7 +69,7 @@ LEVELS = Schema(
 POINTS = LEVELS.only("level") | Schema(
     points=_GAMES.called(
         "points to win, needs points",
-        "the points that a player of the level needs; larger in each row",
+        "the points that a player at this level needs; larger in each row",
     )
 )
 """A chart of points."""

@@ -92,7 +92,7 @@ SCORES = Schema(
 
 OUTCOME = Outcome(
     "made it, success, hit",
-    "in place of made and tried, with a row for each try: `made` or `missed`, `yes` or `no`, "
+    "instead of made and tried, with a row for each try: `made` or `missed`, `yes` or `no`, "
     "`1` or `0`, `x` or `-`; also titled `result` or `made`",
     filled=True,
     values=WORDS,

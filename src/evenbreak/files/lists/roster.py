@@ -46,11 +46,11 @@ ROSTER = Schema(
         needed=True,
         instead=("given_name surname",),
     ),
-    given_name=Text("", "with the surname, or the rest of the name in `player`"),
-    surname=Text("", "with `given_name`, in place of `player`"),
+    given_name=Text("", "with the surname, or with the rest of the name in `player`"),
+    surname=Text("", "with `given_name`, instead of `player`"),
     rating=Number(
         "points, handicap, fargo rating, fargo, elo",
-        "the title may name the scale (`Fargo rating`, `Elo`); not needed where there are levels",
+        "the title may name the scale (`Fargo rating`, `Elo`); not needed if there are levels",
         least=-LARGEST,
         most=LARGEST,
         grouped=True,
@@ -59,17 +59,17 @@ ROSTER = Schema(
     ),
     effective_rating=Number(
         "",
-        "of a list saved from FargoRate: the rating of those whose `rating` is 0, since it rests "
-        "on fewer than 200 games; they are provisional",
+        "in a list saved from FargoRate: the rating of players whose `rating` is 0, since they "
+        "have fewer than 200 games; these ratings are provisional",
         least=0,
         most=LARGEST,
         write=say("points such as 85"),
     ),
     level=Number(
         "skill level, sl",
-        "the skill level, which a chart by skill level reads and a cap counts. Without ratings, "
-        "levels take their place: they need a chart by skill level, or `--scale` with the levels "
-        "that double the odds",
+        "the skill level, for charts by skill level and for caps. If there are no ratings, the "
+        "levels replace them; this takes a chart by skill level, or `--scale` with the number of "
+        "levels that doubles the odds",
         least=0,
         most=1000,
         write=say("a skill level"),
@@ -80,30 +80,30 @@ ROSTER = Schema(
     ),
     quasi_error=_ERROR.called(
         "quasi standard error, qse",
-        "the same without the uncertainty that all ratings share, so that it suits differences; "
-        "used in place of `standard_error` if given",
+        "the same without the uncertainty that all ratings share, for rating differences; used "
+        "instead of `standard_error` if given",
     ),
     games=_COUNT.called(
         "games played, racks, robustness",
-        "the games that the rating is based on, 0 for a new player",
+        "the number of games that the rating is based on; 0 for a new player",
     ),
     component=Whole(
         "group", "players linked by a chain of opponents have the same number", least=1
     ),
     matches=_COUNT.called(
         "matches played",
-        "the matches that the player has played; used by [systems](systems.md) with longer steps "
-        "for newcomers; players without a value are treated as established",
+        "matches that the player has played, for [systems](systems.md) with longer steps for "
+        "newcomers; players without a value are treated as established",
     ),
     provisional=YesNo(
         "preliminary",
-        "whether the rating rests on so few games that it has no place in the list",
+        "whether the rating is based on too few games for a place in the list",
         values={"yes": True, "no": False, "true": True, "false": False, "1": True, "0": False},
     ),
     races_won=_COUNT.called(
         "",
-        "matches won of which only the winner is known; such matches count as games do in showing "
-        "that a player is not new",
+        "matches won for which only the winner is known; like games, they show that a player "
+        "isn't new",
     ),
     races_lost=_COUNT.called("", "the same for matches lost"),
     match_form=Number(

@@ -25,12 +25,12 @@ _POINTS = Number(least=-LARGEST, most=LARGEST, write=say("points"))
 OF_PRIOR = Schema(
     prior_mean=_POINTS.called(
         "",
-        "the mean of the prior with which the rating was made. The prior is taken out again, so "
-        "that the new one counts once; without it a rating counts as it is",
+        "the mean of the prior that the rating was made with. This prior is removed, so that only "
+        "the new one counts; if this is empty, the rating is used as it is",
     ),
     prior=_POINTS.called("", "the prior's standard deviation", least=0),
     as_of=Day(
-        "date, day, updated", "the day of the ratings; with a half-life they have aged since"
+        "date, day, updated", "the date of the ratings; with a half-life, they have aged since then"
     ),
 )
 SAVED = ROSTER | WRITTEN | OF_PRIOR

@@ -283,7 +283,7 @@ class _OfRoster(Name):
 PAIRS = Schema(
     "pairs",
     player_a=_OfRoster(RESULTS["player_a"].also, "one of the two players", needed=True),
-    player_b=_OfRoster(RESULTS["player_b"].also, "the other", needed=True),
+    player_b=_OfRoster(RESULTS["player_b"].also, "the other player", needed=True),
 )
 """A list of who plays who."""
 

@@ -41,9 +41,7 @@ TEAM = (
 )
 """The players of a team."""
 
-SQUADS = TEAM | Schema(
-    team=Name(about="the team of the player", write=say("the team of each player"))
-)
+SQUADS = TEAM | Schema(team=Name(about="the player's team", write=say("the team of each player")))
 """The players of all teams."""
 
 
@@ -53,18 +51,20 @@ def _side(also: str, about: str) -> Name:
 
 _SETS = Whole(needed=True, empty=None, instead=("score",))
 ROUND = Schema(
-    round=Text("week, matchday, night", "the round; the date, where there is no such column"),
+    round=Text("week, matchday, night", "the round; without this column, the date is used"),
     date=Text("day, match date", "the date"),
 )
 PLACE = Schema(
-    venue=Text("location, place", "where it is played"),
+    venue=Text("location, place", "where the match is played"),
     table=Text("table number", "the table"),
     turn=Text("", "whether it is the first match there that night, the second, ..."),
 )
 PAIR = Schema(
     "matches",
-    home=_side("home team, team a, team 1, player a, a", "the team at home"),
-    away=_side("away team, visitor, visitors, guest, team b, team 2, player b, b", "the visitors"),
+    home=_side("home team, team a, team 1, player a, a", "the home team"),
+    away=_side(
+        "away team, visitor, visitors, guest, team b, team 2, player b, b", "the visiting team"
+    ),
 )
 FIXTURES = PAIR | ROUND | PLACE
 """The matches to come of a team season."""
@@ -73,10 +73,11 @@ TEAM_RESULTS = (
     PAIR
     | Schema(
         home_score=_SETS.called(
-            "home sets, home points, score home, score a, score 1", "the sets that home won"
+            "home sets, home points, score home, score a, score 1",
+            "the sets that the home team won",
         ),
         away_score=_SETS.called(
-            "away sets, away points, score away, score b, score 2", "the sets that away won"
+            "away sets, away points, score away, score b, score 2", "the sets that the visitors won"
         ),
     )
     | LAYOUTS.only("score", "status", "remark")
@@ -91,12 +92,12 @@ TEAMS = Schema(
     team=Name("name, team name", "each team once", needed=True),
     points=Number(
         "head start, bonus, deduction, adjustment",
-        "the points that it has besides its matches",
+        "points that the team has in addition to those from its matches",
         least=-10_000,
         most=10_000,
         write=say("points such as -2"),
     ),
-    venue=Text("home venue, location, place", "where it is at home"),
+    venue=Text("home venue, location, place", "where the team plays at home"),
     tables=Text("tables there", "the number of tables at that venue"),
 )
 """The teams of a league."""

@@ -41,23 +41,25 @@ RESULTS = Schema(
     ),
     player_b=Name(
         "player 2, player b name, away, away player, b",
-        "the other",
+        "the other player",
         needed=True,
         instead=_WINNER_AND_LOSER,
     ),
     score_a=_GAMES.called(
-        "score 1, games a, games 1, home score, frames a, racks won a", "the games that a won"
+        "score 1, games a, games 1, home score, frames a, racks won a",
+        "the games that player a won",
     ),
     score_b=_GAMES.called(
-        "score 2, games b, games 2, away score, frames b, racks won b", "the games that b won"
+        "score 2, games b, games 2, away score, frames b, racks won b",
+        "the games that player b won",
     ),
     date=Day("day, match date, played, played on"),
     race_a=_RACE.called(
         "race 1, race to a, needs a, home race",
         "the games that player a needed. The winner is then the player who reached the race, "
-        "whatever the scores",
+        "no matter what the scores are",
     ),
-    race_b=_RACE.called("race 2, race to b, needs b, away race", "the same of player b"),
+    race_b=_RACE.called("race 2, race to b, needs b, away race", "the games that player b needed"),
     winner=Text(
         "won by, match winner, winning player, winner name",
         "the winner of the match: `a`, `b`, or a name; checked against scores and races",
@@ -79,25 +81,23 @@ RESULTS = Schema(
     event=_NFC.called("tournament, competition, league"),
     team_a=_NFC.called(
         "team 1, home team",
-        "the team of player a; ratings use it if it "
+        "player a's team; ratings use it if it "
         "[clearly helps](../explanation/ratings.md#what-the-file-knows)",
     ),
-    team_b=_NFC.called("team 2, away team", "the team of player b"),
-    division=_NFC.called(
-        "class, flight", "the division or class in which the match was played; used like the team"
-    ),
+    team_b=_NFC.called("team 2, away team", "player b's team"),
+    division=_NFC.called("class, flight", "the division or class of the match; used like the team"),
     level_a=_NFC.called(
         "level 1, skill level a, skill level 1, class a, class 1, rating a",
-        "the class, skill level or rating by which the league handicapped player a that day: `B`, "
+        "the class, skill level or rating the league used for player a that day: `B`, "
         "`5` or `87`; `validate` says what a class is worth, and which "
         "[chart](../how-to/can-i-trust-the-ratings.md#handicaps) the races come from",
     ),
     level_b=_NFC.called(
-        "level 2, skill level b, skill level 2, class b, class 2, rating b", "that of player b"
+        "level 2, skill level b, skill level 2, class b, class 2, rating b", "the same for player b"
     ),
     forfeit=YesNo(
         "walkover, forfeited, no show, w/o",
-        "forfeits are left out of the ratings, and counted",
+        "forfeits are left out of the ratings; the answer tells how many",
         values=FORFEIT_WORDS,
     ),
 )
@@ -106,7 +106,7 @@ RESULTS = Schema(
 LAYOUTS = Schema(
     loser=Name(
         "losing player, loser name, lost by",
-        "with `winner`, in place of the two players: player a is then the winner",
+        "with `winner`, instead of the two players: player a is then the winner",
     ),
     score=Text(
         "result, final score, match score", "both scores in one cell: `7-5`, `7:5` or `7/5`"
@@ -114,26 +114,26 @@ LAYOUTS = Schema(
     status=Text(
         "", "whether the match was played: `played`, `forfeit`, `bye`, `postponed` and the like"
     ),
-    remark=Text("", "counts where it says `forfeit`, `bye` and the like, and nothing else"),
+    remark=Text("", "used only if it says just `forfeit`, `bye` or the like"),
     winner_score=Text(
         "winner games, winners score, games won by winner",
-        "with `winner` and `loser`, in place of the two scores",
+        "with `winner` and `loser`, instead of the two scores",
     ),
-    loser_score=Text("loser games, losers score, games won by loser", "the same of the loser"),
+    loser_score=Text("loser games, losers score, games won by loser", "the same for the loser"),
     race=Text(
         "race to, match race",
-        "in place of `race_a` and `race_b`: `7`, `race to 7`, or `7-5` if the players need "
+        "instead of `race_a` and `race_b`: `7`, `race to 7`, or `7-5` if the players need "
         "different numbers",
     ),
-    winner_race=Text("winner needs, winners race", "the same, with `winner` and `loser`"),
-    loser_race=Text("loser needs, losers race", "the same of the loser"),
-    winner_team=Text("winners team", "the team of the winner"),
-    loser_team=Text("losers team", "the team of the loser"),
+    winner_race=Text("winner needs, winners race", "the games that the winner needed"),
+    loser_race=Text("loser needs, losers race", "the games that the loser needed"),
+    winner_team=Text("winners team", "the winner's team"),
+    loser_team=Text("losers team", "the loser's team"),
     winner_level=Text(
         "winners level, winner class, winner rating",
-        "the class, skill level or rating of the winner",
+        "the winner's class, skill level or rating",
     ),
-    loser_level=Text("losers level, loser class, loser rating", "the same of the loser"),
+    loser_level=Text("losers level, loser class, loser rating", "the same for the loser"),
 )
 """The columns that are brought to that layout."""
 
