@@ -66,7 +66,10 @@ def test_players_join_and_leave() -> None:
             {"rating": [50, 60_000]},
             "rating must be whole numbers from -15000 to 15000; it holds 60000",
         ),
-        ({"rating": [50, 60], "joins": [1, 4], "leaves": [0, 2]}, "leaves in week 2 and joins in"),
+        (
+            {"rating": [50, 60], "joins": [1, 4], "leaves": [0, 2]},
+            "joins in week 4 but leaves in week 2",
+        ),
         ({"rating": [50, 60], "names": ["Ann"]}, "names must"),
         ({"rating": [50, 60], "names": ["Ann", "Ann"]}, "names must"),
     ],

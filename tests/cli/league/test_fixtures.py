@@ -69,7 +69,7 @@ def test_one_teams_calendar(run, teams, tmp_path):
         (("TEAMS", "--ics", "f.ics"), "--ics needs dates"),
         (("TEAMS", "--begins", "2026-09-01", "--ends", "2026-09-08"), "5 nights are needed"),
         (("TEAMS", "--weekdays", "someday"), "Name days such as tue"),
-        (("TEAMS", "--skip", "2026-12-24..2026-12-20"), "isn't a range of days"),
+        (("TEAMS", "--skip", "2026-12-24..2026-12-20"), "isn't a date range"),
         (("TEAMS", "--only", "Nobody"), "--only Nobody has no match"),
         (("TEAMS", "--of", "players"), "has no column player"),
     ],
