@@ -369,7 +369,7 @@ def test_a_match_stands_only_when_those_before_it_do() -> None:
     scores = {"W1_1": (5, 0), "W1_2": (5, 0), "W1_3": (5, 0), "W1_4": (5, 0)}
     events = played(drawn(8), **scores, W2_1=(5, 0), W2_2=(5, 0), W3_1=(5, 0))
     events.append(Event(AT, moves.correct(evening(events), "W1.1", (0, 5))))
-    with pytest.raises(InputError, match="settle match 5 first"):
+    with pytest.raises(InputError, match="Settle match 5 first"):
         stand(evening(events), "W3.1")
 
 
@@ -486,7 +486,7 @@ def test_a_late_player_takes_a_bye_only_while_it_is_open() -> None:
         (lambda s: moves.result(s, "W2.1", (5, 0)), "isn't ready"),
         (lambda s: moves.correct(s, "W1.1", (5, 0)), "no result"),
         (lambda s: moves.forfeit(s, "P2", "W1.1"), "P2 isn't in match 1"),
-        (lambda s: moves.score(s, "W1.1", (5, 0)), "result 1 5:0"),
+        (lambda s: moves.score(s, "W1.1", (5, 0)), "result 1 5-0"),
         (lambda s: stand(s, "W1.1"), "nothing to let stand"),
         (lambda s: break_ties(s, np.random.default_rng()), "no tie"),
         (lambda s: moves.drop(s, "P99"), "P99"),
