@@ -231,7 +231,7 @@ def test_an_unknown_state_is_named() -> None:
         ({"p1": [], "p2": 0.5}, "p1 must not be empty"),
         ({"p1": np.zeros((2, 0)), "p2": 0.5}, "p1 must not be empty"),
         ({"p1": ["a", "b"], "p2": 0.5}, "p1"),
-        ({}, "chances"),
+        ({}, "probabilities"),
     ],
 )
 def test_bad_chances_are_refused_at_the_door(chances: dict[str, Any], named: str) -> None:

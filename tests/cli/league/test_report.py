@@ -435,7 +435,7 @@ def test_the_real_season(run, tmp_path):
     facts = summary(tmp_path)
     assert (facts["matches_used"], facts["forfeits_left_out"]) == ("2412", "49")
     assert (facts["first_date"], facts["last_date"]) == ("2016-05-28", "2017-04-30")
-    assert "'Mark Davies' and 'Mark Davis' may be one player" in result.stderr
+    assert "'Mark Davies' and 'Mark Davis' may be the same player" in result.stderr
     best = [row["player"] for row in rows(tmp_path, "ratings.csv")[:5]]
     assert best[0] == "Mark Selby"
 

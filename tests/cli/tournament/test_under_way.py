@@ -139,7 +139,7 @@ def test_bad_entries_are_one_line(begun):
         (["odds", "--race", "5"], "--race"),
         (["odds", begun.entrants, "--race", "5"], "--file"),
         (["time", "--discipline", "9-ball"], "--discipline"),
-        (["score", "W1.1", "3:0"], "result 1 3:0"),
+        (["score", "W1.1", "3:0"], "result 1 3-0"),
         (["stand", "W1.1"], "match 1"),
         (["tiebreak"], "tie"),
         (["change"], "--tables"),

@@ -77,5 +77,5 @@ def test_another_file_is_refused(tmp_path):
     path = tmp_path / "other.db"
     sqlite3.connect(path).execute("CREATE TABLE x (y)").connection.close()
     for use in (read_team_events, lambda place: add(place, Begun(plan()))):
-        with pytest.raises(DataError, match="isn't the file of"):
+        with pytest.raises(DataError, match="isn't a tournament file"):
             use(path)
