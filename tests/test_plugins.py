@@ -138,7 +138,7 @@ def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, forgotten: None) -> 
         ("chart", "dip", "the race of row 3, 5:4, is easier for the stronger player than"),
         ("chart", "gap", "row 2 starts at 12, but row 1 ends at 9"),
         ("chart", "absent", "it failed with ModuleNotFoundError"),
-        ("chart", "wrong", "it is of the type Leaky. Let it be a Chart"),
+        ("chart", "wrong", "it must be a Chart, a LevelChart or a PointsChart; it is a Leaky"),
         ("game", "leaky", "the moves from 0 have chances that sum to 0.9, and not 1"),
         ("game", "pieces", "it failed with TypeError"),
         ("game", "absent", "it failed with ModuleNotFoundError"),

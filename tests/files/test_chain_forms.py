@@ -105,7 +105,7 @@ def test_a_matrix_that_reads_both_ways_comes_with_a_warning(tmp_path) -> None:
     path = matrix_file(tmp_path, BOTH)
     file = read_chain(path)
     assert chain_in(file, None).matrix.toarray().tolist() == BOTH
-    assert "Give rows from" in file.warnings[0]
+    assert "If the rows hold them, give rows from" in file.warnings[0]
     assert read_chain(path, rows="to").warnings == ()
     assert chain_in(read_chain(path, rows="from"), None).matrix.toarray().T.tolist() == BOTH
     assert read_chain(matrix_file(tmp_path, [[0.0, 1.0], [1.0, 0.0]])).warnings == ()

@@ -50,7 +50,7 @@ def test_p1_and_p2_get_one_shape():
 def test_a_score_replaces_that_of_the_match():
     match, _ = at_score(SETS, (1, 0))
     assert match.score == (1, 0)
-    with pytest.raises(InputError, match="4:0"):
+    with pytest.raises(InputError, match="4-0"):
         at_score(SETS, (4, 0))
 
 

@@ -178,7 +178,7 @@ def test_the_page_says_when_the_next_set_starts_and_when_the_night_ends(tmp_path
         for phone in (*night.captains, night.guest):
             words = phone.open("/team").words
             assert re.search(r"Set 3 starts at about \d\d:\d\d \(8 nights in 10", words)
-            assert re.search(r"the night ends at about \d\d:\d\d; eight times", words)
+            assert re.search(r"the night ends at about \d\d:\d\d \(8 nights in 10", words)
         assert "the night ends at about" in night.guest.open("/screen").words
         for number in (1, 2, 3):
             if number == 3:

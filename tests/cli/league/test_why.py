@@ -24,7 +24,7 @@ def test_the_ratings_and_the_race_are_those_of_the_report(run, tmp_path):
     ("words", "code", "named"),
     [
         (("Ann", "Petra Nowicz-Hale", "--results", DEMO), 2, "'Ann'"),
-        (("Zoë Kestleman", "zoë kestleman", "--results", DEMO), 2, "one player"),
+        (("Zoë Kestleman", "zoë kestleman", "--results", DEMO), 2, "are the same player"),
         (("Zoë Kestleman", "Petra Nowicz-Hale"), 2, "--results"),
         (("Zoë Kestleman", "Petra Nowicz-Hale", "--results", "none.csv"), 3, "none.csv"),
     ],

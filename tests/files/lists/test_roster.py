@@ -124,7 +124,7 @@ def test_names_that_differ_in_case_or_spaces_are_one_player_listed_twice(read):
 
 def test_similar_names_are_a_warning(read):
     (warning,) = read("player,rating\nBo Petersen,80\nBo Peterson,71\n").warnings
-    assert "'Bo Petersen' and 'Bo Peterson' may be one player" in warning
+    assert "'Bo Petersen' and 'Bo Peterson' may be the same player" in warning
 
 
 @pytest.mark.parametrize(

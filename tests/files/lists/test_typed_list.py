@@ -292,7 +292,10 @@ def test_lists_as_they_are_pasted(tmp_path, text, players, ratings):
         ("Players:\nAnn\nBo\n", "'Players:' is left out as a heading"),
         ("Ann Lee,0\nBo,612\n", "'Ann Lee' has the rating 0. Leave it out if it means none"),
         ("Ann Lee,-30\nBo,612\n", "'Ann Lee' has the rating -30"),
-        ("3) Ann\n5) Bo\n", "the number 3 in front of 'Ann' is left out"),
+        (
+            "3) Ann\n5) Bo\n",
+            "the numbers in front of names, such as the 3 before 'Ann', are left out",
+        ),
     ],
 )
 def test_what_could_mean_something_else_is_said(tmp_path, text, said):

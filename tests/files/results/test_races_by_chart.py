@@ -27,7 +27,7 @@ def test_levels_set_the_race_and_so_the_winner(read):
     assert texts == [
         ": the races of 2 matches are those of apa_8ball for the levels stated",
         (
-            ":4: the score 1-1 doesn't end the race 2-3 of the levels stated, nor do "
+            ":4: the score 1-1 doesn't end the race 2:3 of the levels stated, nor do "
             "those of 1 more matches theirs. Check them."
         ),
     ]

@@ -50,7 +50,7 @@ def test_the_real_season():
     assert (len(file.results), len(file.results.players)) == (2461, 335)
     assert (len(played), forfeits, empty) == (2412, 49, 0)
     assert file.similar_names == (("Mark Davies", "Mark Davis"),)
-    assert any("'Mark Davies' and 'Mark Davis' may be one player" in w for w in file.warnings)
+    assert any("'Mark Davies' and 'Mark Davis' may be the same player" in w for w in file.warnings)
 
 
 def test_the_fingerprint_is_that_of_the_bytes(read):
@@ -156,7 +156,7 @@ def test_names_that_differ_in_accents_are_asked_about(read):
     file = read(f"{HEADER}\n{rows}")
     assert file.similar_names == (("Jorg Petersen", "Jörg Petersen"), ("Zoe Lee", "Zoë Lee"))
     assert len(file.warnings) == 2
-    assert "'Jorg Petersen' and 'Jörg Petersen' may be one player" in file.warnings[0]
+    assert "'Jorg Petersen' and 'Jörg Petersen' may be the same player" in file.warnings[0]
 
 
 def test_a_player_does_not_play_another_spelling_of_their_name(read):
