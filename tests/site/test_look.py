@@ -146,7 +146,7 @@ def test_a_logo_is_known_by_its_content() -> None:
     for wrong in (b"<svg onload=alert(1)>", b"RIFF1234WAVE", b""):
         with pytest.raises(InputError, match="Save it as one"):
             logo_name(wrong, "club.png")
-    with pytest.raises(InputError, match="Save it smaller"):
+    with pytest.raises(InputError, match="Save a smaller version"):
         logo_name(b"\x89PNG\r\n\x1a\n" + bytes(MOST_LOGO_BYTES), "club.png")
 
 

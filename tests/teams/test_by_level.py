@@ -148,7 +148,7 @@ def test_shares_of_twenty_are_those_of_the_match_shot_by_shot(levels: tuple[int,
 
 
 def by_tree(laws, line_ups, order, lead, used):
-    """The value of a night by every pick, where a line-up must be one of those allowed."""
+    """The value of a night by every pick, where a lineup must be one of those allowed."""
     k = len(used[0])
     if k == len(order):
         return 1.0 if lead > 0 else 0.5 if lead == 0 else 0.0

@@ -197,5 +197,5 @@ def test_nights_that_cannot_be_are_refused() -> None:
         TeamNight(capped, squad(3, "b"), law(chances(3, 3, 1)), sets=2)
     with pytest.raises(InputError, match="add up to"):
         TeamNight(squad(1, "a"), squad(1, "b"), [np.full((1, 1, 2, 3), 0.3)])
-    with pytest.raises(InputError, match="too many line-ups"):
+    with pytest.raises(InputError, match="too many lineups"):
         TeamNight(squad(30, "a"), squad(30, "b"), law(chances(30, 30, 1)), sets=8)

@@ -523,7 +523,7 @@ def test_names_of_teams_and_players_are_text(tmp_path: Path) -> None:
         ({"team_b": "rac\u200bks"}, "both teams are called"),
         ({"players_b": ""}, "Enter at least one player"),
         ({"players_b": "player,rating\nUli,high"}, "Cues: line 2: rating 'high'"),
-        ({"cap": "5"}, "no line-up"),
+        ({"cap": "5"}, "no lineup"),
         ({"cap": "-1"}, "number above 0"),
         ({"sets": "9"}, "can't fill 9 sets"),
         ({"race": "0"}, "whole number"),

@@ -308,7 +308,7 @@ def test_what_captains_are_told_at_two_servers_is_in_the_file(tmp_path: Path) ->
 
 
 def captain(phone: Phone, side: int, night: int) -> None:
-    """Hand in a line-up, and propose every result, each form twice."""
+    """Hand in a lineup, and propose every result, each form twice."""
     own = {"night": night, "by": side}
     picks = {f"pick{k}": k - 1 for k in (1, 2, 3)}
     for once in ("x", "x"):

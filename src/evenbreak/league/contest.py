@@ -50,7 +50,7 @@ at this rate the levels of the innings rule as told (`apa-like`) stay where they
 """
 
 Captains = Callable[["Doublings", Floats, Floats, Floats], tuple[Ints, Ints]]
-"""Line-ups of two teams: from the system, the published numbers of the players there of each team,
+"""Lineups of two teams: from the system, the published numbers of the players there of each team,
 and two uniform numbers to the places of those who play, as many of each team."""
 
 
@@ -238,7 +238,7 @@ class _Side:
         self.before, self.ratings = self.ratings, updated(self.system, self.history)
 
     def _pairs(self, night: Night) -> tuple[Ints, Ints]:
-        """Return which players meet; in a league of teams, by the captains' line-ups."""
+        """Return which players meet; in a league of teams, by the captains' lineups."""
         if self.world.team is None:
             return night.a, night.b
         ups = [self._line_up(team, night) for team in range(self.world.sides)]
@@ -267,7 +267,7 @@ class _Side:
     def _best(
         self, night: Night, teams: tuple[int, int], usual: tuple[Ints, Ints]
     ) -> tuple[Ints, Ints]:
-        """Return the captains' best line-ups; the usual ones where too few are there for those."""
+        """Return the captains' best lineups; the usual ones where too few are there for those."""
         if self.captains is None:
             return usual
         ours, theirs = (side.copy() for side in usual)

@@ -328,7 +328,8 @@ def refuse_drift(ladder: Ladder) -> None:
     """Raise an error if the player's skill drifts on this ladder."""
     if ladder.drift:
         raise InputError(
-            "the ladder's player drifts by {drift!r}. Give one of drift 0.", drift=ladder.drift
+            "the player in this ladder drifts by {drift!r}. Use a ladder with drift 0.",
+            drift=ladder.drift,
         )
 
 

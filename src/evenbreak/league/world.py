@@ -80,7 +80,7 @@ class World:
     sets
         matches of two teams on a night.
     cap
-        the most that the levels of a line-up may add up to, where a system publishes levels.
+        the most that the levels of a lineup may add up to, where a system publishes levels.
 
     Raises
     ------

@@ -335,7 +335,7 @@ class Import(Question):
     ] = None
     tables: Annotated[Tables | None, Says(usual="as saved")] = None
     discipline: Annotated[Discipline | None, Says(usual="as saved, else 9-ball")] = None
-    out: Annotated[str, Field(File("FILE.db"), "File of the tournament; must not exist yet.")] = (
+    out: Annotated[str, Field(File("FILE.db"), "The tournament's file; must not exist yet.")] = (
         "tonight.db"
     )
     at: At = None

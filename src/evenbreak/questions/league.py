@@ -243,7 +243,7 @@ class Simulate(BySystem):
         float | None,
         Field(
             Number(0.0, 1000.0, " isn't a sum of levels, such as 23"),
-            "The most that the levels of a team's line-up may add up to.",
+            "The most that the levels of a team's lineup may add up to.",
             section=_LEAGUE,
             metavar="LEVELS",
         ),
@@ -252,7 +252,7 @@ class Simulate(BySystem):
         bool,
         Field(
             Flag(),
-            "Captains field their best line-up by the published numbers, not just anyone present.",
+            "Captains field their best lineup by the published numbers, not just anyone present.",
             section=_LEAGUE,
             more="Much slower: a few tenths of a second per season.",
         ),

@@ -237,7 +237,7 @@ class Fixtures(Reading):
         int | None,
         Field(
             Whole(0, 2**32 - 1),
-            "Seed for the draw of numbers.",
+            "Seed for the random draw.",
             usual="the order of the list",
             metavar="SEED",
         ),

@@ -37,7 +37,7 @@ ORDERS = {
     "loser": say("The loser of the last set"),
     "winner": say("The winner of the last set"),
     "blind": say("Both at once, blind"),
-    "sealed": say("Sealed: both line-ups before the match starts"),
+    "sealed": say("Sealed: both lineups before the match starts"),
 }
 """Who names first, by a name of the order, with its words."""
 
@@ -94,7 +94,7 @@ Order: TypeAlias = Annotated[
         "or lost the last set), such as ABABA; or alternate, home, blind, winner, loser or "
         "sealed.",
         titles=ORDERS,
-        more="A shorter pattern is repeated. `sealed`: both line-ups are handed in before the "
+        more="A shorter pattern is repeated. `sealed`: both lineups are handed in before the "
         "match.",
     ),
 ]
@@ -168,14 +168,14 @@ class OfTeams(Starters):
 
 @dataclass(frozen=True, kw_only=True)
 class Capped(Question):
-    """Who names first, and what limits a line-up."""
+    """Who names first, and what limits a lineup."""
 
     order: Order = "alternate"
     cap: Annotated[
         float | None,
         Field(
             CAP,
-            "The largest sum of skill levels in a line-up, such as 23.",
+            "The largest sum of skill levels in a lineup, such as 23.",
             label=say("Cap: the largest sum of skill levels, such as 23 (blank: none)"),
             more="Without a `level` column, it is the largest sum of ratings.",
         ),

@@ -51,7 +51,7 @@ class NewTournament(TournamentPlan, Starters):
     pace: EarlierNights = ()
     scale: ScaleOf = None
     seed: Draw = 0
-    out: Annotated[str, Field(File("FILE.db"), "File of the tournament; must not exist yet.")] = (
+    out: Annotated[str, Field(File("FILE.db"), "The tournament's file; must not exist yet.")] = (
         "tonight.db"
     )
     beside: Annotated[

@@ -149,8 +149,8 @@ def logo_name(content: bytes, source: str) -> str:
     """
     if len(content) > MOST_LOGO_BYTES:
         raise InputError(
-            "logo {source} is {size:,} bytes; the limit is {most:,}. Save it smaller, such as 400 "
-            "pixels wide.",
+            "logo {source} is {size:,} bytes; the limit is {most:,}. Save a smaller version, "
+            "such as 400 pixels wide.",
             source=source,
             size=len(content),
             most=MOST_LOGO_BYTES,

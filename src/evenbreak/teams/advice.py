@@ -280,7 +280,7 @@ def _state(squad: Squad, line_ups: LineUps, k: int, used: Sequence[str]) -> int:
     except ValueError:
         raise InputError(
             "{used} can't be the players used so far: one plays too often, or the "
-            "line-up can no longer keep its caps",
+            "lineup can no longer keep its caps",
             used=", ".join(used),
         ) from None
 

@@ -18,7 +18,7 @@ from evenbreak.teams.set_laws import Count, law_in_play, set_laws, set_lengths
 from evenbreak.teams.squad import Squad
 
 SEALED = "sealed"
-"""The order in which both line-ups are handed in before the night."""
+"""The order in which both lineups are handed in before the night."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -40,7 +40,7 @@ class TeamNight:
     Raises
     ------
     InputError
-        if the laws are not probabilities, do not fit the squads, or a squad has no line-up.
+        if the laws are not probabilities, do not fit the squads, or a squad has no lineup.
 
     Notes
     -----

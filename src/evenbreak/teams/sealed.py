@@ -1,4 +1,4 @@
-"""Line-ups handed in before the night: each captain writes down who plays which set.
+"""Lineups handed in before the night: each captain writes down who plays which set.
 
 If all sets are alike, an order drawn at random is as good as any: against it every order of the
 other team has the same value, the mean over all pairings. What is left to choose is who plays,
@@ -20,7 +20,7 @@ from evenbreak.teams.night import TeamNight
 from evenbreak.teams.squad import Counts, Squad
 
 MOST_PAIRS = 250_000
-"""Pairs of line-ups beyond which a night is refused."""
+"""Pairs of lineups beyond which a night is refused."""
 
 
 class SealedLineUp(NamedTuple):
@@ -42,14 +42,14 @@ class SealedLineUp(NamedTuple):
 
 
 class SealedNight(NamedTuple):
-    """A night whose line-ups are handed in unseen, each in random order.
+    """A night whose lineups are handed in unseen, each in random order.
 
     Parameters
     ----------
     worth
         the value of the night to us; see `SolvedNight`.
     ours, theirs
-        the line-ups of each team, its best first.
+        the lineups of each team, its best first.
     """
 
     worth: float
@@ -66,7 +66,7 @@ class SealedNight(NamedTuple):
 
 
 def sealed(night: TeamNight) -> SealedNight:
-    """Return the value of a night if both line-ups are handed in before it.
+    """Return the value of a night if both lineups are handed in before it.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def sealed(night: TeamNight) -> SealedNight:
     Raises
     ------
     InputError
-        if the sets are not all alike and for one player a side, or there are too many line-ups.
+        if the sets are not all alike and for one player a side, or there are too many lineups.
 
     >>> from evenbreak.teams import Squad
     >>> law = np.zeros((2, 2, 2, 3))
@@ -87,12 +87,10 @@ def sealed(night: TeamNight) -> SealedNight:
     0.6
     """
     if set(night.sizes) != {1} or any(law is not night.laws[0] for law in night.laws):
-        raise InputError(
-            "line-ups can only be sealed if all sets are alike, with one player a side"
-        )
+        raise InputError("lineups can only be sealed if all sets are alike, with one player a side")
     ours, theirs = night.our_line_ups.used[-1], night.their_line_ups.used[-1]
     if len(ours) * len(theirs) > MOST_PAIRS:
-        raise InputError("there are too many line-ups. Leave out those who won't play tonight.")
+        raise InputError("there are too many lineups. Leave out those who won't play tonight.")
     games = _mean_over_pairings(night, ours, theirs)
     solution = matrix_game(games)
     return SealedNight(
@@ -117,7 +115,7 @@ def _players(counts: Counts) -> list[int]:
 
 
 def _mean_over_pairings(night: TeamNight, ours: list[Counts], theirs: list[Counts]) -> Floats:
-    """Return what each line-up is worth against each other one, averaged over all pairings.
+    """Return what each lineup is worth against each other one, averaged over all pairings.
 
     Our players come one by one, each to one of those of theirs who are left, all equally likely;
     the law of the lead is kept for each set of those who have played.

@@ -200,7 +200,7 @@ def refuse_large(night: TeamNight) -> None:
     """Refuse (InputError) a night that has too many points."""
     if steps_of(night) > MOST_STEPS:
         raise InputError(
-            "squads of {ours} and {theirs} players allow too many line-ups of {sets} "
+            "squads of {ours} and {theirs} players allow too many lineups of {sets} "
             "sets. Leave out those who won't play tonight, or play fewer sets.",
             ours=len(night.ours.names),
             theirs=len(night.theirs.names),

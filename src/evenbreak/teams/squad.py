@@ -23,7 +23,7 @@ Counts = tuple[int, ...]
 
 @dataclass(frozen=True)
 class Cap:
-    """A limit on a line-up: the sum of `weights` over the sets that each player plays.
+    """A limit on a lineup: the sum of `weights` over the sets that each player plays.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class Cap:
 def caps_of(
     weights: Sequence[float], most: float | None, at_most: tuple[int, float] | None
 ) -> tuple[Cap, ...]:
-    """Return the caps on a line-up.
+    """Return the caps on a lineup.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ class Squad:
     names
         each once.
     caps
-        the limits that the whole line-up keeps. No one may be put up who makes it impossible to
+        the limits that the whole lineup keeps. No one may be put up who makes it impossible to
         fill the remaining sets within them.
     times
         how often a player may be put up.
@@ -139,7 +139,7 @@ class Squad:
 
 
 class LineUps(NamedTuple):
-    """All line-ups of a squad that keep its caps, set by set.
+    """All lineups of a squad that keep its caps, set by set.
 
     `picks` are positions, one or a pair, by set; used[k] the possible counts of the players after k
     sets; after[k][state, pick] the state after set k, -1 if not allowed; moves[k][pick] the states
@@ -153,9 +153,9 @@ class LineUps(NamedTuple):
 
 
 def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
-    """Return the line-ups of a squad for sets of so many players per side.
+    """Return the lineups of a squad for sets of so many players per side.
 
-    An InputError if the squad has too few or too many players, or no line-up keeps its caps.
+    An InputError if the squad has too few or too many players, or no lineup keeps its caps.
 
     >>> found = line_ups(Squad(("Ann", "Bo", "Cy"), (Cap((7, 5, 3), 10),)), (1, 1))
     >>> found.used[2]
@@ -169,7 +169,7 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
         used.append(list(dict.fromkeys(filter(None, each))))
         if len(used[-1]) > MOST_STATES:
             raise InputError(
-                "{players} players allow too many line-ups of {sets} sets. Leave out "
+                "{players} players allow too many lineups of {sets} sets. Leave out "
                 "those who won't play tonight.",
                 players=count,
                 sets=len(sizes),
@@ -185,7 +185,7 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
     ]
     if not used[-1]:
         raise InputError(
-            "no line-up of {players} for {sets} sets keeps {caps}. Raise the limit, or "
+            "no lineup of {players} for {sets} sets keeps {caps}. Raise the limit, or "
             "add players who count for less.",
             players=", ".join(squad.names),
             sets=len(sizes),

@@ -38,7 +38,7 @@ class TeamNow(NamedTuple):
 
 @dataclass(frozen=True)
 class Advised:
-    """A captain's advice; `found` is each pick, or sealed line-up, with its worth."""
+    """A captain's advice; `found` is each pick, or sealed lineup, with its worth."""
 
     answer: Answer
     found: Advice | SealedNight

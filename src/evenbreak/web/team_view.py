@@ -98,7 +98,7 @@ def advised_options(state: TeamEvening, team: int, found: Advice) -> list[Option
 
 
 def advised_line_ups(found: SealedNight) -> list[OptionView]:
-    """Return the line-ups that a captain does well to hand in, the most frequent first."""
+    """Return the lineups that a captain does well to hand in, the most frequent first."""
     played = sorted((one for one in found.ours if one.mix > _RARE), key=lambda one: -one.mix)
     return [OptionView("", ", ".join(one.names), one.worth, "", one.mix) for one in played]
 
@@ -112,7 +112,7 @@ def drawn(options: Sequence[OptionView], lot: str) -> OptionView | None:
 
 
 def drawn_line_up(found: SealedNight, squad: Sequence[str], lot: str) -> list[str]:
-    """Return a line-up drawn by its share, in an order drawn too, as a form sends it."""
+    """Return a lineup drawn by its share, in an order drawn too, as a form sends it."""
     chance = Random(lot)  # noqa: S311 (keyed by the lot)
     names = list(chance.choices(found.ours, [one.mix for one in found.ours])[0].names)
     chance.shuffle(names)

@@ -90,7 +90,7 @@ def test_who_can_still_be_put_up_under_a_cap():
 @pytest.mark.parametrize(
     ("how", "why"),
     [
-        ({"cap": 5}, "no line-up"),
+        ({"cap": 5}, "no lineup"),
         ({"sets": 4}, "can't fill"),
         ({"race": 0}, "race must"),
         ({"doubles": (9,)}, "set 9"),

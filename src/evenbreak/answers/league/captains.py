@@ -1,4 +1,4 @@
-"""Captains who hand in the best line-up that the cap allows, for a simulated league of teams."""
+"""Captains who hand in the best lineup that the cap allows, for a simulated league of teams."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ _Numbers = tuple[float, ...]
 
 @dataclass(frozen=True, eq=False)
 class SealedCaptains:
-    """Captains who know only the published numbers and write their line-ups unseen.
+    """Captains who know only the published numbers and write their lineups unseen.
 
-    Both hand in a line-up of `sealed`, drawn from the mixture that no one can exploit; the pairs
-    are random. The team with more matches wins the night. A team whose weakest line-up is over the
+    Both hand in a lineup of `sealed`, drawn from the mixture that no one can exploit; the pairs
+    are random. The team with more matches wins the night. A team whose weakest lineup is over the
     cap plays that one.
     """
 
@@ -35,7 +35,7 @@ class SealedCaptains:
         self, doublings: Doublings, ours: Floats, theirs: Floats, luck: Floats
     ) -> tuple[Ints, Ints]:
         """Return who plays of both teams, as places among the published numbers of those there."""
-        # Teams of the same numbers have the same line-ups, whoever has them.
+        # Teams of the same numbers have the same lineups, whoever has them.
         orders = [np.argsort(side, kind="stable") for side in (ours, theirs)]
         sides = tuple(
             tuple(side[order].tolist()) for side, order in zip((ours, theirs), orders, strict=True)
@@ -69,7 +69,7 @@ class SealedCaptains:
 
 
 def _drawn(line_ups: Sequence[SealedLineUp], x: float) -> Ints:
-    """Return the places of a line-up of a mixture, by a uniform number."""
+    """Return the places of a lineup of a mixture, by a uniform number."""
     reached = np.cumsum([line_up.mix for line_up in line_ups])
     chosen = line_ups[min(int(np.searchsorted(reached, x)), len(line_ups) - 1)]
     return np.array([int(name) for name in chosen.names])

@@ -1,1 +1,1 @@
-"""Team nights and team leagues: line-ups, caps, rounds, seasons."""
+"""Team nights and team leagues: lineups, caps, rounds, seasons."""

@@ -292,7 +292,7 @@ _LISTED = 10
 def sealed_answer(
     meeting: Meeting, warnings: Sequence[str], solution: SealedNight | None = None
 ) -> Answer:
-    """Return who to write on a line-up that the other team doesn't see.
+    """Return who to write on a lineup that the other team doesn't see.
 
     >>> from evenbreak.ratings import SCALES, Roster
     >>> from evenbreak.teams import Squad
@@ -314,7 +314,7 @@ def sealed_answer(
         )
     else:
         words = say(
-            "Pick one of the line-ups below at random, weighted by its share, then pick its "
+            "Pick one of the lineups below at random, weighted by its share, then pick its "
             "order at random: you win the night {p} of the time, whatever they do.",
             p=percent(found.worth),
         )
@@ -335,12 +335,12 @@ def sealed_answer(
     notes = [say("Against a random order, every order of theirs is worth the same.")]
     if left:
         notes.append(
-            say_count("{n} more line-up is not listed.", "{n} more line-ups are not listed.", left)
+            say_count("{n} more lineup is not listed.", "{n} more lineups are not listed.", left)
         )
     table = Table("options", columns, rows)
     return Answer(
         say(
-            "Sealed line-ups of {sets}: {ours} players against {theirs}, {races}\n{strengths}",
+            "Sealed lineups of {sets}: {ours} players against {theirs}, {races}\n{strengths}",
             sets=say_count("{n} set", "{n} sets", len(meeting.sizes)),
             ours=len(meeting.ours),
             theirs=len(meeting.theirs),

@@ -179,9 +179,9 @@ def event_words(event: Event, plan: NightPlan, shown: set[int]) -> str:
             )
         case HandedIn(team, picks):
             if not shown:
-                return say("{team} handed in the line-up", team=names[team])
+                return say("{team} handed in the lineup", team=names[team])
             line_up = joined(map(names_words, picks), ", ")
-            return say("{team} handed in the line-up: {players}", team=names[team], players=line_up)
+            return say("{team} handed in the lineup: {players}", team=names[team], players=line_up)
         case Proposed(team, number, score):
             return say(
                 "{team} reports {score} in set {n}",

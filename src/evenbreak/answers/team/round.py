@@ -274,7 +274,7 @@ def _cap_words(teams: Sequence[str], free: Floats, capped: Floats) -> str:
     change = capped - free
     most, least = int(change.argmax()), int(change.argmin())
     if np.abs(change).max() < _SMALL:
-        return "The cap changes nothing: the best line-ups keep it anyway."
+        return "The cap changes nothing: the best lineups keep it anyway."
     said = (
         f"With the cap the teams win between {percent(float(capped.min()))} and "
         f"{percent(float(capped.max()))} of their nights, without it between "

@@ -285,7 +285,7 @@ def _next_words(state: Evening, tables: Sequence[tuple[int | None, str]]) -> str
         said.append(
             say_count(
                 "Match {matches} waits for a table.",
-                "Matches {matches} wait for a table.",
+                "Matches {matches} are waiting for a table.",
                 len(waiting),
                 matches=listed([str(number) for number in waiting]),
             )

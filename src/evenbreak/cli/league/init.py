@@ -157,7 +157,7 @@ def _commands(folder: str, league: NewLeague) -> Iterator[tuple[str, str]]:
         yield "tonight's races", f"evenbreak matchups{where}"
     if len(league.teams) > 1:
         ours, theirs = map(_quoted, league.teams[:2])
-        yield "a line-up", f"evenbreak lineup {ours} {theirs}{where}"
+        yield "a lineup", f"evenbreak lineup {ours} {theirs}{where}"
     if league.sources:
         yield "the table", f"evenbreak league table{where}"
         if not league.levels:

@@ -226,7 +226,7 @@ def _length(asked: Season, scores: Any) -> dict[str, int]:
         return {"race": int(most[0])}
     return asked.refuse(
         "the results have matches of different lengths. Set that of the matches still to "
-        "be played with {sets} or {race}, and leave out what wasn't played to the end."
+        "be played with {sets} or {race}, and leave out any that weren't finished."
     )
 
 

@@ -69,7 +69,7 @@ class TeamRules:
     players: Annotated[int | None, Field(Whole(1, 100), "How many players a team puts up.")] = None
     sets: Annotated[int | None, Field(values.SETS, "How many sets are played.")] = None
     cap: Annotated[
-        float | None, Field(values.CAP, "The largest sum of the skill levels of a line-up.")
+        float | None, Field(values.CAP, "The largest sum of the skill levels of a lineup.")
     ] = None
     at_most: Annotated[
         tuple[int, float] | None,

@@ -123,7 +123,7 @@ class NightPlan:
     `handicapped`: the stronger player needs `race` games, the weaker gets the fairest number; with
     one of the package's charts, `race` is 0. `order` is as `order_of` reads it, or 'sealed';
     `count` is sets, games or points; `doubles` are numbers of sets. `cap` is the largest sum of a
-    line-up's weights; `at_most` is how many players of a weight or more may play; `times` is how
+    lineup's weights; `at_most` is how many players of a weight or more may play; `times` is how
     often a player may be put up. `match_form` is the standard deviation of a game's log-odds from
     set to set. `by_level`: chances come from skill levels, whose strengths by a chart of races are
     `levels`; None in the file of an earlier version, whose chances are those of `level_skills`
@@ -283,7 +283,7 @@ class PutUp:
 
 @dataclass(frozen=True)
 class HandedIn:
-    """A team hands in its whole line-up, where line-ups are sealed."""
+    """A team hands in its whole lineup, where lineups are sealed."""
 
     team: Team
     picks: tuple[Pick, ...]

@@ -80,7 +80,7 @@ class TeamEvening:
 
     @property
     def sealed(self) -> bool:
-        """Whether both line-ups are handed in before the night."""
+        """Whether both lineups are handed in before the night."""
         return self.meeting.order == SEALED
 
     def unseen(self, number: int) -> bool:
@@ -161,7 +161,7 @@ class TeamEvening:
     def seen_by(self, viewer: int | None) -> TeamEvening:
         """Return the state as a team's captain sees it, or as `EVERYBODY` does.
 
-        What the other team has put up unseen is left out until both picks are in; where line-ups
+        What the other team has put up unseen is left out until both picks are in; where lineups
         are sealed, until both are handed in.
         """
         lines = tuple(

@@ -41,7 +41,7 @@ def begin(state: TeamEvening | None, plan: NightPlan) -> list[What]:
 def put_up(state: TeamEvening, team: int, number: int, pick: Pick) -> list[What]:
     """Put someone up in a set; an InputError if it isn't this team's turn, or not allowed."""
     if state.sealed:
-        raise InputError("line-ups are sealed tonight; hand in the whole line-up")
+        raise InputError("lineups are sealed tonight; hand in the whole lineup")
     line = _line(state, number)
     there = line.picks[team]
     if sorted(there) == sorted(pick):
@@ -91,18 +91,18 @@ def _check_turn(state: TeamEvening, team: int, number: int, *, replaces: bool) -
 
 
 def hand_in(state: TeamEvening, team: int, picks: tuple[Pick, ...]) -> list[What]:
-    """Hand in a whole line-up; it may be changed until the other one is in too.
+    """Hand in a whole lineup; it may be changed until the other one is in too.
 
-    An InputError if line-ups aren't sealed, both are in, or it breaks the caps.
+    An InputError if lineups aren't sealed, both are in, or it breaks the caps.
     """
     if not state.sealed:
-        raise InputError("line-ups aren't sealed tonight. Put up one player after another.")
+        raise InputError("lineups aren't sealed tonight. Put up one player after another.")
     if tuple(line.picks[team] for line in state.sets) == picks:
         return []
     if state.to_name is None:
-        raise InputError("both line-ups are in; only the director can take that back")
+        raise InputError("both lineups are in; only the director can take that back")
     if len(picks) != len(state.sets) or not all(len(pick) == 1 for pick in picks):
-        raise InputError("a line-up has {n} players, one for each set", n=len(state.sets))
+        raise InputError("a lineup has {n} players, one for each set", n=len(state.sets))
     check_line_up(state, team, picks)
     return [HandedIn(team, picks)]
 
@@ -189,7 +189,7 @@ def choices(state: TeamEvening, team: int) -> Choices:
 
 
 def check_line_up(state: TeamEvening, team: int, picks: Sequence[Pick]) -> None:
-    """Refuse (InputError) a whole line-up that does not fill its sets within the caps."""
+    """Refuse (InputError) a whole lineup that does not fill its sets within the caps."""
     squad = state.meeting.squads[team]
     named = [name for pick in picks for name in pick]
     for name in named:

@@ -17,7 +17,7 @@ from evenbreak.teams.solve import SolvedNight, solved
 class Side:
     """A night solved as team 0 (A) or 1 (B) sees it, that team as `ours`.
 
-    The solution has every point of the night; of sealed line-ups, the time before they are in.
+    The solution has every point of the night; of sealed lineups, the time before they are in.
     """
 
     team: int

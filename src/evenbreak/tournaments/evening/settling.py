@@ -24,7 +24,7 @@ def stand(state: Evening, match: str) -> list[Result]:
     played by other players, or an earlier one must be settled first.
     """
     if state.plan.form == "chips":
-        raise InputError("a rack of a player without chips can't stand. Play it again, or undo.")
+        raise InputError("a rack of a player without chips can't stand. Play it again, or undo it.")
     name = known_match(state, match)
     played = {one.result.match: one.result for one in state.aside}
     if name not in played:
@@ -60,7 +60,7 @@ def stand(state: Evening, match: str) -> list[Result]:
         if not missing & set(before.players):
             raise InputError(
                 "{players} didn't come from {before}, so {match} can't stand. Play it "
-                "again, or undo.",
+                "again, or undo it.",
                 players=listed(sorted(missing)),
                 before=state.match_words(before.match),
                 match=state.match_words(name),

@@ -63,7 +63,7 @@ _SURE = Declared(
 )
 _SEEN = Declared(
     "seen",
-    Field(SCORE, "The score as the program knows it: if it is another one now, it is refused."),
+    Field(SCORE, "The score as you last saw it; if it has changed since, the request is refused."),
     None,
 )
 _OWN = ("sure", "seen")

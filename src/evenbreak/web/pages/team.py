@@ -213,7 +213,7 @@ async def put(request: Request) -> Response:
 
 
 async def hand(request: Request) -> Response:
-    """Hand in a whole line-up."""
+    """Hand in a whole lineup."""
     form = await form_of(request)
     now = await night_on(request)
     by, side = _author(request, now.state, form)
@@ -225,7 +225,7 @@ async def hand(request: Request) -> Response:
         return moves.hand_in(state, side, picks)
 
     _, added = await _add(request, form, by, decide)
-    return _taken(request, added, say("The line-up is handed in."))
+    return _taken(request, added, say("The lineup is handed in."))
 
 
 async def result(request: Request) -> Response:
