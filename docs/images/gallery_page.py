@@ -15,7 +15,7 @@ HEAD = """\
 # Gallery
 
 Every chart evenbreak draws, and how to draw it; click one for its page. Commands write PNG or SVG;
-in a notebook, charts display themselves. Sample data: the folder `data/`.
+in a notebook, charts display themselves. The sample data is in the folder `data/`.
 """
 
 PAGE = (
@@ -44,7 +44,8 @@ PAPER = """\
 | the sheet for [phones and printers](how-to/publish-your-league.md) | `evenbreak report data/demo_league.csv --out sheet --page` |
 | any answer as a web page | `evenbreak odds 612 521 --scale fargo --race 7:7 --html odds.html` |
 
-PDFs are US Letter or A4, whichever your computer's region uses, or as `--paper letter|a4` says.
+PDFs are US Letter or A4, whichever is standard in your computer's region; to choose, add `--paper letter` or
+`--paper a4`.
 
 ## The book's figures
 

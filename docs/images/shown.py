@@ -136,7 +136,7 @@ picture.legend(fontsize=9)
         Shown(
             "live.svg",
             "A match in progress",
-            "A's chance after each game, and what each one mattered.",
+            "A's chance after each game, and how much each one mattered.",
             "how-to/during-a-match.md",
             "live --p 0.6 --race 7:5 --racks abbababaab --plot FILE",
             draws="course_figure",
@@ -204,7 +204,7 @@ picture.legend(fontsize=9)
         Shown(
             "calibration.svg",
             "Can the ratings be trusted?",
-            "How often favorites won, and were expected to.",
+            "How often favorites won, and how often that was predicted.",
             "how-to/can-i-trust-the-ratings.md",
             "validate data/demo_league.csv --prior 30 --plot FILE",
             draws="draw_calibration",
@@ -259,7 +259,7 @@ picture.legend(fontsize=9)
         Shown(
             "shot.svg",
             "A shot, traced",
-            "Where both balls go, with throw allowed for.",
+            "Where both balls go, allowing for throw.",
             "how-to/shots.md#draw-a-shot",
             "physics shot --cue-ball 30,15 --object-ball 50,15 --pocket foot-right --speed 80 "
             "--offset -0.4 --plot FILE",
@@ -276,7 +276,7 @@ picture.legend(fontsize=9)
         Shown(
             "log.svg",
             "A drill, logged",
-            "How often each level was tried, against the long run.",
+            "How often each level was tried, compared with the long run.",
             "tutorial/read-your-practice.md",
             "drill --log data/drill_log.csv --plot FILE",
             draws="draw_log",
