@@ -44,7 +44,7 @@ PAPER = """\
 | the sheet for [phones and printers](how-to/publish-your-league.md) | `evenbreak report data/demo_league.csv --out sheet --page` |
 | any answer as a web page | `evenbreak odds 612 521 --scale fargo --race 7:7 --html odds.html` |
 
-PDFs are US Letter or A4, whichever is standard in your computer's region; to choose, add `--paper letter` or
+PDFs are US Letter or A4, depending on your computer's region; to choose, add `--paper letter` or
 `--paper a4`.
 
 ## The book's figures
