@@ -52,7 +52,7 @@ PAGES = (
             ),
             ("Someone goes home", 'tournament drop "Otto Birnhuber"'),
             ("The bracket, and a picture of it", "tournament show --out bracket.pdf"),
-            ("Odds of every place; prizes", "tournament odds; tournament prizes --fee 20"),
+            ("Odds for every place; prizes", "tournament odds; tournament prizes --fee 20"),
             ("Score cards, bracket or draw on paper", "tournament print cards"),
         ),
     ),
@@ -89,9 +89,10 @@ PAGES = (
     ),
     Page(
         "The captain's night",
-        "Each team is a CSV file with the columns <code>player</code> and <code>rating</code>, for "
-        "caps <code>level</code> too. In the order, A is you and B is them. <code>--sure</code> "
-        "treats the ratings as exact; without it the answer allows for their uncertainty.",
+        "Each team is a CSV file with the columns <code>player</code> and <code>rating</code>, and "
+        "<code>level</code> if there's a cap. In the order, A is you and B is them. "
+        "<code>--sure</code> treats the ratings as exact; without it the answer allows for their "
+        "uncertainty.",
         (
             Step("Who to put up when you name first", TEAMS, (1, 2, 3)),
             Step(
