@@ -94,11 +94,14 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     2 4 0.75
     """
     if isinstance(game, type):
-        raise GameError(f"the game is the class {game.__name__}. Give one of its objects.")
+        raise GameError(
+            f"the game is the class {game.__name__} itself. Give an instance, such as "
+            f"{game.__name__}(...)."
+        )
     if not hasattr(game, "moves"):
         raise GameError(
-            "{game} isn't a game. Give an object with start, moves and winner, or make a chain "
-            "of a graph, dict or matrix: chain_of(graph, start=state).",
+            "{game} isn't a game. Give an object with start, moves and winner; for a graph, "
+            "dict or matrix, make a chain instead: chain_of(graph, start=state).",
             game=repr(game),
         )
     offer = getattr(game, "arcs", None)
@@ -144,7 +147,7 @@ def moves_of(
         position = {start: 0}
     except TypeError:
         raise GameError(
-            f"the start must be a state that can be hashed, such as a tuple; you gave {start!r}"
+            f"the start must be a hashable state, such as a tuple; you gave {start!r}"
         ) from None
     states = [start]
     sources: list[int] = []
@@ -155,8 +158,8 @@ def moves_of(
         moves = game.moves(state)
         if not hasattr(moves, "items"):
             raise GameError(
-                f"the moves from {state!r} must be a dict from states to probabilities, "
-                f"empty if the game is over; you gave {moves!r}"
+                f"the moves from {state!r} must be a dict from states to probabilities (empty if "
+                f"the game is over); you gave {moves!r}"
             )
         for target, chance in moves.items():
             try:
@@ -190,8 +193,8 @@ def _no_chance(state: Any, target: Any, chance: Any) -> GameError:
 
 def _too_many(max_states: int) -> GameError:
     return GameError(
-        f"the game has more than {max_states:,} states; if its graph is finite, walk it with "
-        "graph_of(game, max_states=...) and make the chain of that"
+        f"the game has more than {max_states:,} states. If its graph is finite, use "
+        "graph_of(game, max_states=...) and make a chain from that graph."
     )
 
 

@@ -133,8 +133,8 @@ def _broken_is_said() -> Iterator[None]:
         yield
     except BrokenExecutor as error:
         raise WorkerError(
-            "a worker process ended before its work was done: it was killed (did memory "
-            "run out?), or it couldn't start (a script that asks for workers must do so "
+            "a worker process stopped before its work was done: either it was killed (perhaps "
+            "memory ran out), or it couldn't start (a script that uses workers must do so "
             "under `if __name__ == '__main__':`). Use fewer jobs."
         ) from error
 

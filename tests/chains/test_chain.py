@@ -30,12 +30,12 @@ def test_a_start_is_a_state_a_mapping_an_array_or_the_chains_own(chain):
 @pytest.mark.parametrize(
     ("start", "words"),
     [
-        ("d", "state 'd' isn't in the chain; its first states are 'a', 'b', 'c'"),
+        ("d", "state 'd' isn't in the chain, whose first states are 'a', 'b', 'c'"),
         (["a"], "isn't in the chain"),
         ({"a": 0.5}, "sums to 0.5"),
         (
             {"a": 1.5, "b": -0.5},
-            "start density must be probabilities; that of state 'b' is negative",
+            "start vector must have probabilities; the one for state 'b' is negative",
         ),
         ({"x": 1.0}, "'x' isn't in the chain"),
         (np.array([1.0, 0.0]), "shape (3,)"),
@@ -60,7 +60,7 @@ def test_a_number_for_each_state(chain):
 
 def test_a_chain_without_a_start_asks_for_one():
     with pytest.raises(
-        ChainError, match=r"such as start=0; chain_of\(graph, start=\.\.\.\) sets it"
+        ChainError, match=r"such as start=0, or set one for all questions with chain_of"
     ):
         Chain(range(1), csc_array([[1.0]])).density()
 

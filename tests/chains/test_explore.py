@@ -74,13 +74,16 @@ def test_a_game_with_arrays_of_chances_is_refused() -> None:
         ([("A", "B", 0)], "sum to 0"),
         ([("A", "B", 1 + 2e-9)], "probability 1.000000002"),
         ([("A", "B", 1 - 2e-9)], "sum to 0.999999998"),
-        ([("A", "B", 0.7), ("C", "B", 0.7)], r"'A' sum to 0.7 \(and so for 1 more\)"),
+        (
+            [("A", "B", 0.7), ("C", "B", 0.7)],
+            r"'A' sum to 0.7 \(and 1 more don't sum to 1 either\)",
+        ),
         ([("A", "B", 0.6), ("A", "A", 0.6)], "sum to 1.2"),
         ([], "state"),
         (
             [("A", "B")],
             (
-                r"arc 1 must be \(source, target, probability\), states that can be hashed "
+                r"arc 1 must be \(source, target, probability\), two hashable states "
                 r"and a number; you gave \('A', 'B'\)"
             ),
         ),
@@ -88,7 +91,7 @@ def test_a_game_with_arrays_of_chances_is_refused() -> None:
         (
             [("A", [1], 1)],
             (
-                r"arc 1 must be \(source, target, probability\), states that can be hashed "
+                r"arc 1 must be \(source, target, probability\), two hashable states "
                 r"and a number; you gave \('A', \[1\], 1\)"
             ),
         ),
@@ -151,8 +154,8 @@ def test_a_state_of_only_itself() -> None:
     ("arrays", "words"),
     [
         (("AA", [0], [1], [1.0]), "state is listed twice"),
-        (("AB", [0], [2], [1.0]), "outside 0 to 1"),
-        (("AB", [-1], [1], [1.0]), "outside 0 to 1"),
+        (("AB", [0], [2], [1.0]), "from 0 to 1; one doesn't"),
+        (("AB", [-1], [1], [1.0]), "from 0 to 1; one doesn't"),
         (("AB", [0], [1], [0.5, 0.5]), r"shapes \(1,\), \(1,\), \(2,\)"),
         (("AB", [0.0], [1.0], [1.0]), "type float64"),
         (("AB", [[0]], [[1]], [[1.0]]), "shapes"),
@@ -223,7 +226,7 @@ def test_the_start_of_a_graph() -> None:
     assert chain_of(graph).start == "S1"
     assert chain_of(graph, start="S2").start == "S2"
     graph.nodes["S2"]["kind"] = "start"
-    with pytest.raises(ChainError, match="2 nodes of kind 'start'"):
+    with pytest.raises(ChainError, match="2 nodes with kind='start'"):
         chain_of(graph)
 
 
@@ -233,7 +236,10 @@ def test_the_start_of_a_graph() -> None:
         ({}, "has no probability. Give each arc a number"),
         ({"probability": "half"}, "has probability 'half'. Give each arc a number"),
         ({"probability": None}, "has probability None. Give each arc a number"),
-        ({"p": 1.0}, "carries 'p' and has no probability. Name what holds it, as in weight='p'"),
+        (
+            {"p": 1.0},
+            "has 'p' but no probability. Name the attribute that holds it, as in weight='p'",
+        ),
         ({"weight": "much"}, "has weight 'much'. Give each arc a number"),
     ],
 )
@@ -308,8 +314,8 @@ class Endless(Wild):
             {0: None},
             GameError,
             (
-                "moves from 0 must be a dict from states to probabilities, empty if the game "
-                "is over; you gave None"
+                r"moves from 0 must be a dict from states to probabilities \(empty if the "
+                r"game is over\); you gave None"
             ),
         ),
         ({0: [(1, 1.0)]}, GameError, "moves from 0 must"),

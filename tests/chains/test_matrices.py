@@ -44,7 +44,7 @@ def test_a_symmetric_matrix_reads_the_same_both_ways() -> None:
 def test_a_reading_that_is_not_stochastic_is_refused() -> None:
     with pytest.raises(ChainError, match=r"out of state 0 sum to 1\.25"):
         chain_of(FROM, rows="to")
-    with pytest.raises(ChainError, match="neither the rows nor the columns"):
+    with pytest.raises(ChainError, match="rows or its columns must all sum to 1"):
         chain_of(FROM / 2)
     with pytest.raises(InputError, match="rows must be 'from' or 'to'; you gave 'down'"):
         chain_of(FROM, rows="down")  # type: ignore[arg-type]
@@ -106,7 +106,7 @@ def test_a_dict_of_dicts() -> None:
 def test_the_weight_of_a_graph() -> None:
     graph = nx.DiGraph([("a", "b", {"chance": 0.25}), ("a", "c", {"chance": 0.75})])
     assert chain_of(graph, weight="chance").matrix[1, 0] == 0.25
-    with pytest.raises(ChainError, match=r"and has no probability\. Name what holds it"):
+    with pytest.raises(ChainError, match=r"but no probability\. Name the attribute"):
         chain_of(graph)
     with pytest.raises(ChainError, match="'a' -> 'b' carries 'chance' and has no p"):
         chain_of(graph, weight="p")
@@ -162,7 +162,7 @@ def test_three_arcs_between_numbers_are_not_a_matrix():
 
 
 def test_square_lists_that_are_not_stochastic_are_refused():
-    with pytest.raises(ChainError, match="neither the rows nor the columns"):
+    with pytest.raises(ChainError, match="rows or its columns must all sum to 1"):
         chain_of([[0.5, 0.4], [0.5, 0.4]])
     with pytest.raises(ChainError):
         chain_of([[0.5, 0.4, 0.3], [0.5, 0.4, 0.3], [0.5, 0.4, 0.3]])

@@ -139,7 +139,7 @@ class TestSteps:
     def test_a_quantile_too_far_off_is_refused(self, monkeypatch):
         monkeypatch.setattr("evenbreak.chains.passage_times.MOST_STEPS", 1000)
         chain = chain_of([("go", "go", 1 - 1e-9), ("go", "end", 1e-9)])
-        with pytest.raises(AccuracyError, match=r"0\.5 quantile is beyond 1000 steps"):
+        with pytest.raises(AccuracyError, match=r"0\.5 quantile is more than 1000 steps"):
             steps_to_absorption(chain, "go").quantile(0.5)
 
     def test_refusals(self):

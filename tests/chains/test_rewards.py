@@ -99,6 +99,9 @@ def test_a_series_is_read_by_its_labels():
     assert total_reward(chain, per_state=rewards) == 4.0
     assert total_reward(chain, "b", per_state=rewards) == 3.0
     assert chain.density(pd.Series([0.75, 0.25], index=["b", "a"])).tolist() == [0.25, 0.75, 0.0]
-    for labels, message in ([0, 1], "state 0 isn't in the chain"), (["a", "a"], "a label twice"):
+    for labels, message in (
+        ([0, 1], "state 0 isn't in the chain"),
+        (["a", "a"], "the same label twice"),
+    ):
         with pytest.raises(ChainError, match=message):
             total_reward(chain, per_state=pd.Series([1.0, 2.0], index=labels))

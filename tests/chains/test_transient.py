@@ -200,7 +200,7 @@ def test_more_visits_than_any_float_are_refused():
     matrix[2, 0] = 1e-310
     matrix[0, 1] = 1.0
     chain = Chain(range(3), csc_array(matrix), 1)
-    with pytest.raises(AccuracyError, match="larger than any float"):
+    with pytest.raises(AccuracyError, match="too large for a float"):
         chain.transient.visits(np.array([0.0, 1.0]))
 
 

@@ -186,7 +186,7 @@ def test_eigenvectors_that_cannot_be_trusted_to_12_digits_name_the_way_that_can(
 
 
 def test_what_has_one_way_only_is_refused() -> None:
-    with pytest.raises(InputError, match="Leave via out"):
+    with pytest.raises(InputError, match="Leave out via"):
         win_probability(Race(2, 2, Rack(0.5)), exact=True, via="eigen")
     with pytest.raises(InputError, match=r"p1 must be one number\. For an array"):
         win_probability(Race(2, 2, Rack([0.5, 0.6])), via="eigen")

@@ -53,17 +53,17 @@ def test_all_faults_of_a_chart_are_told_at_once_with_their_lines(write):
     assert problems_of(path) == [
         (
             "F:2: row 1 is a race 5:4. Give an even race, since at a difference of 0 "
-            "neither player is the stronger."
+            "neither player is stronger."
         ),
         "F:3: row 2 starts at 6, but row 1 ends at 4. Start it at 5.",
         (
-            "F:5: stronger_needs of row 3 must be 6 or more, since the stronger player "
+            "F:5: stronger_needs in row 3 must be 6 or more, since the stronger player "
             "never needs fewer games"
         ),
         "F:5: row 3 starts at 12, but row 2 ends at 14. Start it at 15.",
         (
-            "F:6: the last row ends at 30. Leave its end out, since a chart covers all "
-            "larger differences too."
+            "F:6: the last row ends at 30, but a chart must cover all "
+            "larger differences too. Leave out its end."
         ),
     ]
     file = read_chart_file(path)
@@ -101,7 +101,7 @@ def test_cells_that_are_no_whole_numbers(write):
         (ROWS, "has no rows below its header"),
         ("from,to,stronger\n0,,5\n", "there's no column 'weaker_needs'"),
         ("level,opponent_level\n3,3\n", "there's no column 'needs'"),
-        (ROWS + "9,4,5,5\n", "difference_to of row 1 must be 9 or more"),
+        (ROWS + "9,4,5,5\n", "difference_to in row 1 must be 9 or more"),
         ("", "is empty"),
     ],
 )

@@ -94,7 +94,7 @@ def test_a_score_must_be_reachable(score):
         (lambda: Ahead(3, 0, Rack(0.5)), "n must be a whole number, 1 or more; you gave 0"),
         (lambda: Race(3, 3, OneBall(0.5, 0.5), breaks=winner_breaks), "breaks and first_breaker"),
         (lambda: Race(3, 3, OneBall(0.5, 0.5), first_breaker=2), "breaks and first_breaker"),
-        (lambda: Race(3, 3, Over()), "over at its start"),
+        (lambda: Race(3, 3, Over()), "over before it starts"),
         (
             lambda: Ahead(3, 3, BROKEN, breaks="winner"),
             "breaks must be a break format such as winner_breaks; you gave 'winner'",

@@ -59,8 +59,8 @@ def test_with_an_odd_number_one_rests():
 @pytest.mark.parametrize(
     ("skill", "by", "options", "message"),
     [
-        ([1.0], HOT, {}, "skill isn't a list of two"),
-        ([1.0, math.nan], HOT, {}, "skill isn't a list of two"),
+        ([1.0], HOT, {}, "skill must be a list of two"),
+        ([1.0, math.nan], HOT, {}, "skill must be a list of two"),
         (
             EQUAL,
             "nobody",

@@ -149,15 +149,15 @@ def test_newcomer_steps_repay_it_sooner():
         (
             {"start": 0.5},
             (
-                r"start must be a rating error in whole points from -120 to 120, or a larger "
-                r"widest; you gave 0\.5"
+                r"start must be a rating error in whole points from -120 to 120, or make "
+                r"widest larger; you gave 0\.5"
             ),
         ),
         (
             {"start": 500},
             (
-                "start must be a rating error in whole points from -120 to 120, or a larger "
-                "widest; you gave 500"
+                "start must be a rating error in whole points from -120 to 120, or make "
+                "widest larger; you gave 500"
             ),
         ),
     ],

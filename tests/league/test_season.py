@@ -64,7 +64,7 @@ def test_the_longest_move_is_a_newcomers_if_there_is_one() -> None:
         ({"weeks": 0}, "weeks must"),
         ({"play": "frames"}, "play must be 'matches' or 'racks'; you gave 'frames'"),
         ({"schedule": RoundRobin(4)}, "players is 4, but the league has 3"),
-        ({"schedule": FixedSchedule([1], [0], [5])}, "the schedule has a player 5"),
+        ({"schedule": FixedSchedule([1], [0], [5])}, "the schedule has matches for player 5"),
         (
             {"schedule": "weekly"},
             "schedule must be RoundRobin, RandomPairing or FixedSchedule; you gave 'weekly'",

@@ -55,7 +55,7 @@ def test_one_sum_fits_the_others() -> None:
 
 def test_other_seasons_are_refused() -> None:
     other = dataclasses.replace(SEASON, weeks=7)
-    with pytest.raises(InputError, match="of different seasons"):
+    with pytest.raises(InputError, match="from different seasons"):
         parts(1)[0] + run_chunk(other, 3, np.random.SeedSequence(1))
     with pytest.raises(TypeError):
         parts(1)[0] + 1

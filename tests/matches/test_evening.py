@@ -147,7 +147,7 @@ def test_each_table_more_ends_the_evening_no_later(laws, tables):
         (lambda: evening([Length([1, 2], [1.0])], "9-ball"), "length 1 is"),
         (lambda: evening([EVEN, Length([1.5], [1.0])], "9-ball"), "length 2 is"),
         (lambda: evening([Length([-1], [1.0])], "9-ball"), "numbers of games"),
-        (lambda: evening([Length([1, 2], [0.5, 0.6])], "9-ball"), "that don't sum to 1"),
+        (lambda: evening([Length([1, 2], [0.5, 0.6])], "9-ball"), "that sum to 1; they don't"),
         (lambda: evening([EVEN], "9-ball", players=[]), "0 pairs for 1 matches"),
         (lambda: evening([EVEN], "9-ball", players=[("Ann", "Ann")]), "Ann"),
         (lambda: evening([EVEN] * 2, "9-ball", runs=1), "2 or more"),

@@ -164,7 +164,7 @@ def test_only_a_match_without_a_longest_length_is_cut_off(monkeypatch: Any) -> N
 
 
 def test_a_set_that_is_over_is_no_set() -> None:
-    with pytest.raises(InputError, match="a set that is over at its start score"):
+    with pytest.raises(InputError, match="a set that is already over"):
         Race(2, 2, Race(3, 2, Rack(0.5), score=(3, 1)))
 
 

@@ -118,7 +118,7 @@ def test_one_friction_for_one_shot(mu):
     ("places", "message"),
     [
         (((0.5, 0.5), (1.0, 0.5), (0.2, 0.6)), "target can't be reached"),
-        (((0.5, 0.5), (1.0, 0.5), (1.01, 0.5)), "within the object ball"),
+        (((0.5, 0.5), (1.0, 0.5), (1.01, 0.5)), "inside the object ball"),
         (((0.5, 0.5), (0.54, 0.5), (1.5, 0.5)), "where the balls touch"),
         (((0.5, 0.5), (1.0,), (1.5, 0.5)), "object_ball must have x and y; its shape"),
         (((0.5, 0.5), (1.0, 3.0), (1.5, 0.5)), "object_ball is at"),

@@ -199,9 +199,9 @@ def test_a_pot_allows_for_it() -> None:
 
 
 def test_refusals_between_balls() -> None:
-    with pytest.raises(InputError, match=r"speed of the slip\. Give the speed"):
+    with pytest.raises(InputError, match=r"how fast the balls slip\. Give the"):
         throw_angle(0.3, mu=FIT)
-    with pytest.raises(InputError, match=r"speed of the slip\. Give the speed"):
+    with pytest.raises(InputError, match=r"how fast the balls slip\. Give the"):
         aim(0.3, 1.0, mu=FIT)
     with pytest.raises(InputError, match=r"speed must be a number from 0 to 1e\+50; it is -1"):
         throw_angle(0.3, mu=FIT, speed=-1.0)

@@ -152,7 +152,7 @@ def test_refusals() -> None:
         spin_of_offset(1.5)
     with pytest.raises(InputError, match=r"z must be a number from 1e-50 to 2; it is 0\.0"):
         roll_side(0.1, 0.0)
-    with pytest.raises(InputError, match="distance is more than a ball of this speed slides"):
+    with pytest.raises(InputError, match="distance is farther than a ball slides at this speed"):
         stun_offset(1.0, 5.0, CLOTH)
     with pytest.raises(InputError, match="ball_ratio"):
         ball_speed_ratio(0.1, -1.0)

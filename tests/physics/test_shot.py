@@ -230,7 +230,7 @@ def test_where_a_ball_meets_a_cushion_its_path_ends():
         ({"cue_ball": (0.0, 0.0)}, "cue_ball is at"),
         ({"cue_ball": 0.5}, "have x and y"),
         ({"strike": strike(1.0, 0.4, 0.4)}, "a miscue: this tip slips beyond 0.5"),
-        ({"strike": strike([1.0, 2.0])}, "strike must be one; you gave 2"),
+        ({"strike": strike([1.0, 2.0])}, "strike must be a single strike; you gave 2"),
         ({"mu": -1.0}, r"mu must be a number from 0 to 1e\+50; you gave -1\.0"),
         (
             {"mu": -1.0, "strike": strike(0.01)},

@@ -75,7 +75,7 @@ def test_strikes_as_arrays():
     [
         ((-1.0,), r"stick_speed must be a number from 0 to 1e\+50; it is -1\.0"),
         ((1.0, 1.2), r"offset must be a number from -1 to 1; it is 1\.2"),
-        ((1.0, 0.8, 0.8), "beside the ball"),
+        ((1.0, 0.8, 0.8), "miss the ball"),
         ((math.nan,), "stick_speed"),
     ],
 )

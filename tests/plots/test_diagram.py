@@ -144,7 +144,7 @@ def test_a_layout_must_place_every_state() -> None:
 @pytest.mark.parametrize("place", [(0, float("nan")), (1,), None, "ab", 3])
 def test_a_place_is_two_numbers(place: object) -> None:
     layout = {"S1": (0, 0), "S2": place, "W": (1, 0), "L": (2, 0)}
-    with pytest.raises(InputError, match="layout of state 'S2'"):
+    with pytest.raises(InputError, match="layout for state 'S2'"):
         draw(OneBall(0.5, 0.5), layout=layout)  # type: ignore[arg-type]
 
 

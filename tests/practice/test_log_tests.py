@@ -213,7 +213,7 @@ def test_all_successes_and_no_success() -> None:
 
 
 def test_level_1_alone_tells_nothing() -> None:
-    with pytest.raises(InputError, match="no attempt above level 1"):
+    with pytest.raises(InputError, match="from attempts above level 1"):
         fit_progressive(log_of([(10, 5)]))
     assert np.isnan(likeliest_p(np.array([10, 0]), np.array([5, 0])))
 

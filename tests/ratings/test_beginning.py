@@ -116,9 +116,9 @@ def test_how_far_off_ratings_are_that_do_not_say_is_chosen_by_prediction() -> No
 
 
 def test_what_cannot_be_is_refused() -> None:
-    with pytest.raises(InputError, match="must be finite points"):
+    with pytest.raises(InputError, match="must be finite numbers of points"):
         Beginning(["A"], [np.nan])
     with pytest.raises(InputError, match="isn't above 0"):
         Beginning(["A"], [80], [0.0])
-    with pytest.raises(InputError, match="name once; one is there twice"):
+    with pytest.raises(InputError, match="name once; one appears twice"):
         Beginning(["A", "A"], [80, 70])

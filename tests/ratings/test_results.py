@@ -85,7 +85,7 @@ def test_players_out_of_range_are_refused():
 
 
 def test_a_name_is_listed_once():
-    with pytest.raises(InputError, match="players must have each name once; one is there twice"):
+    with pytest.raises(InputError, match="players must have each name once; one appears twice"):
         Results(("Ann", "Ann"), [0], [1], [1], [0])
 
 

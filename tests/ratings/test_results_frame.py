@@ -141,7 +141,7 @@ def test_a_forfeit_needs_no_score():
         ),
         (
             {"racks": ["aaaaaaabbbbb", "abc"]},
-            "row 1: racks must be text of a and b such as 'abba'; you gave 'abc'",
+            "row 1: racks must be letters a and b, such as 'abba'; you gave 'abc'",
         ),
         ({"race_a": [7, 7], "race_b": [7, 9]}, r"row 1: "),
     ],

@@ -77,11 +77,11 @@ def test_position():
         ((["Ann"], [1.0], None, np.array([1.5])), "must be whole numbers"),
         (
             (["Ann"], [1.0], [-1.0]),
-            "standard_error must be 0 or more; somewhere it is negative or infinite",
+            "standard_error must be 0 or more; one value is negative or infinite",
         ),
         (
             (["Ann"], [1.0], [np.inf]),
-            "standard_error must be 0 or more; somewhere it is negative or infinite",
+            "standard_error must be 0 or more; one value is negative or infinite",
         ),
     ],
 )
@@ -107,11 +107,11 @@ def test_matches_are_kept_and_not_stated_where_nobody_says_them():
 def test_matches_are_counts():
     with pytest.raises(
         InputError,
-        match="matches must be 0 or more, NOT_STATED if unknown; somewhere it is negative",
+        match="matches must be 0 or more, or NOT_STATED if unknown; one value is negative",
     ):
         Roster(["Ann"], [92], matches=[-2])
     with pytest.raises(
-        InputError, match="games must be 0 or more, NOT_STATED if unknown; somewhere it is negative"
+        InputError, match="games must be 0 or more, or NOT_STATED if unknown; one value is negative"
     ):
         Roster(["Ann"], [92], games=[-2])
 

@@ -149,8 +149,8 @@ def test_no_file_and_no_code_can_be_named(
             {"ratings": [190, 140], "race": [7, 7]},
             None,
             (
-                "their scale: A wins a game against B 76% of the time by NPL ratings, 59% by "
-                "Fargo ratings, 57% by Elo ratings. Add scale npl, scale fargo"
+                "which scale they're on: A wins a game against B 76% of the time by NPL ratings, "
+                "59% by Fargo ratings, 57% by Elo ratings. Add scale npl, scale fargo"
             ),
         ),
         ({"p": 7, "race": [7, 7]}, "p", "0 to 1"),

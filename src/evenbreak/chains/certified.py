@@ -63,8 +63,8 @@ class NotCertifiedError(AccuracyError):
 
     def __init__(self) -> None:
         super().__init__(
-            "the errors of the answer can't be bounded: the chain is too slow or too "
-            "close to falling apart. Use elimination, as stochastic_limit does."
+            "the error in the answer can't be bounded: the chain mixes too slowly or nearly "
+            "falls apart into separate chains. Use elimination, as stochastic_limit does."
         )
 
 

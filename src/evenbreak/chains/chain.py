@@ -83,9 +83,9 @@ class Chain:
             )
         # Lazy sequences of states are distinct by construction.
         if isinstance(self.states, (list, tuple)) and len(set(self.states)) < n:
-            raise ChainError("a state is listed twice among the states. Give each of them once.")
+            raise ChainError("a state is listed twice. List each state once.")
         if not ((matrix.data >= 0.0) & (matrix.data <= 1.0)).all():
-            raise ChainError("the entries of the matrix must be 0 to 1, and some aren't")
+            raise ChainError("every entry in the matrix must be from 0 to 1; some aren't")
         if self.start is not None and self.start not in self.states:
             raise ChainError(f"start is {self.start!r}, which isn't a state of the chain")
         object.__setattr__(self, "matrix", adding_up(matrix, self.states))
@@ -128,12 +128,14 @@ class Chain:
                [0.25, 1.  ]])
         """
         if copy is False:
-            raise ValueError("a chain has no dense matrix to share. Leave copy=False out.")
+            raise ValueError(
+                "a chain has no dense matrix to share, so it must be copied. Leave out copy=False."
+            )
         n = len(self)
         if 8 * n * n > _MOST_BYTES:
             raise ChainError(
-                f"the dense matrix of {n:,} states would take {8e-9 * n * n:,.0f} GB. Use "
-                "the sparse one, chain.matrix."
+                f"the dense matrix of {n:,} states would take {8e-9 * n * n:,.0f} GB. Use the "
+                "sparse matrix, chain.matrix."
             )
         return self.matrix.toarray().astype(np.float64 if dtype is None else dtype, copy=False)
 
@@ -206,10 +208,10 @@ class Chain:
         if (v < 0.0).any():
             state = self.states[int(np.flatnonzero(v < 0.0)[0])]
             raise ChainError(
-                f"the start density must be probabilities; that of state {state!r} is negative"
+                f"the start vector must have probabilities; the one for state {state!r} is negative"
             )
         if not abs(v.sum() - 1.0) <= 1e-9:
-            raise ChainError(f"the start density must sum to 1; it sums to {v.sum():.12g}")
+            raise ChainError(f"the start vector must sum to 1; it sums to {v.sum():.12g}")
         return v
 
     def vector(self, values: Any, name: str) -> Floats:
@@ -242,7 +244,7 @@ class Chain:
         if not np.isfinite(v).all():
             first = int(np.flatnonzero(~np.isfinite(v))[0])
             held = f"{float(v[first])!r} for state {self.states[first]!r}"
-            raise ChainError(f"{name} must be finite numbers; it holds {held}")
+            raise ChainError(f"{name} must have finite numbers; one is {held}")
         return v
 
     def simulate(
@@ -282,8 +284,8 @@ class Chain:
     def _own_start(self) -> Hashable:
         if self.start is None:
             raise ChainError(
-                "the chain has no start of its own. Give a start state, such as "
-                "start={state}; chain_of(graph, start=...) sets it for every question.",
+                "the chain has no start state. Give one, such as start={state}, or set one for "
+                "all questions with chain_of(graph, start=...).",
                 state=repr(self.states[0]),
             )
         return self.start
@@ -318,7 +320,7 @@ class Chain:
 
     def _unknown(self, state: Hashable) -> ChainError:
         first = ", ".join(map(repr, self.states[:5]))
-        return ChainError(f"state {state!r} isn't in the chain; its first states are {first}")
+        return ChainError(f"state {state!r} isn't in the chain, whose first states are {first}")
 
 
 def check_chain(chain: object) -> None:
@@ -327,12 +329,13 @@ def check_chain(chain: object) -> None:
     >>> check_chain([("A", "B", 1.0)])
     Traceback (most recent call last):
     ...
-    evenbreak.errors.ChainError: this is list [('A', 'B', 1.0)], not a chain. Make one with
+    evenbreak.errors.ChainError: this is list [('A', 'B', 1.0)], not a chain. Make a chain with
         chain_of.
     """
     if not isinstance(chain, Chain):
         raise ChainError(
-            f"this is {type(chain).__name__} {chain!r:.60}, not a chain. Make one with chain_of."
+            f"this is {type(chain).__name__} {chain!r:.60}, not a chain. Make a chain with "
+            "chain_of."
         )
 
 
@@ -343,7 +346,7 @@ def by_label(values: Any, name: str) -> Any:
     ):
         return values
     if not values.index.is_unique:
-        raise ChainError(f"{name} has a label twice. Give each state one number.")
+        raise ChainError(f"{name} has the same label twice. Give each state one number.")
     return values.to_dict()
 
 
@@ -351,7 +354,9 @@ def check_present(states: Iterable[Hashable]) -> None:
     """Refuse NaN as a state: it is a gap in the data, and no NaN equals another."""
     for state in states:
         if isinstance(state, float) and math.isnan(state):
-            raise ChainError("a state is nan, a gap in the data. Leave it out, or give it a name.")
+            raise ChainError(
+                "a state is nan, which stands for missing data. Leave it out, or give it a name."
+            )
 
 
 def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:

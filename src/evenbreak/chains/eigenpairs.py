@@ -205,18 +205,19 @@ def _turned_chances(T: csc_array, root: complex, entered: NDArray[Any]) -> NDArr
         return np.asarray(scipy.sparse.linalg.splu(A).solve(entered.astype(complex)))
     except RuntimeError:
         raise AccuracyError(
-            "transient states go round for too long to tell the eigenvectors of modulus "
-            "1 apart. Ask for the eigenvalues 1 alone, or use stochastic_limit."
+            "the chain circles among transient states for so long that the eigenvectors of "
+            "modulus 1 can't be told apart. Ask only for eigenvalues of 1, or use "
+            "stochastic_limit."
         ) from None
 
 
 def no_basis(k: int, ones: int | None = None, residual: float = np.inf) -> AccuracyError:
     """Return the error for a matrix without k independent eigenvectors."""
-    fewer = "" if ones is None else f" (k={ones}: the limit alone)"
+    fewer = "" if ones is None else f" (k={ones} gives just the limit)"
     return AccuracyError(
-        f"no {k} independent eigenvectors were found (residual {residual:.1e}): the "
-        "matrix is defective or nearly so, or k cuts through a repeated eigenvalue. Ask "
-        f"for fewer{fewer}, or use stochastic_limit and spectral_gap."
+        f"{k} independent eigenvectors couldn't be found (residual {residual:.1e}): either the "
+        "matrix is defective or nearly so, or k cuts through a repeated eigenvalue. Ask for "
+        f"fewer{fewer}, or use stochastic_limit and spectral_gap."
     )
 
 
@@ -263,7 +264,7 @@ def _sparse_others(M: csc_array, apart: Eigenpairs, k: int) -> Eigenpairs:
             by_side.append(scipy.sparse.linalg.eigs(operator, k=min(k + 1, n - 2), v0=start))
         except scipy.sparse.linalg.ArpackNoConvergence as error:
             raise AccuracyError(
-                f"the iteration for {k} eigenvalues of {n} didn't converge. Ask for fewer."
+                f"the iteration for {k} of {n} eigenvalues didn't converge. Ask for fewer."
             ) from error
     (values, right), (turned, left) = by_side
     # The two runs may list the eigenvalues in different orders.
@@ -403,9 +404,9 @@ class UnitPairs:
         work = sum(front.work for front in dissect(neighbors(T))[1]) if m > _FEW else 0.0
         if work > _MUCH_WORK:
             raise AccuracyError(
-                f"{m:,} states that nothing cuts in two take some {work:.0e} "
-                "multiplications to factor, which is too much for eigenvectors. Use "
-                "elimination, as stochastic_limit does."
+                f"a block of {m:,} states that can't be split would take about {work:.0e} "
+                "multiplications to factor, too many for eigenvectors. Use elimination, as "
+                "stochastic_limit does."
             )
         return CertifiedSolve(T, leak, factored=True)
 

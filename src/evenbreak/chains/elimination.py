@@ -81,9 +81,9 @@ class Elimination:
             done[k] = True
             if most < 0:
                 raise AccuracyError(
-                    f"these {len(leak)} states span more decades than floats do, and are "
-                    "too many to eliminate in decimal numbers. Split the chain or scale "
-                    "its arcs."
+                    f"the chances of these {len(leak)} states span more orders of magnitude than "
+                    "floats can, and the states are too many to eliminate in decimal numbers. "
+                    "Split the chain or scale its arcs."
                 )
             pivot = sum(out.values(), leak[k])
             self.steps.append((k, pivot, out, back))

@@ -131,8 +131,8 @@ def exact_rows(chain: Chain) -> Rows:
         total = Fraction(sum(numerators), whole)
         if total > 1 or (total < 1 and not loop):
             raise ChainError(
-                f"the arcs out of state {state!r} sum to {_shown(total)}, not to exactly 1; for an "
-                "exact answer give them as fractions, or as decimals that sum to 1"
+                f"the arcs out of state {state!r} sum to {_shown(total)}, not to exactly 1. For "
+                "an exact answer, give them as fractions, or as decimals that sum to 1."
             )
     return rows
 
@@ -147,8 +147,8 @@ def exact_start(chain: Chain, start: Any) -> dict[int, Fraction]:
     density = {chain.index(state): exact_chance(p) for state, p in chances if p}
     if sum(density.values()) != 1:
         raise ChainError(
-            f"the start density sums to {_shown(sum(density.values()))}, not to exactly 1; for an "
-            "exact answer give it as fractions, or as decimals that sum to 1"
+            f"the start vector sums to {_shown(sum(density.values()))}, not to exactly 1. For an "
+            "exact answer, give fractions, or decimals that sum to 1."
         )
     return density
 
@@ -192,9 +192,8 @@ class Lifting:
         n = len(leaks)
         if n > _MOST_STATES:
             raise AccuracyError(
-                f"{n} states have too many arcs among them for an answer in fractions. "
-                f"Leave exact out, or split the chain until at most {_MOST_STATES} are "
-                "left."
+                f"there are too many arcs among {n} states for an answer in fractions. Leave out "
+                f"exact, or split the chain until at most {_MOST_STATES} states are left."
             )
         A = np.zeros((n, n), dtype=object)
         self._whole = []

@@ -123,7 +123,7 @@ def chain_of(
 
 def _only_for(value: object, name: str, kind: str) -> None:
     if value is not None:
-        raise ChainError(f"{name} is {value!r}, but the source isn't {kind}. Leave {name} out.")
+        raise ChainError(f"{name} is {value!r}, but the source isn't {kind}. Leave out {name}.")
 
 
 def chain_from_arrays(
@@ -182,7 +182,9 @@ def _fractions(probabilities: ArrayLike) -> tuple[NDArray[Any], dict[int, Fracti
     numbers = np.array([float(value) for value in values]).reshape(entered.shape)
     for k, fraction in fractions.items():
         if fraction and not numbers.flat[k]:
-            raise ChainError(f"the probability {fraction} is smaller than any float. Leave it out.")
+            raise ChainError(
+                f"the probability {fraction} is too small for a float. Leave out its arc."
+            )
     return numbers, fractions
 
 
@@ -190,8 +192,8 @@ def _listed_twice(states: Sequence[Hashable], key: Ints) -> ChainError:
     ordered = np.sort(key)
     j, i = divmod(int(ordered[:-1][ordered[1:] == ordered[:-1]][0]), len(states))
     return ChainError(
-        f"the arc {states[j]!r} -> {states[i]!r} is listed more than once. Give one arc "
-        "with the whole probability."
+        f"the arc {states[j]!r} -> {states[i]!r} is listed more than once. Give one arc with the "
+        "total probability."
     )
 
 
@@ -205,11 +207,13 @@ def _checked_arrays(
         raise ChainError("there must be at least one state")
     if not j.ndim == 1 or not j.shape == i.shape == p.shape:
         raise ChainError(
-            f"sources, targets and probabilities have shapes {j.shape}, {i.shape}, "
-            f"{p.shape}. Give one entry of each for every arc."
+            f"sources, targets and probabilities have shapes {j.shape}, {i.shape} and {p.shape}. "
+            "Give one of each for every arc."
         )
     if j.size and (min(j.min(), i.min()) < 0 or max(j.max(), i.max()) >= n):
-        raise ChainError(f"an arc leads from or to a position outside 0 to {n - 1}")
+        raise ChainError(
+            f"every arc must lead from and to positions from 0 to {n - 1}; one doesn't"
+        )
     wrong = np.flatnonzero(~((p >= 0.0) & (p <= 1.0)))
     if wrong.size:
         k = wrong[0]
@@ -224,7 +228,7 @@ def _positions(entered: ArrayLike) -> Ints:
     positions = np.asarray(entered)
     if positions.size and positions.dtype.kind not in "iu":
         raise ChainError(
-            f"sources and targets have type {positions.dtype}. Give positions in `states`."
+            f"sources and targets must be positions in `states`; their type is {positions.dtype}"
         )
     return positions.astype(np.int64, copy=False)
 
@@ -232,8 +236,8 @@ def _positions(entered: ArrayLike) -> Ints:
 def _chain_of_graph(graph: Any, weight: str | None, start: Hashable | None) -> Chain:
     if not graph.is_directed() or graph.is_multigraph():
         raise ChainError(
-            f"the graph is a {type(graph).__name__}. Give a networkx.DiGraph, one arc "
-            "from each source to each target."
+            f"the graph is a {type(graph).__name__}. Give a networkx.DiGraph, with at most one "
+            "arc from each source to each target."
         )
     position = {state: k for k, state in enumerate(graph)}
     rows = [row for _, row in graph.adjacency()]
@@ -247,7 +251,7 @@ def _chain_of_graph(graph: Any, weight: str | None, start: Hashable | None) -> C
         raise _without_probability(graph, name) from None
     starts = [state for state, kind in graph.nodes(data="kind") if kind == "start"]
     if len(starts) > 1:
-        raise ChainError(f"the graph has {len(starts)} nodes of kind 'start'. Leave one.")
+        raise ChainError(f"the graph has {len(starts)} nodes with kind='start'. Leave only one.")
     counts = np.fromiter(map(len, rows), dtype=np.int64, count=len(rows))
     ends = map(position.__getitem__, chained.from_iterable(rows))
     targets = np.fromiter(ends, dtype=np.int64, count=len(arcs))
@@ -258,8 +262,8 @@ def _chain_of_graph(graph: Any, weight: str | None, start: Hashable | None) -> C
     except ChainError as error:
         if weight is None and name == "weight":
             raise ChainError(
-                f"the arcs carry no probability, only a weight, and {error} Name the "
-                "attribute that holds it, as in weight='p', or scale with "
+                f"the arcs have no probability, only a weight, and {error} Name the attribute "
+                "that holds the probability, as in weight='p', or scale the weights with "
                 "networkx.stochastic_graph."
             ) from None
         raise
@@ -270,10 +274,11 @@ def _without_probability(graph: Any, name: str) -> ChainError:
     for source, target, arc in graph.edges(data=True):
         where, remedy = f"the arc {source!r} -> {target!r}", "Give each arc a number from 0 to 1."
         if name not in arc:
+            other = ""
             if arc:
-                where += f" carries {', '.join(map(repr, arc))} and"
-                remedy = f"Name what holds it, as in weight={next(iter(arc))!r}."
-            return ChainError(f"{where} has no {name}. {remedy}")
+                other = f"{', '.join(map(repr, arc))} but "
+                remedy = f"Name the attribute that holds it, as in weight={next(iter(arc))!r}."
+            return ChainError(f"{where} has {other}no {name}. {remedy}")
         try:
             _number(arc[name])
         except (TypeError, ValueError, ZeroDivisionError):
@@ -307,8 +312,8 @@ def _arcs_of_triples(triples: Iterable[Any], states: Iterable[Any] = ()) -> ArcA
             targets.append(position.setdefault(target, len(position)))
         except (TypeError, ValueError, ZeroDivisionError):
             raise ChainError(
-                f"arc {k} must be (source, target, probability), states that can be "
-                f"hashed and a number; you gave {triple!r}"
+                f"arc {k} must be (source, target, probability), two hashable states and a "
+                f"number; you gave {triple!r}"
             ) from None
     check_present(position)
     return ArcArrays(

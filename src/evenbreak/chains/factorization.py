@@ -149,10 +149,9 @@ class _Piece:
         entries = sum(front.entries for front in fronts)
         if entries > MOST_ENTRIES:
             raise AccuracyError(
-                f"a class of {len(order):,} states {reason}, and no few states cut it "
-                f"apart: its factors would be {entries:,} numbers in {entries * 8e-9:.2g} "
-                f"GB, and {MOST_ENTRIES:,} are allowed. Join some of its states or split "
-                "the chain."
+                f"a class of {len(order):,} states {reason} and can't be split by taking out a "
+                f"few of them: factoring it would take {entries:,} numbers ({entries * 8e-9:.2g} "
+                f"GB); the limit is {MOST_ENTRIES:,}. Merge some of its states or split the chain."
             )
         return FrontElimination(self._arcs, self._leaks, order, fronts)
 

@@ -74,7 +74,7 @@ class FamilyLimit:
         except ValueError:
             first = ", ".join(map(repr, self.states[:5]))
             raise ChainError(
-                f"state {state!r} is in no game of the family; its first states are {first}"
+                f"state {state!r} isn't in any game in the family, whose first states are {first}"
             ) from None
         return np.asarray(self.probability[..., place])
 

@@ -98,25 +98,25 @@ def fit_chain(
     targets: list[int] = []
     if isinstance(sequences, Mapping) or hasattr(sequences, "columns"):
         raise ChainError(
-            f"sequences is a {type(sequences).__name__}. Give a list of sequences, such "
-            "as frame.to_numpy() of a DataFrame with one sequence in each row."
+            f"sequences is a {type(sequences).__name__}. Give a list of sequences, such as "
+            "frame.to_numpy() if a DataFrame has one sequence in each row."
         )
     for sequence in sequences:
         if isinstance(sequence, str):
             raise ChainError(
-                f"a sequence is the text {sequence!r:.60}. Give lists of states, "
-                "list(text) if each letter is one."
+                f"a sequence must be a list of states; you gave the string {sequence!r:.60}. If "
+                "each letter is a state, give list(text)."
             )
         try:
             path = [position.setdefault(state, len(position)) for state in sequence]
         except TypeError:
             raise ChainError(
-                f"a sequence must be lists of states that can be hashed; you gave {sequence!r:.60}"
+                f"a sequence must be a list of hashable states; you gave {sequence!r:.60}"
             ) from None
         sources += path[:-1]
         targets += path[1:]
     if not sources:
-        raise ChainError("the sequences hold no step. Give sequences of at least two states.")
+        raise ChainError("the sequences have no steps. Give sequences of at least two states.")
     check_present(position)
     n = len(position)
     counts = coo_array((np.ones(len(sources)), (targets, sources)), shape=(n, n)).tocsc()

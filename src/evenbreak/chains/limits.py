@@ -313,9 +313,9 @@ def limit_matrix(chain: Chain) -> csc_array:
     entries = int(sizes.astype(np.int64) @ starts.astype(np.int64))
     if entries > MOST_ENTRIES:
         raise InputError(
-            f"the limits from all {n:,} states have {entries:,} entries that aren't 0, "
-            f"more than {MOST_ENTRIES:,}. Use stochastic_limit for the states you want to "
-            "start from."
+            f"the limits from all {n:,} states have {entries:,} nonzero entries; at most "
+            f"{MOST_ENTRIES:,} are allowed. Use stochastic_limit for the states you want to start "
+            "from."
         )
     return csc_array(spread @ ends)
 
@@ -342,8 +342,8 @@ def _limit_in_line(chain: Chain, at: int | None) -> Limit:
     """Return the limit from the state `at`, whatever the order in which the line is given."""
     if chain.line is None or at is None:
         raise ChainError(
-            "there's no closed form for this chain and start: its states don't stand in "
-            "a line, or the start is a density. Use elimination."
+            "there's no closed form for this chain and start: either the chain's states don't "
+            "form a line, or the start is a probability vector. Use elimination."
         )
     order, walk = chain.line
     probability = np.empty(len(chain))
@@ -358,9 +358,9 @@ def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
     limit, error = UnitPairs(chain).limit(chain.density(start))
     if not error <= _ERROR_BY_EIGENVECTORS:
         raise AccuracyError(
-            f"the limit by eigenvectors is only proved to {error:.1e}, which is above "
-            f"{_ERROR_BY_EIGENVECTORS:g}: other eigenvalues are too close to 1. Use "
-            "elimination, which loses no digits there."
+            f"the limit from eigenvectors may be wrong by {error:.1e}, which is above "
+            f"{_ERROR_BY_EIGENVECTORS:g}, because other eigenvalues are too close to 1. Use "
+            "elimination, which loses no digits in that case."
         )
     return Limit(chain, limit, _period_reached(chain, start), error)
 

@@ -130,10 +130,12 @@ def _labeled(chain: Chain, by: Any) -> tuple[list[Hashable], Places]:
     if isinstance(by, Mapping):
         missing = [state for state in chain.states if state not in by]
         if missing:
-            raise ChainError(f"by has no label for state {missing[0]!r}. Give each state one.")
+            raise ChainError(f"by has no label for state {missing[0]!r}. Give every state a label.")
         by = by.__getitem__
     if not callable(by):
-        raise ChainError(f"by must be a function of a state, or a mapping; you gave {by!r:.60}")
+        raise ChainError(
+            f"by must be a function that takes a state, or a mapping; you gave {by!r:.60}"
+        )
     numbers: dict[Hashable, int] = {}
     block = []
     for state in chain.states:
@@ -193,7 +195,7 @@ def _not_lumpable(
     b = int(differ.argmax())
     first, second = (chain.states[i] for i in pair)
     return ChainError(
-        f"states {first!r} and {second!r} have the same label {names[mine]!r}, but move "
-        f"to {names[b]!r} with the chances {to[0, b]:.12g} and {to[1, b]:.12g}. Give them "
+        f"states {first!r} and {second!r} have the same label {names[mine]!r}, but move to "
+        f"{names[b]!r} with different chances, {to[0, b]:.12g} and {to[1, b]:.12g}. Give them "
         "different labels, or let coarsest_lumping find the labels."
     )

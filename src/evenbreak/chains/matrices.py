@@ -66,15 +66,15 @@ def _only_reading(matrix: csc_array) -> Rows:
     by_rows, by_columns = sums_to_1(matrix, axis=1), sums_to_1(matrix, axis=0)
     if not by_rows and not by_columns:
         raise ChainError(
-            "neither the rows nor the columns of the matrix all sum to 1. Give "
-            "probabilities that sum to 1 within 1e-9, with a 1 on the diagonal for a "
-            "state that is never left."
+            "the matrix's rows or its columns must all sum to 1; neither do. Give probabilities "
+            "that sum to 1 within 1e-9, with a 1 on the diagonal for any state that is never "
+            "left."
         )
     if by_rows and by_columns and (matrix - matrix.T).count_nonzero():
         raise ChainError(
-            "the rows and the columns of the matrix all sum to 1, so it can be read two "
-            "ways. Give rows='from' if a row holds the chances out of its state, or "
-            "rows='to' if into it."
+            "the matrix's rows and columns all sum to 1, so it can be read two ways. Give "
+            "rows='from' if a row holds the chances of leaving its state, or rows='to' if it "
+            "holds the chances of entering it."
         )
     return "from" if by_rows else "to"
 
@@ -105,12 +105,12 @@ def _labeled(frame: Any) -> tuple[list[Hashable], csc_array]:
     states, columns = list(frame.index), list(frame.columns)
     for labels in (states, columns):
         if len(set(labels)) < len(labels):
-            raise ChainError("the frame has a state twice. Give each one row and one column.")
+            raise ChainError("the frame has a state twice. Give each state one row and one column.")
     if set(states) != set(columns):
         label = next(iter(set(states) ^ set(columns)))
         raise ChainError(
-            f"{label!r} labels a row or a column of the frame, not both. Give each state "
-            "one of each, or give a table of arcs as frame.itertuples(index=False)."
+            f"{label!r} labels only a row or only a column of the frame. Give each state both, or "
+            "give a table of arcs as frame.itertuples(index=False)."
         )
     place = {state: k for k, state in enumerate(columns)}
     numbers = frame.to_numpy()[:, [place[state] for state in states]]
@@ -135,8 +135,8 @@ def csc_of(matrix: Any) -> csc_array:
         converted: csc_array[np.float64] = csc_array(entries.astype(np.float64))
     except (TypeError, ValueError, AttributeError):
         raise ChainError(
-            f"the matrix is {type(matrix).__name__} {matrix!r:.60}. Give a sparse matrix "
-            "or a two-dimensional array of numbers."
+            "the matrix must be sparse or a two-dimensional array of numbers; it is "
+            f"{type(matrix).__name__} {matrix!r:.60}"
         ) from None
     converted.sum_duplicates()
     return converted
@@ -160,10 +160,10 @@ def adding_up(matrix: csc_array, states: Sequence[Hashable]) -> csc_array:
     if not wrong.any():
         return matrix
     if (far := np.flatnonzero(~(missed <= SUM_TOLERANCE))).size:
-        more = f" (and so for {far.size - 1} more)" if far.size > 1 else ""
+        more = f" (and {far.size - 1} more don't sum to 1 either)" if far.size > 1 else ""
         raise ChainError(
-            f"the arcs out of state {states[far[0]]!r} sum to {total[far[0]]:.12g}{more}. "
-            "Give probabilities that sum to 1 within 1e-9, a self-loop included."
+            f"the arcs out of state {states[far[0]]!r} sum to {total[far[0]]:.12g}{more}. Give "
+            "probabilities that sum to 1 within 1e-9, including any self-loop."
         )
     loops = (matrix.indices == columns) & (matrix.data > 0.0)
     others = sums(columns, np.where(loops, 0.0, matrix.data), n)

@@ -79,7 +79,7 @@ def spectral_gap(chain: Chain) -> float:
     gap = 1.0 - largest
     if not worst - largest <= 1e-3 * gap:
         raise AccuracyError(
-            f"the gap is about {gap:.3g}, but an eigenvalue is known only to within "
+            f"the gap is about {gap:.3g}, but one eigenvalue is only known to within "
             f"{worst - largest:.1e}. Follow the chain with propagate."
         )
     return gap
@@ -183,8 +183,8 @@ def _largest(block: csc_array, period: int) -> NDArray[Any]:
             values = eigs(block, count, v0=start, ncv=basis, maxiter=300, return_eigenvectors=False)
         except ArpackNoConvergence as error:
             raise AccuracyError(
-                f"the iteration for the eigenvalues of a class of {n} states didn't "
-                "converge: its gap is small. Follow the chain with propagate."
+                f"the iteration for the eigenvalues of a class of {n} states didn't converge, "
+                "because its gap is so small. Follow the chain with propagate."
             ) from error
         if count == n - 2 or (np.abs(values) < 1.0 - _ON_CIRCLE).any():
             return _falling(values)
@@ -221,7 +221,8 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
     n = len(chain)
     if n > DENSE:
         raise ChainError(
-            f"the chain has {n} states; a mixing time needs {DENSE} or fewer, ask for spectral_gap"
+            f"the chain has {n} states, too many to find its mixing time: the limit is {DENSE}. "
+            "Ask for spectral_gap instead."
         )
     period = apparent_period(chain)
     M = evened(chain).toarray()

@@ -136,8 +136,8 @@ class PassageTime:
             if t == MOST_STEPS:
                 break
         raise AccuracyError(
-            f"the {q} quantile is beyond {MOST_STEPS} steps; "
-            f"the mean given that the target is reached is {self.mean_if_reached:.6g}"
+            f"the {q} quantile is more than {MOST_STEPS} steps; the mean, if the target is "
+            f"reached, is {self.mean_if_reached:.6g}"
         )
 
     def _walk(self) -> Iterator[tuple[int, float, float]]:
@@ -246,12 +246,9 @@ def conditioned(chain: Chain, target: Any) -> Chain:
     target
         a state, or a list or set of states.
 
-    Raises
-    ------
-    ChainError
-        if a state is unknown, no target is given, or the start cannot reach the target.
-    AccuracyError
-        if a chance of reaching the target is smaller than any float, or cannot be guaranteed.
+    Raises ------ ChainError if a state is unknown, no target is given, or the start cannot reach
+    the target. AccuracyError if one of the chances of reaching the target is too small for a float,
+    or cannot be guaranteed.
 
     >>> from evenbreak.chains import chain_of, steps_to_absorption
     >>> race = chain_of({"0:0": {"1:0": 0.75, "0:1": 0.25}, "1:0": {"won": 0.75, "1:1": 0.25},
@@ -269,7 +266,7 @@ def conditioned(chain: Chain, target: Any) -> Chain:
     h = ends.astype(np.float64)
     h[states] = part.values(leak)
     if not (h[states] > 0.0).all():
-        raise AccuracyError("a chance of reaching the target is smaller than any float")
+        raise AccuracyError("one of the chances of reaching the target is too small for a float")
     if chain.start is not None and not h[chain.index(chain.start)]:
         raise ChainError(f"the target {target!r} can't be reached from {chain.start!r}")
     kept = np.flatnonzero(h)
@@ -296,7 +293,7 @@ def target_of(chain: Chain, target: Any) -> Bools:
     if isinstance(target, Hashable) and target in chain.position:
         targets = [target]
     if not targets:
-        raise ChainError("no target is given. Give a state or a list of states.")
+        raise ChainError("no target was given. Give a state or a list of states.")
     ends = np.zeros(len(chain), dtype=bool)
     ends[[chain.index(state) for state in targets]] = True
     return ends
@@ -348,7 +345,7 @@ def _passage(chain: Chain, v: Floats, ends: Bools) -> PassageTime:
             stayed = visits * chain.matrix.diagonal() * hope
             variance = float(begun.sum() + moved.sum() + stayed.sum()) / p_reached
         if mean == np.inf:
-            raise AccuracyError("the mean number of steps is larger than any float")
+            raise AccuracyError("the mean number of steps is too large for a float")
         # A mean this large comes from a state that is hard to leave; the variance is its square.
         variance = variance if np.isfinite(variance) else np.inf
     walk = at_once, v[states], chain, states, leak, hope[states]

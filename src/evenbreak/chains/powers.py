@@ -74,7 +74,7 @@ def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = F
     steps = whole(steps, "steps")
     if steps > MOST_APPLIED:
         raise InputError(
-            f"steps is {steps}, after which rounding errors would show. Give "
+            f"steps is {steps}, and rounding errors would show after that many. Give "
             f"{MOST_APPLIED} or fewer, or ask for the stochastic limit."
         )
     v = chain.density(start)
@@ -90,8 +90,8 @@ def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = F
     if path and (steps + 1) * len(chain) > _MOST_ENTRIES:
         most = max(_MOST_ENTRIES // len(chain) - 1, 0)
         raise InputError(
-            f"steps is {steps}, and a path of so many densities of {len(chain)} states "
-            f"doesn't fit in memory. Give {most} or fewer, or leave out the path."
+            f"steps is {steps}, and a path of that many vectors of {len(chain)} states doesn't "
+            f"fit in memory. Give {most} or fewer, or leave out the path."
         )
     M = csr_array(evened(chain))
     densities = np.empty((steps + 1 if path else 1, len(chain)))

@@ -118,7 +118,7 @@ def _expected_reward(
 ) -> Floats:
     """Return the expected reward of a step started in each state; shape (n,)."""
     if per_state is None and per_arc is None:
-        raise ChainError("there's no reward. Give per_state or per_arc.")
+        raise ChainError("no reward was given. Give per_state or per_arc.")
     per_state = {} if per_state is None else by_label(per_state, "per_state")
     if not isinstance(per_state, Mapping):
         per_state = np.asarray(per_state, dtype=float)
@@ -130,5 +130,5 @@ def _expected_reward(
             raise ChainError(f"there's no arc {source!r} -> {target!r} to earn a reward on")
         reward[j] += chance * amount
     if not np.isfinite(reward).all():
-        raise ChainError("the reward of an arc isn't finite. Give finite numbers.")
+        raise ChainError("every reward must be finite; one arc's reward isn't")
     return reward

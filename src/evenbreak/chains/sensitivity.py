@@ -97,8 +97,8 @@ class Sensitivity:
             j, i = self.chain.index(source), self.chain.index(target)
             if recurrent[j] and label[i] != label[j] and slope:
                 raise ChainError(
-                    f"the arc {source!r} -> {target!r} leads out of a closed class; the limit "
-                    "jumps there and has no derivative"
+                    f"the arc {source!r} -> {target!r} leads out of a closed class, where the "
+                    "limit jumps and has no derivative"
                 )
             total[j] += slope
             scale[j] += abs(slope)
@@ -106,8 +106,8 @@ class Sensitivity:
         off = np.flatnonzero(~(np.abs(total) <= 1e-9 * scale))
         if len(off):
             raise ChainError(
-                f"the changes of the arcs out of {self.chain.states[off[0]]!r} must sum "
-                f"to 0; they sum to {total[off[0]]:.6g}"
+                f"the changes to the arcs out of {self.chain.states[off[0]]!r} must sum to 0; "
+                f"they sum to {total[off[0]]:.6g}"
             )
         return float(derivative)
 

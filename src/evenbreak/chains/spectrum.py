@@ -125,8 +125,8 @@ class Spectrum:
         """
         if not np.isfinite(self._left).all():
             raise AccuracyError(
-                "a left vector has entries larger than any float: the stationary law "
-                "spans too many decades. Use the vectors in `orthonormal`"
+                "a left vector has entries too large for a float: the stationary distribution "
+                "spans too many orders of magnitude. Use the vectors in `orthonormal`"
             )
         return self._left
 
@@ -143,9 +143,9 @@ class Spectrum:
         """
         if not self.limit_error <= TOLERANCE:
             raise AccuracyError(
-                f"the limit by eigenvectors may be wrong by {self.limit_error:.1e} "
-                f"(residual {self.residual:.1e}): the chain is slow or nearly falls "
-                "apart. Use stochastic_limit."
+                f"the limit from eigenvectors may be wrong by {self.limit_error:.1e} (residual "
+                f"{self.residual:.1e}): the chain mixes slowly or nearly falls apart. Use "
+                "stochastic_limit."
             )
         v = self.chain.density(start)
         return limit_by(self.right[:, : self.units], self._left[: self.units], v)
@@ -208,7 +208,7 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
         k = n if all_found else min(max(LEADING, units), n)
     k = whole(k, "k", at_least=units)
     if k > n:
-        raise InputError(f"k is {k}; the chain has {n} states, give {n} or fewer")
+        raise InputError(f"k must be at most {n}, the number of states in the chain; you gave {k}")
     if k * n > MOST_ENTRIES:
         raise ChainError(
             f"{k} pairs of vectors over {n} states don't fit in memory. Ask for fewer, or "
@@ -272,7 +272,7 @@ class SymmetricForm:
             near_one = scipy.sparse.linalg.eigsh(self.matrix, k=k, sigma=SHIFT, v0=start)
         except scipy.sparse.linalg.ArpackNoConvergence as error:
             raise AccuracyError(
-                f"the iteration for {k} eigenvalues of {m} didn't converge. Ask for fewer."
+                f"the iteration for {k} of {m} eigenvalues didn't converge. Ask for fewer."
             ) from error
         return np.asarray(near_one[0]), np.asarray(near_one[1])
 

@@ -218,8 +218,8 @@ def mean_first_passages(chain: Chain) -> pd.DataFrame:
     n = len(chain)
     if n > MOST_STATES:
         raise ChainError(
-            f"the chain must have at most {MOST_STATES} states; it has {n}. For a larger "
-            "one use first_passage for each target that matters."
+            f"the chain must have at most {MOST_STATES} states; it has {n}. For a larger chain, "
+            "use first_passage for each target you need."
         )
     means = np.full((n, n), np.inf)
     np.fill_diagonal(means, 0.0)
@@ -264,8 +264,8 @@ def kemeny_constant(chain: Chain) -> float:
     recurrent = np.flatnonzero(chain.structure.recurrent)
     if chain.structure.closed.sum() > 1:
         raise ChainError(
-            f"the chain has {chain.structure.closed.sum()} closed classes; Kemeny's constant needs "
-            "one, from which every stationary state can be reached"
+            f"the chain has {chain.structure.closed.sum()} closed classes, but Kemeny's constant "
+            "needs a chain with just one"
         )
     if len(recurrent) > MOST_STATES:
         raise ChainError(

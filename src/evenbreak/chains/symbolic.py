@@ -124,8 +124,8 @@ def _diagram(source: Any, start: Hashable | None) -> tuple[Rows, Hashable]:
             formula = None
         if not isinstance(formula, sympy.Expr):
             raise ChainError(
-                f"arc {k} must be (source, target, probability), states that can be "
-                f"hashed and a number or a formula; you gave {arc!r}"
+                f"arc {k} must be (source, target, probability), two hashable states and a number "
+                f"or a formula; you gave {arc!r}"
             )
         if target in row:
             raise ChainError(f"the arc {origin!r} -> {target!r} is listed twice. List it once.")
@@ -140,8 +140,8 @@ def _diagram(source: Any, start: Hashable | None) -> tuple[Rows, Hashable]:
         total = sum(row.values())
         if row and sympy.simplify(total - 1) != 0:
             raise ChainError(
-                f"the probabilities of state {state!r} sum to {total}, not 1. Write the "
-                "last one as 1 minus the others."
+                f"the probabilities out of state {state!r} sum to {total}, not 1. Write the last "
+                "one as 1 minus the others."
             )
         rows[state] = {target: p for target, p in row.items() if sympy.simplify(p) != 0}
     return rows, start

@@ -143,7 +143,7 @@ class TransientPart:
             x[:, again] = (factor.values if transposed else factor.visits)(columns[:, again])
         if not np.isfinite(x).all():
             raise AccuracyError(
-                "an expected number of visits, or a sum over them, is larger than any float; "
+                "an expected number of visits, or a sum of several, is too large for a float: "
                 "the chain leaves some states too rarely"
             )
         return x.reshape(right.shape)

@@ -23,5 +23,7 @@ def way_of_limit(via: Way | None, *, exact: bool = False) -> Way | None:
     if via is None:
         return None
     if exact:
-        raise InputError(f"via is {via!r}, but exact answers have one way. Leave via out.")
+        raise InputError(
+            f"via is {via!r}, but exact answers are calculated in only one way. Leave out via."
+        )
     return None if one_of(via, "via", WAYS) == "kernel" else via

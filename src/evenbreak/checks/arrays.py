@@ -212,9 +212,7 @@ def names(values: Iterable[Any], name: str) -> tuple[str, ...]:
                 value=value,
             )
     if len(set(found)) < len(found):
-        raise InputError(
-            "{name} must have each name once; one is there twice", name=Parameter(name)
-        )
+        raise InputError("{name} must have each name once; one appears twice", name=Parameter(name))
     return found
 
 

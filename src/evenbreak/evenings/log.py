@@ -105,7 +105,7 @@ class Log(Generic[Entered]):
                 self.undone[entry] = TakenBack(self.kept.pop(entry), number)
             case Redone(entry=entry):
                 if entry not in self.undone:
-                    raise InputError("entry {entry} isn't undone", entry=entry)
+                    raise InputError("entry {entry} hasn't been undone", entry=entry)
                 self.kept[entry] = self.undone.pop(entry).event
                 self.kept = dict(sorted(self.kept.items()))
             case _:
@@ -145,7 +145,7 @@ class Kinds(Generic[What]):
     def read(self, kind: str, text: str) -> What:
         """Return an entry from its kind and JSON; an InputError names the field that is wrong."""
         if kind not in self.kinds:
-            raise InputError("{kind!r} isn't a kind of entry", kind=kind[:40])
+            raise InputError("{kind!r} isn't a type of entry", kind=kind[:40])
         return read_json(self.kinds[kind], text)
 
 

@@ -82,7 +82,7 @@ def game_of_catalog(name: str, *chances: float) -> tuple[str, Game]:
     if len(matching) != 1:
         close = get_close_matches("".join(words), joined, n=3)
         near = matching or [joined[text] for text in close] or [*CATALOG, *added("game")]
-        which = "names several games" if matching else "isn't a game of the catalog"
+        which = "could mean several games" if matching else "isn't in the catalog of games"
         raise InputError(
             "{name!r} {which}. Choose one of: {near}", name=name, which=which, near="; ".join(near)
         )

@@ -76,7 +76,8 @@ class Drill:
         most = whole(levels, "levels", at_least=1)
         if most > EIGHT_BALL_LEVELS:
             raise InputError(
-                "levels is {most}, but with {eight_ball_levels} all 15 balls are on the table",
+                "levels is {most}, but at level {eight_ball_levels} all 15 balls are already on "
+                "the table",
                 most=most,
                 eight_ball_levels=EIGHT_BALL_LEVELS,
             )

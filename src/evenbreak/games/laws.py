@@ -65,12 +65,15 @@ def _chances_sum_to_1(game: Game, tried: _Tried) -> Iterator[str]:
     for state in tried():
         moves = game.moves(state)
         if moves != game.moves(state):
-            yield f"the moves from {state!r} differ when asked for twice"
+            yield f"the moves from {state!r} differ the second time they're asked for"
         for target, p in moves.items():
             if not 0.0 <= p <= 1.0:
-                yield f"the move {state!r} -> {target!r} has probability {p!r}. Give 0 to 1."
+                yield (
+                    f"the move {state!r} -> {target!r} has probability {p!r}. Give a number "
+                    "from 0 to 1."
+                )
         if moves and not math.isclose(total := sum(moves.values()), 1.0, abs_tol=1e-9):
-            yield f"the moves from {state!r} have chances that sum to {float(total):.9g}, and not 1"
+            yield f"the moves from {state!r} have chances that sum to {float(total):.9g}, not 1"
 
 
 def _winners_end_it(game: Game, tried: _Tried) -> Iterator[str]:
@@ -88,9 +91,12 @@ def _states_print_well(_: Game, tried: _Tried) -> Iterator[str]:
     for state in tried():
         text = str(state)
         if len(text) > _LONGEST or " object at " in text or "\n" in text:
-            yield f"the state {text[:_LONGEST]!r} does not print in {_LONGEST} letters and one line"
+            yield (
+                f"the state {text[:_LONGEST]!r} doesn't print on one line of at most "
+                f"{_LONGEST} characters"
+            )
         if seen.setdefault(text, state) != state:
-            yield f"two states print as {text!r}"
+            yield f"two different states print as {text!r}"
 
 
 def _arcs_are_moves(game: Game, tried: _Tried) -> Iterator[str]:
@@ -104,4 +110,4 @@ def _arcs_are_moves(game: Game, tried: _Tried) -> Iterator[str]:
     if listed.keys() != walked.keys() or any(
         abs(p - walked[arc]) > 1e-9 for arc, p in listed.items()
     ):
-        yield "the arcs that it gives as arrays are not its moves"
+        yield "the arcs it gives as arrays don't match its moves"

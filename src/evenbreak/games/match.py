@@ -67,13 +67,13 @@ class Match(ABC, Generic[ChanceT]):
             self._check_own_game(self.rack)
         if isinstance(self.rack, Match) and self.rack.decided(*self.rack.score) is not None:
             raise InputError(
-                "rack is a set that is over at its start score. Give a set that can "
+                "rack is a set that is already over at its starting score. Give a set that can "
                 "still be played."
             )
         if isinstance(self.rack, Rack) and self.rack.break_matters and self.breaks is None:
             raise InputError(
-                "breaks is missing, and in Rack(p1, p2) the break matters. Give one such "
-                "as breaks=winner_breaks."
+                "breaks is missing: with Rack(p1, p2), the break matters. Give a break format, "
+                "such as breaks=winner_breaks."
             )
         if self.breaks is not None:
             checked_format(self.breaks)
@@ -83,7 +83,7 @@ class Match(ABC, Generic[ChanceT]):
             a, b = self.score
         except (TypeError, ValueError):
             raise InputError(
-                "score is {score!r}. Give the games that each player has, such as (2, 1).",
+                "score is {score!r}. Give the games that each player has won, such as (2, 1).",
                 score=self.score,
             ) from None
         self._check_score(whole(a, "score of player 1"), whole(b, "score of player 2"))
@@ -97,12 +97,14 @@ class Match(ABC, Generic[ChanceT]):
             )
         if self.breaks is not None or self.first_breaker != 1:
             raise InputError(
-                "breaks and first_breaker don't go with a game of your own as the rack, "
-                "which says itself who starts. Leave them out, or give Rack(p1, p2) with "
-                "each player's chance in the game that they start."
+                "breaks and first_breaker can't be used when the rack is a game of your own, "
+                "which already sets who starts. Leave them out, or give Rack(p1, p2) with each "
+                "player's chance in games they start."
             )
         if game.winner(game.start) is not None:
-            raise InputError("rack is a game that is over at its start. Give one to be played.")
+            raise InputError(
+                "rack is a game that is over before it starts. Give one that can be played."
+            )
 
     def _check_score(self, a: int, b: int) -> None:
         object.__setattr__(self, "score", (a, b))
@@ -113,7 +115,7 @@ class Match(ABC, Generic[ChanceT]):
             before = [x for x in before if x == only and (x == (0, 0) or self._played_from(*x))]
         if not before and (a, b) != (0, 0):
             raise InputError(
-                "{score} is {a}-{b}, which can't be reached: {name} {m}:{n} is over before it",
+                "{score} is {a}-{b}, which can't be reached: {name} {m}:{n} is over before that",
                 a=a,
                 b=b,
                 name=type(self).__name__,

@@ -166,7 +166,9 @@ def best_cycle(
     """
     listed = [whole(length, "lengths", at_least=1) for length in lengths]
     if not listed:
-        raise InputError("lengths must not be empty. Give the matches of a cycle, such as 10.")
+        raise InputError(
+            "lengths must not be empty. Give the number of matches in a cycle, such as 10."
+        )
     counts = [(down, length - down) for length in set(listed) for down in range(length)]
     cycles = _cycles(ladder, counts, stake, dumped_stake)
     allowed = [

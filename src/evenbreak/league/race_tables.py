@@ -57,7 +57,7 @@ class RaceTables:
         """Return where races m:n between players this far apart are in the tables."""
         if max(m.max(initial=0), n.max(initial=0)) >= _MOST:
             raise InputError(
-                "a race is to {games} games; a league plays races to {most} at most",
+                "a race is to {games} games; in a league, the limit is {most}",
                 games=max(m.max(), n.max()),
                 most=_MOST - 1,
             )

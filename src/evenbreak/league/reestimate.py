@@ -141,7 +141,7 @@ def reestimate(
     by = scale_of(scale)
     skills = np.asarray(skill, dtype=float)
     if skills.ndim != 1 or len(skills) < 2 or not np.isfinite(skills).all():
-        raise InputError("skill isn't a list of two finite numbers or more. Give one per player.")
+        raise InputError("skill must be a list of two or more finite numbers, one per player")
     if half_life is not None and not half_life > 0.0:
         raise InputError(
             "{half_life} must be a number of weeks above 0, or None; you gave {value!r}",

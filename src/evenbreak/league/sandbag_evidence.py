@@ -105,8 +105,8 @@ class SandbagEvidence:
             top = held.reshape(held.shape[0], -1).max(axis=1)
             if not top.all():
                 raise AccuracyError(
-                    "a result is all but impossible by the ratings. Check them, and "
-                    "whether they are on the scale of the system."
+                    "a result is next to impossible with these ratings. Check the ratings, and "
+                    "whether they are on the system's scale."
                 )
             setattr(self, name, held / top.reshape(-1, *[1] * (held.ndim - 1)))
             self._log[name] += np.log(top)

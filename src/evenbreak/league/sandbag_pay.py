@@ -171,8 +171,8 @@ def sandbagging(
     after = _laws(down, law, most + 1)
     if after[-1] @ at_the_end(ladder) > MOST_HELD:
         raise InputError(
-            "{dumped} is {most}, which takes the rating to the ladder's end at {widest}. "
-            "Give fewer, or a wider ladder.",
+            "{dumped} is {most}, which takes the rating to the ladder's end at {widest}. Give a "
+            "smaller number, or a wider ladder.",
             most=most,
             widest=-ladder.widest,
         )
@@ -328,7 +328,7 @@ def refuse_drift(ladder: Ladder) -> None:
     """Raise an error if the player's skill drifts on this ladder."""
     if ladder.drift:
         raise InputError(
-            "the player in this ladder drifts by {drift!r}. Use a ladder with drift 0.",
+            "the player in this ladder drifts by {drift!r}. Use a ladder whose drift is 0.",
             drift=ladder.drift,
         )
 

@@ -73,7 +73,8 @@ class RoundRobin:
         """Return the rounds of a week (1 is the first); nothing is drawn."""
         if count != self.players:
             raise InputError(
-                "{players} is {value}, but the league has {count}. Give RoundRobin({count}).",
+                "{players} is {value}, but the league has {count} players. Give "
+                "RoundRobin({count}).",
                 value=self.players,
                 count=count,
             )
@@ -174,7 +175,9 @@ class FixedSchedule:
         if (self.a == self.b).any():
             row = int(np.argmax(self.a == self.b))
             raise InputError(
-                "match {row} has player {a} twice. Give two players.", row=row, a=self.a[row]
+                "match {row} has player {a} twice. Give two different players.",
+                row=row,
+                a=self.a[row],
             )
 
     def __len__(self) -> int:
@@ -190,8 +193,8 @@ class FixedSchedule:
         most = int(max(self.a.max(initial=-1), self.b.max(initial=-1)))
         if most >= count:
             raise InputError(
-                "the schedule has a player {most}, but the league has players 0 to "
-                "{count}. Leave the matches out, or add the player.",
+                "the schedule has matches for player {most}, but the league has only players 0 "
+                "to {count}. Leave out those matches, or add the player.",
                 most=most,
                 count=count - 1,
             )

@@ -234,7 +234,9 @@ class Tally:
         if not isinstance(other, Tally):
             return NotImplemented
         if len(self.matches) != len(other.matches) or self.errors.shape != other.errors.shape:
-            raise InputError("the two tallies are of different seasons. Add those of one season.")
+            raise InputError(
+                "only tallies from the same season can be added; these are from different seasons"
+            )
         return Tally(**{field.name: _added(self, other, field.name) for field in fields(Tally)})
 
     @property

@@ -122,8 +122,8 @@ class World:
             sizes = np.bincount(self.teams)
             if len(sizes) < 2 or sizes.min() < self.sets:
                 raise InputError(
-                    "team {team} has {n} players; a league of teams needs two teams, each with "
-                    "at least {sets} players for the {sets} matches of a night",
+                    "team {team} has {n} players; a team league needs two teams, each with at "
+                    "least {sets} players for a night's {sets} matches",
                     team=int(sizes.argmin()) + 1,
                     n=int(sizes.min()),
                     sets=self.sets,

@@ -157,16 +157,16 @@ def _chances(length: LengthLike, name: str) -> Floats:
     right = games.ndim == 1 and games.shape == probability.shape and games.size > 0
     if not right or games.dtype.kind not in "iu" or probability.dtype.kind not in "iuf":
         raise InputError(
-            "{name} isn't a length. Give whole numbers of games, with a chance each.", name=name
+            "{name} isn't a length. Give whole numbers of games, each with its chance.", name=name
         )
     if games.min() < 0 or games.max() > _LONGEST:
         raise InputError(
-            "{name} has games outside 0 to {longest:,}. Give numbers of games.",
+            "{name} must have numbers of games from 0 to {longest:,}; one isn't",
             name=name,
             longest=_LONGEST,
         )
     if not (probability >= 0).all() or abs(probability.sum() - 1.0) > 1e-6:
-        raise InputError("{name} has chances that don't sum to 1. Give probabilities.", name=name)
+        raise InputError("{name} must have probabilities that sum to 1; they don't", name=name)
     counted = np.bincount(games, probability)
     return np.asarray(counted / counted.sum())
 
@@ -177,14 +177,17 @@ def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int)
         return np.arange(2 * matches).reshape(matches, 2)
     if len(players) != matches:
         raise InputError(
-            "{players} has {n_players} pairs for {matches} matches. Give one for each.",
+            "{players} has {n_players} pairs for {matches} matches. Give one pair for each match.",
             n_players=len(players),
             matches=matches,
         )
     number: dict[Hashable, int] = {}
     for first, second in players:
         if first == second:
-            raise InputError("{players} has {one!r} on both sides. Give two players.", one=first)
+            raise InputError(
+                "{players} has {one!r} on both sides of a match. Give two different players.",
+                one=first,
+            )
     return np.array(
         [[number.setdefault(player, len(number)) for player in pair] for pair in players]
     )

@@ -177,8 +177,8 @@ def given_score(match: Match, weights: Floats) -> Floats:
         return weights
     if match.break_matters:
         raise InputError(
-            "the games played show the day-to-day form, but not without who broke them. "
-            "Leave the score out, or form."
+            "the games already played can only show day-to-day form if it's known who broke. "
+            "Leave out either the score or form."
         )
     unit = unit_of(match)
     if isinstance(unit, Rack):

@@ -88,7 +88,7 @@ class MatchFormat:
             object.__setattr__(self, name, whole(getattr(self, name), name, at_least=1))
         if self.ahead and self.win_by > 1:
             raise InputError(
-                "{win_by} is {value} in an n-ahead match. Leave it out.", value=self.win_by
+                "{win_by} is {value}, but the match is n-ahead. Leave it out.", value=self.win_by
             )
         if self.breaks is not None:
             one_of(self.breaks, "breaks", tuple(BREAK_FORMATS))
@@ -194,8 +194,8 @@ def match_format(text: str) -> MatchFormat:
     for most in map(int, _BEST_OF.findall(words)):
         if most % 2 == 0:
             raise InputError(
-                "{text!r}: the best of {most} can end in a tie. Give an odd number, or "
-                "write {most_2}.",
+                "{text!r}: a best of {most} can end in a tie. Give an odd number, or write "
+                "{most_2}.",
                 text=text,
                 most=most,
                 most_2=_half(most),
@@ -222,7 +222,7 @@ def match_format(text: str) -> MatchFormat:
             )
         if ahead and win_by > 1:
             raise InputError(
-                "{text!r}: 'ahead' doesn't go with 'win by'. Leave one out.", text=text
+                "{text!r}: 'ahead' can't be combined with 'win by'. Leave one out.", text=text
             )
         innermost = inner is None
         inner = MatchFormat(m, n, ahead, win_by, inner, breaks if innermost else None)

@@ -142,7 +142,8 @@ def _with_form(
 ) -> MatchLength[Any, Any]:
     if via is not None:
         raise InputError(
-            "via is for one chain, but with form the answer is an average over many. Leave one out."
+            "via is for a single chain, but with form the answer is an average over many "
+            "chains. Leave out via or form."
         )
     match, shape = at_score(match, score)
     many, weights = on_days(match, form_of(form))

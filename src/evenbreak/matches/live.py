@@ -233,8 +233,8 @@ def _moves_in_form(match: Match, form: float) -> RackMoves:
 
     if not order_is_free(match):
         raise InputError(
-            "form is given, but the match isn't a race of racks in which the break "
-            "doesn't matter. Leave it out."
+            "form works only in a race of racks in which the break doesn't matter, and this "
+            "match isn't one. Leave out form."
         )
     fresh, weights = on_days(replace(match, score=(0, 0)), form_of(form))
     p = rack_in(fresh).chance(1)
@@ -251,7 +251,7 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     inside, of_set = unit_of(match), Parameter("set_score")
     if isinstance(inside, Rack) or not isinstance(inside.rack, Rack):
         raise InputError(
-            "{set_score} is given, but the match isn't one of sets of racks. Leave it out.",
+            "{set_score} is given, but this match isn't played in sets of racks. Leave it out.",
             set_score=of_set,
         )
     try:
@@ -262,7 +262,9 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
     if under_way.decided(*under_way.score) is not None:
         a, b = under_way.score
         raise InputError(
-            "{set_score} is {a}-{b}, where the set is over. Count it in the score.", a=a, b=b
+            "{set_score} is {a}-{b}, which ends the set. Add the set to the score instead.",
+            a=a,
+            b=b,
         )
     if match.decided(*match.score) is not None:
         raise InputError(

@@ -156,7 +156,8 @@ def _with_form(match: Match, via: Way | None, form: float) -> MatchOdds:
 
     if via is not None:
         raise InputError(
-            "via is for one chain, but with form the answer is an average over many. Leave one out."
+            "via is for a single chain, but with form the answer is an average over many "
+            "chains. Leave out via or form."
         )
     rack_in(checked_match(match)).of_numbers()
     return mixed_odds(*on_days(match, form_of(form)))

@@ -163,13 +163,13 @@ def rack_of_game(game: Game) -> Rack[float]:
     others = ends.by_winner.keys() - {1, 2, None}
     if others:
         raise GameError(
-            "player {str} can win the rack. Give a game of two players.", str=min(map(str, others))
+            "player {str} can win the rack. Give a game for two players.", str=min(map(str, others))
         )
     p, q = ends.p_win(1), ends.p_win(2)
     if not abs(p + q - 1.0) <= _CERTAIN:
         raise GameError(
-            "the rack has no winner with probability {p:.6g}. Give a game that player 1 "
-            "or player 2 wins in the end.",
+            "the rack ends without a winner with probability {p:.6g}. Give a game that player 1 "
+            "or player 2 always wins in the end.",
             p=1.0 - p - q,
         )
     return Rack(p / (p + q), q1=q / (p + q))

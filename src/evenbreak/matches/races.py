@@ -116,7 +116,10 @@ def race_odds(
     need_1 = whole(m, "m") - whole(score[0], "score of player 1")
     need_2 = whole(n, "n") - whole(score[1], "score of player 2")
     if rack.break_matters and breaks is None:
-        raise InputError("breaks is missing: with p2 the break matters. Give winner_breaks, ...")
+        raise InputError(
+            "breaks is missing: if p2 is given, the break matters. Give a break "
+            "format, such as breaks=winner_breaks."
+        )
     if need_1 <= 0 or need_2 <= 0:
         return _already_won(need_1, need_2)
     steps = next_breaks(rack, breaks)

@@ -198,8 +198,8 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
         won_1, won_2 = needs_1 == 0, needs_2 == 0
         if (won_1 & won_2).any():
             raise InputError(
-                "m and n are both 0 somewhere, but only one player can have won. Give 1 "
-                "or more for the other."
+                "m and n are both 0 somewhere, but only one player can have won. Make one of "
+                "them 1 or more."
             )
         chance = np.where(won_1, 1.0, np.where(won_2, 0.0, chance))
     return plain(np.asarray(chance))

@@ -125,7 +125,7 @@ def aimed_shot(
     diameter = strike.ball.diameter
     distance = float(np.linalg.norm(standing - start))
     if np.linalg.norm(goal - standing) <= strike.ball.radius:
-        raise InputError("target is within the object ball. Give a point farther away.")
+        raise InputError("target is inside the object ball. Give a point farther away.")
     for name, place in (("cue_ball", start), ("object_ball", standing)):
         on_table(place, name, table, strike.ball.radius)
     travel_for(0.0, distance, diameter)  # refuses balls that overlap

@@ -85,7 +85,10 @@ def friction_of_speeds(first: Any, second: Any, distance: Any, *, gravity: float
     distance, pull = positive(distance, "distance"), positive(gravity, "gravity")
     together(first=first, second=second, distance=distance, gravity=pull)
     if np.any(second > first):
-        raise InputError("second is above first; a sliding block doesn't gain speed")
+        raise InputError(
+            "second can't be above first, because a sliding block doesn't gain "
+            "speed; somewhere it is"
+        )
     return plain((first - second) * (first + second) / (2.0 * pull * distance))
 
 
@@ -301,7 +304,7 @@ def checked_friction(mu: Any, speed: Any) -> tuple[Floats | SlipFriction, Floats
     """Return friction and speed of a hit, checked; friction that needs a speed must have one."""
     if speed is None:
         if isinstance(mu, SlipFriction):
-            raise InputError("mu depends on the speed of the slip. Give the speed of the cue ball.")
+            raise InputError("mu depends on how fast the balls slip. Give the cue ball's speed.")
         speed = 1.0
     speed = numbers(speed, "speed", low=0.0)
     return mu if isinstance(mu, SlipFriction) else numbers(mu, "mu", low=0.0), speed

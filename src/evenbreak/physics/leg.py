@@ -239,8 +239,8 @@ def on_table(position: Floats, name: str, table: PoolTable, radius: float) -> No
     inside = radius - _SLACK <= x <= table.length - radius + _SLACK
     if not (inside and radius - _SLACK <= y <= table.width - radius + _SLACK):
         raise InputError(
-            "{name} is at ({x:.4g}, {y:.4g}) m. Give a place on the table, {radius:.4g} "
-            "m or more inside its {length:.4g} by {width:.4g} m.",
+            "{name} is at ({x:.4g}, {y:.4g}) m. Give a place at least {radius:.4g} m from each "
+            "edge of the {length:.4g} by {width:.4g} m table.",
             name=name,
             x=x,
             y=y,

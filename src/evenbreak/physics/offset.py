@@ -306,8 +306,8 @@ def stun_offset(speed: FloatOrArray, distance: FloatOrArray, cloth: Cloth) -> Fl
     lost = 2.0 * slowing * distance / speed**2
     if np.any(lost > 1.0):
         raise InputError(
-            "distance is more than a ball of this speed slides. Give a higher speed, or "
-            "less than {speed:.4g} m.",
+            "distance is farther than a ball slides at this speed. Give a higher speed, or a "
+            "distance of less than {speed:.4g} m.",
             speed=float(np.min(speed)) ** 2 / (2.0 * slowing),
         )
     # 1 - sqrt(1 - lost), written so that small offsets keep their digits.

@@ -241,11 +241,13 @@ def shot(
 def sound_strike(strike: Strike) -> None:
     """Raise an error if there is more than one strike, or it is a miscue."""
     if np.ndim(kind_of(strike, "strike", Strike).speed):
-        raise InputError("strike must be one; you gave {speed}", speed=np.size(strike.speed))
+        raise InputError(
+            "strike must be a single strike; you gave {speed}", speed=np.size(strike.speed)
+        )
     if strike.miscue:
         raise InputError(
-            "offset is {off_center:.4g} of the radius in all, a miscue: this tip slips "
-            "beyond {tip_friction:.4g}. Give less, or a tip with more friction.",
+            "the total offset is {off_center:.4g} of the radius, a miscue: this tip slips "
+            "beyond {tip_friction:.4g}. Give a smaller offset, or a tip with more friction.",
             off_center=strike.off_center,
             tip_friction=miscue_offset(strike.cue.tip_friction),
         )
@@ -261,8 +263,8 @@ def travel_for(cut: float, distance: float, diameter: float) -> float:
     """
     if distance < diameter * (1.0 - _ROUNDING):
         raise InputError(
-            "distance is {distance:.4g} m between the centers. Give {diameter:.4g} m "
-            "(where the balls touch) or more.",
+            "distance between the centers is {distance:.4g} m. Give {diameter:.4g} m (where the "
+            "balls touch) or more.",
             distance=distance,
             diameter=diameter,
         )

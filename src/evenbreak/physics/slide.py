@@ -106,7 +106,9 @@ def parabola(ahead: Any, velocity: Any, cloth: Cloth) -> Any:
     across, along = velocity[..., 0], velocity[..., 1]
     together(**{"ahead": x, "velocity[..., 0]": across})
     if not np.all(across):
-        raise InputError("velocity is 0 across the force; the path is a straight line then")
+        raise InputError(
+            "velocity is 0 across the force, so the path is a straight line, not a parabola"
+        )
     return plain(along / across * x + 0.5 * _pull_of(cloth) * (x / across) ** 2)
 
 

@@ -172,8 +172,8 @@ def _on_the_ball(offset: Any, side_offset: Any, **speed: Floats) -> tuple[Floats
     together(offset=up, side_offset=right, **speed)
     if np.any(np.hypot(up, right) > 1.0):
         raise InputError(
-            "offset and side_offset put the tip beside the ball. Give two whose squares "
-            "together are 1 at most."
+            "offset and side_offset make the tip miss the ball. Give two whose squares add up "
+            "to at most 1."
         )
     return up, right
 

@@ -251,8 +251,8 @@ def aim(
     )
     if np.any((low - throw(low) > wanted + 1e-12) | (high - throw(high) < wanted - 1e-12)):
         raise InputError(
-            "cut is too thin: allowing for throw, it would be more than a right angle. "
-            "Give a smaller cut angle, or other spin."
+            "cut is too thin: allowing for throw, it would be more than a right angle. Give a "
+            "smaller cut angle, or different spin."
         )
     for _ in range(60):
         middle = 0.5 * (low + high)

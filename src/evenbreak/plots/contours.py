@@ -185,8 +185,8 @@ def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Picture:
         mark_points(axes, [(p1, p2, "")])
     write_title(
         figure,
-        "A's long-run share of the racks, by break format\n"
-        f"Dot: A wins {100 * p1:.4g}% of the racks A breaks, B {100 * p2:.4g}% of those B breaks",
+        f"A's long-run share of racks, by break format\nDot: A wins {100 * p1:.4g}% of the racks "
+        f"A breaks, B {100 * p2:.4g}% of those B breaks",
     )
     return figure
 
@@ -230,7 +230,7 @@ def draw_shots(
         partial(one_ball_win, look_ahead=look_ahead),
         marked=[(shot.p1, shot.p2) for shot in shots],
         x="chance that you make the shot ($p_1$)",
-        y="chance they make what a miss leaves ($p_2$)",
+        y="chance they make the shot you leave ($p_2$)",
     )
     mark_points(axes, [(shot.p1, shot.p2, shot.name) for shot in shots])
     return axes

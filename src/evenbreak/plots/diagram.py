@@ -87,8 +87,8 @@ def draw(
     graph = game if isinstance(game, nx.DiGraph) else graph_of(game)
     if not 0 < len(graph) <= _MOST_STATES:
         raise InputError(
-            f"game has {len(graph)} states; a diagram can be read with 1 to {_MOST_STATES}, so "
-            "draw a shorter match"
+            f"the game has {len(graph)} states, but a diagram is readable only with 1 to "
+            f"{_MOST_STATES}. Draw a shorter match."
         )
     start = _start_of(graph)
     places = (
@@ -98,12 +98,12 @@ def draw(
     )
     missing = [state for state in graph if state not in places]
     if missing:
-        raise InputError(f"layout has no place for state {missing[0]!r}. Give it (x, y).")
+        raise InputError(f"layout has no place for state {missing[0]!r}. Give the state's (x, y).")
     if layout is not None:
         for state in graph:
-            if floats(places[state], f"layout of state {state!r}").shape != (2,):
+            if floats(places[state], f"layout for state {state!r}").shape != (2,):
                 raise InputError(
-                    f"layout of state {state!r} must be (x, y); you gave {places[state]!r}"
+                    f"layout for state {state!r} must be (x, y); you gave {places[state]!r}"
                 )
 
     hook = getattr(game, "label", None)

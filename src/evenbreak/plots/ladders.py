@@ -171,7 +171,7 @@ def draw_systems(points: Iterable[SystemPoint], *, chart: str = "", ax: Axes | N
             black,
             f"best step sizes{on_chart}: none is both more accurate and faster",
         ),
-        (False, "o", "white", black, "step sizes that another one beats"),
+        (False, "o", "white", black, "step sizes that another beats in both"),
         (None, "D", orange, orange, "other charts and systems"),
     )
     for unbeaten, mark, inside, edge, label in kinds:

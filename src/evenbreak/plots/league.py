@@ -94,7 +94,7 @@ def draw_standings(standings: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     title = "Matches won in a season"
     if many > MOST_PLAYERS:
         rows = rows.iloc[[*range(half), *range(many - half, many)]]
-        title += f": the first and the last {half} of {many:,}"
+        title += f": the first {half} and the last {half} of {many:,}"
     size = (5.8, 1.4 + 0.22 * len(rows))
     axes = new_axes("matches won in a season", "", title=title, size=size, counts="x", ax=ax)
     place = np.arange(len(rows))[::-1]
@@ -200,7 +200,7 @@ def draw_watch(watched: Sequence[Watched], *, alpha: float, ax: Axes | None = No
     The alarm is at 1 / alpha.
     """
     axes = new_axes(
-        "match number of the player",
+        "the player's match number",
         "evidence",
         title="Evidence of sandbagging",
         size=(6.4, 4.2),
@@ -249,7 +249,7 @@ def draw_calibration(validation: Validation, *, ax: Axes | None = None) -> Axes:
     """
     axes = new_axes(
         "predicted chance of the favorite",
-        "share that the favorite won",
+        "share the favorite won",
         title="How often favorites won, and were expected to",
         size=(5.4, 4.8),
         ax=ax,
@@ -294,9 +294,9 @@ def draw_calibration(validation: Validation, *, ax: Axes | None = None) -> Axes:
     axes.legend(loc="upper left", frameon=False)
     if few:
         text = (
-            f"Without {few} groups of fewer than {_ENOUGH}"
+            f"Not shown: {few} groups of fewer than {_ENOUGH} games or matches"
             if few > 1
-            else f"Without a group of fewer than {_ENOUGH}"
+            else f"Not shown: one group of fewer than {_ENOUGH} games or matches"
         )
         axes.text(0.98, 0.02, text, transform=axes.transAxes, ha="right", fontsize=9, color="0.35")
     return axes

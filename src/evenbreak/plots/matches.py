@@ -132,7 +132,7 @@ def course_figure(
     shown = list(racks)[::step]
     below.set_xticks(shown, [_score(odds.course[i].scores) for i in shown])
     if any(len(moment.scores) > 1 for moment in odds.course):
-        below.set_xlabel("score, and the score of the set below it")
+        below.set_xlabel("score, with the set's score below it")
     for axes in (above, below):
         axes.tick_params(direction="in", top=True, right=True)
     if title:

@@ -64,8 +64,7 @@ def in_our_look(draw: Callable[Asked, Drawn]) -> Callable[Asked, Drawn]:
         ax = kwargs.get("ax")
         if ax is not None and (not isinstance(ax, Axes) or ax.name != "rectilinear"):
             raise InputError(
-                "ax must be plain axes, such as one of those of figure.subplots(); you "
-                f"gave {ax!r:.60}"
+                f"ax must be plain axes, such as figure.subplots() returns; you gave {ax!r:.60}"
             )
         with our_look() if ax is None else nullcontext():
             return draw(*args, **kwargs)

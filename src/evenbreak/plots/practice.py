@@ -44,7 +44,7 @@ def draw_scores(
     `new` is one more score, drawn after the others.
     """
     axes = new_axes(
-        "number of the score" if file.dates is None else "date",
+        "score number" if file.dates is None else "date",
         "score",
         title=f"Practice scores: {Path(file.source).name}",
         counts="" if file.dates is not None else "x",

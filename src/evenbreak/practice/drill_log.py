@@ -76,7 +76,7 @@ class DrillLog:
             )
         if highest > levels:
             raise InputError(
-                "levels is {levels}, but the log has level {highest}. Give more.",
+                "levels is {levels}, but the log has level {highest}. Give a larger number.",
                 levels=levels,
                 highest=highest,
             )

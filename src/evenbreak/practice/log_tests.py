@@ -246,7 +246,7 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
     attempts = int(log.attempts[1:].sum())
     if not attempts:
         raise InputError(
-            "the log has no attempt above level 1, from which p is estimated. Log higher "
+            "p is estimated from attempts above level 1, and the log has none. Log higher "
             "levels too."
         )
     p = float(likeliest_p(successes, failures))

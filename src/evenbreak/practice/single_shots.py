@@ -68,7 +68,9 @@ class ShotLog:
         made = whole_numbers(self.made, "made", at_least=0)
         tried = whole_numbers(self.tried, "tried", at_least=1)
         if not len(made) or (made > tried).any():
-            raise InputError("made is more than tried, or there's no shot. Correct the log.")
+            raise InputError(
+                "more shots were made than tried, or no shots were tried. Correct the log."
+            )
         object.__setattr__(self, "made", made.astype(np.int64))
         object.__setattr__(self, "tried", tried.astype(np.int64))
         object.__setattr__(self, "shot", np.asarray(self.shot, dtype=np.int64))

@@ -115,12 +115,13 @@ class Beginning:
             spread = np.full(many, values) if np.ndim(values) == 0 else values
             object.__setattr__(self, name, column(spread, name, many, "players"))
         if not np.isfinite(self.rating).all() or not np.isfinite(self.prior_mean).all():
-            raise InputError("rating and prior_mean must be finite points everywhere")
+            raise InputError("rating and prior_mean must be finite numbers of points; some aren't")
         for name in ("standard_error", "prior_sd"):
             values = getattr(self, name)
             if (values <= 0.0).any() or np.isinf(values).any():
                 raise InputError(
-                    "{name} must be points, or NaN if unknown; somewhere it isn't above 0",
+                    "{name} must have numbers of points above 0, or NaN if unknown; one isn't "
+                    "above 0",
                     name=name,
                 )
         object.__setattr__(self, "players", known)

@@ -58,7 +58,7 @@ def solve_unit(matrix: Any, right: Floats, accuracy: float) -> Floats:
         before, square = square, _products(residual, residual)
         direction *= np.divide(square, before, out=np.zeros_like(square), where=before > 0)
         direction += residual
-    raise AccuracyError("the ratings' covariance wasn't found. Give a smaller prior_sd.")
+    raise AccuracyError("the ratings' covariance couldn't be calculated. Give a smaller prior_sd.")
 
 
 def energies(matrix: Any, right: Any, accuracy: float) -> Floats:

@@ -26,7 +26,9 @@ def day_of(value: Any) -> np.datetime64:
     except InputError:
         day = np.datetime64("NaT", "D")
     if np.isnat(day):
-        raise InputError("as_of must be a day, such as 2026-01-31; you gave {value!r}", value=value)
+        raise InputError(
+            "as_of must be a date, such as 2026-01-31; you gave {value!r}", value=value
+        )
     return np.datetime64(day)
 
 
@@ -65,8 +67,8 @@ def _dated(results: Results) -> NDArray[np.datetime64]:
         if not len(results):
             return np.zeros(0, dtype="datetime64[D]")
         raise InputError(
-            "{undated:,} of {n_results:,} matches have no date. Add the dates, or rate "
-            "without a half-life and without a day.",
+            "{undated:,} of {n_results:,} matches have no date. Add the dates, or rate without "
+            "a half-life or a date.",
             undated=undated,
             n_results=len(results),
         )

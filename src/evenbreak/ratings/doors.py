@@ -12,12 +12,12 @@ def check_results(results: object) -> None:
     Traceback (most recent call last):
     ...
     evenbreak.errors.InputError: this is str 'season.csv', not Results. Give
-        Results.from_frame(frame), or read_results(path).results for a file.
+        Results.from_frame(frame) or, for a file, read_results(path).results.
     """
     if not hasattr(results, "won_only"):
         raise InputError(
-            "this is {name} {results!r:.60}, not Results. Give "
-            "Results.from_frame(frame), or read_results(path).results for a file.",
+            "this is {name} {results!r:.60}, not Results. Give Results.from_frame(frame) or, "
+            "for a file, read_results(path).results.",
             name=type(results).__name__,
             results=results,
         )

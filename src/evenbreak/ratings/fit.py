@@ -312,11 +312,14 @@ def _games_behind(
 
 def _refuse_nonsense(scored: Results, won_only: Results) -> None:
     if (scored.score_a < 0).any() or (scored.score_b < 0).any():
-        raise InputError("results hold a negative score. Correct what find_problems lists.")
+        raise InputError(
+            "the results have a negative score. Fix the problems that find_problems lists."
+        )
     for part in (scored, won_only):
         if (part.player_a == part.player_b).any():
             raise InputError(
-                "results hold a match of one player only. Correct what find_problems lists."
+                "the results have a match with only one player. Fix the problems that "
+                "find_problems lists."
             )
 
 

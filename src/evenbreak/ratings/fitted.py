@@ -421,7 +421,8 @@ class Ratings:
         first, second = self._position(player), self._position(opponent)
         if self.component[first] != self.component[second]:
             raise InputError(
-                "{a!r} and {b!r} aren't connected through opponents. Add results that do.",
+                "{a!r} and {b!r} aren't connected through opponents. Add results that connect "
+                "them.",
                 a=player,
                 b=opponent,
             )
@@ -433,5 +434,5 @@ class Ratings:
 
     def _position(self, player: str) -> int:
         if player not in self._place:
-            raise InputError("{name!r} isn't rated. Write names as the results do.", name=player)
+            raise InputError("{name!r} isn't rated. Write the name as in the results.", name=player)
         return self._place[player]

@@ -252,7 +252,9 @@ def race_slopes(difference: ArrayLike, m: ArrayLike, n: ArrayLike) -> RaceSlopes
     if not np.isfinite(d).all():
         raise InputError("difference must hold finite numbers; one value isn't")
     if not ((m >= 1).all() and (n >= 1).all()):
-        raise InputError("m or n is below 1 somewhere. Give the games that each player needs.")
+        raise InputError(
+            "m or n is below 1 somewhere. Give the number of games each player needs, 1 or more."
+        )
     d, m, n = np.broadcast_arrays(d, m, n)
     if not d.size:
         return RaceSlopes(d, d, d)

@@ -153,10 +153,10 @@ class Results:
             values = getattr(self, name)
             if (self.unscored if values is None else self.unscored & (values <= 0)).any():
                 raise InputError(
-                    "{unscored} marks a match without {name}. Give it, or the scores.", name=name
+                    "{unscored} marks a match without {name}. Give {name} or the scores.", name=name
                 )
         if (self.unscored & ((self.score_a != 0) | (self.score_b != 0))).any():
-            raise InputError("unscored marks a match with games in its score; unmark it")
+            raise InputError("unscored marks a match that has a score. Unmark that match.")
 
     @classmethod
     def from_names(
@@ -271,7 +271,7 @@ class Results:
         (array([0, 1]), array([5, 2]), array([7, 0]))
         """
         if self.players != later.players:
-            raise InputError("the results aren't between the same players. Give one list of names.")
+            raise InputError("the two results must have the same list of players; they don't")
         columns: dict[str, Any] = {}
         for name in _TYPES:
             parts = [getattr(self, name), getattr(later, name)]
@@ -489,7 +489,7 @@ def _racks(results: Results) -> Iterator[_Finding]:
     message = "racks {racks} has letters other than a and b. Write an a or a b for each rack."
     yield strange, "racks", message
     adds_up = (a == results.score_a) & (b == results.score_b)
-    message = "racks {racks} is {counted}, but the score is {bare}. Correct one of them."
+    message = "racks {racks} adds up to {counted}, but the score is {bare}. Correct one of them."
     yield (long > 0) & ~strange & ~adds_up, "racks", message
     race_a, race_b = results.races
     won = np.where((race_a > 0) & (race_b > 0), who_won(results), 0)

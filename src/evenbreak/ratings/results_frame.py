@@ -66,7 +66,7 @@ class FrameReader:
         if missing:
             titles = ", ".join(map(repr, map(str, frame.columns)))
             self.problems.append(
-                f"there's no column {' or '.join(missing)} among {titles}. Add it."
+                f"there's no column {' or '.join(missing)}; the columns are {titles}. Add it."
             )
         return cells_of
 
@@ -97,7 +97,7 @@ class FrameReader:
         """Raise a DataError if there are problems."""
         more = len(self.problems) - _MOST_PROBLEMS
         if self.problems:
-            rest = [f"and {more} more problems"] if more > 0 else []
+            rest = [f"and {more} more problem{'s' * (more > 1)}"] if more > 0 else []
             raise DataError(self.problems[:_MOST_PROBLEMS] + rest)
 
 
@@ -111,7 +111,7 @@ def columns_of(reader: FrameReader) -> dict[str, Any]:
     columns["date"] = reader.read("date", _day, "a date such as 2026-01-31", "NaT")
     formats = "winner, loser, alternate, a or b"
     columns["break_format"] = reader.read("break_format", _format, formats, 0)
-    columns["racks"] = reader.read("racks", _racks, "text of a and b such as 'abba'", "")
+    columns["racks"] = reader.read("racks", _racks, "letters a and b, such as 'abba'", "")
     for name in ("event", *GROUPS):
         columns[name] = reader.read(name, str, "text", "")
     for name in SIDES:
@@ -137,8 +137,8 @@ def _one_spelling(columns: Sequence[Sequence[str]]) -> list[list[str]]:
     for name, usual in meant.items():
         if usual != name:
             warnings.warn(
-                f"{name!r} is read as {usual!r}, as names that differ in case or blanks alone mean "
-                "one player",
+                f"{name!r} is read as {usual!r}, because names that differ only in case or spaces "
+                "mean the same player",
                 stacklevel=4,
             )
     return [[meant[name] for name in column] for column in columns]

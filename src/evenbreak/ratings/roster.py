@@ -123,13 +123,11 @@ class Roster:
                 "rating must hold finite numbers, or NaN for a new player; it holds infinity"
             )
         if (self.standard_error < 0).any() or np.isinf(self.standard_error).any():
-            raise InputError(
-                "standard_error must be 0 or more; somewhere it is negative or infinite"
-            )
+            raise InputError("standard_error must be 0 or more; one value is negative or infinite")
         for name in ("games", "matches"):
             if (getattr(self, name) < NOT_STATED).any():
                 raise InputError(
-                    "{name} must be 0 or more, NOT_STATED if unknown; somewhere it is negative",
+                    "{name} must be 0 or more, or NOT_STATED if unknown; one value is negative",
                     name=name,
                 )
 
@@ -156,7 +154,7 @@ class Roster:
             return self._places[player]
         except KeyError:
             raise InputError(
-                "player {player!r} isn't in the roster. Write the name as the roster does.",
+                "player {player!r} isn't in the roster. Write the name as in the roster.",
                 player=player,
             ) from None
 

@@ -239,7 +239,7 @@ class _Blocks:
 def not_definite() -> AccuracyError:
     """Return the error of a Hessian that rounding has made singular."""
     return AccuracyError(
-        "the posterior's Hessian is singular to rounding. Give a smaller prior_sd."
+        "the posterior's Hessian is singular to within rounding errors. Give a smaller prior_sd."
     )
 
 

@@ -314,14 +314,14 @@ def unstated_scale(
         return SCALES[possible[0]]
     if low == high:
         raise InputError(
-            "{where}the rating {high:g} doesn't show its scale. {remedy}",
+            "{where}the rating {high:g} doesn't show which scale it's on. {remedy}",
             where=where,
             high=high,
             remedy=remedy,
         )
     raise InputError(
-        "{where}the ratings from {low:g} to {high:g} don't show their scale: {best} wins "
-        "a game against {worst} {readings}. {remedy}",
+        "{where}the ratings from {low:g} to {high:g} don't show which scale they're on: {best} "
+        "wins a game against {worst} {readings}. {remedy}",
         where=where,
         low=low,
         high=high,
@@ -346,9 +346,9 @@ def refuse_contradicted(
     ... )
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: the ratings from 521 to 612 don't look like NPL ratings, the scale
-        of the chart npl_10: Ann wins a game against Bo 89% of the time by NPL ratings, 65% by Fargo
-        ratings. Say which.
+    evenbreak.errors.InputError: the ratings from 521 to 612 don't look like NPL ratings (the scale
+        of the chart npl_10): Ann wins a game against Bo 89% of the time by NPL ratings, 65% by
+        Fargo ratings. Say which.
     """
     rated = [(rating, k) for k, rating in enumerate(ratings) if not math.isnan(rating)]
     if scale.name not in USUAL or not rated:
@@ -362,8 +362,7 @@ def refuse_contradicted(
     if low == high:
         looks = " or ".join(NAMES[name] for name in like or set(USUAL) - {scale.name})
         raise InputError(
-            "the rating {high:g} doesn't look like one of {title}, the scale of {whose}, "
-            "but like one of {looks}. {remedy}",
+            "the rating {high:g} looks like {looks}, not {title} (the scale of {whose}). {remedy}",
             high=high,
             title=title,
             whose=whose,
@@ -371,8 +370,8 @@ def refuse_contradicted(
             remedy=remedy,
         )
     raise InputError(
-        "the ratings from {low:g} to {high:g} don't look like {title} ratings, the scale "
-        "of {whose}: {best} wins a game against {worst} {readings}. {remedy}",
+        "the ratings from {low:g} to {high:g} don't look like {title} ratings (the scale of "
+        "{whose}): {best} wins a game against {worst} {readings}. {remedy}",
         low=low,
         high=high,
         title=title,

@@ -215,8 +215,8 @@ def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
         )
     if len(played) == 0 or played.date is None or played.date.min() == played.date.max():
         raise InputError(
-            "a prior is chosen by how well it predicts later days, which takes matches "
-            "on two days at least. Give the prior's width."
+            "a prior is chosen by how well it predicts later days, so there must be matches on "
+            "at least two days. Give the prior's width."
         )
     return played, played.date
 

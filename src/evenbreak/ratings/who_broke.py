@@ -187,7 +187,10 @@ def count_broken(results: Results) -> Broken:
     won[0] = results.score_a - won[1:].sum(axis=0)
     lost[0] = results.score_b - lost[1:].sum(axis=0)
     if (won[0] < 0).any() or (lost[0] < 0).any():
-        raise InputError("racks hold more games than the score. Correct what find_problems lists.")
+        raise InputError(
+            "the racks add up to more games than the score. Fix the problems that "
+            "find_problems lists."
+        )
     return Broken(won, lost, pattern, own_breaks)
 
 

@@ -305,7 +305,7 @@ def critical_value(coverage: FloatOrArray) -> FloatOrArray:
 
     checked = probability(coverage, "coverage")
     if np.any(np.equal(checked, 1.0)):
-        raise InputError("coverage must be below 1, which no z reaches")
+        raise InputError("coverage must be below 1, because no z covers everything")
     return plain(math.sqrt(2) * erfinv(checked))
 
 

@@ -223,7 +223,7 @@ def checked_scores(scores: Any, name: str) -> Floats:
     evenbreak.errors.InputError: scores must hold two numbers or more, to show a spread; it holds 1
         score
     """
-    wanted = f"a list of finite numbers, {LARGEST:g} at most"
+    wanted = f"a list of finite numbers, at most {LARGEST:g}"
     array = floats(scores, name, low=-LARGEST, high=LARGEST, wanted=wanted)
     if array.ndim != 1:
         raise InputError(

@@ -216,8 +216,8 @@ def checked_shots(p: Any, safety: Any, innings: int = 1) -> tuple[Fraction, Frac
     mean = innings * alpha * chance / (1 - chance)
     if mean > _MOST:
         raise InputError(
-            "p is {p}, which makes the mean {mean:,.0f} balls; the most allowed is {most:,}, "
-            "so give a smaller p or fewer innings",
+            "p is {p}, which makes the mean {mean:,.0f} balls; the limit is {most:,}. Give a "
+            "smaller p or fewer innings.",
             p=p,
             mean=float(mean),
             most=_MOST,

@@ -61,7 +61,7 @@ class Distribution:
     def __post_init__(self) -> None:
         values = _numbers(self.values, "values")
         if any(second <= first for first, second in pairwise(values)):
-            raise InputError("values don't increase. Sort them, or use Distribution.of.")
+            raise InputError("values must increase; they don't. Sort them, or use Distribution.of.")
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "probability", _probabilities(self.probability, len(values)))
 
@@ -99,7 +99,7 @@ class Distribution:
         ordered = sorted(total.items())
         everything = sum(weight for _, weight in ordered)
         if everything == math.inf:
-            raise InputError("weights sum to more than a float holds; scale them down")
+            raise InputError("the weights' sum is too large for a float. Scale them down.")
         return cls(
             tuple(value for value, _ in ordered),
             tuple(weight / everything for _, weight in ordered),
@@ -189,7 +189,7 @@ class Distribution:
         """
         if math.isnan(low) or math.isnan(high):
             raise InputError(
-                "the ends are {low!r} and {high!r}. Give two numbers.", low=low, high=high
+                "the ends must be two numbers; you gave {low!r} and {high!r}", low=low, high=high
             )
         pairs = zip(self.values, self.probability, strict=True)
         inside = [probability for value, probability in pairs if low <= value <= high]
@@ -282,7 +282,7 @@ def _numbers(
         raise InputError("{name} must not be empty. Give at least one number.", name=name)
     if many not in (None, len(listed)):
         raise InputError(
-            "{name} has {n_listed} entries for {many} values. Give one each.",
+            "{name} has {n_listed} entries for {many} values. Give one entry for each value.",
             name=name,
             n_listed=len(listed),
             many=many,

@@ -77,18 +77,20 @@ def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:
     when, points = checked_scores(times, "times"), checked_scores(scores, "scores")
     if points.size < 3:
         raise InputError(
-            "scores holds {points_size} scores. Give three or more for a trend.",
+            "a trend needs three or more scores; you gave {points_size}",
             points_size=points.size,
         )
     if when.size != points.size:
         raise InputError(
-            "times holds {when_size} numbers, but scores {points_size}. Give as many.",
+            "times has {when_size} numbers, but scores has {points_size}. Give one time for "
+            "each score.",
             when_size=when.size,
             points_size=points.size,
         )
     if sd_of(when) == 0.0:
         raise InputError(
-            "times are all {when:g}. Give two or more for a trend.", when=float(when[0])
+            "times are all {when:g}. A trend needs at least two different times.",
+            when=float(when[0]),
         )
     if sd_of(points) == 0.0:
         raise InputError(

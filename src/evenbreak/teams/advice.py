@@ -205,8 +205,8 @@ def _turns(
         found = [i for i, names in enumerate(first) if tuple(sorted(names)) == wanted]
         if not found:
             raise InputError(
-                "{named} can't be named now: used up, kept out by a cap, or not in the "
-                "squad that names first",
+                "{named} can't be named now: the team naming first has used them up, a cap "
+                "rules them out, or they aren't in its squad",
                 named=" and ".join(named),
             )
         values = games[found[0]]
@@ -251,14 +251,14 @@ def _states(night: TeamNight, point: Point) -> tuple[int, int, int]:
     over = k - len(point.in_play)
     if over < 0:
         raise InputError(
-            "{n_in_play} matches are in play, but {k} sets were named",
+            "{n_in_play} matches are in play, but only {k} sets have been named",
             n_in_play=len(point.in_play),
             k=k,
         )
     whole(abs(point.lead), "lead")
     if point.lead not in night.leads_after(over):
         raise InputError(
-            "a lead of {lead} isn't possible with {over} set{what} over, as the players used say",
+            "the players used show that {over} set{what} ended, so a lead of {lead} isn't possible",
             lead=point.lead,
             over=over,
             what="s" * (over != 1),
@@ -279,8 +279,8 @@ def _state(squad: Squad, line_ups: LineUps, k: int, used: Sequence[str]) -> int:
         return line_ups.used[k].index(wanted)
     except ValueError:
         raise InputError(
-            "{used} can't be the players used so far: one plays too often, or the "
-            "lineup can no longer keep its caps",
+            "{used} can't be the players used so far: one plays too often, or the lineup can no "
+            "longer stay within its caps",
             used=", ".join(used),
         ) from None
 
@@ -306,7 +306,7 @@ def _games(solution: SolvedNight, point: Point, k: int, a: int, b: int) -> tuple
 def _last_won(point: Point, letter: str) -> bool:
     if point.last_won is None:
         who = "winner" if letter == WINNER else "loser"
-        raise InputError("the {who} of the last set names first. Say who won it.", who=who)
+        raise InputError("the {who} of the last set names first. Enter who won that set.", who=who)
     return point.last_won
 
 

@@ -94,7 +94,9 @@ def _solved(games: Floats) -> tuple[Floats, Floats, Floats]:
             rows[k], columns[k] = _by_programs(games[k])
         value[mixed] = np.einsum("gi,gij,gj->g", rows[mixed], games[mixed], columns[mixed])
         if (_gap(games[mixed], rows[mixed], columns[mixed]) > _NARROW).any():
-            raise AccuracyError("a matrix game wasn't solved to ten digits; round its payoffs")
+            raise AccuracyError(
+                "a matrix game couldn't be solved to ten digits. Round its payoffs."
+            )
     return value, rows, columns
 
 

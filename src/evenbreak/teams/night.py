@@ -77,7 +77,7 @@ class TeamNight:
         each = tuple(sizes) if not isinstance(sizes, int) else (sizes,) * len(given)
         if len(each) != len(given):
             raise InputError(
-                "{sizes} has {n_each} sets and laws {n_given}. Give one each.",
+                "{sizes} has {n_each} sets, but laws has {n_given}. Give both for every set.",
                 n_each=len(each),
                 n_given=len(given),
             )
@@ -207,8 +207,9 @@ def order_of(text: str, sets: int, more: Sequence[str] = ()) -> str:
     whole(sets, "sets", at_least=1)
     pattern = NAMED.get(text.strip().lower(), "")[:sets] or text.strip().upper()
     wanted = say(
-        "Write who names first in each set: A (you), B (they), = (both at once, blind), W or L "
-        "(who won or lost the last set); or a name: {names}.",
+        "Write who names first in each set: A (your team), B (the other team), = (both at once, "
+        "blind), W or L (the winner or loser of the last set); or write one of these names: "
+        "{names}.",
         names=", ".join((*NAMED, *more)),
     )
     if not pattern or set(pattern) - {OURS, THEIRS, BOTH, WINNER, LOSER}:

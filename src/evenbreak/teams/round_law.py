@@ -137,7 +137,7 @@ def round_law(
     (array([0.4444, 0.    , 0.4444, 0.    , 0.1111]), 1)
     """
     if (games is None) == (race is None):
-        raise InputError("give one of games and race")
+        raise InputError("give either games or race, not both")
     if not everybody and len(ours) != len(theirs):
         raise InputError(
             "one team has {n_ours} players and the other has {n_theirs}. Leave out those who "

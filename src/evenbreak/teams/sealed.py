@@ -87,7 +87,9 @@ def sealed(night: TeamNight) -> SealedNight:
     0.6
     """
     if set(night.sizes) != {1} or any(law is not night.laws[0] for law in night.laws):
-        raise InputError("lineups can only be sealed if all sets are alike, with one player a side")
+        raise InputError(
+            "lineups can only be sealed if all sets are alike, with one player per side"
+        )
     ours, theirs = night.our_line_ups.used[-1], night.their_line_ups.used[-1]
     if len(ours) * len(theirs) > MOST_PAIRS:
         raise InputError("there are too many lineups. Leave out those who won't play tonight.")

@@ -54,7 +54,7 @@ class Points:
             whole(getattr(self, name), name)
         if self.win <= self.hill:
             raise InputError(
-                "winning must count more ({win}) than losing hill-hill ({hill})",
+                "a win must count more ({win}) than a hill-hill loss ({hill})",
                 win=self.win,
                 hill=self.hill,
             )
@@ -91,7 +91,7 @@ def count_by(text: str, race: SetRace) -> Count:
     own = points_chart("apa_9ball")
     if (race.levels, race.points) != (own.levels, own.points):
         raise InputError(
-            "how match points are shared is only known for apa_9ball. Count sets with {chart}.",
+            "only apa_9ball has a known way to share match points. With {chart}, count sets.",
             chart=race.name,
         )
     return Shares()
@@ -356,13 +356,13 @@ def _check_count(count: Count, race: SetRace) -> None:
     """Refuse what does not count a set of this kind."""
     if isinstance(count, Points | Shares):
         if isinstance(count, Shares) != isinstance(race, PointsChart):
-            raise InputError("these match points aren't those of the chart. See `count_by`")
+            raise InputError("these match points don't match the chart. See `count_by`")
         return
     one_of(count, "count", ("sets", "games"))
     if count == "games" and isinstance(race, PointsChart):
         raise InputError(
-            "by the chart {chart} players make points, not games. Use {count} sets or "
-            "{count} points.",
+            "players score points, not games, on the chart {chart}. Use {count} sets or {count} "
+            "points.",
             chart=race.name,
             count=Parameter("count"),
         )

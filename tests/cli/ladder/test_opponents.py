@@ -51,7 +51,7 @@ def test_a_league_that_looks_like_another_scale_is_refused(run, ladder, fargo_le
 @pytest.mark.parametrize("compare", [(), ("--compare",)])
 @pytest.mark.parametrize(
     ("skill", "code", "named"),
-    [("80", 1, "Give a --skill nearer to theirs"), ("5000", 2, "--skill is 5000")],
+    [("80", 1, "Give a --skill closer to theirs"), ("5000", 2, "--skill is 5000")],
 )
 def test_opponents_who_are_too_far_are_refused(run, tmp_path, compare, skill, code, named):
     path = tmp_path / "far.csv"

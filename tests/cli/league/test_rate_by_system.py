@@ -79,7 +79,7 @@ def test_a_class_of_ones_own(run):
         ("our_league:Blank", "returned nan for player 1"),
         ("our_league:Half", r"class Half\(System\)"),
         ("our_league:Other", "our_league has no Other"),
-        ("their_league:Wins", "Start in the folder of their_league.py"),
+        ("their_league:Wins", "Start evenbreak in the folder that has their_league.py"),
         ("apa-like", "Use level-review"),
         ("level-review window=0", "window must be a whole number from 1 to 200; you gave 0"),
         ("chess", "system must be npl, step"),

@@ -132,8 +132,8 @@ def test_a_system_that_moves_by_the_score_asks_for_it(rate, tmp_path):
     )
     result = rate("night.csv", "--system", "elo 16")
     assert result.exit_code == 3
-    assert "night.csv:2: the score isn't stated, and the system elo 16 moves" in result.stderr
-    assert "night.csv:3: the score isn't stated" in result.stderr
+    assert "night.csv:2: the score is missing, and the system elo 16 uses it" in result.stderr
+    assert "night.csv:3: the score is missing" in result.stderr
 
 
 def test_a_system_that_moves_by_the_race_asks_for_it(rate, tmp_path):
@@ -148,8 +148,8 @@ def test_a_system_that_moves_by_the_race_asks_for_it(rate, tmp_path):
     result = rate("night.csv", "--system", "margin")
     assert result.exit_code == 3
     assert (
-        "night.csv:2: the race is not stated, and the system margin 2 moves ratings "
-        "by it. Add the chart that was used (npl_8, npl_10, npl_12 or npl_20), or "
+        "night.csv:2: the race is missing, and the system margin 2 uses it to "
+        "move ratings. Add the chart that was used (npl_8, npl_10, npl_12 or npl_20), or "
         "the columns race_a and race_b"
     ) in result.stderr
 

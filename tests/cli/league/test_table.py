@@ -74,7 +74,7 @@ def test_a_league_of_skill_levels_needs_its_file_alone(ask, tmp_path, monkeypatc
 @each_of(
     "words, message",
     [
-        ((TEAMS, "--table-points", "apa_8ball"), "36 of 36 matches state no race"),
+        ((TEAMS, "--table-points", "apa_8ball"), "36 of 36 matches have no race"),
         (
             (TEAMS, "--ties", "lots"),
             (
@@ -83,7 +83,7 @@ def test_a_league_of_skill_levels_needs_its_file_alone(ask, tmp_path, monkeypatc
             ),
         ),
         ((TEAMS, "--table-points", "3"), "or sets, or apa_8ball"),
-        (("--table-points", "0,1,2", TEAMS), "no more for a loss"),
+        (("--table-points", "0,1,2", TEAMS), "A loss can't be worth more"),
     ],
 )
 def test_what_cannot_be_is_refused(words, message, run):

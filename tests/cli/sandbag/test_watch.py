@@ -86,7 +86,7 @@ def test_a_roster_of_mixed_scales_is_refused_or_a_warning(run, tmp_path):
         rows[number] = ",".join(cells)
     roster.write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
     asked = ("sandbag", "watch", SEASON[0], "--roster", str(roster), "--json")
-    assert "570 don't show their scale" in run(*asked).stderr
+    assert "570 don't show which scale they're on" in run(*asked).stderr
     result = run(*asked, "--scale", "npl")
     (warning,) = json.loads(result.stdout)["warnings"]
     assert f"3 of {len(rows)} ratings" in warning

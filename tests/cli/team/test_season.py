@@ -77,7 +77,7 @@ def test_a_season_with_half_a_score_or_none_is_refused(run, tmp_path):
     [
         ([RESULTS], "--meetings"),
         ([RESULTS, "--meetings", "1"], "have met 2 times"),
-        ([RESULTS, SCHEDULE, "--table-points", "1,2,3"], "no more for a loss"),
+        ([RESULTS, SCHEDULE, "--table-points", "1,2,3"], "A loss can't be worth more"),
         ([RESULTS, SCHEDULE, "--table-points", "2,1"], "2,1"),
         ([RESULTS, SCHEDULE, "--ties", "coin"], "coin"),
         ([RESULTS, SCHEDULE, "--up", "8"], "--up"),

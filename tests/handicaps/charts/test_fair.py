@@ -124,7 +124,7 @@ def test_a_sure_winner_wins_every_race_and_the_shortest_is_first(p, sure):
         ("games is None and race_to is None", {}),
         ("games is .* and race_to is", {"games": (1, 2), "race_to": 3}),
         ("smaller number first", {"games": (5, 3)}),
-        ("Give the pair", {"games": (5,)}),
+        ("must be a pair", {"games": (5,)}),
         ("games must", {"games": (0, 3)}),
         ("race_to must", {"race_to": 0}),
         ("target must", {"race_to": 3, "target": 2}),

@@ -20,24 +20,24 @@ def test_all_faults_are_told_with_the_place_of_their_row():
             0,
             (
                 "row 1 is a race 5:4. Give an even race, since at a difference of 0 neither "
-                "player is the stronger."
+                "player is stronger."
             ),
         ),
-        (1, "difference_to of row 2 must be 6 or more; you gave 3"),
+        (1, "difference_to in row 2 must be 6 or more; you gave 3"),
         (
             1,
             (
-                "stronger_needs of row 2 must be 5 or more, since the stronger player never "
+                "stronger_needs in row 2 must be 5 or more, since the stronger player never "
                 "needs fewer games; you gave 4"
             ),
         ),
         (1, "row 2 starts at 6, but row 1 ends at 4. Start it at 5."),
-        (2, "row 3 is open-ended but not the last row. Give its end."),
+        (2, "row 3 is open-ended, but only the last row can be. Give its end."),
         (
             3,
             (
-                "the last row ends at 12. Leave its end out, since a chart covers all larger "
-                "differences too."
+                "the last row ends at 12, but a chart must cover all larger "
+                "differences too. Leave out its end."
             ),
         ),
     ]

@@ -62,7 +62,7 @@ def test_ratings_of_a_pair_come_near_the_difference_of_skill():
 def test_a_pair_whose_sum_changes_has_a_difference_only():
     pair = ClosedPair(step_system(2, 1))
     assert pair.law().mean == pytest.approx(0.0, abs=1e-12)
-    with pytest.raises(InputError, match="sum of two ratings changes"):
+    with pytest.raises(InputError, match="change the sum of the two ratings"):
         pair.error_law()
 
 
@@ -72,15 +72,15 @@ def test_a_pair_whose_sum_changes_has_a_difference_only():
         (
             {"start": 61},
             (
-                "start must be a rating difference in whole points from -60 to 60, or a "
-                "larger widest; you gave 61"
+                "start must be a rating difference in whole points from -60 to 60, or "
+                "make widest larger; you gave 61"
             ),
         ),
         (
             {"start": 0.5},
             (
-                r"start must be a rating difference in whole points from -60 to 60, or a "
-                r"larger widest; you gave 0\.5"
+                r"start must be a rating difference in whole points from -60 to 60, or "
+                r"make widest larger; you gave 0\.5"
             ),
         ),
         ({"skill_difference": float("nan")}, "finite number of points"),

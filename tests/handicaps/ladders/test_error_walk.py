@@ -97,7 +97,7 @@ def test_a_certain_loss_is_a_wall():
 
 
 def test_a_walk_that_stands_still_has_no_law():
-    with pytest.raises(InputError, match="no match moves a rating"):
+    with pytest.raises(InputError, match="no match in this system moves a rating"):
         long_run_law(np.array([0]), np.ones((3, 1)))
 
 
@@ -105,7 +105,7 @@ def test_a_walk_that_stands_still_has_no_law():
     ("wins", "message"),
     [
         ([0.5], "wins must have one chance"),
-        ([0.5, 0.5], "an odd number, three or more"),
+        ([0.5, 0.5], "so an odd number of chances"),
         ([0.5, 1.5, 0.5], r"win chance 2 must be a number from 0 to 1; you gave 1\.5"),
         (0.5, r"wins must be a list of numbers from 0 to 1; you gave 0\.5"),
     ],

@@ -72,8 +72,8 @@ def test_newcomer_refuses_an_error_off_the_ladder():
     with pytest.raises(
         InputError,
         match=(
-            "start must be a rating error in whole points from -60 to 60, or a larger "
-            "widest; you gave 500"
+            "start must be a rating error in whole points from -60 to 60, or make "
+            "widest larger; you gave 500"
         ),
     ):
         newcomer_inflation(Ladder("npl"), 500)

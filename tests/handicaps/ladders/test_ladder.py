@@ -197,7 +197,7 @@ def test_what_makes_no_ladder_is_refused(change, message):
 
 
 def test_two_charts_are_one_too_many():
-    with pytest.raises(InputError, match="a Chart was given as the system already"):
+    with pytest.raises(InputError, match="a Chart was already given as the system"):
         Ladder(chart("npl_8"), chart("npl_10"))
 
 
@@ -217,9 +217,9 @@ def test_errors_that_lie_on_the_ends_are_refused():
     with pytest.raises(AccuracyError, match="don't keep up"):
         Ladder("step 1 0", widest=60).law()
     far = opponents_of([500, 550, 600], 80)
-    with pytest.raises(AccuracyError, match="opponents nearer the player's skill, or a widest"):
+    with pytest.raises(AccuracyError, match="opponents closer to the player's skill, or a widest"):
         Ladder("npl", opponents=far, widest=60).law()
-    with pytest.raises(AccuracyError, match="Give a skill nearer to theirs"):
+    with pytest.raises(AccuracyError, match="Give a skill closer to theirs"):
         Ladder("npl", opponents=far)
 
 

@@ -144,8 +144,8 @@ def test_who_is_near_from_the_beginning_need_not_wait():
         (
             (61,),
             (
-                "start must be a rating error in whole points from -60 to 60, or a larger "
-                "widest; you gave 61"
+                "start must be a rating error in whole points from -60 to 60, or make "
+                "widest larger; you gave 61"
             ),
         ),
         ((0, 0.0), r"eps must be a number between 0 and 1; you gave 0\.0"),

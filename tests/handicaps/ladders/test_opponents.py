@@ -52,10 +52,13 @@ def test_meeting_only_better_rated_players_shifts_the_players_error_alone():
     [
         ({"given": "class"}, "given must be 'skill' or 'rating'; you gave 'class'"),
         ({"spread": (0, 1)}, "spread must be a Distribution of whole points"),
-        ({"spread": Distribution((0.5,), (1.0,))}, r"spread must be whole points; it holds 0\.5"),
+        (
+            {"spread": Distribution((0.5,), (1.0,))},
+            r"spread must have whole numbers of points; one value is 0\.5",
+        ),
         (
             {"error": Distribution((0, 1.25), (0.5, 0.5))},
-            r"error must be whole points; it holds 1\.25",
+            r"error must have whole numbers of points; one value is 1\.25",
         ),
     ],
 )

@@ -118,24 +118,24 @@ def test_drift_of_the_skill_is_not_multiplied_by_the_newcomers_factor():
             (61,),
             {},
             (
-                "start must be a rating error in whole points from -60 to 60, or a larger "
-                "widest; you gave 61"
+                "start must be a rating error in whole points from -60 to 60, or make "
+                "widest larger; you gave 61"
             ),
         ),
         (
             (0.5,),
             {},
             (
-                r"start must be a rating error in whole points from -60 to 60, or a larger "
-                r"widest; you gave 0\.5"
+                r"start must be a rating error in whole points from -60 to 60, or make "
+                r"widest larger; you gave 0\.5"
             ),
         ),
         (
             ("x",),
             {},
             (
-                "start must be a rating error in whole points from -60 to 60, or a larger "
-                "widest; you gave 'x'"
+                "start must be a rating error in whole points from -60 to 60, or make "
+                "widest larger; you gave 'x'"
             ),
         ),
         ((30, -1), {}, "within must be a whole number, 0 or more; you gave -1"),
@@ -152,7 +152,7 @@ def test_a_newcomer_of_a_system_without_a_schedule_is_refused():
 
 
 def test_steps_that_jump_over_the_band_may_never_settle():
-    with pytest.raises(InputError, match="may never come so near"):
+    with pytest.raises(InputError, match="may never get that small"):
         settling(Ladder(step_system(4)), 30, within=0)
 
 

@@ -68,7 +68,7 @@ def test_what_names_no_system_is_told_with_what_does(written, message):
             "level-review window=many",
             "system is 'level-review window=many': window must be a number; you gave 'many'",
         ),
-        ("level-review trim=10", "leaves no score of 20"),
+        ("level-review trim=10", "leaves none of the 20 scores"),
         ("npl k=3", "Leave k= out"),
         ("fargo-like 3", "Write it as fargo-like"),
         (

@@ -111,7 +111,10 @@ def test_a_system_of_one_league_at_a_time_is_asked_for_each_replica():
 
 @pytest.mark.parametrize(
     ("returned", "message"),
-    [([1.0, 2.0], "returned the shape"), (np.full((6, 4), np.nan), "returned nan for player 1")],
+    [
+        ([1.0, 2.0], "returned an array of shape"),
+        (np.full((6, 4), np.nan), "returned nan for player 1"),
+    ],
 )
 def test_what_an_own_system_must_not_return_is_refused(returned, message):
     class Wrong(Own):

@@ -212,7 +212,7 @@ def test_the_three_points_of_apa_8ball(score, race, winner, points) -> None:
     assert rules.points_of(forfeited).tolist() == [[2.0 * (winner == 1), 2.0 * (winner == 2)]]
     finals = TableRules(split="apa_8ball", forfeit=3)
     assert finals.points_of(forfeited).max() == 3.0
-    with pytest.raises(InputError, match="1 of 1 matches state no race"):
+    with pytest.raises(InputError, match="1 of 1 matches have no race"):
         rules.points_of(Outcomes([score], [winner]))
 
 

@@ -113,7 +113,7 @@ def test_events_survive_as_plain_data(what):
 def test_what_is_no_event_is_refused():
     with pytest.raises(InputError, match="number is missing"):
         KINDS.read("put up", '{"team": 1}')
-    with pytest.raises(InputError, match="isn't a kind of entry"):
+    with pytest.raises(InputError, match="isn't a type of entry"):
         KINDS.read("put down", '{"team": 1}')
 
 

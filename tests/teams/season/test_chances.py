@@ -142,7 +142,7 @@ def by_fractions() -> list[Fraction]:
 
 
 def test_what_cannot_be_is_refused() -> None:
-    with pytest.raises(InputError, match="no more for a loss"):
+    with pytest.raises(InputError, match="A loss can't be worth more"):
         TableRules(win=1, draw=2)
     with pytest.raises(InputError, match="plays itself"):
         TeamSeason(["A", "B"], [[1, 1, 3, 2]], [], [[1, 0]], np.zeros((0, 1)))

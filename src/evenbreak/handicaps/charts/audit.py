@@ -166,8 +166,8 @@ def audit(chart: Chart | ChartDraft | str, *, scale: Any = None) -> ChartAudit:
     best = _best_fit(even, cuts)
     if scale is None and best is None:
         raise InputError(
-            "{scale} is missing, and chart {chart!r} doesn't determine one. Give npl, "
-            "fargo, elo, or the points that double the odds.",
+            "{scale} is missing, and chart {chart!r} doesn't imply one. Give npl, fargo, elo, "
+            "or the points that double the odds.",
             chart=chart.name,
         )
     used = _fitted(best) if best and scale is None else scale_of(scale)
@@ -184,12 +184,15 @@ def audit(chart: Chart | ChartDraft | str, *, scale: Any = None) -> ChartAudit:
 def _in_order(chart: Chart | ChartDraft) -> list[ChartRow]:
     rows = sorted(chart.rows, key=lambda row: row.difference_from)
     if not rows:
-        raise InputError("chart {chart!r} has no rows. Give one for each range.", chart=chart.name)
+        raise InputError(
+            "chart {chart!r} has no rows. Give a row for each range of differences.",
+            chart=chart.name,
+        )
     for row in rows:
         if row.difference_to is not None and row.difference_to < row.difference_from:
             raise InputError(
-                "a row goes from {difference_from} to {difference_to}. Give an end that "
-                "isn't before its start.",
+                "a row goes from {difference_from} to {difference_to}. Make its end no lower "
+                "than its start.",
                 difference_from=row.difference_from,
                 difference_to=row.difference_to,
             )
@@ -316,11 +319,12 @@ def win_matrix(
 
     if not isinstance(ratings, Ratings):
         raise InputError(
-            "{ratings} must be what fit(results) returns; you gave {value!r:.60}", value=ratings
+            "{ratings} must be the ratings that fit(results) returns; you gave {value!r:.60}",
+            value=ratings,
         )
     named = list(ratings.players if players is None else players)
     if len(set(named)) < len(named):
-        raise InputError("players holds a name twice. Give each name once.")
+        raise InputError("players has a name twice. Give each name once.")
     try:
         m, n = (whole(games, "race", at_least=1) for games in race)
     except (TypeError, ValueError):

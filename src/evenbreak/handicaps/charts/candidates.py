@@ -135,9 +135,9 @@ class Candidates:
         if not short.any(axis=0).all() or not short[: self.evens, 0].any():
             nowhere = int(self.points[~short.any(axis=0)][0]) if short[: self.evens, 0].any() else 0
             raise NoChartError(
-                "{games_p90} is {games}, but at a difference of {nowhere} no allowed "
-                "race ends within that in 9 of 10 matches. Give more, or allow shorter "
-                "races.",
+                "{games_p90} is {games}, but at a difference of {nowhere} no allowed race ends "
+                "within that many games in 9 matches out of 10. Give a larger number, or allow "
+                "shorter races.",
                 games_p90=Parameter("games_p90"),
                 games=games,
                 nowhere=nowhere,

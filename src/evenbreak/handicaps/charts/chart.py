@@ -66,26 +66,28 @@ def row_faults(rows: Sequence[ChartRow]) -> Iterator[tuple[int, str]]:
     if first.stronger_needs != first.weaker_needs:
         yield (
             0,
-            f"row 1 is a race {first.stronger_needs}:{first.weaker_needs}. Give an even "
-            "race, since at a difference of 0 neither player is the stronger.",
+            f"row 1 is a race {first.stronger_needs}:{first.weaker_needs}. Give an even race, "
+            "since at a difference of 0 neither player is stronger.",
         )
     for place, row in enumerate(rows):
         if row.difference_to is not None and row.difference_to < row.difference_from:
             yield (
                 place,
-                f"difference_to of row {place + 1} must be {row.difference_from} or more; "
-                f"you gave {row.difference_to}",
+                f"difference_to in row {place + 1} must be {row.difference_from} or more; you "
+                f"gave {row.difference_to}",
             )
         if place and row.stronger_needs < row.weaker_needs:
             yield (
                 place,
-                f"stronger_needs of row {place + 1} must be {row.weaker_needs} or more, "
-                "since the stronger player never needs fewer games; you gave "
-                f"{row.stronger_needs}",
+                f"stronger_needs in row {place + 1} must be {row.weaker_needs} or more, since the "
+                f"stronger player never needs fewer games; you gave {row.stronger_needs}",
             )
     for place, (row, after) in enumerate(pairwise(rows), 1):
         if row.difference_to is None:
-            yield place - 1, f"row {place} is open-ended but not the last row. Give its end."
+            yield (
+                place - 1,
+                f"row {place} is open-ended, but only the last row can be. Give its end.",
+            )
         elif after.difference_from != row.difference_to + 1:
             yield (
                 place,
@@ -95,8 +97,8 @@ def row_faults(rows: Sequence[ChartRow]) -> Iterator[tuple[int, str]]:
     if last.difference_to is not None:
         yield (
             len(rows) - 1,
-            f"the last row ends at {last.difference_to}. Leave its end out, since a chart "
-            "covers all larger differences too.",
+            f"the last row ends at {last.difference_to}, but a chart must cover all larger "
+            "differences too. Leave out its end.",
         )
 
 
@@ -219,8 +221,8 @@ def _rows(rows: Iterable[Iterable[Any]]) -> list[ChartRow]:
         return [ChartRow(*row) for row in rows]
     except TypeError:
         raise InputError(
-            "{rows} must be rows of four: difference_from, difference_to, "
-            "stronger_needs, weaker_needs; you gave {value!r}",
+            "{rows} must have four values each: difference_from, difference_to, stronger_needs, "
+            "weaker_needs; you gave {value!r}",
             value=rows,
         ) from None
 
@@ -229,10 +231,10 @@ def _checked(row: ChartRow, name: str) -> ChartRow:
     """Return a row with its numbers as ints, or refuse it."""
     last = row.difference_to
     return ChartRow(
-        whole(row.difference_from, f"difference_from of {name}"),
-        None if last is None else whole(last, f"difference_to of {name}"),
-        whole(row.stronger_needs, f"stronger_needs of {name}", at_least=1),
-        whole(row.weaker_needs, f"weaker_needs of {name}", at_least=1),
+        whole(row.difference_from, f"difference_from in {name}"),
+        None if last is None else whole(last, f"difference_to in {name}"),
+        whole(row.stronger_needs, f"stronger_needs in {name}", at_least=1),
+        whole(row.weaker_needs, f"weaker_needs in {name}", at_least=1),
     )
 
 

@@ -121,9 +121,12 @@ def fair_races(
     """
     rack = rack if isinstance(rack, Rack) else Rack(rack)
     if not isinstance(rack.p1, float) or not isinstance(rack.p2, (float, type(None))):
-        raise InputError("rack holds arrays. Give one number for each chance.")
+        raise InputError("rack has arrays for its chances. Give one number for each chance.")
     if rack.break_matters and breaks is None:
-        raise InputError("breaks is missing: with p2 the break matters. Give winner_breaks, ...")
+        raise InputError(
+            "breaks is missing: if p2 is given, the break matters. Give a break "
+            "format, such as breaks=winner_breaks."
+        )
     one_of(first_breaker, "first_breaker", (1, 2))
     target, top = probability(target, "target"), whole(top, "top", at_least=1)
     low, high = longest_matches(games, race_to)
@@ -251,7 +254,7 @@ def games_range(games: Any) -> tuple[int, int]:
     (5, 7)
     """
     if not isinstance(games, tuple | list) or len(games) != 2:
-        raise InputError("{games} is {value!r}. Give the pair (lo, hi).", value=games)
+        raise InputError("{games} must be a pair (lo, hi); you gave {value!r}", value=games)
     low, high = (whole(limit, "games", at_least=1) for limit in games)
     if low > high:
         raise InputError("{games} is {value!r}. Give the smaller number first.", value=games)
@@ -300,8 +303,8 @@ class RaceLimits:
         if max(least, (low + 2) // 2) > (high + 1) // 2:
             shortest = max(2 * least - 1, low + 1 - low % 2)
             raise InputError(
-                "{games} is {low}..{high}, which leaves no even race to {least} or more. "
-                "Give a second number of {shortest} or more.",
+                "{games} is {low}..{high}, which leaves no even race to {least} or more. Make "
+                "the second number {shortest} or more.",
                 games=Parameter("games"),
                 low=low,
                 high=high,

@@ -215,7 +215,8 @@ class Gap:
         difference = self._of_one_pair()
         if match.break_matters:
             raise InputError(
-                "the break matters in the match, but ratings don't say who breaks well"
+                "the break matters in this match, but ratings don't show who breaks well. Leave "
+                "out p2."
             )
         if not self.error and not self.form:
             return match_odds(with_rack(match, Rack(self.scale.win_probability(difference))))
@@ -227,7 +228,7 @@ class Gap:
     def _of_one_pair(self) -> float:
         if self.difference.ndim:
             raise InputError(
-                "difference must be a single number, that of one pair; its shape is {shape}",
+                "difference must be a single number, for one pair of players; its shape is {shape}",
                 shape=self.difference.shape,
             )
         return float(self.difference)
@@ -331,8 +332,8 @@ class Gap:
         else:
             if (many := (high * (high + 1) - low * (low - 1)) // 2) > MOST_RACES:
                 raise InputError(
-                    "games {low}..{high} offers {many:,} races; the limit is {most_races:,}. "
-                    "Give fewer games.",
+                    "games {low}..{high} allows {many:,} races; the limit is {most_races:,}. "
+                    "Give a narrower range.",
                     low=low,
                     high=high,
                     many=many,

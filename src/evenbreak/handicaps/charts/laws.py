@@ -30,7 +30,7 @@ def broken_chart_laws(chart: AnyChart) -> list[str]:
     >>> broken_chart_laws(chart("npl_10"))
     []
     >>> broken_chart_laws(Chart("dip", [(0, 9, 5, 5), (10, 19, 5, 3), (20, None, 5, 4)]))
-    ['the race of row 3, 5:4, is easier for the stronger player than that of row 2, 5:3']
+    ['the race in row 3, 5:4, is easier for the stronger player than the race in row 2, 5:3']
     """
     laws = (_it_is_a_value, _races_are_turned_round, _races_get_harder)
     return broken_of(partial(law, chart) for law in laws)
@@ -60,7 +60,10 @@ def _races_are_turned_round(chart: AnyChart) -> Iterator[str]:
         seen = [(chart.race(one, other), chart.race(other, one)) for one, other in pairs]
     for pair, (race, turned) in zip(pairs, seen, strict=True):
         if race != turned[::-1]:
-            yield f"the race at {pair[0]} is {race}, but {turned} at {pair[1]}. Turn it round."
+            yield (
+                f"the race at {pair[0]} is {race}, but at {pair[1]} it's {turned}. Make one "
+                "the reverse of the other."
+            )
 
 
 def _races_get_harder(chart: AnyChart) -> Iterator[str]:
@@ -69,8 +72,8 @@ def _races_get_harder(chart: AnyChart) -> Iterator[str]:
         for k in np.flatnonzero(np.diff(even_doublings(*needs.T)) < -1e-9) + 1:
             (m, n), (m_before, n_before) = needs[k], needs[k - 1]
             yield (
-                f"the race of row {k + 1}, {m}:{n}, is easier for the stronger player than that of "
-                f"row {k}, {m_before}:{n_before}"
+                f"the race in row {k + 1}, {m}:{n}, is easier for the stronger player than the "
+                f"race in row {k}, {m_before}:{n_before}"
             )
     elif isinstance(chart, LevelChart):
         needs = np.array(chart.needs)

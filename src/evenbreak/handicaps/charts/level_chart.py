@@ -66,7 +66,8 @@ class LevelChart:
         >>> level_chart("apa_8ball").race(1, 3)
         Traceback (most recent call last):
         ...
-        evenbreak.errors.InputError: level_1 must be a level of the chart: 2, 3, 4, 5, 6, 7; it is 1
+        evenbreak.errors.InputError: level_1 must be one of the chart's levels: 2, 3, 4, 5, 6, 7;
+            it is 1
         """
         wanted = self._wanted
         mine = whole(level_1, "level_1", at_least=None, wanted=wanted)
@@ -76,7 +77,7 @@ class LevelChart:
 
     @property
     def _wanted(self) -> str:
-        return f"a level of the chart: {', '.join(map(str, self.levels))}"
+        return f"one of the chart's levels: {', '.join(map(str, self.levels))}"
 
     def races(self, levels_1: ArrayLike, levels_2: ArrayLike) -> tuple[Ints, Ints]:
         """Return (m, n), two arrays: the games that player 1 and player 2 need, elementwise.
@@ -119,8 +120,8 @@ def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
     rows = [tuple(row) if hasattr(row, "__iter__") else () for row in needs]
     if len(rows) != len(levels) or any(len(row) != len(levels) for row in rows):
         raise InputError(
-            "{needs} isn't a square for {n_levels} levels. Give a row for each level, "
-            "with the games needed against each level.",
+            "{needs} must be a square table for {n_levels} levels. Give each level a row with "
+            "the games it needs against each level.",
             n_levels=len(levels),
         )
     square = tuple(
@@ -216,7 +217,8 @@ class PointsChart:
         points = increasing(self.points, "points", at_least=1)
         if not levels or len(levels) != len(points):
             raise InputError(
-                "there are {n_levels} levels and {n_points} points. Give one for each.",
+                "there are {n_levels} levels but {n_points} numbers of points. Give one for "
+                "each level.",
                 n_levels=len(levels),
                 n_points=len(points),
             )
@@ -237,7 +239,7 @@ class PointsChart:
         return self._needs(level_1, "level_1"), self._needs(level_2, "level_2")
 
     def _needs(self, level: Any, name: str) -> int:
-        wanted = f"a level of the chart: {', '.join(map(str, self.levels))}"
+        wanted = f"one of the chart's levels: {', '.join(map(str, self.levels))}"
         number = whole(level, name, at_least=None, wanted=wanted)
         if number not in self.levels:
             raise InputError(

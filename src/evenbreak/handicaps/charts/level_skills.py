@@ -157,20 +157,20 @@ class LevelSkills:
         """What the chances rest on, in a sentence."""
         if self.source == "results":
             return say(
-                "The chance of a game comes from the skill levels, by {matches:,} matches of your "
-                "own results ({error}).",
+                "The chance of winning a game comes from the skill levels, based on {matches:,} "
+                "matches in your own results ({error}).",
                 matches=self.matches,
                 error=self._off,
             )
         if self.source == "measured":
             return say(
-                "The chance of a game comes from the skill levels, by some 40,000 matches of other "
-                "leagues with this chart ({error}).",
+                "The chance of winning a game comes from the skill levels, based on about "
+                "40,000 matches in other leagues that use this chart ({error}).",
                 error=self._off,
             )
         return say(
-            "The chance of a game is an assumption, not a measurement: that the levels of {chart} "
-            "are as far apart as its races make up for.",
+            "The chance of winning a game is assumed, not measured: the races in {chart} are "
+            "taken to make up for the difference between levels.",
             chart=self.chart.name,
         )
 

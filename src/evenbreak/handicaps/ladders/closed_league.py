@@ -149,8 +149,8 @@ class ClosedPair:
         """
         if not self.system.conserving:
             raise InputError(
-                "{system} is {name}, under which the sum of two ratings changes. Use "
-                "law(), the distribution of their difference.",
+                "{system} is {name}, but in that system a match can change the sum of the two "
+                "ratings. Use law(), the distribution of their difference.",
                 name=self.system.name,
             )
         law = self.law()
@@ -198,8 +198,8 @@ def in_step_law(
     unit = int(np.gcd.reduce(steps))
     if not by.conserving or unit == 0 or not (steps // unit % 2).all():
         raise InputError(
-            "{system} is {by}, whose players don't stay in step. Give one that moves "
-            "both players of a match by the same odd number of points, or use a Ladder.",
+            "{system} is {by}, in which players don't stay in step. Give a system that moves "
+            "both players in a match by the same odd number of points, or use a Ladder.",
             by=by.name,
         )
     chances = table.chances(0.5)
@@ -218,5 +218,5 @@ def in_step_law(
             return Distribution(tuple(errors.tolist()), tuple(after.tolist()))
         law = after
     raise AccuracyError(
-        "the errors still change after {rounds} rounds. Give another chart.", rounds=_ROUNDS
+        "the errors are still changing after {rounds} rounds. Use another chart.", rounds=_ROUNDS
     )

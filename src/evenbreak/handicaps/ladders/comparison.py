@@ -298,9 +298,9 @@ def lag(ladder: Ladder) -> Lag:
     share = float(law.probability[0] + law.probability[-1])
     if share > _AT_THE_ENDS:
         raise AccuracyError(
-            "the rating error is at the ladder's ends {share:.2g} of the time: the steps "
-            "don't keep up with a drift of {drift:g} a match, or the ladder is too "
-            "narrow. Give a widest above {widest}.",
+            "the rating error is at the ladder's ends {share:.2g} of the time: the steps don't "
+            "keep up with a drift of {drift:g} a match, or the ladder is too narrow. Set "
+            "widest above {widest}.",
             share=share,
             drift=ladder.drift,
             widest=ladder.widest,

@@ -71,5 +71,5 @@ def _moves(ladder: Ladder) -> list[int]:
 
 def error_on(widest: int, start: Any, what: str = "rating error") -> int:
     """Return `start` as an int from -widest to widest; an InputError if it isn't one."""
-    wanted = f"a {what} in whole points from {-widest} to {widest}, or a larger widest"
+    wanted = f"a {what} in whole points from {-widest} to {widest}, or make widest larger"
     return whole(start, "start", at_least=-widest, at_most=widest, wanted=wanted)

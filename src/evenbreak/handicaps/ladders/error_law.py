@@ -85,8 +85,8 @@ def long_run(night: NightModel, error: Floats | None, drift: float, *, conservin
         begun = again
     if changes[-1] > _SETTLED:
         raise AccuracyError(
-            "the rating errors still change by {change:.3g} after {rounds} rounds. Give "
-            "the opponents' error, or opponents=NATURAL, who are correctly rated.",
+            "the rating errors are still changing by {change:.3g} after {rounds} rounds. Give "
+            "the opponents' error, or opponents=NATURAL (correctly rated opponents).",
             change=changes[-1],
             rounds=_ROUNDS,
         )

@@ -138,8 +138,8 @@ class RatingLadder(ErrorWalk):
         wins = number_probabilities(self.wins, "wins", "win chance")
         if len(wins) < 3 or len(wins) % 2 == 0:
             raise InputError(
-                "{wins} must have one chance for each error from -widest to widest, an "
-                "odd number, three or more; it has {n_wins}",
+                "{wins} must have one chance for each error from -widest to widest, so an odd "
+                "number of chances, at least three; it has {n_wins}",
                 n_wins=len(wins),
             )
         object.__setattr__(self, "wins", wins)
@@ -183,7 +183,9 @@ def long_run_law(steps: Ints, kernel: Floats) -> Floats:
 
 
 def _no_moves() -> InputError:
-    return InputError("no match moves a rating. Give a system that moves them by whole points.")
+    return InputError(
+        "no match in this system moves a rating. Give a system that moves ratings by whole points."
+    )
 
 
 def _law_of_class(steps: Ints, kernel: Floats) -> Floats:

@@ -139,14 +139,14 @@ class Ladder(ErrorWalk):
         doubling = by.scale.points_per_doubling
         if doubling < 1.0:
             raise InputError(
-                "points_per_doubling is {doubling:g} on the system's scale; ratings are "
-                "whole points, so give a scale of 1 or more",
+                "points_per_doubling must be 1 or more on the system's scale, because ratings "
+                "are whole points; it is {doubling:g}",
                 doubling=doubling,
             )
         if opponents.farthest > _MOST_SPREAD * doubling:
             raise InputError(
-                "spread of the opponents goes to {farthest} points. Give "
-                "{most_spread:.0f} or less.",
+                "the opponents' spread goes up to {farthest} points. Make it {most_spread:.0f} "
+                "or less.",
                 farthest=opponents.farthest,
                 most_spread=_MOST_SPREAD * doubling,
             )
@@ -224,9 +224,9 @@ class Ladder(ErrorWalk):
         held = _at_the_ends(law)
         if held > _MOST_HELD:
             raise AccuracyError(
-                "the rating error is at the ends of the ladder, {widest} points off, "
-                "with a chance of {held:.2g}: the steps don't keep up with what drives "
-                "it away, or the ladder is too narrow. Give {self}.",
+                "the rating error has a {held:.2g} chance of being at the ladder's ends, "
+                "{widest} points off: either the steps are too small to bring it back, or the "
+                "ladder is too narrow. Give {self}.",
                 widest=self.widest,
                 held=held,
                 self=_remedy(self),
@@ -262,7 +262,9 @@ def _system_and_chart(system: Any, chart: Any) -> tuple[StepSystem, Chart]:
     if isinstance(system, Chart):
         if chart is not None:
             raise InputError(
-                "chart is {chart!r}; a Chart was given as the system already", chart=chart
+                "chart is {chart!r}, but a Chart was already given as the system. Leave out one "
+                "of the two.",
+                chart=chart,
             )
         return steps_of("npl"), system
     by = steps_of(system)
@@ -278,7 +280,9 @@ def _at_the_ends(law: Floats) -> float:
 def _remedy(ladder: Ladder) -> str:
     wider = f"a widest above {ladder.widest}"
     return (
-        f"opponents nearer the player's skill, or {wider}" if ladder.opponents.farthest else wider
+        f"opponents closer to the player's skill, or {wider}"
+        if ladder.opponents.farthest
+        else wider
     )
 
 
@@ -300,8 +304,8 @@ def _usual_width(
     """Return the narrowest usual width with next to nothing at its ends."""
     if _same_everywhere(system, chart):
         raise AccuracyError(
-            "chart {chart} has the same race at every difference, so nothing brings a "
-            "wrong rating back. Give a chart whose races differ.",
+            "chart {chart} has the same race at every difference, so nothing corrects a wrong "
+            "rating. Give a chart whose races differ.",
             chart=chart.name,
         )
     for doublings in _DOUBLINGS:
@@ -321,9 +325,9 @@ def _usual_width(
                 return widest
     if opponents.farthest:
         raise AccuracyError(
-            "the rating error goes beyond {widest} points, or doesn't settle: the "
-            "opponents are too far from the player's skill for the chart's races. Give a "
-            "{skill} nearer to theirs.",
+            "the rating error goes beyond {widest} points, or doesn't settle: the opponents are "
+            "too far from the player's skill for the chart's races. Give a {skill} closer to "
+            "theirs.",
             widest=widest,
             skill=Parameter("skill"),
         )

@@ -60,7 +60,7 @@ class LevelLadder:
     def __post_init__(self) -> None:
         chart = self.system.chart
         if not isinstance(chart, LevelChart):
-            raise InputError("the system {name} has no chart of levels", name=self.system.name)
+            raise InputError("the system {name} has no level chart", name=self.system.name)
         if len(self.opponents) != len(chart.levels) or not sum(self.opponents) > 0.0:
             raise InputError(
                 "{opponents} must be a weight for each of the levels {levels}; you gave {value!r}",

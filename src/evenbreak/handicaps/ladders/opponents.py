@@ -29,7 +29,9 @@ def _in_whole_points(law: Distribution, name: str) -> None:
     for value in law.values:
         if value != int(value):
             raise InputError(
-                "{name} must be whole points; it holds {value!r}", name=name, value=value
+                "{name} must have whole numbers of points; one value is {value!r}",
+                name=name,
+                value=value,
             )
 
 

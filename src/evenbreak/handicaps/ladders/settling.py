@@ -134,8 +134,8 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
         passage = first_passage(chain_of_errors(ladder), left / remaining, target)
         if not passage.certain or passage.mean is None or passage.variance is None:
             raise InputError(
-                "{within} is {band}, and steps of {max} from an error of {error} may "
-                "never come so near. Give a wider band.",
+                "{within} is {band}, but with steps of {max}, an error of {error} may never get "
+                "that small. Give a wider band.",
                 band=band,
                 max=ladder.steps.max(),
                 error=error,
@@ -143,8 +143,8 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
         later, tail = passage.distribution(tail=_TAIL / remaining, max_steps=_HORIZON)
         if tail * remaining > _TAIL:
             raise AccuracyError(
-                "from an error of {error} a rating {mean} to come within "
-                "{band}. Give a wider band, a nearer start, or less drift.",
+                "from an error of {error}, a rating {mean} to come within {band}. Give a wider "
+                "band, a closer start, or less drift.",
                 error=error,
                 mean=_too_long(passage.mean),
                 band=band,
@@ -168,8 +168,8 @@ def _too_long(mean: float) -> str:
 def _schedule(ladder: Ladder) -> tuple[tuple[int, int], ...]:
     if not ladder.system.newcomer_steps:
         raise InputError(
-            "newcomer is True, but in the system {name} newcomers move like everyone "
-            "else. Leave it out.",
+            "newcomer is True, but in the system {name} newcomers' ratings move like everyone "
+            "else's. Leave out newcomer.",
             name=ladder.system.name,
         )
     return ladder.system.newcomer_steps
@@ -237,7 +237,8 @@ def ladder_gap(ladder: Ladder) -> float:
     gap = 1.0 - float(np.abs(values).max(initial=0.0))
     if gap < 1e-9:
         raise AccuracyError(
-            "the gap is {gap:.1e}, which rounding hides. Follow the ladder with ladder_mixing.",
+            "the gap is {gap:.1e}, less than the rounding errors. Follow the ladder with "
+            "ladder_mixing.",
             gap=gap,
         )
     return gap

@@ -63,9 +63,8 @@ class Averages(System):
 
     asks = ("games",)
     in_words = (
-        "points per game (10 for a game won, the loser's own balls for a game lost); the "
-        "difference of two averages is the head start of a game, played here as the race it is "
-        "worth"
+        "points per game (10 for a win, the loser's own balls for a loss); the difference "
+        "between two averages is the head start in a game, played here as the equivalent race"
     )
 
     def __post_init__(self) -> None:
@@ -136,8 +135,8 @@ class WinPercent(System):
     def in_words(self) -> str:  # type: ignore[override]
         """The rule in words."""
         return (
-            f"the percentage of the last {self.window} games won; races by a chart of 25 games for "
-            f"teams, at {self.players} times the difference of two players"
+            f"the percentage of the last {self.window} games won; races from a 25-game team "
+            f"chart, at {self.players} times the difference between two players"
         )
 
     def strength(self, numbers: Any) -> Floats:

@@ -103,8 +103,8 @@ class StepSystem(System):
         pair = isinstance(points, tuple | list) and len(points) == 2
         if not pair or not all(isinstance(point, Integral) for point in points):
             raise InputError(
-                "the rule of the system {name} returned {points!r}. It must return a "
-                "pair, the whole points of the winner and of the loser, such as (1, -1).",
+                "the rule of the system {name} returned {points!r}. It must return a pair of "
+                "whole numbers, the winner's points and the loser's, such as (1, -1).",
                 name=self.name,
                 points=points,
             )

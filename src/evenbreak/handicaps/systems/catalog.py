@@ -134,9 +134,7 @@ def _with_options(system: System, options: Mapping[str, str], name: str) -> Syst
     """Return a system with parameters set by name, and called as it was asked for."""
     if isinstance(system, StepSystem):
         if options:
-            raise InputError(
-                "it has no parameters by name. Leave {first}= out.", first=min(options)
-            )
+            raise InputError("it has no named parameters. Leave out {first}=.", first=min(options))
         return system
     known = [
         field.name
@@ -205,9 +203,9 @@ def steps_of(name: Any) -> StepSystem:
     system = system_of(name)
     if not isinstance(system, StepSystem):
         raise InputError(
-            "the system {name} doesn't move ratings by whole points match by match, so "
-            "there's no chain to follow here; `evenbreak simulate --compare` plays "
-            "seasons of it",
+            "the system {name} doesn't move ratings by whole points after every match, so "
+            "there's no chain to follow here. To simulate seasons with it, use `evenbreak "
+            "simulate --compare`.",
             name=system.name,
         )
     return system

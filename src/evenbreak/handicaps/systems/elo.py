@@ -31,7 +31,7 @@ class _PerGame:
 
     def __call__(self, match: PlayedMatch) -> tuple[int, int]:
         if match.games is None:
-            raise InputError("the score is None; an update by games needs it")
+            raise InputError("the score is None, but an update by games needs it")
         won, lost = match.games
         expected = _SCALE.win_probability(match.rating[0] - match.rating[1])
         # Rounded once, so that the sum of the two ratings stays the same.

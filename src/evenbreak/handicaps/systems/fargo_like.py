@@ -114,8 +114,8 @@ class FargoLike(System):
         """The rule in words."""
         years = "a year" if self.half_life == 1.0 else f"{self.half_life:g} years"
         return (
-            f"all games of all players refitted every night, with a half-life of {years}; under "
-            f"{self.established} games a starter rating counts for the games still missing"
+            f"ratings fitted anew every night to all games, with a half-life of {years}; below "
+            f"{self.established} games, a starter rating stands in for the missing ones"
         )
 
     @property
@@ -239,7 +239,7 @@ def _fitted(
         at = at + step * min(1.0, _LONGEST / max(longest, _LONGEST))
         if longest < _ENOUGH:
             return at
-    raise AccuracyError("the ratings didn't settle in {steps} steps of the fit", steps=_STEPS)
+    raise AccuracyError("the ratings didn't settle within {steps} steps of the fit", steps=_STEPS)
 
 
 def _solved(
@@ -315,4 +315,4 @@ def _alone(games: _Games, fit: Floats, start: Floats, counted: Floats, few: Any)
         at = at + step
         if np.abs(step).max() < _ENOUGH:
             return at
-    raise AccuracyError("the ratings didn't settle in {steps} steps of the fit", steps=_STEPS)
+    raise AccuracyError("the ratings didn't settle within {steps} steps of the fit", steps=_STEPS)

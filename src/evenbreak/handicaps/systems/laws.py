@@ -109,16 +109,16 @@ def _races_are_turned_round(system: System, rng: np.random.Generator) -> Iterato
     if (m != turned_m).any() or (n != turned_n).any():
         place = int(np.flatnonzero((m != turned_m) | (n != turned_n))[0])
         yield (
-            f"race of the system {system.name} is {m[place]}:{n[place]} for {a[place]:g} "
-            f"and {b[place]:g}, but {turned_n[place]}:{turned_m[place]} for {b[place]:g} "
-            f"and {a[place]:g}. It must be the same race either way."
+            f"in the system {system.name}, the race is {m[place]}:{n[place]} for {a[place]:g} and "
+            f"{b[place]:g}, but {turned_n[place]}:{turned_m[place]} for {b[place]:g} and "
+            f"{a[place]:g}. It must be the same race either way."
         )
 
 
 def _same(system: System, one: Floats, other: Floats, what: str) -> Iterator[str]:
     if not np.allclose(one, other, rtol=0.0, atol=1e-6):
         off = float(np.abs(one - other).max())
-        yield f"update of the system {system.name} differs by {off:.3g} {what}"
+        yield f"in the system {system.name}, update differs by {off:.3g} {what}"
 
 
 def _nothing_kept_changes_nothing(system: System, rng: np.random.Generator) -> Iterator[str]:
@@ -162,7 +162,10 @@ def _winners_never_fall(system: System, rng: np.random.Generator) -> Iterator[st
             lost[loser[there], there] = True
         fell = (ratings < history.ratings - 1e-9) & ~lost
         if fell.any():
-            yield f"someone fell in the system {system.name} on a night without a lost match"
+            yield (
+                f"in the system {system.name}, someone's rating fell on a night when they "
+                "didn't lose a match"
+            )
 
 
 _LAWS: tuple[Callable[[System, np.random.Generator], Iterator[str]], ...] = (

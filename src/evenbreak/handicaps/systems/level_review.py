@@ -100,7 +100,8 @@ class LevelReview(System):
         whole(self.trim, "trim", at_least=0)
         if self.window <= 2 * self.trim:
             raise InputError(
-                "{trim} is {value}, which leaves no score of {window}. Give less.",
+                "{trim} is {value}, which leaves none of the {window} scores. Give a smaller "
+                "number.",
                 value=self.trim,
                 window=self.window,
             )
@@ -120,7 +121,7 @@ class LevelReview(System):
         trimmed += f" {self.trim}" if self.trim > 1 else ""
         return (
             f"levels by {part}the last {self.window} scores{trimmed}, moving at most "
-            f"{self.most_change} a night; the rules of real leagues are not published"
+            f"{self.most_change} a night; real leagues' rules aren't published"
         )
 
     @property
@@ -252,8 +253,8 @@ def nearest_level(chart: LevelChart, levels: Any) -> Floats:
 def _by_innings(matches: Matches) -> Floats:
     if matches.innings_a is None:
         raise InputError(
-            "the innings of the matches aren't known, and this review is by innings. Use "
-            "level-review, which is by games."
+            "this review goes by innings, but the results don't have them. Use level-review, "
+            "which goes by games."
         )
     score = np.minimum(matches.innings_a / np.maximum(matches.score_a, 1), _CAP)
     return np.asarray(np.where(matches.score_a > 0, score, _CAP))

@@ -61,7 +61,9 @@ class LevelSteps(MarkovSystem):
     @property
     def in_words(self) -> str:  # type: ignore[override]
         """The rule in words."""
-        return f"a step up for a match won, down for one lost, {self.steps} steps to a level"
+        return (
+            f"one step up for a match won, one down for a match lost, {self.steps} steps to a level"
+        )
 
     @property
     def chart(self) -> LevelChart:

@@ -67,8 +67,8 @@ class NapaLike(System):
 
     scale = SCALES["npl"]
     in_words = (
-        "races by the published matrix; how ratings move is not published: Elo on the match "
-        "is assumed"
+        "races from the published matrix; how ratings move isn't published, so Elo for match "
+        "wins is assumed"
     )
     asks = ("race",)
     winner_never_falls = True

@@ -29,7 +29,8 @@ def own_system(name: str) -> System:
         code = import_module(module)
     except ImportError as error:
         raise InputError(
-            "system is {name!r}, but {error}. Start in the folder of {module}.py, or install it.",
+            "system is {name!r}, but {error}. Start evenbreak in the folder that has "
+            "{module}.py, or install {module}.",
             name=name,
             error=str(error),
             module=module,
@@ -38,7 +39,7 @@ def own_system(name: str) -> System:
         raise InputError("system is {name!r}: {why}", name=name, why=why(error)) from error
     if not hasattr(code, attribute):
         raise InputError(
-            "system is {name!r}, but {module} has no {attribute}. Name a class of it.",
+            "system is {name!r}, but {module} has no {attribute}. Name one of its classes.",
             name=name,
             module=module,
             attribute=attribute,
@@ -57,6 +58,6 @@ def lawful_system(system: Any) -> System:
             short=type(system).__name__,
         )
     if not isinstance(getattr(system, "name", None), str):
-        raise InputError("its systems have no name. Give it one.")
+        raise InputError("its systems have no name. Give the class a name.")
     lawful(system, broken_laws(system))
     return system

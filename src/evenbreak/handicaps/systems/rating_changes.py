@@ -283,7 +283,7 @@ def _strangers(numbers: Floats, night: NightTable) -> Iterator[Problem]:
             yield Problem(
                 int(row),
                 column,
-                f"{name!r} has no rating on the list. Write a first rating."
+                f"{name!r} has no rating on the list. Add a first rating."
                 if place >= 0
                 else f"{name!r} isn't on the list. Add the player with a first rating, or "
                 "correct the name.",
@@ -308,9 +308,9 @@ def _no_end(roster: Roster, night: NightTable, chart: Chart | System | str, row:
     whose = "system" if isinstance(by, System) else "chart"
     return (
         f"{results.score_a[row]}-{results.score_b[row]} doesn't finish the race "
-        f"{night.chart_a[row]}:{night.chart_b[row]}, which the {whose} {by.name} has for "
-        f"{roster.players[a]!r} ({numbers[a]:g}) and {roster.players[b]!r} "
-        f"({numbers[b]:g}). Correct the score, give race_a and race_b, or mark a forfeit."
+        f"{night.chart_a[row]}:{night.chart_b[row]}, which the {whose} {by.name} gives for "
+        f"{roster.players[a]!r} ({numbers[a]:g}) and {roster.players[b]!r} ({numbers[b]:g}). "
+        "Correct the score, give race_a and race_b, or mark a forfeit."
     )
 
 
@@ -336,13 +336,13 @@ def _missing(system: System, night: NightTable) -> Iterator[Problem]:
             yield Problem(
                 row,
                 "score_a",
-                f"the score isn't stated, and the system {system.name} moves ratings by "
-                "it. Write it, or mark a forfeit.",
+                f"the score is missing, and the system {system.name} uses it to move ratings. Add "
+                "the score, or mark a forfeit.",
             )
         elif "race" in system.asks and results.race_a is not None and not results.race_a[row]:
             yield Problem(
                 row,
                 "race_a",
-                f"the race is not stated, and the system {system.name} moves ratings by it. "
+                f"the race is missing, and the system {system.name} uses it to move ratings. "
                 f"{_give_chart(system)}",
             )

@@ -74,7 +74,7 @@ class _Margin:
     def __call__(self, match: PlayedMatch) -> tuple[int, int]:
         if match.games is None or match.race is None:
             raise InputError(
-                "the score or the race is None; steps by the margin of the score need both"
+                "the score or the race is None, but steps by margin of victory need both"
             )
         needed = match.race[1]
         points = -(-self.most * (needed - match.games[1]) // needed)
@@ -106,7 +106,8 @@ def margin_system(most: Any = 2) -> StepSystem:
         NPL.scale,
         NPL.charts,
         _Margin(points),
-        f"up to {points} point{'s' * (points > 1)} a match, by the share of the loser's race left",
+        f"up to {points} point{'s' * (points > 1)} a match, depending on how much of the race the "
+        "loser had left",
         own_chart=NPL.own_chart,
         asks=("games", "race"),
     )

@@ -73,7 +73,8 @@ class System(ABC):
         chart = self.chart
         if chart is None:
             raise InputError(
-                "the system {name} has no chart and no method race. Give it one.", name=self.name
+                "the system {name} has neither a chart nor a race method. Give it one of them.",
+                name=self.name,
             )
         a, b = (np.floor(np.asarray(x, dtype=float) + 0.5) for x in (a, b))
         return chart.races(a, b) if isinstance(chart, LevelChart) else chart.races(a - b)
@@ -98,8 +99,8 @@ class System(ABC):
             return level_skills(self.chart).strength(numbers)
         if self.scale is None:
             raise InputError(
-                "the numbers of the system {name} have no scale, so it isn't known how "
-                "strong anyone is by them. Give a system with a scale or levels.",
+                "the system {name} has no scale, so its numbers don't show how strong anyone "
+                "is. Give a system with a scale or levels.",
                 name=self.name,
             )
         return np.asarray(numbers, dtype=float) * (100.0 / self.scale.points_per_doubling)
@@ -117,7 +118,8 @@ class System(ABC):
         kind, own = type(self.chart), getattr(self, "__dataclass_fields__", {})
         if self.chart is None or not isinstance(chart, kind) or "own_chart" not in own:
             raise InputError(
-                "the system {name} can't be played by the chart {chart}. Leave {chart_option} out.",
+                "the system {name} can't be played with the chart {chart}. Leave out "
+                "{chart_option}.",
                 name=self.name,
                 chart=chart.name,
                 chart_option=Parameter("chart"),
@@ -153,8 +155,8 @@ def checked_ratings(system: System, ratings: Any, shape: tuple[int, ...], method
     values = np.asarray(ratings, dtype=float)
     if values.shape != shape:
         raise InputError(
-            "{method} of the system {name} returned the shape {got}. It must return one "
-            "number for each player, in the shape {shape}.",
+            "in the system {name}, {method} returned an array of shape {got}. It must return "
+            "one number for each player, in shape {shape}.",
             method=method,
             name=system.name,
             got=values.shape,
@@ -163,7 +165,7 @@ def checked_ratings(system: System, ratings: Any, shape: tuple[int, ...], method
     wrong = ~np.isfinite(values)
     if wrong.any():
         raise InputError(
-            "{method} of the system {name} returned {value} for player {player}. It must "
+            "in the system {name}, {method} returned {value} for player {player}. It must "
             "return finite numbers.",
             method=method,
             name=system.name,
@@ -178,8 +180,8 @@ def checked_races(system: System, a: Any, b: Any) -> tuple[Ints, Ints]:
     races = system.race(a, b)
     if not isinstance(races, tuple) or len(races) != 2:
         raise InputError(
-            "race of the system {name} returned {races!r}. It must return two arrays (m, "
-            "n), the games that each player needs.",
+            "in the system {name}, race returned {races!r}. It must return two arrays (m, n), "
+            "the games that each player needs.",
             name=system.name,
             races=races,
         )
@@ -187,8 +189,8 @@ def checked_races(system: System, a: Any, b: Any) -> tuple[Ints, Ints]:
     for needs in map(np.asarray, races):
         if needs.shape != shape or not (needs >= 1).all() or (needs != np.floor(needs)).any():
             raise InputError(
-                "race of the system {name} returned {needs!r}. It must return whole "
-                "games, 1 or more, for each pair of ratings.",
+                "in the system {name}, race returned {needs!r}. It must return a whole number "
+                "of games, 1 or more, for each pair of ratings.",
                 name=system.name,
                 needs=needs,
             )

@@ -105,7 +105,7 @@ def team_handicap(
     )
     if not lost < won:
         raise InputError(
-            "{points_lost} is {lost:g} and points_won {won:g}. Give fewer points to the loser.",
+            "{points_lost} is {lost:g} and points_won is {won:g}. Give the loser fewer points.",
             lost=lost,
             won=won,
         )

@@ -159,8 +159,8 @@ def nights(
         day += timedelta(days=1)
     if len(found) < count:
         raise InputError(
-            "{count} nights are needed, but there are {n} up to {ends}. Start earlier, "
-            "end later, or play more rounds a night.",
+            "{count} nights are needed, but there are only {n} until {ends}. Start earlier, end "
+            "later, or play more rounds a night.",
             count=count,
             n=len(found),
             ends=str(last),
@@ -290,8 +290,8 @@ def still_to_play(names: Sequence[str], times: int, played: Ints) -> Ints:
     for pair, many in met.items():
         if many > times:
             raise InputError(
-                "{team} and {team_2} have met {many} times, more than the {times} of this "
-                "round robin",
+                "{team} and {team_2} have met {many} times, more than the {times} in this round "
+                "robin",
                 team=names[pair[0]],
                 team_2=names[pair[1]],
                 many=many,

@@ -69,8 +69,8 @@ class TableRules:
                 object.__setattr__(self, name, number(getattr(self, name), name))
         if not self.loss <= self.draw <= self.win or min(self.a_set, self.shutout) < 0.0:
             raise InputError(
-                "points are {win:g}, {draw:g}, {loss:g} for a win, a draw and a loss. "
-                "Give no more for a loss than for a draw, and for a draw than for a win.",
+                "points are {win:g}, {draw:g}, {loss:g} for a win, a draw and a loss. A loss "
+                "can't be worth more than a draw, or a draw more than a win.",
                 win=self.win,
                 draw=self.draw,
                 loss=self.loss,
@@ -78,7 +78,9 @@ class TableRules:
         if self.split:
             one_of(self.split, "split", tuple(SPLITS))
         elif self.win == self.loss and self.a_set == 0.0:
-            raise InputError("a win is worth no more than a loss. Give points for a win or a set.")
+            raise InputError(
+                "a win must be worth more than a loss; it isn't. Give points for a win or a set."
+            )
         for name in self.ties:
             one_of(name, "ties", TIE_BREAKS)
 
@@ -205,7 +207,7 @@ def _apa_9ball(outcomes: Outcomes) -> Floats:
         score, target = int(outcomes.score[row, 2 - won]), int(races[row, 2 - won])
         if target not in _LEAST_OF_9BALL:
             raise InputError(
-                "a player needed {target} points; APA 9-ball has {targets}",
+                "a player needed {target} points, but APA 9-ball races are to {targets}",
                 target=target,
                 targets=", ".join(map(str, _LEAST_OF_9BALL)),
             )
@@ -218,8 +220,8 @@ def _stated_races(outcomes: Outcomes) -> Ints:
     unstated = (outcomes.race == 0).any(axis=1) & ~outcomes.forfeit
     if unstated.any():
         raise InputError(
-            "{n} of {n_all} matches state no race; points split as in the APA need the games (or "
-            "points) that both players had to win",
+            "{n} of {n_all} matches have no race. To split points as the APA does, add the "
+            "games (or points) that each player needed.",
             n=int(unstated.sum()),
             n_all=len(unstated),
         )

@@ -135,10 +135,10 @@ def team_matches(
     """
     check_results(results)
     if results.team_a is None or results.team_b is None:
-        raise InputError("{results} doesn't state teams. Add the columns team_a and team_b.")
+        raise InputError("{results} doesn't name any teams. Add the columns team_a and team_b.")
     stated = (results.team_a != "") & (results.team_b != "")
     if not stated.any():
-        raise InputError("{results} doesn't state teams. Add the columns team_a and team_b.")
+        raise InputError("{results} doesn't name any teams. Add the columns team_a and team_b.")
     sets = player_matches(results.select(stated))
     titles = np.stack([results.team_a, results.team_b], axis=1)[stated][sets.rows].astype(str)
     teams, both = np.unique(titles, return_inverse=True)

@@ -314,13 +314,13 @@ def in_order(results: Results) -> tuple[Results, dict[str, int]]:
     played, forfeits, empty = results.played()
     dates = played.date
     if dates is None:
-        raise InputError("the results have no dates. Add the column date.")
+        raise InputError("the results have no dates. Add a date column.")
     dated = ~np.isnat(dates)
     days = len(np.unique(dates[dated]))
     if days < 2:
         raise InputError(
-            "the results have games on {n_days} date{what}. Give two or more in the "
-            "column date, so that earlier dates can predict later ones.",
+            "the results have games on {n_days} date{what}. Give at least two in the date "
+            "column, so that earlier dates can predict later ones.",
             n_days=days,
             what="s" * (days != 1),
         )

@@ -197,7 +197,9 @@ def check_line_up(state: TeamEvening, team: int, picks: Sequence[Pick]) -> None:
     counts = _counts(squad, named)
     often = [name for name, many in zip(squad.names, counts, strict=True) if many > squad.times]
     if often:
-        raise InputError("{player} is named more often than they may play", player=often[0])
+        raise InputError(
+            "{player} is named more often than they are allowed to play", player=often[0]
+        )
     for cap in squad.caps:
         if cap.total(counts) > cap.most:
             raise InputError(

@@ -63,7 +63,9 @@ def scores_of(*, sets: int | None = None, race: int | None = None) -> Ints:
     ([[0, 2], [1, 1], [2, 0]], [[0, 2], [1, 2], [2, 1], [2, 0]])
     """
     if (sets is None) == (race is None):
-        raise InputError("give one of sets (all are played) and race (the first to win so many)")
+        raise InputError(
+            "give either sets (if all are played) or race (if the first to win that many wins)"
+        )
     if sets is not None:
         many = whole(sets, "sets", at_least=1)
         return np.array([(k, many - k) for k in range(many + 1)])
@@ -262,12 +264,14 @@ def season_chances(
     for many in places:
         if not 1 <= whole(many, "places") <= len(season.teams):
             raise InputError(
-                "{places} has {many} for {n_teams} teams", many=many, n_teams=len(season.teams)
+                "{places} must be from 1 to {n_teams}, the number of teams; you gave {many}",
+                many=many,
+                n_teams=len(season.teams),
             )
     for match in matches:
         if not 0 <= whole(match, "matches") < len(season.to_come):
             raise InputError(
-                "{matches} has {match}; {n_to_come} are still to be played",
+                "{matches} has {match}, but only {n_to_come} are still to be played",
                 match=match,
                 n_to_come=len(season.to_come),
             )

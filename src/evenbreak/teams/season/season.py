@@ -69,7 +69,7 @@ class TeamSeason:
         known = names(teams, "teams")
         if not 2 <= len(known) <= MOST_TEAMS:
             raise InputError(
-                "there are {n_known} teams; a table takes 2 to {most_teams}",
+                "a table must have 2 to {most_teams} teams; there are {n_known}",
                 n_known=len(known),
                 most_teams=MOST_TEAMS,
             )
@@ -88,7 +88,7 @@ class TeamSeason:
                 n_ends=len(ends),
             )
         if law.size and np.abs(law.sum(axis=2) - 1.0).max() > 1e-9:
-            raise InputError("the chances of the scores of a match must add up to 1")
+            raise InputError("the chances of a match's scores must add up to 1")
         start = np.zeros(len(known)) if head_start is None else head_start
         for name, value in {
             "teams": known,
