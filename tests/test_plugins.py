@@ -133,7 +133,7 @@ def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, forgotten: None) -> 
             "it's a class without initial and update. Write it",
         ),
         ("system", "nameless", "it can't be made without arguments (missing a required"),
-        ("system", "one-sided", "race of the system none is"),
+        ("system", "one-sided", "in the system none, the race is"),
         ("system", "text", "it isn't a System. Derive its class from System: class int(System)"),
         ("chart", "dip", "the race in row 3, 5:4, is easier for the stronger player than"),
         ("chart", "gap", "row 2 starts at 12, but row 1 ends at 9"),

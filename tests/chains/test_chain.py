@@ -39,7 +39,7 @@ def test_a_start_is_a_state_a_mapping_an_array_or_the_chains_own(chain):
         ),
         ({"x": 1.0}, "'x' isn't in the chain"),
         (np.array([1.0, 0.0]), "shape (3,)"),
-        (np.array([np.nan, 0.0, 1.0]), "start must be finite numbers; it holds nan for state 'a'"),
+        (np.array([np.nan, 0.0, 1.0]), "start must have finite numbers; one is nan for state 'a'"),
     ],
 )
 def test_what_is_no_start_is_refused(chain, start, words):
@@ -53,7 +53,7 @@ def test_a_number_for_each_state(chain):
         assert chain.vector(given, "rewards").tolist() == [0.0, -2.0, 0.0]
     assert chain.vector("c", "weights").tolist() == [0.0, 0.0, 1.0]
     with pytest.raises(
-        ChainError, match="rewards must be finite numbers; it holds inf for state 'b'"
+        ChainError, match="rewards must have finite numbers; one is inf for state 'b'"
     ):
         chain.vector({"b": np.inf}, "rewards")
 
@@ -97,8 +97,8 @@ def test_arcs_leave_out_loops_and_stored_zeros_and_sum_duplicates():
     [
         ([[0.5, 0.0], [0.1, 1.0]], r"arcs out of state 'a' sum to 0\.6"),
         ([[0.0, 0.0], [0.0, 1.0]], "arcs out of state 'a' sum to 0"),
-        ([[1.5, 0.0], [-0.5, 1.0]], "must be 0 to 1"),
-        ([[np.nan, 0.0], [1.0, 1.0]], "must be 0 to 1"),
+        ([[1.5, 0.0], [-0.5, 1.0]], "must be from 0 to 1"),
+        ([[np.nan, 0.0], [1.0, 1.0]], "must be from 0 to 1"),
         ([[1.0]], "shape"),
     ],
 )

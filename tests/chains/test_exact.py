@@ -83,7 +83,7 @@ def test_arcs_that_miss_1_are_refused_by_name():
 
 def test_a_start_that_misses_1_is_refused():
     chain = chain_of({"a": {"b": 1}, "b": {"a": 1}})
-    with pytest.raises(ChainError, match="start density"):
+    with pytest.raises(ChainError, match="start vector"):
         stochastic_limit(chain, {"a": 1 / 3, "b": 2 / 3}, exact=True)
 
 

@@ -76,7 +76,7 @@ def test_a_game_with_arrays_of_chances_is_refused() -> None:
         ([("A", "B", 1 - 2e-9)], "sum to 0.999999998"),
         (
             [("A", "B", 0.7), ("C", "B", 0.7)],
-            r"'A' sum to 0.7 \(and 1 more don't sum to 1 either\)",
+            r"'A' sum to 0.7 \(1 other state is off too\)",
         ),
         ([("A", "B", 0.6), ("A", "A", 0.6)], "sum to 1.2"),
         ([], "state"),
@@ -156,8 +156,8 @@ def test_a_state_of_only_itself() -> None:
         (("AA", [0], [1], [1.0]), "state is listed twice"),
         (("AB", [0], [2], [1.0]), "from 0 to 1; one doesn't"),
         (("AB", [-1], [1], [1.0]), "from 0 to 1; one doesn't"),
-        (("AB", [0], [1], [0.5, 0.5]), r"shapes \(1,\), \(1,\), \(2,\)"),
-        (("AB", [0.0], [1.0], [1.0]), "type float64"),
+        (("AB", [0], [1], [0.5, 0.5]), r"shapes \(1,\), \(1,\) and \(2,\)"),
+        (("AB", [0.0], [1.0], [1.0]), "type is float64"),
         (("AB", [[0]], [[1]], [[1.0]]), "shapes"),
         (([], [], [], []), "state"),
     ],
@@ -268,7 +268,7 @@ def test_weights_of_networkx_are_read_where_no_arc_has_a_probability() -> None:
 
 def test_weights_do_not_stand_in_for_some_probabilities() -> None:
     graph = nx.DiGraph([("A", "B", {"probability": 1.0, "weight": 3.0}), ("B", "A", {"weight": 1})])
-    with pytest.raises(ChainError, match="'B' -> 'A' carries 'weight' and has no probability"):
+    with pytest.raises(ChainError, match="'B' -> 'A' has 'weight' but no probability"):
         chain_of(graph)
 
 

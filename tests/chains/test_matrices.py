@@ -74,7 +74,7 @@ def test_the_labels_of_a_frame(index: str, columns: str, named: str) -> None:
         (np.array([0.5, 0.5]), "two-dimensional"),
         (np.array([["a", "b"], ["c", "d"]]), "two-dimensional"),
         (np.array([[np.nan, 1.0], [1.0, 0.0]]), "neither"),
-        (np.array([[1.5, -0.5], [0.5, 0.5]]), "must be 0 to 1"),
+        (np.array([[1.5, -0.5], [0.5, 0.5]]), "must be from 0 to 1"),
         (np.zeros((0, 0)), "at least one state"),
     ],
 )
@@ -108,7 +108,7 @@ def test_the_weight_of_a_graph() -> None:
     assert chain_of(graph, weight="chance").matrix[1, 0] == 0.25
     with pytest.raises(ChainError, match=r"but no probability\. Name the attribute"):
         chain_of(graph)
-    with pytest.raises(ChainError, match="'a' -> 'b' carries 'chance' and has no p"):
+    with pytest.raises(ChainError, match="'a' -> 'b' has 'chance' but no p"):
         chain_of(graph, weight="p")
 
 

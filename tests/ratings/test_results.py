@@ -137,7 +137,7 @@ WRONG = [
     ({"winner": 2}, "winner", "winner is b, but a won more games (7-5)"),
     ({"score": (3, 3), "winner": 1}, "winner", "3-3"),
     ({"score": (4, 5), "race": (7, 5), "winner": 1}, "winner", "but b reached the race"),
-    ({"racks": "ab"}, "racks", "racks 'ab' is 1-1, but the score is 7-5"),
+    ({"racks": "ab"}, "racks", "racks 'ab' adds up to 1-1, but the score is 7-5"),
     ({"racks": "a/b"}, "racks", "'a/b'"),
     (
         {"score": (2, 1), "race": (2, 2), "racks": "aab"},

@@ -228,7 +228,11 @@ def test_weights_that_overflow_are_refused() -> None:
     ("values", "probability", "message"),
     [
         ((), (), "values must not be empty"),
-        ((1, 1), (0.5, 0.5), r"values must increase\. Sort them, or use Distribution\.of"),
+        (
+            (1, 1),
+            (0.5, 0.5),
+            r"values must increase; they don't\. Sort them, or use Distribution\.of",
+        ),
         ((2, 1), (0.5, 0.5), "values must increase"),
         ((1, math.nan), (0.5, 0.5), r"values\[1\] must be a finite number; you gave nan"),
         ((1, 2), (1,), "probability has 1 entries for 2 values"),

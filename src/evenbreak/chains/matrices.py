@@ -160,7 +160,10 @@ def adding_up(matrix: csc_array, states: Sequence[Hashable]) -> csc_array:
     if not wrong.any():
         return matrix
     if (far := np.flatnonzero(~(missed <= SUM_TOLERANCE))).size:
-        more = f" (and {far.size - 1} more don't sum to 1 either)" if far.size > 1 else ""
+        others = far.size - 1
+        more = (
+            f" ({others} other state{'s are' if others > 1 else ' is'} off too)" if others else ""
+        )
         raise ChainError(
             f"the arcs out of state {states[far[0]]!r} sum to {total[far[0]]:.12g}{more}. Give "
             "probabilities that sum to 1 within 1e-9, including any self-loop."

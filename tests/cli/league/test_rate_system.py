@@ -266,7 +266,7 @@ def test_ratings_that_look_like_another_scale_than_the_systems_are_refused(rate,
     )
     refused = rate("raced.csv", "--system", "elo 16")
     assert (refused.exit_code, refused.stdout) == (2, "")
-    assert "92 don't look like Elo ratings, the scale of the system elo 16" in refused.stderr
+    assert "92 don't look like Elo ratings (the scale of the system elo 16)" in refused.stderr
     assert "by NPL ratings" in refused.stderr
     (tmp_path / "last.csv").write_text(ELO)
     assert rate("raced.csv", "--system", "elo 16").exit_code == 0

@@ -110,14 +110,14 @@ def test_no_whole_points_are_refused_with_the_remedy(difference):
         ([(0, 9, 3, 3), (9, None, 4, 3)], "row 2 starts at 9.* 10"),
         ([(0, 9, 3, 3), (10, 9, 4, 3), (10, None, 4, 2)], "difference_to in row 2 must"),
         ([(0, 9, 3, 3), (10, None, 3, 4)], "stronger_needs in row 2 must be 4 or more"),
-        ([(0, None, 3, 0)], "weaker_needs of row 1 must be .* 1 or more"),
+        ([(0, None, 3, 0)], "weaker_needs in row 1 must be .* 1 or more"),
         (
             [(0, 9.5, 3, 3), (10, None, 4, 3)],
             r"difference_to in row 1 must be a whole number, 0 or more; you gave 9\.5",
         ),
         (
             [("0", None, 3, 3)],
-            "difference_from of row 1 must be a whole number, 0 or more; you gave '0'",
+            "difference_from in row 1 must be a whole number, 0 or more; you gave '0'",
         ),
     ],
 )

@@ -173,7 +173,7 @@ def test_equal_ladders_are_equal_and_copies_too():
             {"opponents": "natural"},
             "opponents must be Opponents, such as NATURAL; you gave 'natural'",
         ),
-        ({"opponents": Opponents(Distribution((0, 900), (0.5, 0.5)))}, "goes to 900 points"),
+        ({"opponents": Opponents(Distribution((0, 900), (0.5, 0.5)))}, "goes up to 900 points"),
         (
             {"chart": "nobody"},
             (
@@ -238,5 +238,5 @@ def test_a_chart_that_is_even_everywhere_brings_nothing_back():
 
 def test_a_scale_of_less_than_a_point_is_refused():
     tiny = replace(system_of("npl"), scale=scale_of(0.01))
-    with pytest.raises(InputError, match=r"is 0\.01 on"):
+    with pytest.raises(InputError, match=r"it is 0\.01"):
         Ladder(tiny)

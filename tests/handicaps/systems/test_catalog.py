@@ -69,7 +69,7 @@ def test_what_names_no_system_is_told_with_what_does(written, message):
             "system is 'level-review window=many': window must be a number; you gave 'many'",
         ),
         ("level-review trim=10", "leaves none of the 20 scores"),
-        ("npl k=3", "Leave k= out"),
+        ("npl k=3", "Leave out k="),
         ("fargo-like 3", "Write it as fargo-like"),
         (
             "averages games=8",

@@ -134,5 +134,5 @@ def test_races_must_be_whole_games_for_each_pair(races):
         def race(self, *_):
             return races
 
-    with pytest.raises(InputError, match="race of the system own returned"):
+    with pytest.raises(InputError, match="in the system own, race returned"):
         checked_races(Wrong(), np.array([1.0]), np.array([2.0]))

@@ -148,5 +148,5 @@ def test_what_cannot_be_is_refused() -> None:
         TeamSeason(["A", "B"], [[1, 1, 3, 2]], [], [[1, 0]], np.zeros((0, 1)))
     with pytest.raises(InputError, match="add up to 1"):
         TeamSeason(["A", "B"], [], [[0, 1]], [[1, 0], [0, 1]], [[0.5, 0.6]])
-    with pytest.raises(InputError, match="places has 5"):
+    with pytest.raises(InputError, match="places must be from 1 to 4"):
         season_chances(season(), places=(5,))

@@ -133,7 +133,7 @@ def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
             file,
             system.scale,
             whose,
-            worded("give another {system}, or state the scale in a column scale"),
+            worded("Give another {system}, or state the scale in a column named scale."),
         )
 
 

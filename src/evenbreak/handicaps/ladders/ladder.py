@@ -224,9 +224,9 @@ class Ladder(ErrorWalk):
         held = _at_the_ends(law)
         if held > _MOST_HELD:
             raise AccuracyError(
-                "the rating error has a {held:.2g} chance of being at the ladder's ends, "
-                "{widest} points off: either the steps are too small to bring it back, or the "
-                "ladder is too narrow. Give {self}.",
+                "with probability {held:.2g}, the rating error is at the ladder's ends, {widest} "
+                "points off: either the steps don't keep up with what drives it there, or "
+                "the ladder is too narrow. Give {self}.",
                 widest=self.widest,
                 held=held,
                 self=_remedy(self),
