@@ -103,7 +103,7 @@ def test_only_liquids_that_are_listed() -> None:
     with pytest.raises(
         InputError,
         match=(
-            "liquid must be 'water', 'sugar solution', 'cesium chloride solution' or "
+            "liquid must be 'water', 'sugar solution', 'caesium chloride solution' or "
             "'mercury'; you gave 'milk'"
         ),
     ):

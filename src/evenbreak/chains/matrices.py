@@ -160,9 +160,11 @@ def adding_up(matrix: csc_array, states: Sequence[Hashable]) -> csc_array:
     if not wrong.any():
         return matrix
     if (far := np.flatnonzero(~(missed <= SUM_TOLERANCE))).size:
-        others = far.size - 1
+        besides = far.size - 1
         more = (
-            f" ({others} other state{'s are' if others > 1 else ' is'} off too)" if others else ""
+            f" ({besides} other state{'s are' if besides > 1 else ' is'} off too)"
+            if besides
+            else ""
         )
         raise ChainError(
             f"the arcs out of state {states[far[0]]!r} sum to {total[far[0]]:.12g}{more}. Give "

@@ -214,7 +214,7 @@ LIQUIDS: Mapping[str, float] = MappingProxyType(
     {
         "water": 997.0,
         "sugar solution": 1330.0,
-        "cesium chloride solution": 1890.0,
+        "caesium chloride solution": 1890.0,
         "mercury": 13_600.0,
     }
 )
@@ -256,6 +256,6 @@ def floats_in(balls: BallSet, liquid: str) -> bool:
         if it is not one of those liquids.
 
     >>> [name for name in LIQUIDS if floats_in(BALL_SETS["pool"], name)]
-    ['cesium chloride solution', 'mercury']
+    ['caesium chloride solution', 'mercury']
     """
     return density_range(balls)[1] < LIQUIDS[one_of(liquid, "liquid", tuple(LIQUIDS))]

@@ -83,7 +83,7 @@ def _second_moment(first: int, second: int) -> float:
 def _sinks_and_floats() -> float:
     sinks, floats = (
         all(LIQUIDS[name] < density_range(_POOL)[0] for name in ("water", "sugar solution")),
-        all(floats_in(_POOL, name) for name in ("cesium chloride solution", "mercury")),
+        all(floats_in(_POOL, name) for name in ("caesium chloride solution", "mercury")),
     )
     return float(sinks and floats)
 
