@@ -189,7 +189,7 @@ def test_a_name_that_two_packages_have_is_refused_with_both(
 ) -> None:
     other = "[evenbreak.systems]\nFINE = evenbreak.handicaps.systems.none:NoHandicap\n"
     monkeypatch.syspath_prepend(wrote(tmp_path / "other", "other-rules", other))
-    with pytest.raises(ValueError, match=r"other-rules 0.1 and broken-rules 0.1 both add"):
+    with pytest.raises(ValueError, match=r"both other-rules 0.1 and broken-rules 0.1 provide"):
         handicaps.system_of("fine")
 
 
@@ -214,7 +214,7 @@ def test_chances_for_a_game_that_takes_none_are_refused(tmp_path: Path) -> None:
     assert games.game_of_catalog("coin")[1] == games.OneBall(0.4, 0.8)
     done = run("graph", "coin", "--p", 0.7, "--out", tmp_path / "drawn")
     assert done.exit_code == 2
-    assert "'coin' of package broken-rules 0.1: it is made already and takes no chances" in (
+    assert "'coin' of package broken-rules 0.1: it's already complete and takes no chances" in (
         " ".join(done.stderr.split())
     )
 

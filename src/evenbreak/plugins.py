@@ -48,7 +48,7 @@ def plugin(kind: Kind, name: str, admit: Callable[[Any], Any], *arguments: Any) 
         return None
     if len(points) > 1:
         raise InputError(
-            "{kind} is {name!r}, which {packages} both add. Uninstall one of them.",
+            "{kind} is {name!r}, which both {packages} provide. Uninstall one of them.",
             kind=kind,
             name=name,
             packages=" and ".join(map(package_of, points[:2])),
@@ -78,7 +78,7 @@ def made(named: Any, *arguments: Any) -> Any:
     """
     if not callable(named):
         if arguments:
-            raise InputError("it is made already and takes no chances. Leave them out.")
+            raise InputError("it's already complete and takes no chances. Leave them out.")
         return named
     if lacking := sorted(getattr(named, "__abstractmethods__", ())):
         raise InputError("it's a class without {lacking}. Write it.", lacking=" and ".join(lacking))
@@ -86,7 +86,7 @@ def made(named: Any, *arguments: Any) -> Any:
         inspect.signature(named).bind(*arguments)
     except TypeError as error:
         raise InputError(
-            "it takes other chances ({error}). Give those."
+            "it takes different chances ({error}). Give those."
             if arguments
             else "it can't be made without arguments ({error}). Give each parameter a default.",
             error=str(error),

@@ -33,14 +33,14 @@ CHIPS = {
 def chips() -> None:
     """Find the odds of chip tournaments; audit and design chip charts.
 
-    In a chip tournament the loser of a rack pays a chip and goes to the end of the line, the winner
-    stays at the table, and anyone with no chips left is out. A chart gives weaker players more
-    chips at the start.
+    In a chip tournament, the loser of a rack gives up a chip and goes to the end of the line, the
+    winner stays at the table, and anyone with no chips left is out. A chart gives weaker players
+    more chips at the start.
     """
 
 
 PHYSICS = {
-    "speed": Entry("Find how fast a table is, from the time of a lag."),
+    "speed": Entry("Find how fast a table is from the time of a lag."),
     "throw": Entry("Find how far friction throws the object ball off its line."),
     "aim": Entry("Find where to aim to allow for throw."),
     "deflect": Entry("Find where the cue ball goes after the hit."),
@@ -76,7 +76,7 @@ def sandbag() -> None:
 
 
 LEAGUE = {
-    "init": Entry("Write league.toml from what is in a league's folder.", "league.init"),
+    "init": Entry("Write league.toml based on the files in a league's folder.", "league.init"),
     "tidy": Entry("Combine all result files into one clean list of matches.", "league.tidy:tidy"),
     "table": Entry("Show the table: who is ahead, and why.", "league.tables:table"),
     "fixtures": Entry(
@@ -87,4 +87,4 @@ LEAGUE = {
 
 @click.command("league", cls=LazyGroup, table=LEAGUE)
 def league() -> None:
-    """Run a league's office."""
+    """Run a league: settings, results, standings and fixtures."""

@@ -18,25 +18,25 @@ SECTIONS = {
         "odds": Entry("The odds and the length of one match."),
         "live": Entry("The odds of a match under way, game by game."),
         "fair": Entry("The fairest race for two players."),
-        "compare": Entry("Match formats side by side: which favors who."),
+        "compare": Entry("Match formats side by side: who each one favors."),
         "breaks": Entry("What each break format is worth, and fair stakes."),
         "straight": Entry("Straight pool: who wins, and which spot is fair."),
     },
     "Run a tournament": {
-        "tournament": Entry("Tonight's tournament: title odds, and when it ends.", "tournament"),
-        "chips": Entry("Chip tournaments: their odds, and fair chip charts.", "groups:chips"),
-        "serve": Entry("Tonight's tournament as a page: phones, screen, director.", "start:serve"),
+        "tournament": Entry("Tonight's tournament: title odds and finish time.", "tournament"),
+        "chips": Entry("Chip tournaments: odds, and fair chip charts.", "groups:chips"),
+        "serve": Entry("Tonight's tournament on a page for phones and a screen.", "start:serve"),
     },
     "Run teams": {
         "lineup": Entry("Who to put up now, and what each choice is worth.", "team.lineup"),
         "round": Entry(
             "A round of two teams: who wins, and the fair head start.", "team.league:round_"
         ),
-        "caps": Entry("What a cap and the order of putting up do to a league.", "team.league:caps"),
+        "caps": Entry("How a cap and the put-up order affect a league.", "team.league:caps"),
         "season": Entry("A team season: title, promotion, relegation.", "team.league:season"),
     },
     "Run a league": {
-        "report": Entry("The fair-race sheet of a league, from its results.", "league.report"),
+        "report": Entry("A league's fair-race sheet, from its results.", "league.report"),
         "publish": Entry("The league as a website: a folder of plain files.", "league.publish"),
         "rate": Entry("Ratings from results, and how certain each one is.", "league.ratings:rate"),
         "why": Entry("Why two players have the ratings and race they do.", "league.ratings:why"),
@@ -48,24 +48,24 @@ SECTIONS = {
         "league": Entry("A league's standings and fixtures, from its folder.", "groups:league"),
     },
     "Handicap systems": {
-        "systems": Entry("The handicap systems, and the chart of each."),
+        "systems": Entry("The handicap systems and their charts."),
         "chart": Entry("Handicap charts: list, show, audit or design one.", "groups:chart"),
         "ladder": Entry("How far off ratings get under a handicap system."),
-        "sandbag": Entry("What losing on purpose gains, and how to spot it.", "groups:sandbag"),
+        "sandbag": Entry("How much losing on purpose pays, and how to spot it.", "groups:sandbag"),
     },
     "Practice": {
         "practice": Entry("Practice scores: are you getting better?"),
         "drill": Entry("A progressive drill: your level, and what to work on."),
-        "runs": Entry("How long runs get, and the score of several innings."),
+        "runs": Entry("How long runs get, and the total of several innings."),
         "oneball": Entry("The one-ball game: who wins, and which shot to play."),
     },
     "The physics of the table": {
         "physics": Entry("Ball, cloth and cue: throw, aim, spin, speed.", "groups:physics")
     },
     "The engine": {
-        "graph": Entry("A game as graph, matrix, eigenvalues and limit, in files.", "match.graph"),
-        "chain": Entry("Any Markov chain: where it ends, from a file.", "match.graph:chain"),
-        "reproduce": Entry("Every table, figure and number of the source text.", "start:reproduce"),
+        "graph": Entry("A game's graph, matrix, eigenvalues and limit, as files.", "match.graph"),
+        "chain": Entry("Any Markov chain in a file: where it ends.", "match.graph:chain"),
+        "reproduce": Entry("Every table, figure and number in the source text.", "start:reproduce"),
     },
 }
 """The commands by who needs them, each with its module and its line of help."""
@@ -118,7 +118,7 @@ class Program(LazyGroup):
     cls=Program,
     table=COMMANDS,
     context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
-    epilog="evenbreak COMMAND --help shows the options of a command, with examples.",
+    epilog="evenbreak COMMAND --help shows a command's options, with examples.",
 )
 @click.version_option(__version__, prog_name="evenbreak", message="%(prog)s %(version)s")
 def program() -> None:

@@ -98,8 +98,8 @@ def watch(asked: SandbagWatch) -> Answer:
 
 
 _OF_TODAY = (
-    "the ratings of {file} are taken as those before the first match; if they are later ones, "
-    "evidence may be lost, so give the earlier list with {roster}"
+    "the ratings in {file} are treated as the ratings before the first match; if they are "
+    "later, evidence may be lost, so give the earlier list with {roster}"
 )
 
 

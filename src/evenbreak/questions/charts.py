@@ -35,7 +35,7 @@ Chart: TypeAlias = Annotated[str, Field(_CHART, "The chart.", argument=True)]
 
 @dataclass(frozen=True, kw_only=True)
 class ChartList(Question):
-    """List the charts, ours and those of installed packages.
+    """List the charts, including those in installed packages.
 
     Each chart is shown with its number of different races and the length of its longest match.
     """
@@ -43,10 +43,10 @@ class ChartList(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class Systems(Question):
-    """List the handicap systems, ours and those of installed packages.
+    """List the handicap systems, including those in installed packages.
 
-    Each system is shown with the chart that sets its races and the package it comes from; files
-    also have its rule.
+    Each system is shown with the chart that sets its races and the package it comes from; CSV and
+    JSON output also has its rule.
     """
 
 
@@ -81,19 +81,21 @@ class ChartAudit(Question):
 """
     chart: Chart
     scale: Annotated[
-        ScaleOf, Says(usual="best fit to the chart; npl for a chart by skill level", more="")
+        ScaleOf, Says(usual="the best fit to the chart; npl for a chart by skill level", more="")
     ] = None
     beside: Annotated[
         str | None,
         _BESIDE,
-        Says("Another chart to draw in the picture, in the first chart's points.", many=False),
+        Says("Another chart to add to the picture, in the first chart's points.", many=False),
     ] = None
     plot: Annotated[PlotFile, Says(section="", more="Not for a chart by skill level.")] = None
 
     def check(self) -> None:
         """Refuse a chart for a picture that is not drawn."""
         if self.beside is not None and self.plot is None:
-            self.refuse("{beside} adds a chart to the picture. Give {plot} FILE, or leave it out.")
+            self.refuse(
+                "{beside} adds a chart to the picture. Give {plot} FILE too, or leave {beside} out."
+            )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,7 +124,7 @@ class ChartDesign(Question):
         int | None,
         Field(
             Whole(1, _MOST),
-            "9 out of 10 matches must end within K games, at every difference.",
+            "9 out of 10 matches must end within K games, at every rating difference.",
             metavar="K",
         ),
     ] = None
@@ -156,7 +158,7 @@ class ChartDesign(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class ChartTeam(Question):
-    """Find the points that the weaker of two teams gets in a round, as CSI does.
+    """Find the points that the weaker of two teams gets in a round, the way CSI does.
 
     AVERAGE_1 and AVERAGE_2 are the average ratings of the two teams. By default, {won} and {lost}
     are the averages in 17-point scoring.

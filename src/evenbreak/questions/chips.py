@@ -63,7 +63,7 @@ class ChipField(Starters):
     """The players of a chip tournament, and its tables."""
 
     tables: Tables = 4
-    scale: Annotated[ScaleOf, Says(usual="what the ratings show; without a file, fargo")] = None
+    scale: Annotated[ScaleOf, Says(usual="inferred from the ratings; without a file, fargo")] = None
     seed: Annotated[Seed, Says("The seed of the simulation.")] = 0
 
 
@@ -92,8 +92,8 @@ class ChipOdds(ChipField):
         dict[str, int] | None,
         Field(
             Named(chips_left, "NAME=CHIPS,..."),
-            "Instead of {chips}: the last players, at one table, with the chips they have left, "
-            "in the order of the line; the first one holds the table.",
+            "Instead of {chips}: the players still in, at one table, with the chips they have "
+            "left, in the order of the line; the first one holds the table.",
             more="The second is the challenger. With up to four players the odds are exact.",
         ),
     ] = None
@@ -108,8 +108,8 @@ class ChipOdds(ChipField):
 class ChipAudit(ChipField):
     """Check who a chip chart favors: hoboken, pharaohs, or one in a file.
 
-    It checks a whole tournament, and the last two players if both have all their chips. The ratings
-    are treated as exact.
+    It checks a whole tournament, and a final between two players who still have all their chips.
+    The ratings are treated as exact.
     """
 
     examples = """\
@@ -132,8 +132,8 @@ class ChipDesign(ChipField):
     """Design a chip chart that makes a tournament as even as possible for its players.
 
     Without ENTRANTS.csv, the field is 16 players, spread over four doublings of the odds. If the
-    output goes to a file, the chart is CSV that chips audit and chips odds read. The ratings are
-    treated as exact.
+    output goes to a file, the chart is written as CSV, which chips audit and chips odds can read.
+    The ratings are treated as exact.
     """
 
     examples = """\

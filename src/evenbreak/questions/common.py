@@ -56,9 +56,9 @@ SPAN = TwoWhole(
 _SCALE = Field(
     SCALE,
     "The scale of the ratings: POINTS double the odds of winning a game.",
-    usual="what the ratings show",
-    more="Default: [the one the ratings show](../files.md#the-scale-of-a-list), or the "
-    "list's column `scale`.",
+    usual="inferred from the ratings",
+    more="Default: the list's `scale` column or, without one, [the scale that the ratings "
+    "suggest](../files.md#the-scale-of-a-list).",
 )
 ScaleOf: TypeAlias = Annotated[Scale | None, _SCALE]
 OnScale: TypeAlias = Annotated[Scale, _SCALE, Says(usual="", more="")]
@@ -105,7 +105,7 @@ HandicappedRace: TypeAlias = Annotated[
     ),
 ]
 ChartOfRaces: TypeAlias = Annotated[
-    ChartName, Says("Use the races in this chart of rating differences instead.")
+    ChartName, Says("Use the races in this chart of rating differences.")
 ]
 Sure: TypeAlias = Annotated[
     bool, Field(Flag(), "Treat the ratings as exact, even if they have standard errors.")
@@ -141,7 +141,7 @@ def has_levels(chart: str | None) -> bool:
 def refuse_workers(asked: Any) -> None:
     """Refuse two kinds of workers at once, and a cluster without an address."""
     if asked.dask is not None and asked.jobs > 1:
-        asked.refuse("{dask} and {jobs} can't be used together; the cluster has workers of its own")
+        asked.refuse("{dask} and {jobs} can't be used together; the cluster has its own workers")
     if asked.dask is not None and not asked.dask.strip():
         asked.refuse(
             "{dask} must not be empty. Give the scheduler's address, such as tcp://10.0.0.5:8786."
@@ -287,7 +287,7 @@ Title: TypeAlias = Annotated[
 ]
 PaperName: TypeAlias = Annotated[
     str | None,
-    Field(PAPER, "Paper size.", usual="letter where that is usual, else a4"),
+    Field(PAPER, "Paper size.", usual="letter where that is standard, otherwise a4"),
 ]
 
 

@@ -36,10 +36,10 @@ EveningFile: TypeAlias = Annotated[
     str | None,
     Field(
         File("FILE.db"),
-        "The file of the tournament under way.",
+        "The file with the tournament under way.",
         usual="tonight.db",
         section="File",
-        more="Also in the environment: `EVENBREAK_TOURNAMENT`.",
+        more="You can also set it in the environment, as `EVENBREAK_TOURNAMENT`.",
     ),
 ]
 Prizes: TypeAlias = Annotated[
@@ -47,7 +47,7 @@ Prizes: TypeAlias = Annotated[
     Field(
         Text("MONEY,..."),
         "The money for first place, second, ..., such as 500,300,150.",
-        more="Adds each player's average prize.",
+        more="Also show each player's average prize.",
     ),
 ]
 
@@ -57,7 +57,9 @@ class UnderWay(Question):
     """A question about the tournament under way."""
 
     file: EveningFile = None
-    event: Annotated[int, Field(Whole(1, 99), "Number of the event tonight.", section="File")] = 1
+    event: Annotated[
+        int, Field(Whole(1, 99), "Which of tonight's events, by number.", section="File")
+    ] = 1
 
     @property
     def path(self) -> str:
@@ -98,15 +100,15 @@ class Show(TimedUnderWay, OnPaper):
         str | None,
         Field(
             File(),
-            "Also draw the bracket to FILE: .html for phones and screens, .pdf for paper, .svg or "
-            ".png as a picture.",
+            "Also draw the bracket in FILE: .html for phones and screens, .pdf for paper, .svg "
+            "or .png for a picture.",
         ),
     ] = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class Programs(TimedUnderWay):
-    """Create a token for another program, such as a scoreboard; without NAME, list who has one.
+    """Create a token for another program, such as a scoreboard; without NAME, list all tokens.
 
     The token is shown only once. The program uses it to enter what happens, at the addresses that
     evenbreak serve has under /api/v1/tonight; the program's name is shown in the history.
@@ -123,34 +125,34 @@ class Programs(TimedUnderWay):
         Field(
             Text("scores|table:T|director"),
             "What the program may enter: scores, results and calls; one table's score and "
-            "result; or anything a director can.",
+            "result; or anything a director can enter.",
         ),
     ] = "scores"
-    revoke: Annotated[bool, Field(Flag(), "Revoke the token of NAME at once.")] = False
+    revoke: Annotated[bool, Field(Flag(), "Revoke NAME's token at once.")] = False
 
     def check(self) -> None:
         """Refuse to revoke the token of nobody."""
         if self.revoke and self.name is None:
-            self.refuse(
-                "{revoke} needs the name of a program, as evenbreak tournament token lists it"
-            )
+            self.refuse("{revoke} needs a program's name, as listed by evenbreak tournament token")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Next(TimedUnderWay):
-    """Show what is on the tables and which match to call next, so that it ends soonest.
+    """Show what is on the tables, and which match to call next so that the night ends soonest.
 
-    Each match that can be played is listed with what it decides: the title odds that its result
-    moves from some players to others. The list also shows how much later the tournament would end
-    if that match were called first. In a chip tournament the command shows who is at each table and
-    who is next in line.
+    Each match that can be played is listed with what it decides: how much of the title odds its
+    result moves from some players to others. The list also shows how much later the tournament
+    would end if that match were called first. In a chip tournament, the command shows who is at
+    each table and who is next in line.
     """
 
     examples = """\
   evenbreak tournament next
   evenbreak tournament next --prizes 500,300,150
 """
-    prizes: Annotated[Prizes, Says(more="Adds how much prize money each match decides.")] = None
+    prizes: Annotated[Prizes, Says(more="Also show how much prize money each match decides.")] = (
+        None
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -178,7 +180,10 @@ class Export(UnderWay):
     ] = None
     events: Annotated[
         bool,
-        Field(Flag(), "List everything that happened, as evenbreak tournament import reads it."),
+        Field(
+            Flag(),
+            "List everything that happened, in a form that evenbreak tournament import can read.",
+        ),
     ] = False
     story: Annotated[
         bool,
@@ -199,10 +204,10 @@ class Export(UnderWay):
 class Print(UnderWay, OnPaper):
     """Write score cards, the bracket or the draw as a PDF to print.
 
-    One card is made for each unfinished match whose players are known, with boxes to tick, where
-    the winner and loser go next, and room to sign. The bracket is printed on one sheet if it is
-    readable at that size, otherwise on larger paper. The draw lists everyone by name, with their
-    first match.
+    There is one card for each unfinished match whose players are known. It has boxes to check and
+    room to sign, and tells where the winner and loser go next. The bracket is printed on one sheet
+    if it is readable at that size, otherwise on larger paper. The draw lists everyone by name, with
+    their first match.
     """
 
     examples = """\
@@ -214,7 +219,7 @@ class Print(UnderWay, OnPaper):
         Literal["cards", "bracket", "draw"],
         Field(Choice(("cards", "bracket", "draw")), argument=True),
     ]
-    match: Annotated[str | None, Field(Text("MATCH"), "Print only the card of this match.")] = None
+    match: Annotated[str | None, Field(Text("MATCH"), "Print only this match's card.")] = None
     per_page: Annotated[int, Field(Choice({"1": 1, "4": 4}), "Cards per page.")] = 4
     out: Annotated[
         str | None, Field(File("FILE.pdf"), "The file.", usual="cards.pdf, bracket.pdf or draw.pdf")
@@ -279,7 +284,8 @@ class PayOut(TimedUnderWay):
         float,
         Field(
             MONEY,
-            "Round prizes down to multiples of this, such as 5; first place gets the remainder.",
+            "Round prizes down to multiples of this amount, such as 5; first place gets the "
+            "remainder.",
         ),
     ] = 0.0
     keep: Annotated[
@@ -307,8 +313,8 @@ class PayOut(TimedUnderWay):
         """Refuse what is for the other kind of money."""
         if self.calcutta and (self.fee or self.added or self.keep):
             self.refuse(
-                "{fee}, {added} and {keep} are for the prizes; the pot of a Calcutta is its bids. "
-                "Leave them out."
+                "{fee}, {added} and {keep} are for the prizes; a Calcutta's pot is made up of "
+                "its bids. Leave them out."
             )
         if self.sold and not self.calcutta:
             self.refuse("{sold} needs {calcutta}. Add it.")
@@ -316,10 +322,10 @@ class PayOut(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class Import(Question):
-    """Import a tournament from a file that CueScore, Challonge or brackets-manager has saved.
+    """Import a tournament from a file saved by CueScore, Challonge or brackets-manager.
 
     The bracket, the results and the times come from FILE; continue with the other commands. FILE
-    may also be the CSV of evenbreak tournament export --events. Players without a rating are
+    can also be the CSV from evenbreak tournament export --events. Players without a rating are
     treated as average.
     """
 
@@ -335,7 +341,7 @@ class Import(Question):
     ] = None
     tables: Annotated[Tables | None, Says(usual="as saved")] = None
     discipline: Annotated[Discipline | None, Says(usual="as saved, else 9-ball")] = None
-    out: Annotated[str, Field(File("FILE.db"), "The tournament's file; must not exist yet.")] = (
+    out: Annotated[str, Field(File("FILE.db"), "The tournament's file; it must not exist yet.")] = (
         "tonight.db"
     )
     at: At = None

@@ -78,7 +78,7 @@ class Breaks(Question):
         str,
         Field(
             Choice(("a", "b")),
-            "Who breaks the first rack; it matters only if the break never passes on.",
+            "Who breaks the first rack; this matters only if the break never changes hands.",
         ),
     ] = "a"
     via: ByWay = None
@@ -95,10 +95,9 @@ class Breaks(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class Straight(Question):
-    """Give the odds of a match of 14.1 straight pool, and the spot that makes it even.
+    """Give the odds of a straight pool match (14.1), and the spot that makes it even.
 
-    Describe the players by their balls per inning, {averages} A:B, or by {p1} and
-    {p2}.
+    Describe the players by their balls per inning ({averages} A:B), or by {p1} and {p2}.
     """
 
     examples = """\
@@ -164,8 +163,9 @@ class OneBall(Question):
         str | None,
         Field(
             Choice(LOOK_AHEADS),
-            "Rank by the first two shots, repeated until one is made; or by the first two "
-            "shots, or all of them, assuming that the game is even after that.",
+            "How to rank shots: by the first two, repeated until one is made (infinite); or by "
+            "the first two (two) or all of them (all), assuming that the game is even after "
+            "that.",
             usual="all if there is a P3, otherwise infinite",
         ),
     ] = None
@@ -210,7 +210,7 @@ class ChainFile(Question):
         str | None,
         Field(
             File("STATES.csv"),
-            "The names of a matrix's states, in its order.",
+            "The names of a matrix's states, in matrix order.",
             usual="1, 2, ...",
         ),
     ] = None
@@ -227,7 +227,7 @@ class ChainFile(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class Chain(ChainFile):
-    """Find where any Markov chain ends, or its long-run average, from a file.
+    """Find where a Markov chain in a file ends, or its long-run average.
 
     FILE is a CSV file of arcs with the columns source, target and probability (- reads one from
     standard input), a graph in GraphML (.graphml) or node-link JSON (.json), or a transition matrix
@@ -254,15 +254,15 @@ class Chain(ChainFile):
 
 @dataclass(frozen=True, kw_only=True)
 class Graph(ChainFile):
-    """Write a game, or your own graph, as graph, matrix, eigenvalues and limit.
+    """Write the graph, matrix, eigenvalues and limit of a game, or of your own graph, to files.
 
     GAME is one-ball; series, with winner, loser or alternate breaks; drill 9-ball or drill 8-ball;
     a match, such as 9:5, "7:7 win by 2", race to 7 or n-ahead 3; another game in the catalog; or a
     chart, such as npl_10, for the ladder of rating errors it leads to. Without {p}, or {p1} and
     {p2}, a game in the catalog uses example chances; any other match needs them. FILE is any chain
     that evenbreak chain reads: a CSV file of arcs, GraphML (.graphml), node-link JSON (.json) or a
-    matrix in Matrix Market form (.mtx). All of these formats are written, and can be read
-    again; tables of the rest and a picture are added.
+    matrix in Matrix Market form (.mtx). The command writes all of these formats, which can be read
+    again, as well as tables and a picture.
     """
 
     examples = """\

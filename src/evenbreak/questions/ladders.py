@@ -170,10 +170,12 @@ class LadderErrors(BySystem):
             if self.compare and name not in _COMPARED:
                 self.refuse("{compare} goes through several systems. Leave {" + name + "} out")
         if self.chart == self.league == "-":
-            self.refuse("- means standard input, which only one file can be. Name the other.")
+            self.refuse(
+                "- means standard input, which can stand for only one file. Name the other."
+            )
         if self.system is not None and self.step is not None:
             self.refuse(
-                "{step} {k} is a system by itself. Leave out {system} or {step}.", k=self.step
+                "{step} {k} is a system of its own. Leave out {system} or {step}.", k=self.step
             )
         if self.matches_a_night is not None and not self.day_sd:
             self.refuse(
@@ -232,7 +234,7 @@ class SandbagPay(BySystem):
         int,
         Field(
             Whole(1, 50),
-            "The number of wins in a row that wins a tournament.",
+            "How many wins in a row it takes to win a tournament.",
             metavar="K",
             more="Players keep the ratings they enter it with.",
         ),
@@ -265,8 +267,8 @@ class SandbagWatch(BySystem, Reading):
 
     RESULTS.csv is a file like the ones `report` reads; - reads standard input. The ratings of
     ROSTER.csv are updated night by night. The evidence against a player grows with each result that
-    is likelier from a sandbagger than from an honest player; when it reaches 1 / alpha, the player
-    is flagged. This is evidence, not a verdict.
+    is more likely from a sandbagger than from an honest player; when it reaches 1 / alpha, the
+    player is flagged. This is evidence, not a verdict.
     """
 
     examples = """\
@@ -279,7 +281,7 @@ class SandbagWatch(BySystem, Reading):
         str,
         ROSTER,
         Says(
-            "The ratings before the first match of the results.", more="Every player must have one."
+            "The ratings before the first match in the results.", more="Every player must have one."
         ),
     ]
     chart: Annotated[
@@ -287,16 +289,15 @@ class SandbagWatch(BySystem, Reading):
         Says(
             "The chart that sets the races if the results don't state them.",
             usual="",
-            more="Without it, such a match is read as an even race to the winner's games, with "
-            "a warning, as in `validate`.",
+            more="Without it, a match whose race isn't stated is read as an even race to the "
+            "winner's number of games, with a warning, as in `validate`.",
         ),
     ] = None
     scale: Annotated[
         ScaleOf,
         Says(
-            usual="the list's own, otherwise the one the ratings show",
-            more="If the results contradict that scale, the command refuses and shows both "
-            "readings.",
+            usual="the list's own, otherwise inferred from the ratings",
+            more="If the results contradict that scale, the command stops and shows both readings.",
         ),
     ] = None
     alpha: Annotated[
@@ -312,11 +313,11 @@ class SandbagWatch(BySystem, Reading):
             Choice(("any", "established")),
             "Who counts as honest: players of any skill, or players whose ratings are as accurate "
             "as ratings are in the long run.",
-            more="`any`: players of any skill within 180 points of their ratings (on a scale where "
-            "30 double the odds), including those who steadily improve or decline. "
-            "`established` detects sandbaggers sooner, but flags honest players whose ratings are "
-            "far off. A warning says if a tenth or more of the players start without a rating of "
-            "their own.",
+            more="`any`: players of any skill within 180 points of their ratings (on a scale "
+            "where 30 double the odds), including those who steadily improve or decline. "
+            "`established` detects sandbaggers sooner, but flags honest players whose "
+            "ratings are far off. A warning tells you if a tenth or more of the players "
+            "start without a rating of their own.",
         ),
     ] = "any"
     day_sd: Annotated[
@@ -324,8 +325,8 @@ class SandbagWatch(BySystem, Reading):
         DAY_SD,
         Says(
             "Variation of honest players' form from day to day (standard deviation).",
-            more="If their form really varies a lot, honest players are flagged too often with "
-            "0; a warning then says so and gives the value that fits the results.",
+            more="With 0, honest players are flagged too often if their form really varies a "
+            "lot; a warning then gives the value that fits the results.",
         ),
     ] = 0.0
     dumps_in: Annotated[
@@ -333,7 +334,7 @@ class SandbagWatch(BySystem, Reading):
         Field(
             Text("EVENT"),
             "An event that counts for little; only matches in it may be dumped.",
-            usual="each event in the file is tried",
+            usual="every event in the file is tried",
             many=True,
             more="If there are more than 20, only the 20 with the most matches are tried.",
         ),
@@ -343,7 +344,7 @@ class SandbagWatch(BySystem, Reading):
         Field(
             Text("NAME"),
             "Show what each of one player's matches adds to the evidence.",
-            more="Case and blanks in the name do not matter.",
+            more="Case and spacing in the name don't matter.",
         ),
     ] = None
     plot: Annotated[PlotFile, Says(section="", more="Draw the evidence match by match.")] = None

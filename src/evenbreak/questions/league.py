@@ -58,10 +58,10 @@ class Matchups(Lengths, Starters, Pace):
     """Find the race for each pair of players tonight, and how often each player wins it.
 
     ROSTER.csv has a row for each player, with the columns player and rating and, if you have them,
-    standard_error and games; - reads standard input. {chart} looks the races up, {games} or
-    {race_to} finds the fairest ones; with both, they are shown side by side. {players_file} says
-    who has entered, if not everyone has; players missing from ROSTER.csv are new. If standard
-    errors are given, the chances are averaged over how far off the ratings may be.
+    standard_error and games; - reads standard input. {chart} looks up the races, and {games} or
+    {race_to} finds the fairest ones; if you give both, you see them side by side. If not everyone
+    has entered, {players_file} says who has; players missing from ROSTER.csv are new. If there are
+    standard errors, the chances are averaged over the rating errors.
     """
 
     examples = """\
@@ -89,7 +89,7 @@ class Matchups(Lengths, Starters, Pace):
     scale: Annotated[
         ScaleOf,
         Says(
-            usual="the file's own, otherwise the chart's, otherwise the one the ratings show",
+            usual="the file's own, otherwise the chart's, otherwise inferred from the ratings",
             more="See [the scale of a list](../files.md#the-scale-of-a-list).",
         ),
     ] = None
@@ -120,7 +120,9 @@ class Matchups(Lengths, Starters, Pace):
                 "9-ball, or {minutes_per_game}, such as 8."
             )
         if self.turnover is not None and self.tables is None:
-            self.refuse("{turnover} is the time between two matches on a table. Add {tables} N.")
+            self.refuse(
+                "{turnover} is the time between two matches on a table. Add {tables} N too."
+            )
         if [self.roster, self.pairs, self.chart].count("-") > 1:
             self.refuse("only one list can come from standard input. Name a file for the other.")
 
@@ -132,7 +134,7 @@ class Simulate(BySystem):
     ROSTER.csv has one player per row, with the columns player and rating (or level) and,
     optionally, standard_error, matches, skill, day_sd, drift, joins, leaves, absence and team; -
     reads standard input. For a player without a skill, one is drawn for each season from the rating
-    and standard error. {players_file} says who plays, if not everyone does; players missing from
+    and standard error. If not everyone plays, {players_file} says who does; players missing from
     ROSTER.csv are new. {compare} puts handicap systems side by side, with the same players, nights
     and luck under each system. matches.csv is one full season, which `rate` and `validate` can
     read.
@@ -153,7 +155,7 @@ class Simulate(BySystem):
         tuple[tuple[System, ...], ...],
         Field(
             Named(_systems, "SYSTEM", offers="systems", spelled=_spelled),
-            "Compare handicap systems, as {system} names them; the first is the league's own.",
+            "Compare handicap systems, named as for {system}; the first one is the league's own.",
             many=True,
             more='Or give several at once, separated by commas: `--compare "npl, step 2"`. If '
             "{system} is given, it comes first. See [compare two "
@@ -178,7 +180,7 @@ class Simulate(BySystem):
         Field(
             Whole(1, MOST_WEEKS),
             "Number of weeks.",
-            usual=f"those of the schedule, or {WEEKS}",
+            usual=f"the number in the schedule, or {WEEKS}",
             metavar="W",
         ),
     ] = None
@@ -205,7 +207,7 @@ class Simulate(BySystem):
         int | None,
         Field(
             Whole(1, MOST_MATCHES),
-            "Matches per player and week, without a schedule.",
+            "Matches per player per week, if there is no schedule.",
             usual="1",
             section=_WHO,
         ),
@@ -282,7 +284,7 @@ class Simulate(BySystem):
             Flag(),
             "Don't write matches.csv and truth.csv.",
             section=_WORK,
-            more="For a large league, writing them takes long.",
+            more="For a large league, writing them takes a long time.",
         ),
     ] = False
     seed: Annotated[Seed, Says("The same seed gives the same files.", section=_WORK)] = 1

@@ -112,10 +112,12 @@ class Players(Question):
         if ways > 1:
             self.refuse(f"the players are given twice. Use only one way: {remedy}")
         if self.from_file is not None and not self.ratings:
-            self.refuse("{from_file} is for two players by name, but none are named. Leave it out.")
+            self.refuse(
+                "{from_file} looks two players up by name, but you named none. Leave it out."
+            )
         self._check_chart()
         if self.scale is not None and not self.ratings:
-            self.refuse("{scale} is for ratings, but none are given. Leave it out.")
+            self.refuse("{scale} is for ratings, but you gave none. Leave it out.")
         if by_break and None in (self.p1, self.p2, self.breaks):
             self.refuse("give {p1}, {p2} and {breaks} together, or none of them")
         if not by_break and (self.breaks is not None or self.first_break is not None):
@@ -124,7 +126,8 @@ class Players(Question):
             )
         if self.from_file is not None and len(self.ratings) != 2:
             self.refuse(
-                "{from_file} needs two players, and {n} are named; quote a name with blanks",
+                "{from_file} needs two players, but you named {n}. Put a name that has spaces "
+                "in quotes.",
                 n=len(self.ratings),
             )
         if len(self.ratings) == 1:
@@ -146,14 +149,14 @@ class Players(Question):
         if self.chart is None:
             return
         if not self.ratings:
-            self.refuse("{chart} is for ratings or skill levels, and there are none. Leave it out.")
+            self.refuse("{chart} is for ratings or skill levels, but you gave none. Leave it out.")
         from evenbreak.files.charts import find_chart
         from evenbreak.handicaps.charts.chart import Chart
         from evenbreak.handicaps.charts.level_chart import PointsChart
 
         found = find_chart(self.chart)
         if isinstance(found, Chart | PointsChart) and not isinstance(self, Played):
-            self.refuse("{chart} must be one of games by skill level here. Leave it out.")
+            self.refuse("{chart} must be a chart of races by skill level here. Leave it out.")
         if isinstance(found, PointsChart):
             self._refuse_with_points(found.name)
         if not isinstance(found, Chart) and self.from_file is None:
@@ -164,7 +167,7 @@ class Players(Question):
         for part in (*("race", "ahead", "set_", "win_by", "scale", "form"), *_MORE):
             if part in self.given:
                 self.refuse(
-                    "{part} isn't for a chart of points such as {name}. Leave it out.",
+                    "{part} isn't for a points chart such as {name}. Leave it out.",
                     part=Parameter(part),
                     name=name,
                 )
@@ -218,7 +221,7 @@ class Played(Question):
     ] = None
     set_: Annotated[
         tuple[int, int] | None,
-        Field(RACE, "Play sets, each of them a race M:N; {race} then counts sets.", option="set"),
+        Field(RACE, "Play sets, each one a race of M:N; {race} then counts sets.", option="set"),
     ] = None
     score: Annotated[
         tuple[int, int] | None,
@@ -251,11 +254,11 @@ class Played(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class Odds(Players, Played):
-    """Give the odds of a match, and how long it lasts.
+    """Give the odds of a match, and its likely length.
 
     Describe the players by two ratings A B, by two skill levels with {chart}, by two names with
-    {from_file}, by {p}, or by {p1}, {p2} and {breaks}; describe the match by {race} or {ahead},
-    perhaps in sets, or by the {chart}.
+    {from_file}, by {p}, or by {p1}, {p2} and {breaks}. Describe the match by {race} or {ahead},
+    with {set_} if it is played in sets; or let the {chart} set the race.
     """
 
     examples = """\
@@ -282,13 +285,13 @@ class Odds(Players, Played):
                 "{exact} needs the chances themselves. Give {p}, or {p1} and {p2}, not ratings."
             )
         if self.exact and self.via is not None:
-            self.refuse("{exact} has a way of its own. Leave {via} out.")
+            self.refuse("{exact} uses its own method. Leave {via} out.")
         if self.exact and self.form:
-            self.refuse("{exact} has no fractions with {form}. Leave one out.")
+            self.refuse("{exact} can't give fractions with {form}. Leave one out.")
         if self.form and self.breaks is not None and any(self.score or ()):
             self.refuse(
-                "the games played show the day-to-day form, but not without who broke "
-                "them. Leave {score} out, or {form}."
+                "the games already played show day-to-day form, but only if it's known who "
+                "broke them. Leave out {score} or {form}."
             )
 
 
@@ -301,7 +304,7 @@ MOST_GRAPHS, MOST_GAMES = 20, 99
 
 @dataclass(frozen=True, kw_only=True)
 class Fair(Players, Lengths):
-    """Find the fairest races for two players, the fairest first.
+    """Find the fairest races for two players, with the fairest listed first.
 
     Describe the players by two ratings A B, by two names with {from_file}, by {p}, or by {p1}, {p2}
     and {breaks}; limit the length by {games} or {race_to}.
@@ -358,8 +361,8 @@ def winners(text: str) -> list[int]:
 class Live(Players, Played):
     """Follow a match under way: the odds now, what the next game is worth, and the turning point.
 
-    Describe the players and the match as for `odds`. Give the score by {racks}, by {score}, or by
-    both; {racks} then starts from that score.
+    Describe the players and the match as for `odds`. Give the score with {racks}, with {score}, or
+    with both; if both, {racks} starts from that score.
     """
 
     examples = """\
@@ -369,7 +372,7 @@ class Live(Players, Played):
 """
     set_score: Annotated[
         tuple[int, int] | None,
-        Field(SCORE, "The score of the set under way, before the games of {racks}."),
+        Field(SCORE, "The score of the set under way, before the games in {racks}."),
     ] = None
     racks: Annotated[
         list[int] | tuple[int, ...],
@@ -396,7 +399,7 @@ MOST_FORMATS = 7
 
 @dataclass(frozen=True, kw_only=True)
 class Compare(Players):
-    """Compare match formats for two players: which favors who.
+    """Compare match formats for two players: who each one favors.
 
     A FORMAT is 9:5 (A needs 9 games, B needs 5), "7:7 win by 2", "ahead 5:3" or "3:1 of 3:3"
     (sets), and may end in a break format, such as "winner breaks". Describe the players by two
@@ -456,7 +459,7 @@ class Compare(Players):
             self.refuse('missing formats: give some, such as 9:5 "3:1 of 3:3" "ahead 5:3"')
         if len(self.formats) > MOST_FORMATS:
             self.refuse(
-                "{n} formats are given; compare {most} at most",
+                "compare at most {most} formats; you gave {n}",
                 n=len(self.formats),
                 most=MOST_FORMATS,
             )

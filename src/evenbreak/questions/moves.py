@@ -52,15 +52,15 @@ Match: TypeAlias = Annotated[
     str,
     Field(
         Named(metavar="MATCH", number=True),
-        "The match, by its number, such as 12; in a chip tournament the table's number.",
+        "The match, by its number, such as 12; in a chip tournament, the table's number.",
         argument=True,
     ),
 ]
 Player: TypeAlias = Annotated[
     str,
-    Field(PLAYER, "A player of the tournament; the beginning of a name will do.", argument=True),
+    Field(PLAYER, "A player in the tournament; the start of the name is enough.", argument=True),
 ]
-NewName: TypeAlias = Annotated[str, Field(Text("NAME"), "The player's whole name.", argument=True)]
+NewName: TypeAlias = Annotated[str, Field(Text("NAME"), "The player's full name.", argument=True)]
 YES = Choice({"yes": True, "no": False})
 Result: TypeAlias = Annotated[
     tuple[int, int] | str,
@@ -97,13 +97,13 @@ class Entry(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class MakeDraw(Entry):
-    """Make the draw in the way that {seeding} of evenbreak tournament new set.
+    """Make the draw, using the {seeding} chosen in evenbreak tournament new.
 
     Later, the command draws the next stage: the next Swiss round once a round is over or, with
-    {placement} redraw, the knockout places of the losers' side's qualifiers.
+    {placement} redraw, the knockout places of the qualifiers from the losers' side.
     """
 
-    seed: Annotated[Lots | None, Says("The seed of a blind draw.")] = None
+    seed: Annotated[Lots | None, Says("The seed for a blind draw.")] = None
     here: Annotated[
         bool, Field(Flag(), "Draw only players who have checked in; others can enter late.")
     ] = False
@@ -111,11 +111,12 @@ class MakeDraw(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Call(TimedUnderWay):
-    """Call a match to a table, or move it; without MATCH, call the next to all free tables.
+    """Call a match to a table, or move it; without MATCH, call the next matches to all free tables.
 
-    In a chip tournament players go to the tables without being called, in the order of the line.
+    In a chip tournament, players go to the tables without being called, in the order of the line.
 
-    The times of calls and results show how fast this evening is going, and so when it will end.
+    The times at which matches are called and end show how fast this evening is going, and so when
+    it will be over.
     """
 
     match: Annotated[Match | None, Says(metavar="[MATCH]")] = None
@@ -153,7 +154,8 @@ class Ended(TimedUnderWay):
         Literal["time", "conceded"] | None,
         Field(
             Choice(("time", "conceded")),
-            "Why it wasn't finished; with SCORE, and {winner} if the score doesn't show it.",
+            "Why the match wasn't finished; needs SCORE, and {winner} if the score doesn't show "
+            "who won.",
         ),
     ] = None
 
@@ -169,12 +171,12 @@ class Ended(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class EnterResult(Ended):
-    """Enter a match result: games the first player won, a hyphen, and games the second won.
+    """Enter a match result: the first player's games, a hyphen, and the second player's games.
 
     In a chip tournament, give the table number and the winner's name; a first name is enough if no
     other player has it.
 
-    If a forfeit was meant, use evenbreak tournament forfeit.
+    For a forfeit, use evenbreak tournament forfeit.
     """
 
     examples = """\
@@ -204,7 +206,7 @@ class Correct(Ended, Entry):
     """Correct the result of a match, at any time.
 
     If this changes who moves on, later matches that the wrong players have played are open again,
-    and matches they are playing leave their tables. The correction is then refused without {yes} or
+    and matches they are playing leave their tables. In that case, the correction needs {yes} or
     {follow}. Results and scores are kept, and count again if the correction is undone or corrected.
 
     In a chip tournament, name the winner and the rack; for a table's last rack, name the table
@@ -279,7 +281,7 @@ class Undo(Entry):
     """Undo the director's last entry; run it again to undo the one before.
 
     Scores that players tap on their phones stay. An older entry, or one that both players made, is
-    taken back only if {entry} names it and nothing depends on it.
+    undone only if {entry} names it and nothing depends on it.
     """
 
     entry: Annotated[
@@ -296,7 +298,7 @@ class Undo(Entry):
 class LetIn(TimedUnderWay):
     """Enter PLAYER: before the draw, or later in place of an open bye.
 
-    In a chip tournament they get the chart's number of chips and go to the end of the line.
+    In a chip tournament, they get the number of chips in the chart and go to the end of the line.
     """
 
     player: Annotated[NewName, Says(metavar="PLAYER")]
@@ -316,8 +318,8 @@ class Edit(TimedUnderWay):
 class Drop(Entry):
     """Withdraw PLAYER: they forfeit all their remaining matches.
 
-    In a Swiss they are not paired in later rounds. In a chip tournament they are out, and the next
-    in the line takes their place at the table.
+    In a Swiss tournament, they aren't paired in later rounds. In a chip tournament, they are out,
+    and the next player in line takes their place at the table.
     """
 
     player: Player
@@ -325,9 +327,9 @@ class Drop(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Forfeit(Entry):
-    """Forfeit PLAYER's next match; they play on if the format lets them.
+    """Forfeit PLAYER's next match; they stay in the tournament if the format lets them.
 
-    MATCH is needed only if they have several to play, as in a round robin.
+    MATCH is needed only if they have several matches to play, as in a round robin.
     """
 
     player: Player
@@ -365,17 +367,17 @@ class SwapTables(TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class Wait(TimedUnderWay):
-    """Put a match on hold, off its table; without an option, take it off hold."""
+    """Take a match off its table and put it on hold; without an option, take it off hold."""
 
     examples = """\
   evenbreak tournament wait 12 --absent ann --until 20:15
 """
     match: Match
     absent: Annotated[
-        tuple[str, ...], Field(PLAYER, "Which of its players isn't here.", many=True)
+        tuple[str, ...], Field(PLAYER, "Which of the match's players isn't here.", many=True)
     ] = ()
     until: Annotated[
-        int | None, Field(TIME_OF_DAY, "When they forfeit it.", usual="not at all")
+        int | None, Field(TIME_OF_DAY, "When they forfeit the match.", usual="never")
     ] = None
     reason: Annotated[str, Field(Text("TEXT"), "Another reason.")] = ""
 

@@ -101,7 +101,7 @@ class BallFriction(Question):
         Field(
             Choice(("limited", "shepard")),
             "limited: throw stops growing when the balls no longer slip; shepard: the source "
-            "text's law, without that limit.",
+            "text's rule, without that limit.",
         ),
     ] = "limited"
 
@@ -207,7 +207,7 @@ Offset: TypeAlias = Annotated[
 
 @dataclass(frozen=True, kw_only=True)
 class TableSpeed(Units):
-    """Find how fast a table is, from the time of a lag.
+    """Find how fast a table is from the time of a lag.
 
     Roll a ball off the foot cushion so that it just reaches the head cushion, time it from
     cushion to cushion, and average a few tries. A table speed of 80 to 100 is normal.
@@ -222,7 +222,8 @@ class TableSpeed(Units):
         float,
         Field(
             Number(0.1, 1000.0, example="7.0", metavar="SECONDS"),
-            "Seconds from the foot cushion to the ball's stop at the head cushion.",
+            "Seconds from when the ball leaves the foot cushion until it stops at the head "
+            "cushion.",
         ),
     ]
     table_length: Annotated[
@@ -315,7 +316,7 @@ class Strike(Units, Equipment):
         float | None,
         Field(
             Number(0.0, 1e5, example="24", metavar="LENGTH"),
-            "Add the spin that is left after this distance; with {stick_speed}.",
+            "Also show the spin that is left after this distance; needs {stick_speed}.",
         ),
     ] = None
 
@@ -345,8 +346,8 @@ class Strike(Units, Equipment):
 class BreakCue(Units):
     """Find the cue weight that breaks best.
 
-    The best cue passes on to the cue ball the largest share of the stroke's energy, which is the
-    energy of arm and cue together. The forearm is treated as a uniform rod swinging from the elbow.
+    The best cue passes the largest share of the stroke's energy (the energy of arm and cue
+    together) on to the cue ball. The forearm is treated as a uniform rod swinging from the elbow.
     """
 
     examples = """\
@@ -391,13 +392,13 @@ class Shot(Units, BallFriction, Equipment):
         tuple[float, float] | None,
         Field(
             Named(place, "X,Y"),
-            "Position of the object ball: X from the head cushion, Y from the right one.",
+            "Position of the cue ball: X from the head cushion, Y from the right one.",
             usual="25,25 inches",
         ),
     ] = None
     object_ball: Annotated[
         tuple[float, float] | None,
-        Field(Named(place, "X,Y"), "The cue ball's position, instead of {cut}."),
+        Field(Named(place, "X,Y"), "The object ball's position, instead of {cut}."),
     ] = None
     pocket: Annotated[
         str | None,
@@ -424,7 +425,7 @@ class Shot(Units, BallFriction, Equipment):
         float | None,
         Field(
             Number(20.0, 1e4, example="88", metavar="LENGTH"),
-            "Between the end cushions; half as wide.",
+            "Length between the end cushions; the width is half of it.",
             usual="100 inches",
             section="Table",
         ),

@@ -69,9 +69,10 @@ class TournamentPlan(Format, Question):
                 "rating": say("Seeded by rating"),
                 "blind": say("Blind draw"),
             },
-            more="`blind` is drawn at random. `drawn`: the draw has been made, and the first two "
-            "rows of the file meet, then the next two, and so on; it has 2, 4, 8, 16 … rows, some "
-            "of which may be named `bye 1`, `bye 2` …",
+            more="`blind` is drawn at random. `drawn` means that the draw has already been "
+            "made: the first two players in the file meet, then the next two, and so on. "
+            "The file has 2, 4, 8, 16 … rows, some of which may be named `bye 1`, `bye 2` "
+            "…",
         ),
     ] = None
     chips: Annotated[
@@ -101,11 +102,16 @@ class TournamentPlan(Format, Question):
                     asked=self.form,
                 )
         if self.knockout_size is not None and self.qualifiers is not None:
-            self.refuse("{qualifiers} is for each group, {knockout_size} for all. Leave one out.")
+            self.refuse(
+                "{qualifiers} is the number from each group, and {knockout_size} the "
+                "number from all groups. Leave one out."
+            )
         if self.qualifiers is not None:
             self._check_qualifiers(self.qualifiers)
         elif "placement" in self.given:
-            self.refuse("{placement} is for qualifiers. Give {qualifiers} M, or leave it out.")
+            self.refuse(
+                "{placement} is for qualifiers. Give {qualifiers} M too, or leave {placement} out."
+            )
 
     @property
     def planned(self) -> bool:

@@ -48,8 +48,8 @@ class DrillPlayed(Question):
     """Find where a progressive drill settles, and which level to practice.
 
     A success moves you one level up, and a miss moves you one level down. Describe the drill by
-    {p}, {success} or {log}. LOG.csv has the columns level and success; also session or date if
-    there are several sessions, and drill if there are several drills.
+    {p}, {success} or {log}. LOG.csv has the columns level and success; add session or date if there
+    are several sessions, and drill if there are several drills.
     """
 
     examples = """\
@@ -107,17 +107,19 @@ class DrillPlayed(Question):
         if sum(which is not None for which in (self.p, self.success, self.log)) != 1:
             self.refuse("give exactly one of {p}, {success} and {log}")
         if self.p is None and self.game is not None:
-            self.refuse("{game} says what {p} is about. Leave it out.")
+            self.refuse("{game} is only for {p}. Leave it out.")
         if self.game == "8-ball" and (self.levels or 0) > EIGHT_BALL_LEVELS:
             self.refuse(
-                "{levels} is {n}; in 8-ball all 15 balls are on the table at level 7", n=self.levels
+                "{levels} must be at most 7 in 8-ball, where level 7 has all 15 balls on the "
+                "table; you gave {n}",
+                n=self.levels,
             )
         if self.success is not None and self.levels is not None:
             self.refuse("{success} already says how many levels there are. Leave {levels} out.")
         if self.log is None and self.seed is not None:
-            self.refuse("{seed} is for the tests of {log}. Leave it out.")
+            self.refuse("{seed} matters only with {log}. Leave it out.")
         if self.log is None and self.drill is not None:
-            self.refuse("{drill} names a drill of {log}. Leave it out.")
+            self.refuse("{drill} names a drill in {log}. Leave it out.")
         if self.log is not None and self.via is not None:
             self.refuse("{via} is for a drill with known chances. Leave it out with {log}.")
 
@@ -127,8 +129,9 @@ class Scores(Question):
     """Find out from your practice whether you are getting better, and what to practice next.
 
     SCORES.csv has a score column, with a row for each drill score; or the columns shot, made and
-    tried, with a row for each shot on each day. Add a date column if you can. With {new}: was one
-    more score luck? With {versus}: did something help? - reads standard input.
+    tried, with a row for each shot on each day. Add a date column if you can. {new} tells you
+    whether one more score was luck, and {versus} whether something helped. Use - for standard
+    input.
     """
 
     examples = """\
@@ -157,7 +160,7 @@ class Scores(Question):
                 " isn't a confidence level. Give a number between 0 and 1, such as 0.95",
                 metavar="C",
             ),
-            "The confidence of the intervals.",
+            "The confidence level of the intervals.",
         ),
     ] = 0.95
     drill: DrillName = None
@@ -174,7 +177,7 @@ class Scores(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class Runs(Question):
-    """Find how long a player's runs are, and what several innings score.
+    """Find how long a player's runs are, and the total score of several innings.
 
     Describe the player by {mean} or by {p}.
     """

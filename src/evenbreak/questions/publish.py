@@ -30,10 +30,10 @@ class Publish(Results, Lengths):
     """Publish a league as a static site: standings, ratings, races, a page for each player.
 
     RESULTS.csv is what `evenbreak report` reads; several files are read as one. The site is a
-    folder of plain files, for any web host, a memory stick or a phone. It fetches nothing from
-    other sites and works without a server. In a league's folder, league.toml fills in what you
-    leave out and says how single players are named. Files from an earlier run that are no longer
-    needed are removed. The same results give the same bytes.
+    folder of plain files that you can put on any web host, a flash drive or a phone. It fetches
+    nothing from other sites and works without a server. In a league's folder, league.toml fills in
+    what you leave out and says how individual players are named. Files from an earlier run that are
+    no longer needed are removed. The same results give the same files, byte for byte.
     """
 
     examples = """\
@@ -63,7 +63,7 @@ class Publish(Results, Lengths):
     roster: Annotated[
         str | None,
         ROSTER,
-        Says("The league's own list of ratings or levels, by which races are set."),
+        Says("The league's own list of ratings or levels, which sets the races."),
     ] = None
     schedule: Annotated[
         str | None,

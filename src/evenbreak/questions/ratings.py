@@ -47,9 +47,9 @@ class Assumed(Question):
         float | Literal["best"] | None,
         Field(
             NumberOr("best", metavar="POINTS|best"),
-            "Assumed spread of players before any result (standard deviation); best: "
-            "whatever predicts best, and where newcomers, teams, divisions and handicap "
-            "races start, if that helps.",
+            "Assumed spread of players before any results (standard deviation), or best for "
+            "whatever predicts best and, if it helps, separate starting points for newcomers, "
+            "teams, divisions and handicap races.",
             usual="best if the file has dates, otherwise one doubling of the odds",
             section=_RATING,
             more="See [what the file knows](../../explanation/ratings.md#what-the-file-knows).",
@@ -64,7 +64,7 @@ class Assumed(Question):
                 wanted="a number of days from 0.01 to 1,000,000, such as 180",
                 metavar="DAYS|none",
             ),
-            "After this many days, a match counts half as much; none: no fading.",
+            "After this many days, a match counts half as much; with none, matches don't fade.",
             usual="whatever clearly predicts better; none with {prior} POINTS",
             section=_RATING,
         ),
@@ -78,8 +78,9 @@ class Assumed(Question):
             section=_RATING,
             more="See [the file](../files.md#ratings-to-begin-from). Ratings without a standard "
             "error count as much as they help prediction, and ratings from more games "
-            "count more. With `--prior POINTS` they are assumed to be off by what their "
-            "games leave open, or by half of what doubles the odds.",
+            "count more. With `--prior POINTS`, they are assumed to be off by as much as "
+            "their number of games suggests or, without games, by half the points that "
+            "double the odds.",
         ),
     ] = None
 
@@ -94,8 +95,8 @@ class HowToRate(Assumed, ByChart):
             "Rate as of this day, leaving out later matches.",
             usual="the last date",
             section=_RATING,
-            more="Such as 2025-03-01, 1.3.2025, or 3/1/2025 with `--dates mdy`. Ages are counted "
-            "from it. It may be up to a year ahead, for a coming tournament.",
+            more="Such as 2025-03-01, 1.3.2025, or 3/1/2025 with `--dates mdy`. Ages are "
+            "counted from it. It may be up to a year ahead, for an upcoming tournament.",
         ),
     ] = None
 
@@ -110,9 +111,9 @@ class Rate(Results, HowToRate):
 
     RESULTS.csv has one match per row, with the columns player_a, player_b, score_a and score_b; or
     winner, loser and score, such as 7-5. If the score isn't known, race and winner are enough;
-    racks (who won each rack, such as abba) can replace the score. It may also be a workbook (.xlsx,
-    .ods) or a tournament saved from CueScore, Challonge or brackets-manager. - reads standard
-    input. Several files, such as one for each season, are rated as one.
+    racks (who won each rack, such as abba) can replace the score. RESULTS.csv may also be a
+    workbook (.xlsx, .ods) or a tournament saved from CueScore, Challonge or brackets-manager. -
+    reads standard input. Several files, such as one for each season, are rated as one.
     """
 
     examples = """\
@@ -127,8 +128,8 @@ class Rate(Results, HowToRate):
     scale: Annotated[
         ScaleOf,
         Says(
-            usual="npl, fargo with a chart by skill level, or the only one that the points of "
-            "{anchor} can be on",
+            usual="npl; fargo with a chart by skill level; or the only scale that fits the "
+            "{anchor} points",
             more="",
         ),
     ] = None
@@ -164,9 +165,9 @@ class Rate(Results, HowToRate):
         float | Literal["fit"] | None,
         Field(
             NumberOr("fit", -1e6, metavar="POINTS|fit"),
-            "How many points better the breaker plays; fit: estimate this if the file says who "
+            "How many points better the breaker plays; fit estimates this if the file says who "
             "broke.",
-            usual="the break does not matter",
+            usual="the break doesn't matter",
             section=_RATING,
         ),
     ] = None
@@ -193,7 +194,7 @@ class Rate(Results, HowToRate):
         Says(
             "The chart that set the races if the file states skill levels (or ratings) but no "
             "races; with {system}, if it states neither race nor winner.",
-            usual="with {system} the system's chart, if only one fits all scores",
+            usual="with {system}, the system's chart if only one of them fits all scores",
         ),
     ] = None
 
@@ -231,9 +232,9 @@ class Rate(Results, HowToRate):
 class Why(HowToRate, Lengths):
     """Explain two ratings: the matches behind them, and what one more match would change.
 
-    A and B are two players in RESULTS.csv, which is read as by `report` and `rate`. Each of their
-    matches is left out in turn, to see what it is worth to the rating. Then one more match between
-    them is added, won by either player.
+    A and B are two players in RESULTS.csv, which is read in the same way as for `report` and
+    `rate`. Each of their matches is left out in turn, to see what it is worth to the rating. Then
+    one more match between them is added, once with A winning and once with B winning.
     """
 
     examples = """\
@@ -255,7 +256,7 @@ class Validate(Results, Assumed):
     """Find out whether a league's ratings can be trusted.
 
     RESULTS.csv is a file like the ones `rate` reads, with dates; - reads standard input; several
-    files are read as one. Each date is predicted only from the results of earlier dates, then
+    files are read as one. The results of each date are predicted only from earlier dates, then
     compared with what happened.
     """
 
@@ -287,11 +288,10 @@ class Report(Results, HowToRate, Lengths):
 
     RESULTS.csv has a match in each row, with the columns player_a, player_b, score_a, score_b and,
     if known, date, race_a, race_b, winner, first_break, break_format, racks, event and forfeit;
-    `evenbreak rate --help-all` names other ways. - reads standard input. The sheet gives each
-    player's rating and the race nearest to even for each pair. It lists all players, strongest
-    first, with players who have few games last. Several files are read as one. The sheet is printed
-    here, and sheet.pdf is for the wall; {page} adds a page to hand out, and {excel} adds a
-    workbook.
+    `evenbreak rate --help-all` lists other layouts. - reads standard input. The sheet gives each
+    player's rating and the fairest race for each pair. It lists all players, strongest first; those
+    with few games come last. Several files are read as one. The sheet is printed to the terminal,
+    and sheet.pdf is for the wall; {page} adds a page to hand out, and {excel} adds a workbook.
     """
 
     examples = """\

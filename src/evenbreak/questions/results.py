@@ -17,7 +17,7 @@ from evenbreak.words import Parameter
 _READING = "Reading the file"
 _DAYS_AHEAD = 366
 
-ON_STDIN = "- means standard input, which only one file can be. Name the others."
+ON_STDIN = "- means standard input, which can stand for only one file. Name the others."
 
 RESULTS = Field(File("RESULTS.csv..."), argument=True, many=True)
 ROSTER = Field(File("ROSTER.csv"), "The list of ratings before these results.")
@@ -25,7 +25,7 @@ ROSTER = Field(File("ROSTER.csv"), "The list of ratings before these results.")
 DATES = Field(
     Choice(("mdy", "dmy")),
     "The order of month and day in dates such as 9/3/2024: month first or day first.",
-    usual="as the file's other dates show",
+    usual="inferred from the file's other dates",
     section=_READING,
     more="See [dates](../files.md#dates).",
 )
@@ -67,8 +67,8 @@ Columns: TypeAlias = Annotated[
         "Your file's column names, such as player_a=Home,player_b=Away.",
         many=True,
         section=_READING,
-        more="With a file name and a colon in front, as in `autumn.csv:score=Stand`, a name is "
-        "only for that file. See [other names of "
+        more="With a file name and a colon in front, as in `autumn.csv:score=Stand`, a name "
+        "applies only to that file. See [other names of "
         "columns](../files.md#other-names-of-columns).",
     ),
 ]
@@ -142,7 +142,9 @@ class Reading(Question):
             remedy = "Give a day such as 2026-01-31, 31.1.2026 or 1/31/2026."
             if is_two_dates(text.strip()):
                 remedy = "Add {dates} mdy or {dates} dmy, or write 2026-01-31."
-            self.refuse("{part} {day!r} isn't clear. " + remedy, part=Parameter(name), day=text)
+            self.refuse(
+                "{part} {day!r} isn't a clear date. " + remedy, part=Parameter(name), day=text
+            )
         if day > np.datetime64("today", "D") + np.timedelta64(_DAYS_AHEAD, "D"):
             self.refuse(
                 "{part} must be no more than a year from today; you gave {day!r}",

@@ -45,11 +45,11 @@ class Demo(Question):
 
 @dataclass(frozen=True, kw_only=True)
 class LeagueInit(Question):
-    """Write a league's file, league.toml, from what is in its folder.
+    """Write a league's file, league.toml, based on the files in its folder.
 
     FOLDER defaults to the current one. The command reads the files there: results, lists of
-    players, fixtures, a chart. If they leave something open, it asks you and suggests an answer; in
-    a script, and with {yes}, the suggestions are taken. After that, every command run in the folder
+    players, fixtures, a chart. If anything is missing, it asks you and suggests an answer; in a
+    script, or with {yes}, it accepts the suggestions. After that, every command run in the folder
     takes its defaults from league.toml.
     """
 
@@ -67,7 +67,9 @@ class LeagueInit(Question):
     scale: Annotated[ScaleOf, Says(more="")] = None
     chart: Annotated[
         ChartName,
-        Says("The race chart: a name, or a file in the folder.", usual="by the players"),
+        Says(
+            "The race chart: a name, or a file in the folder.", usual="based on the list of players"
+        ),
     ] = None
     race_to: Annotated[
         int | None, HandicappedRace, Says("Instead of a chart: the stronger player needs N games.")
@@ -103,8 +105,8 @@ class Serve(Question):
     """Open tonight's tournament or team night as a page, for phones and the screen on the wall.
 
     FILE.db is a tournament file, as written by evenbreak tournament new, or a team-night file;
-    default: tonight.db. If it doesn't exist, the page starts one. The commands of evenbreak
-    tournament can be used on it at the same time.
+    default: tonight.db. If it doesn't exist, the page starts one. You can use the evenbreak
+    tournament commands on it at the same time.
     """
 
     of_league: ClassVar[bool] = True
@@ -163,7 +165,7 @@ class Serve(Question):
             many=True,
             more="It reads what everyone in the room sees; to enter something, it also needs a "
             "token. Without this option, no page on another site can use the interface. "
-            "`*` and `null` are refused: they would name every page, and every file.",
+            "`*` and `null` are refused: they would let in every page, and every file.",
         ),
     ] = ()
     port: Annotated[int, Field(Whole(1024, 65535), "Port to listen on.")] = 8000
@@ -181,9 +183,7 @@ class Serve(Question):
     def check(self) -> None:
         """Refuse a file for the demo, which makes its own."""
         if self.demo and self.file is not None:
-            self.refuse(
-                "{demo} makes a file of its own. Leave out {name} or {demo}.", name=self.file
-            )
+            self.refuse("{demo} makes its own file. Leave out {name} or {demo}.", name=self.file)
         if self.host is not None and not self.lan:
             self.refuse("{host} is for phones. Give {lan} too.")
 
@@ -192,11 +192,11 @@ class Serve(Question):
 class Reproduce(Question):
     """Recompute and write every table, figure and number in the source text.
 
-    Start with DIR/index.md for section 5, statistics, DIR/physics.md for sections 1 to 4, the
-    physics of the table, or DIR/graph_to_limit.md for each game as graph, matrix, eigenvalues and
-    limit. They show and explain every number, point out errors in the text and link to the CSV
-    files. The files are identical, byte for byte, every time. If a number isn't as expected, the
-    command says so and ends with exit code 1.
+    Start with DIR/index.md for section 5 (statistics), DIR/physics.md for sections 1 to 4 (the
+    physics of the table), or DIR/graph_to_limit.md for each game's graph, matrix, eigenvalues and
+    limit. These pages show and explain every number, point out errors in the text and link to the
+    CSV files. The files are identical, byte for byte, every time. If a number isn't as expected,
+    the command says so and ends with exit code 1.
     """
 
     examples = """\

@@ -98,10 +98,10 @@ Ties: TypeAlias = Annotated[
         TIES,
         "Tiebreakers, in this order: difference and scored (sets or "
         "games), wins, head-to-head, win-share, forfeits.",
-        more="`head-to-head` counts points from the matches between everyone who is level, then "
-        "again for those who still are; it waits until they have met equally often. "
-        "`win-share` is the share of matches won, and `forfeits` puts whoever has fewer "
-        "ahead. With `points` in the list, points count in that position: "
+        more="`head-to-head` counts points from the matches between everyone who is tied, then "
+        "again for those who still are; it isn't used until they have all met equally "
+        "often. `win-share` is the share of matches won, and `forfeits` puts whoever has "
+        "fewer ahead. With `points` in the list, points count in that position: "
         "`win-share,points`.",
     ),
 ]
@@ -126,12 +126,12 @@ TeamsFile: TypeAlias = Annotated[
 
 @dataclass(frozen=True, kw_only=True)
 class LeagueTable(Results):
-    """Make a league's table of its players or teams.
+    """Make a league's standings for players or teams.
 
     RESULTS.csv has the players' matches, with team_a and team_b in a team league, or the teams' own
-    matches (home, away, home_score, away_score). Rows without a score are left out as not played; a
-    forfeit counts as a win for its winner. {ties} says how equal points are separated; anyone still
-    level shares a place.
+    matches (home, away, home_score, away_score). Rows without a score are left out, since those
+    matches weren't played; a forfeit counts as a win. {ties} says how ties on points are broken;
+    anyone still tied shares a place.
     """
 
     examples = """\
@@ -145,8 +145,9 @@ class LeagueTable(Results):
     of: Annotated[
         Whose,
         Says(
-            "Whose table it is; use teams also if each row has two teams.",
-            usual="teams where the results have the columns team_a and team_b",
+            "Whose standings to show; teams is also for results in which each row is a match "
+            "between two teams.",
+            usual="teams if the results have the columns team_a and team_b",
         ),
     ] = None
     until: Annotated[Day, Says("Show the table as of this day.")] = None
@@ -166,9 +167,9 @@ class Fixtures(Reading):
     """Make a league's fixtures: who plays who, at home or away, on which night and table.
 
     LIST.csv names the players or teams, with one name per line or the columns of a roster. With the
-    columns venue and tables, teams that share a place with too few tables take turns at home.
-    Everyone meets everyone, once unless {meetings} says more; home and away alternate, and a second
-    half mirrors the first. {left} lists what is still to be played.
+    columns venue and tables, teams that share a venue with too few tables take turns playing at
+    home. Everyone meets everyone once, or as often as {meetings} says; home and away alternate, and
+    a second half mirrors the first. {left} lists the matches still to be played.
     """
 
     examples = """\
@@ -229,7 +230,7 @@ class Fixtures(Reading):
         Field(Whole(1, 1000), "Number of tables; each match gets one.", section=_WHERE),
     ] = None
     tables_a_match: Annotated[int, Field(Whole(1, 100), "Tables per match.", section=_WHERE)] = 1
-    of: Annotated[Whose, Says("Who plays.", usual="teams where LIST has the column team")] = None
+    of: Annotated[Whose, Says("Who plays.", usual="teams if LIST has the column team")] = None
     only: Annotated[
         str | None, Field(Text("NAME"), "List only this team's or player's matches.")
     ] = None
@@ -252,7 +253,7 @@ class Fixtures(Reading):
     def check(self) -> None:
         """Refuse two lists of fixtures or none, and dates without a first one."""
         if (self.names is None) == (self.schedule is None):
-            self.refuse("give {names}, or fixtures that are made with {schedule}")
+            self.refuse("give {names}, or use {schedule} to name existing fixtures")
         for name in ("ends", "weekdays", "skip"):
             if self.begins is None and name in self.given:
                 self.refuse(f"{{{name}}} needs the first night. Add {{begins}} 2026-09-01.")
@@ -264,11 +265,11 @@ class Fixtures(Reading):
 class LeagueTidy(Results):
     """Make one clean list of matches from all results, and list what was changed.
 
-    RESULTS.csv is any number of files that evenbreak reads: CSV, workbooks, or JSON from other
+    RESULTS.csv can be any number of files that evenbreak reads: CSV, workbooks, or JSON from other
     programs. Leave them out to use the files in league.toml. A match in two files counts once; byes
-    and unreadable rows are left out and listed with file, line and reason. Names that may be the
-    same player's are never merged silently: on a terminal you are asked; otherwise they are listed
-    with lines that you can add to [aliases] in league.toml.
+    and unreadable rows are left out and listed with file, line and reason. Names that may belong to
+    the same player are never merged silently: on a terminal, you are asked; otherwise, they are
+    listed with lines that you can add to [aliases] in league.toml.
     """
 
     of_form: ClassVar[bool] = True

@@ -90,7 +90,7 @@ Order: TypeAlias = Annotated[
     str,
     Field(
         Text("PATTERN"),
-        "Who names first in each set: A (you), B (they), = (both, blind), W or L (whoever won "
+        "Who names first in each set: A (you), B (them), = (both, blind), W or L (whoever won "
         "or lost the last set), such as ABABA; or alternate, home, blind, winner, loser or "
         "sealed.",
         titles=ORDERS,
@@ -199,7 +199,7 @@ class Capped(Question):
 class Lineup(OfTeams, Capped):
     """Find who to put up in a team match, and what each choice is worth.
 
-    Each file has the columns player and rating, or level; caps count the levels. Both captains are
+    Each file has the columns player and rating, or level; caps use the levels. Both captains are
     assumed to choose optimally. Each time a player is put up, ask again with {used}, {score} and
     {named}.
     """
@@ -252,7 +252,7 @@ class Lineup(OfTeams, Capped):
         tuple[InPlay, ...],
         Field(
             Named(set_in_play, '"A v B 3-2"'),
-            "A set being played, your player first, with its score.",
+            "A set that is being played: your player, theirs, and the score so far.",
             many=True,
             section=_SO_FAR,
         ),
@@ -312,9 +312,9 @@ class OnTables:
 class Round(OfTeams):
     """Find who wins a round between two teams, and the head start that makes it even.
 
-    The games in all matches are added up or, with {count}, the match points. The files have the
-    columns player and rating, or level; the first player in one file meets the first in the other,
-    and so on.
+    The games in all matches are added up; with {count}, match points or sets are added up instead.
+    The files have the columns player and rating, or level; the first player in one file meets the
+    first in the other, and so on.
     """
 
     examples = """\
@@ -331,7 +331,7 @@ class Round(OfTeams):
         Field(Whole(1, 100), "Each match is K single games.", metavar="K", old=("games",)),
     ] = None
     everybody: Annotated[
-        bool, Field(Flag(), "Every player meets every player of the other team.")
+        bool, Field(Flag(), "Every player meets every player on the other team.")
     ] = False
     count: Annotated[Count, Says("What is added up: games, match points, or sets.", more="")] = (
         "games"
@@ -376,9 +376,9 @@ class Season(Question):
     """Find each team's chances of the title, promotion and relegation, and what is at stake next.
 
     RESULTS.csv has the columns home, away, home_score and away_score (sets). SCHEDULE.csv has home
-    and away, plus a round column if you like. Without a schedule, matches in RESULTS.csv without a
-    score, or at 0-0, are still to be played. Team strengths are estimated from the sets they have
-    won.
+    and away, plus a round column if you like. Without a schedule, matches in RESULTS.csv with no
+    score, or with a score of 0-0, are still to be played. Team strengths are estimated from the
+    sets they have won.
     """
 
     examples = """\
@@ -394,8 +394,8 @@ class Season(Question):
         int | None,
         Field(
             Whole(1, 10),
-            "Instead of a schedule: each pair of teams meets K times; what isn't played "
-            "yet is still to be played.",
+            "Instead of a schedule: each pair of teams meets K times, counting the matches "
+            "already played.",
             metavar="K",
             old=("round-robin",),
         ),
@@ -427,7 +427,7 @@ class Season(Question):
             Whole(1000, 10_000_000),
             "Number of seasons to simulate.",
             section=_WORK,
-            more="With `--sure` and few endings the chances are exact instead.",
+            more="With `--sure` and few possible endings, the chances are exact instead.",
         ),
     ] = 100_000
     jobs: Annotated[Jobs, Says(section=_WORK)] = 1
@@ -437,8 +437,8 @@ class Season(Question):
         """Refuse two lists of matches to come, two lengths of a match, and points by the set."""
         if self.table_points.split:
             self.refuse(
-                "{table_points} {split} counts the sets of players, which a season of "
-                "team scores doesn't know. Leave it out, or give sets.",
+                "{table_points} {split} counts individual players' sets, which team scores "
+                "don't show. Leave it out, or give sets.",
                 split=self.table_points.split,
             )
         if self.schedule is not None and self.meetings is not None:

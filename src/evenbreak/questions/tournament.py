@@ -15,18 +15,19 @@ from evenbreak.tournaments.evening.format import Discipline, HouseTables, NamedT
 from evenbreak.words import Parameter
 
 _FOUR = HouseTables(4)
-_DRAW = "The seed of the draw, and of what is simulated."
+_DRAW = "The seed for the draw and for simulations."
 Draw: TypeAlias = Annotated[Seed, Says(_DRAW, section="Details")]
 
 
 @dataclass(frozen=True, kw_only=True)
 class NewTournament(TournamentPlan, Starters):
-    """Start a tournament: write its entrants and what is played to a new file.
+    """Start a tournament: write its entrants, format and races to a new file.
 
-    Then make the draw with evenbreak tournament draw. Players may enter until then; later they can
-    replace a bye or, in a chip tournament, join the end of the line. Without a list, everyone
-    enters through evenbreak tournament late or from their phones. The other commands read and write
-    tonight.db unless --file or the environment variable EVENBREAK_TOURNAMENT names another file.
+    Then make the draw with evenbreak tournament draw. Players can enter until then; after that,
+    they can replace a bye or, in a chip tournament, join the end of the line. Without a list,
+    everyone enters through evenbreak tournament late or from their phones. The other commands read
+    and write tonight.db unless --file or the environment variable EVENBREAK_TOURNAMENT names
+    another file.
     """
 
     examples = """\
@@ -51,7 +52,7 @@ class NewTournament(TournamentPlan, Starters):
     pace: EarlierNights = ()
     scale: ScaleOf = None
     seed: Draw = 0
-    out: Annotated[str, Field(File("FILE.db"), "The tournament's file; must not exist yet.")] = (
+    out: Annotated[str, Field(File("FILE.db"), "The tournament's file; it must not exist yet.")] = (
         "tonight.db"
     )
     beside: Annotated[
@@ -109,8 +110,8 @@ class OfEntrants(TournamentPlan, Starters, TimedUnderWay):
                     )
             if self.form == "chips":
                 self.refuse(
-                    "for a chip tournament before its first rack, ask evenbreak chips odds; for "
-                    "one under way leave out ENTRANTS.csv"
+                    "for a chip tournament before its first rack, use evenbreak chips odds; for "
+                    "one under way, leave out ENTRANTS.csv"
                 )
             return refuse_lines(self)
         for name in self.given:
@@ -126,11 +127,11 @@ class OfEntrants(TournamentPlan, Starters, TimedUnderWay):
 
 @dataclass(frozen=True, kw_only=True)
 class TournamentOdds(OfEntrants):
-    """Find each player's odds of winning the tournament and of finishing in each other place.
+    """Find each player's odds of winning the tournament and of finishing in every other place.
 
     ENTRANTS.csv has a row for each entrant, with the columns player and rating and, if you have
-    them, standard_error and games. Without it, the answer is about the tournament under way in
-    {file}: its results so far, and the scores of the matches in play.
+    them, standard_error and games. Without it, the answer is for the tournament under way in
+    {file}, based on its results so far and on the scores of the matches in play.
     """
 
     examples = """\
@@ -151,7 +152,7 @@ class TournamentOdds(OfEntrants):
             "With {race_to} or {chart}: also list fairer races of about the same length.",
             section="Details",
             more="These are the races for each side and each round that make the tournament "
-            "fairest with about as many games.",
+            "fairest with about the same number of games.",
         ),
     ] = False
     walkovers: Annotated[
@@ -183,9 +184,9 @@ class TournamentTime(OfEntrants, Pace):
     """Find when the tournament ends and when each match starts.
 
     ENTRANTS.csv has a row for each entrant, with the columns player and rating; in a plain list of
-    names, all players are equal. Without it, the answer is about the tournament under way in
-    {file}: its results, the matches on its tables and its pace so far. JSON and CSV output has
-    minutes from the start of the tournament.
+    names, all players are equal. Without it, the answer is for the tournament under way in {file},
+    based on its results, the matches on its tables and its pace so far. In JSON and CSV output,
+    times are minutes from the start of the tournament.
     """
 
     examples = """\
@@ -201,7 +202,7 @@ class TournamentTime(OfEntrants, Pace):
         Says(
             usual="as in real events",
             section="Details",
-            more="In real events most matches start at once, and the average is 4.",
+            more="In real events, most matches start right away, and the average is 4 minutes.",
         ),
     ] = None
     start: Annotated[

@@ -87,7 +87,7 @@ def test_by_name_with_the_ratings_scale_and_errors_of_a_list(listed) -> None:
 @pytest.mark.parametrize(
     ("names", "more", "named"),
     [
-        (("Ann Lee",), {}, "1 are named"),
+        (("Ann Lee",), {}, "you named 1"),
         (("Ann Lee", "Bo Dias"), {}, "'Bo Diaz'"),
         (("Ann Lee", "ann lee"), {}, "the same player"),
         (("Ann Lee", "Cy"), {}, "chain of opponents"),

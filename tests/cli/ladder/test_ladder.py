@@ -183,7 +183,7 @@ def test_the_help_names_all_systems(run):
         (("--system", "elo 16", "--scale", "npl"), 2, "Leave --scale out"),
         (("--step", "2", "--newcomer"), 2, "--newcomer"),
         (("--scale", "-3"), 2, "'-3'"),
-        (("--chart", "-", "--league", "-"), 2, "only one file can be"),
+        (("--chart", "-", "--league", "-"), 2, "can stand for only one file"),
         (("--plot", "x.pdf"), 2, ".png or .svg"),
     ],
 )

@@ -148,7 +148,7 @@ def test_without_a_folder_nothing_is_written(simulated, tmp_path):
         (RATED, ("--newcomers", "2", "--compare", "npl"), "share"),
         (TEAMS, ("--sets", "5"), "at least 5 players"),
         ("team,player,rating\nA,Ann,80\n,Bo,70\n", (), "team is empty"),
-        (TEAMS, ("--sets", "3", "--random"), "--random is for single players"),
+        (TEAMS, ("--sets", "3", "--random"), "--random is for individual players"),
         (RATED, ("--compare", "npl", "--cap", "23"), "--cap is for teams"),
         (LEVELS + "Gus,9\n", (), "'Gus' has skill level 9"),
     ],

@@ -64,7 +64,7 @@ def test_one_teams_calendar(run, teams, tmp_path):
 @each_of(
     "words, message",
     [
-        ((), "give LIST.csv, or fixtures that are made with --schedule"),
+        ((), "give LIST.csv, or use --schedule to name existing fixtures"),
         (("TEAMS", "--ends", "2026-09-08"), "--ends needs the first night"),
         (("TEAMS", "--ics", "f.ics"), "--ics needs dates"),
         (("TEAMS", "--begins", "2026-09-01", "--ends", "2026-09-08"), "5 nights are needed"),

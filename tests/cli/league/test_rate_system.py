@@ -210,10 +210,10 @@ def test_without_a_chart_the_only_one_that_fits_is_used_and_named(rate):
                 "[STEPS], averages, win-percent or napa-like; you gave 'fide'"
             ),
         ),
-        (["-", "--roster", "-"], 2, "which only one file can be"),
+        (["-", "--roster", "-"], 2, "which can stand for only one file"),
         (["night.csv", "--roster", "night.csv"], 3, "there's no column 'player'"),
         (["night.csv", "--aliases", "last.csv"], 3, "there's no column 'name'"),
-        (["-", "--chart", "-"], 2, "which only one file can be"),
+        (["-", "--chart", "-"], 2, "which can stand for only one file"),
         (["night.csv", "--half-life", "30"], 2, "Leave out --half-life"),
     ],
 )

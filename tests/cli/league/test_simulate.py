@@ -223,7 +223,7 @@ def test_a_match_that_is_listed_twice_in_a_week_is_a_warning(run, tmp_path):
 def test_two_files_cannot_both_be_standard_input(run, tmp_path):
     found = run("simulate", "-", "--schedule", "-", "--out", str(tmp_path / "out"))
     assert found.exit_code == 2
-    assert "only one file can be" in found.stderr
+    assert "can stand for only one file" in found.stderr
 
 
 @pytest.mark.parametrize(

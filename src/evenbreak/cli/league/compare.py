@@ -86,11 +86,11 @@ def _refuse_without_teams(asked: Simulate, file: files.SeasonPlayers) -> None:
     of_teams = [name for name in ("sets", "cap", "best_line_ups") if name in asked.given]
     if file.teams is None and of_teams:
         asked.refuse(
-            "{part} is for teams. Give {file} a column team.", part=Parameter(of_teams[0]),
+            "{part} is for teams. Add a column team to {file}.", part=Parameter(of_teams[0]),
             file=file.source,
         )  # fmt: skip
     if file.teams is not None and asked.random:
-        asked.refuse("{random} is for single players; teams meet in turn, or by {schedule}")
+        asked.refuse("{random} is for individual players; teams meet in turn, or by {schedule}")
     if file.teams is not None and asked.players_file is not None:
         asked.refuse("{players_file} can't be used with teams. List everyone with their team.")
 
@@ -145,7 +145,7 @@ def _systems(
         if not fits and system.chart
     ]
     notes = [
-        say_count("{names} keeps a chart of its own.", "{names} keep charts of their own.",
+        say_count("{names} uses its own chart.", "{names} use their own charts.",
                   len(others), names=", ".join(others))
     ] if others else []  # fmt: skip
     return [
@@ -201,13 +201,13 @@ def _world(
     elif not file.levels:
         notes.append(
             say(
-                "Ratings are taken as true skills at the start, since the roster has neither "
+                "Ratings are treated as true skills at the start, since the roster has neither "
                 "standard_error nor skill."
             )
         )
     if own.publishes == "levels" and np.isnan(file.roster.level).all():
-        notes.append(say("The roster states no skill level; everyone has the one nearest to their "
-                         "rating, the middle of the ratings being the middle level."))  # fmt: skip
+        notes.append(say("The roster states no skill levels; everyone gets the one nearest to "
+                         "their rating, and the middle rating is the middle level."))  # fmt: skip
     level = file.players.rating.astype(float) if file.levels else file.roster.level
     return league.World(
         players,
@@ -267,7 +267,8 @@ def _strengths(
         players,
         scale,
         say(
-            "{why} Players of one level differ by {width:.0f} Fargo points (standard deviation).",
+            "{why} Players at the same level differ by {width:.0f} Fargo points (standard "
+            "deviation).",
             why=skills.why,
             width=width,
         ),

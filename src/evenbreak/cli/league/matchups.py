@@ -262,12 +262,12 @@ def _next_night(
     if not pairs:
         return None
     teams = ", ".join(f"{one.home} v {one.away}" for one in meet)
-    say(f"Those who may meet on {day}: {teams}. For others, list them with --players-file.")
+    say(f"Teams that meet on {day}: {teams}. To pair others, list them with --players-file.")
     return np.array(pairs), ()
 
 
 def _refuse_too_many(pairs: str, many: int, tables: int | None, face: str) -> None:
-    meet = "name those who meet with --pairs PAIRS.csv"
+    meet = "list the pairs who meet in a file, with --pairs PAIRS.csv"
     if tables is not None and many > MOST_MATCHES:
         refuse(f"{pairs}; the limit for one evening is {MOST_MATCHES:,}. To choose, {meet}.")
     if many > MOST_PAIRS:

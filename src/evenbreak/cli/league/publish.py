@@ -116,8 +116,8 @@ def _scale(asked: Publish, chart: Any, listed: files.RosterFile | None) -> Scale
     stated = None if listed is None else listed.scale
     if asked.scale is not None and stated is not None and not stated.same_points(asked.scale):
         asked.refuse(
-            "{roster} has ratings on the scale {stated}, and {scale} is another. Leave "
-            "{scale} out.",
+            "{roster} has ratings on the scale {stated}, not the one in {scale}. Leave {scale} "
+            "out.",
             stated=stated.text,
         )
     if (scale := asked.scale or stated) is not None:

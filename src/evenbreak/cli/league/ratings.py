@@ -328,7 +328,7 @@ def _beginning(asked: Assumed, file: files.ResultsFile, scale: Scale) -> Beginni
         if earlier:
             refuse(
                 f"--begin {path}: its ratings are as of {day}, and {earlier:,} of the "
-                f"matches in {file.source} are of that day or earlier, so they would "
-                "count twice. Give the later matches alone."
+                f"matches in {file.source} are from that day or earlier, so they would "
+                "count twice. Give only the later matches."
             )
     return beginning

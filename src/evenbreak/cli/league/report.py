@@ -68,8 +68,8 @@ def _refuse_names(asked: Report) -> None:
         for name in asked.results if getattr(asked, option) else ():
             if name.lower().endswith(suffix) and not Path(name).exists():
                 asked.refuse(
-                    f"{{{option}}} takes no name: it writes sheet{suffix} to the folder "
-                    "of {{out}}. Leave {{name}} out.",
+                    f"{{{option}}} takes no name: it writes sheet{suffix} to the {{out}} "
+                    "folder. Leave {{name}} out.",
                     name=name,
                 )
 

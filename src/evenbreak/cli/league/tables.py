@@ -41,7 +41,7 @@ def table(asked: LeagueTable) -> Answer:
     if (day := asked.day("until")) is not None:
         if undated := int(np.isnat(matches.date).sum()):
             warnings.append(
-                f"{count_of(undated, 'match', 'matches')} without a date left out, as --until asks"
+                f"{count_of(undated, 'match', 'matches')} without a date left out, given --until"
             )
         matches = matches.until(day)
     found = league.league_table(matches, rules, head_start=start, side=asked.side)
@@ -117,7 +117,7 @@ def fixtures(asked: Fixtures) -> Answer:
         names = (name for one in listed for name in (one.home, one.away))
         only = next((name for name in names if same_name(name) == wanted), "")
         if not only:
-            template = "{only} {name} has no match. Write the name as the list does."
+            template = "{only} {name} has no match. Write the name as it is in the list."
             asked.refuse(template, name=asked.only)
         listed = [one for one in listed if only in (one.home, one.away)]
     if asked.ics is not None:
@@ -185,10 +185,10 @@ def _without_played(asked: Fixtures, listed: list[Fixture]) -> tuple[list[Fixtur
     kept, unknown, extra = without_played(listed, file.results)
     warnings = [*file.warnings]
     if extra:
-        many = count_of(extra, "match is", "matches are")
-        warnings.append(f"{many} played that the fixtures do not have: {_first(unknown)}")
+        many = count_of(extra, "played match isn't", "played matches aren't")
+        warnings.append(f"{many} in the fixtures, {_first(unknown)}")
     return kept, len(listed) - len(kept), warnings
 
 
 def _first(unknown: set[str]) -> str:
-    return f"such as those of {min(unknown)!r}" if unknown else "the two had met before"
+    return f"such as those of {min(unknown)!r}" if unknown else "since the two had met before"

@@ -65,7 +65,7 @@ def command(asked: Graph) -> Answer:
     check_folder(out)
     if _is_file(name):
         if chances:
-            asked.refuse("a chain in a file has chances of its own. Leave {p}, {p1} and {p2} out.")
+            asked.refuse("a chain in a file has its own chances. Leave {p}, {p1} and {p2} out.")
         file = files.read_chain(name, states=asked.states, rows=asked.rows)
         _check_size(file)
         title = f"The chain in {file.source if name == '-' else Path(name).name}"
@@ -79,7 +79,7 @@ def command(asked: Graph) -> Answer:
         road = road_of(played)
         written, doubts = _files(played, road, title)
     doubts += [
-        f"{Path(out, name)} is from an earlier run and of another game. Remove it."
+        f"{Path(out, name)} is from an earlier run for another game. Remove it."
         for name in FILES
         if name not in written and Path(out, name).exists()
     ]
@@ -122,7 +122,7 @@ def _game(name: str, chances: tuple[float, ...]) -> tuple[str, Game]:
     ours = found or name.strip().lower() in CATALOG
     if catalog_name(name) in CHARTS or Path(name).is_file() or (not ours and _adds_chart(name)):
         if chances:
-            refuse("the ladder of a chart has no chances of its own. Leave --p, --p1 and --p2 out.")
+            refuse("a chart's ladder has no chances of its own. Leave --p, --p1 and --p2 out.")
         return _ladder(name)
     if found and (chances or name not in CATALOG):
         return _match(found, chances)

@@ -190,7 +190,9 @@ def _matches(asked: Season) -> tuple[Any, Any, Any, tuple[Any, tuple[str, ...]],
     if asked.schedule is not None:
         if unplayed := len(ahead.pairs):
             left = count_of(unplayed, "match without a score", "matches without a score")
-            warnings.append(f"{asked.results}: {left} left out; the schedule says what is to come")
+            warnings.append(
+                f"{asked.results}: {left} left out; the schedule says which matches remain"
+            )
         ahead = files.read_fixtures(asked.schedule, known)
         warnings += ahead.warnings
     to_come = ahead.pairs, ahead.rounds
@@ -225,8 +227,8 @@ def _length(asked: Season, scores: Any) -> dict[str, int]:
     if len(set(most.tolist())) == 1:
         return {"race": int(most[0])}
     return asked.refuse(
-        "the results have matches of different lengths. Set that of the matches still to "
-        "be played with {sets} or {race}, and leave out any that weren't finished."
+        "the results have matches of different lengths. Use {sets} or {race} to set the length "
+        "of the matches still to be played, and leave out any that weren't finished."
     )
 
 
@@ -335,11 +337,11 @@ def strengths_of(asked: OfTeams, lists: Sequence[TeamList], race: Any) -> Streng
             raise InputError(SCALE_OF_LEVELS)
         warnings = list(dict.fromkeys(line for file in every for line in file.warnings))
         if asked.results is not None and levels is None:
-            warnings.append("the results are not used: a chart of points sets the chances itself")
+            warnings.append("the results are not used: a points chart sets the chances itself")
         return Strengths([file.roster for file in every], FARGO, levels, warnings)
     scale, warnings = scale_of_teams(lists, asked.scale)
     if asked.results is not None:
-        warnings.append("the results are not used: the chances come from the ratings of the lists")
+        warnings.append("the results are not used: the chances come from the ratings in the lists")
     rosters = [with_starters(file.roster, scale, asked.starter, asked.starter_sd) for file in every]
     return Strengths(rosters, scale, None, warnings)
 

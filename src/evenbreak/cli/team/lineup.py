@@ -53,7 +53,9 @@ def command(asked: Lineup) -> Answer:
 def _point(asked: Lineup, meeting: Meeting) -> teams.Point:
     """Return the point in the match that is described, or refuse what cannot be."""
     if meeting.order == SEALED:
-        asked.refuse("{order} sealed is asked before the match. Leave out what has happened since.")
+        asked.refuse(
+            "{order} sealed works only before the match. Leave out what has happened since."
+        )
     both: tuple[list[str], list[str]] = ([], [])
     for text in asked.used:
         side, name = _player(asked, meeting, text, "used")
@@ -156,7 +158,8 @@ def _check_score(asked: Lineup, meeting: Meeting, score: tuple[int, int], over: 
         possible = {(a + x, b + y) for a, b in possible for x, y in each}
     if score not in possible:
         asked.refuse(
-            "{score} {a}-{b} can't be: by the players used {sets}, and {counted} count"
+            "{score} {a}-{b} is impossible: going by the players used, {sets}, and {counted} "
+            "count"
             + (
                 ". List those who have played with {used}."
                 if asked.count == "sets" and not over
@@ -168,7 +171,7 @@ def _check_score(asked: Lineup, meeting: Meeting, score: tuple[int, int], over: 
             counted=asked.count,
         )
     if asked.last is not None and not over:
-        asked.refuse("{last} {how}: by the players used no set is over", how=asked.last)
+        asked.refuse("{last} {how}: going by the players used, no set is over", how=asked.last)
     if asked.last is not None and asked.count == "sets" and not score[asked.last == "lost"]:
         asked.refuse(
             "{last} {how} contradicts {score} {a}-{b}", how=asked.last, a=score[0], b=score[1]

@@ -12,16 +12,16 @@ COMMANDS = {
     "new": Entry("Start a tournament that you run here.", "tournament.new"),
     "import": Entry("Import a tournament from another program.", "tournament.new:import_"),
     "second-chance": Entry(
-        "Start another event for players knocked out.", "tournament.new:second_chance"
+        "Start another event for players who are out.", "tournament.new:second_chance"
     ),
     **{name: Entry(line, f"tournament.moves:{name}") for name, (_, line) in MOVES.items()},
     "show": Entry("Show the bracket.", "tournament.paper:show"),
     "next": Entry("Show who plays next, and on which table.", "tournament.paper:next_matches"),
     "export": Entry(
-        "List the matches that were played, for the ratings.", "tournament.paper:export"
+        "List the matches that were played, to use for ratings.", "tournament.paper:export"
     ),
-    "print": Entry("Write score cards or the bracket to print.", "tournament.paper:print_paper"),
-    "token": Entry("Let other programs enter scores, or everything.", "tournament.paper:token"),
+    "print": Entry("Make score cards or a bracket to print.", "tournament.paper:print_paper"),
+    "token": Entry("Let other programs enter scores, or anything else.", "tournament.paper:token"),
     "prizes": Entry(
         "What each place pays, and each player's expected prize.", "tournament.odds:prizes"
     ),
@@ -62,7 +62,7 @@ def _apart(word: str, option: str) -> list[str]:
 
 @click.command("tournament", cls=_OfFile, table=COMMANDS)
 def command() -> None:
-    """Run tonight's tournament; find its odds, and finish time.
+    """Run tonight's tournament, and find its odds and finish time.
 
-    Its file is tonight.db unless another is named, as in evenbreak tournament show saturday.db.
+    Its file is tonight.db unless you name another, as in evenbreak tournament show saturday.db.
     """

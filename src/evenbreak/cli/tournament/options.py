@@ -120,8 +120,8 @@ def none_learned(
         return []
     return [
         say(
-            "{places}: no finished {game} tournament there says how long it took; the times are "
-            "the usual ones",
+            "{places}: no finished {game} tournament there shows how long it took, so the usual "
+            "times are used",
             places=", ".join(asked.pace),
             game=asked.discipline,
         )

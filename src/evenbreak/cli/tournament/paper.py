@@ -163,7 +163,7 @@ def print_paper(asked: Print) -> Answer:
     if asked.what == "draw":
         write_file(place, _draw_list(state, asked))
         return printed_answer(
-            state, "The draw", say("The list of the draw is in {file}.", file=FilePath(place))
+            state, "The draw", say("The draw list is in {file}.", file=FilePath(place))
         )
     if asked.what == "bracket":
         write_file(place, _drawing(state, asked, ".pdf"))

@@ -111,7 +111,8 @@ NamedTables: TypeAlias = Annotated[
     ),
 ]
 Discipline: TypeAlias = Annotated[
-    str, Field(Choice(DISCIPLINES), "The game, for how long matches take.", label=say("Game"))
+    str,
+    Field(Choice(DISCIPLINES), "The game, which sets how long matches take.", label=say("Game")),
 ]
 
 _FORMAT, _RACES = "Format", "Races"
@@ -122,7 +123,7 @@ LosersRace: TypeAlias = Annotated[
     Field(
         _RACE,
         "Races on the losers' side, and in a consolation event.",
-        usual="as the others",
+        usual="the same as the others",
         label=say("Race on the losers' side (blank: the same)"),
         section=_RACES,
         formats=("double", "pods", "consolation"),
@@ -133,7 +134,7 @@ FinalRace: TypeAlias = Annotated[
     Field(
         _RACE,
         "Races of the final, and of a second final.",
-        usual="as the others",
+        usual="the same as the others",
         label=say("Race in the final (blank: the same)"),
         section=_RACES,
         formats=("double", "single", "pods", "groups", "consolation", "king-of-the-hill"),
@@ -177,8 +178,8 @@ class Format:
         Few | None,
         Field(
             _PLAYERS,
-            "How many go on: from a double elimination to a single one (2, 4, 8 ...), or from each "
-            "group or pod.",
+            "How many players go on: from a double elimination to a single one (2, 4, 8 ...), "
+            "or from each group or pod.",
             usual="2 from a group, 1 from a pod",
             metavar="M",
             label=say("Players advancing from each group, pod or side (blank: default)"),
@@ -191,8 +192,8 @@ class Format:
         str,
         Field(
             Choice({"half-shift": "half shift", "redraw": "redraw"}),
-            "How the losers' side's qualifiers meet the winners' side's: the halves crossed, or "
-            "drawn.",
+            "How qualifiers from the losers' side meet those from the winners' side: halves "
+            "crossed, or by draw.",
             label=say("How those from the losers' side meet the others"),
             titles={"half-shift": say("Cross the halves"), "redraw": say("Redraw")},
             section=_FORMAT,
@@ -206,7 +207,7 @@ class Format:
             Choice(
                 {"fewest-rematches": "fewest rematches", "usual": "usual", "straight": "straight"}
             ),
-            "Where losers of the winners' side drop to, in a double elimination or in pods.",
+            "Where losers on the winners' side drop to in a double elimination or in pods.",
             metavar="NAME",
             label=say("Where losers of the winners' side drop to"),
             titles={
@@ -235,22 +236,22 @@ class Format:
         Few | None,
         Field(
             _PLAYERS,
-            "How many players of all groups together go on.",
-            usual="as many as those from each group",
+            "How many players go on from all groups together.",
+            usual="the total of those from each group",
             metavar="M",
             label=say("Players advancing from all groups together (blank: as many from each)"),
             section=_FORMAT,
             formats=("groups",),
-            more="16 from 5 groups are the first three of each group and the best of those who are "
-            "fourth: by the share of their matches won, then by games won minus games lost for "
-            "each match, and then by lot.",
+            more="16 from 5 groups are the top three in each group and the best fourth-place "
+            "player: by the share of matches won, then by games won minus games lost per "
+            "match, and then by lot.",
         ),
     ] = None
     pod_size: Annotated[
         Few,
         Field(
             Choice({"4": 4, "8": 8, "16": 16}, "N"),
-            "The lines of a pod: 4, 8 or 16.",
+            "The number of lines in a pod: 4, 8 or 16.",
             label=say("Players in a pod"),
             section=_FORMAT,
             formats=("pods",),
@@ -260,7 +261,7 @@ class Format:
         Few | None,
         Field(
             _PLAYERS,
-            "The rounds of a Swiss.",
+            "The number of rounds in a Swiss tournament.",
             usual="as many as a single elimination has",
             label=say("Rounds of a Swiss (blank: as many as in a single elimination)"),
             section=_FORMAT,
