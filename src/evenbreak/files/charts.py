@@ -60,7 +60,7 @@ LEVELS = Schema(
     needs=_GAMES.called("games, own games", "the games that the player of `level` needs"),
     opponent_needs=_GAMES.called(
         "opponent games",
-        "the games that the opponent needs; not needed if every pair is in both orders",
+        "the games that the opponent needs; can be left out if every pair is listed in both orders",
         filled=False,
     ),
 )
@@ -78,7 +78,7 @@ CHIPS = Schema(
     "rows",
     rating_from=Number(
         "from, rating, from rating",
-        "the lowest rating of the row",
+        "the lowest rating in the row's range",
         needed=True,
         least=-LARGEST,
         most=LARGEST,

@@ -63,8 +63,8 @@ DRILL_LOG = Schema(
     ),
     success=YesNo(
         "made, made it, succeeded, result, outcome",
-        "whether it was made; also `y`, `true`, `1`, `made`, `hit`, `success`, and `n`, `false`, "
-        "`0`, `missed`, `miss`, `failed`, `fail`",
+        "whether the attempt succeeded; also `y`, `true`, `1`, `made`, `hit`, `success`, and "
+        "`n`, `false`, `0`, `missed`, `miss`, `failed`, `fail`",
         needed=True,
         filled=True,
         values=WORDS,
@@ -106,18 +106,25 @@ OUTCOME = Outcome(
 SHOTS = Schema(
     "shots",
     made=Whole(
-        "makes, potted, in", "how often it was made", needed=True, filled=True, instead=("outcome",)
+        "makes, potted, in",
+        "how often the shot was made",
+        needed=True,
+        filled=True,
+        instead=("outcome",),
     ),
     tried=Whole(
         "tries, attempts, attempted, of",
-        "how often it was tried",
+        "how often the shot was tried",
         needed=True,
         filled=True,
         least=1,
         instead=("outcome",),
     ),
     outcome=OUTCOME,
-    shot=Text("name, exercise, shot name", "which shot; without it all rows are of one"),
+    shot=Text(
+        "name, exercise, shot name",
+        "which shot; without this column, all rows are about the same shot",
+    ),
     date=Day(_DAY, "the day"),
 )
 """A log of single shots: a row for each shot of each day, or for each try."""

@@ -104,8 +104,14 @@ def test_points_to_win_are_an_assumption_with_its_range(run, club):
         (("odds", "5", "3", "--race", "5"), "3 to 5 look like skill levels, not ratings. Add --ch"),
         (("fair", "5", "3"), "Add --chart apa_8ball or --chart apa_9ball, or --scale npl if they"),
         (("odds", "5", "3"), "give --race M:N, --ahead M:N or --chart"),
-        (("odds", "5", "3", "--chart", "apa_9ball", "--race", "5:3"), "--race isn't for a points chart"),
-        (("live", "5", "3", "--chart", "apa_9ball", "--racks", "ab"), "--racks isn't for a points chart"),
+        (
+            ("odds", "5", "3", "--chart", "apa_9ball", "--race", "5:3"),
+            "--race isn't for a points chart",
+        ),
+        (
+            ("live", "5", "3", "--chart", "apa_9ball", "--racks", "ab"),
+            "--racks isn't for a points chart",
+        ),
         (("live", "5", "3", "--chart", "apa_9ball", "--score", "40:3"), "the match is over"),
         (("fair", "5", "3", "--chart", "apa_9ball"), "must be a chart of races by skill level"),
         (("fair", "85", "80", "--chart", "npl_8"), "must be a chart of races by skill level"),

@@ -58,7 +58,10 @@ class Source:
     """The titles that its columns have, where they are not known ones."""
     dates: Annotated[
         str | None,
-        Field(Choice(("mdy", "dmy")), "The order in dates such as 9/3/2024, if no date shows it."),
+        Field(
+            Choice(("mdy", "dmy")),
+            "The order of day and month in dates such as 9/3/2024, if no date shows it.",
+        ),
     ] = None
 
 
@@ -69,7 +72,7 @@ class TeamRules:
     players: Annotated[int | None, Field(Whole(1, 100), "How many players a team puts up.")] = None
     sets: Annotated[int | None, Field(values.SETS, "How many sets are played.")] = None
     cap: Annotated[
-        float | None, Field(values.CAP, "The largest sum of the skill levels of a lineup.")
+        float | None, Field(values.CAP, "The largest sum of skill levels in a lineup.")
     ] = None
     at_most: Annotated[
         tuple[int, float] | None,
@@ -91,8 +94,8 @@ class StandingsRules:
         TableRules | None,
         Field(
             values.TABLE_POINTS,
-            "The points of a win, a draw and a loss (and of each game or set won, and of a win to "
-            "nil), or `sets`, `apa_8ball` or `apa_9ball`.",
+            "The points for a win, a draw and a loss (and for each game or set won, and for a "
+            "shutout), or `sets`, `apa_8ball` or `apa_9ball`.",
         ),
     ] = None
     ties: Annotated[
@@ -112,14 +115,14 @@ class Prices:
     """`[prices]`: what it costs to play."""
 
     entry: Annotated[float | None, Field(values.MONEY, "What each player pays to enter.")] = None
-    currency: Annotated[str | None, Field(values.CURRENCY, "The sign of the currency.")] = None
+    currency: Annotated[str | None, Field(values.CURRENCY, "The currency symbol.")] = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class Published:
     """`[publish]`: what the league's site shows."""
 
-    color: Annotated[str | None, Field(values.COLOR, "The color of the site.")] = None
+    color: Annotated[str | None, Field(values.COLOR, "The site's color.")] = None
     logo: Annotated[str | None, Field(values.FILE, "A logo for the top of the site.")] = None
     names: Annotated[
         str, Field(values.NAMES, "Players' names in full, as initials, or not at all (hidden).")
@@ -147,34 +150,37 @@ class LeagueFile:
         str | None, Field(values.FILE, "The race chart: a name, or a file in the folder.")
     ] = None
     race: Annotated[
-        int | None, Field(Whole(1, LONGEST_RACE), "Without a chart: even races to so many games.")
+        int | None, Field(Whole(1, LONGEST_RACE), "Without a chart: even races to this many games.")
     ] = None
     race_to: Annotated[
         int | None,
         Field(
             Whole(1, LONGEST_RACE),
-            "Without a chart: the stronger player races to so many games, and the weaker gets the "
-            "fairest race.",
+            "Without a chart: the stronger player races to this many games, and the weaker gets "
+            "the fairest race.",
         ),
     ] = None
     system: Annotated[
         str | None, Field(values.SYSTEM_NAME, "The handicap system: how ratings move.")
     ] = None
     begins: Annotated[date | None, Field(values.DAY, "The first day of the season.")] = None
-    ends: Annotated[date | None, Field(values.DAY, "Its last day.")] = None
-    venue: Annotated[str | None, Field(values.LINE, "Where it is played.")] = None
+    ends: Annotated[date | None, Field(values.DAY, "The last day of the season.")] = None
+    venue: Annotated[str | None, Field(values.LINE, "Where the league plays.")] = None
     tables: Annotated[int | None, Field(Whole(1, MOST_TABLES), "The number of tables.")] = None
     hours: Annotated[
         tuple[time, time] | None, Field(values.HOURS, "When a night starts and ends.")
     ] = None
     minutes_per_game: Annotated[
         float | None,
-        Field(values.MINUTES, "How long a game takes, if not as usual in the discipline."),
+        Field(
+            values.MINUTES,
+            "How long a game takes, if that differs from the discipline's usual time.",
+        ),
     ] = None
     turnover: Annotated[
         float | None, Field(values.TURNOVER, "The minutes between two matches on a table.")
     ] = None
-    paper: Annotated[str | None, Field(values.PAPER, "The paper of sheets.")] = None
+    paper: Annotated[str | None, Field(values.PAPER, "The paper size for sheets.")] = None
     files: LeagueFiles = LeagueFiles()
     results: tuple[Source, ...] = ()
     aliases: Mapping[str, str] = field(default_factory=lambda: _NOTHING)

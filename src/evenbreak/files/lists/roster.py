@@ -42,7 +42,7 @@ ROSTER = Schema(
     "players",
     player=Name(
         "name, player name, full name",
-        "each name once",
+        "the player's name; each name is listed once",
         needed=True,
         instead=("given_name surname",),
     ),
@@ -50,7 +50,8 @@ ROSTER = Schema(
     surname=Text("", "with `given_name`, instead of `player`"),
     rating=Number(
         "points, handicap, fargo rating, fargo, elo",
-        "the title may name the scale (`Fargo rating`, `Elo`); not needed if there are levels",
+        "the rating; the column title may name the scale (`Fargo rating`, `Elo`); not needed if "
+        "there are levels",
         least=-LARGEST,
         most=LARGEST,
         grouped=True,
@@ -59,7 +60,7 @@ ROSTER = Schema(
     ),
     effective_rating=Number(
         "",
-        "in a list saved from FargoRate: the rating of players whose `rating` is 0, since they "
+        "in a list saved from FargoRate: the rating of players whose `rating` is 0 because they "
         "have fewer than 200 games; these ratings are provisional",
         least=0,
         most=LARGEST,
@@ -68,8 +69,8 @@ ROSTER = Schema(
     level=Number(
         "skill level, sl",
         "the skill level, for charts by skill level and for caps. If there are no ratings, the "
-        "levels replace them; this takes a chart by skill level, or `--scale` with the number of "
-        "levels that doubles the odds",
+        "levels replace them; this requires a chart by skill level, or `--scale` with the "
+        "number of levels that doubles the odds",
         least=0,
         most=1000,
         write=say("a skill level"),
@@ -159,8 +160,8 @@ OF_SEASON = Schema(
     ),
     day_sd=Number(
         "day, day fluctuation, form",
-        "how far the skill varies from day to day: one standard deviation, in points; if empty, as "
-        "`--day-sd` says",
+        "how far the skill varies from day to day: one standard deviation, in points; if the "
+        "cell is empty, `--day-sd` applies",
         least=0,
         most=LARGEST_SD,
         write=say("points such as 5"),
@@ -185,7 +186,7 @@ OF_SEASON = Schema(
     ),
     team=Name(
         "team name, club",
-        "the player's team, in a league of teams; then the fixtures are those of the teams",
+        "the player's team, in a team league; the fixtures are then between teams",
         write=say("the team of each player"),
     ),
 )

@@ -25,8 +25,8 @@ _POINTS = Number(least=-LARGEST, most=LARGEST, write=say("points"))
 OF_PRIOR = Schema(
     prior_mean=_POINTS.called(
         "",
-        "the mean of the prior that the rating was made with. This prior is removed, so that only "
-        "the new one counts; if this is empty, the rating is used as it is",
+        "the mean of the prior that the rating was made with. This prior is removed, so that "
+        "only the new one counts; if the cell is empty, the rating is used as it is",
     ),
     prior=_POINTS.called("", "the prior's standard deviation", least=0),
     as_of=Day(

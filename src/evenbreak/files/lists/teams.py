@@ -57,7 +57,7 @@ ROUND = Schema(
 PLACE = Schema(
     venue=Text("location, place", "where the match is played"),
     table=Text("table number", "the table"),
-    turn=Text("", "whether it is the first match there that night, the second, ..."),
+    turn=Text("", "whether the match is the first on its table that night, the second, ..."),
 )
 PAIR = Schema(
     "matches",
@@ -89,10 +89,10 @@ TEAM_RESULTS = (
 
 TEAMS = Schema(
     "teams",
-    team=Name("name, team name", "each team once", needed=True),
+    team=Name("name, team name", "the team's name; each team is listed once", needed=True),
     points=Number(
         "head start, bonus, deduction, adjustment",
-        "points that the team has in addition to those from its matches",
+        "points that the team has in addition to those it won in matches",
         least=-10_000,
         most=10_000,
         write=say("points such as -2"),

@@ -35,7 +35,7 @@ RESULTS = Schema(
     "matches",
     player_a=Name(
         "player 1, player a name, home, home player, a",
-        "one of the two players; neither of them is assumed to have broken",
+        "one of the two players, not necessarily the one who broke",
         needed=True,
         instead=_WINNER_AND_LOSER,
     ),
@@ -88,8 +88,8 @@ RESULTS = Schema(
     division=_NFC.called("class, flight", "the division or class of the match; used like the team"),
     level_a=_NFC.called(
         "level 1, skill level a, skill level 1, class a, class 1, rating a",
-        "the class, skill level or rating the league used for player a that day: `B`, "
-        "`5` or `87`; `validate` says what a class is worth, and which "
+        "the class, skill level or rating that the league used for player a that day: `B`, `5` "
+        "or `87`; `validate` shows what a class is worth, and which "
         "[chart](../how-to/can-i-trust-the-ratings.md#handicaps) the races come from",
     ),
     level_b=_NFC.called(
@@ -97,7 +97,8 @@ RESULTS = Schema(
     ),
     forfeit=YesNo(
         "walkover, forfeited, no show, w/o",
-        "forfeits are left out of the ratings; the answer tells how many",
+        "whether the match was a forfeit; forfeits are left out of the ratings, and the answer "
+        "tells you how many there were",
         values=FORFEIT_WORDS,
     ),
 )
@@ -114,7 +115,7 @@ LAYOUTS = Schema(
     status=Text(
         "", "whether the match was played: `played`, `forfeit`, `bye`, `postponed` and the like"
     ),
-    remark=Text("", "used only if it says just `forfeit`, `bye` or the like"),
+    remark=Text("", "used only if it says nothing but `forfeit`, `bye` or the like"),
     winner_score=Text(
         "winner games, winners score, games won by winner",
         "with `winner` and `loser`, instead of the two scores",
