@@ -3,7 +3,7 @@
 A game is a directed graph; the graph is a transition matrix; the matrix has a
 stochastic limit; every answer is read off that limit.
 
-The public names load on first use, so that importing the package costs next to nothing.
+The public names load on first use, so importing the package is nearly free.
 """
 
 import lazy_loader

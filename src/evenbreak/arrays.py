@@ -1,4 +1,4 @@
-"""The arrays that functions take and return, by what they hold, and how values show them."""
+"""Types of the arrays that functions take and return, and read-only arrays in dataclasses."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import fields
@@ -16,9 +16,9 @@ Places = NDArray[np.intp]
 Bools = NDArray[np.bool_]
 
 FloatOrArray: TypeAlias = Any
-"""A number or an array of numbers, and what is calculated from them element by element.
+"""A number or an array of numbers, or an elementwise result.
 
-As with numpy's own functions, a type checker takes it for either: a float where all arguments are
+As with numpy's own functions, a type checker accepts it as either: a float where all arguments are
 numbers (`evenbreak.checks.plain`), otherwise an array of the shape to which they broadcast.
 """
 
@@ -29,10 +29,10 @@ _PLAIN = frozenset((type(None), bool, int, float, str))
 
 
 def own_arrays(cls: Class) -> Class:
-    """Let the values of a dataclass own their arrays, so that writing to one changes no answer.
+    """Make instances of a dataclass own their arrays, so that writing to one changes no answer.
 
-    The arrays and sparse matrices that they are made from are copied, unless no one can write to
-    them; those that they hold or remember are read-only.
+    Arrays and sparse matrices passed in are copied unless they are read-only; those that an
+    instance holds or caches are read-only.
 
     >>> from dataclasses import dataclass
     >>> @own_arrays
@@ -102,14 +102,14 @@ def owned(value: Any) -> Any:
 
 
 def _holds(value: Any) -> bool:
-    """Return whether a value is an array, starts with one, or has one among named parts."""
+    """Return whether a value is an array, starts with one, or has one among its named parts."""
     if isinstance(value, tuple | list):
         return any(map(_holds, value if hasattr(value, "_make") else value[:1]))
     return isinstance(value, np.ndarray)
 
 
 def _is_frozen(array: Any) -> bool:
-    """Return whether this is an array and no one can write to it, nor to one that it views."""
+    """Return whether this is an array that cannot be written to, directly or through a base."""
     while isinstance(array, np.ndarray) and not array.flags.writeable:
         if array.base is None:
             return True
@@ -118,13 +118,13 @@ def _is_frozen(array: Any) -> bool:
 
 
 def frozen(array: Array) -> Array:
-    """Return an array to which no one can write any more."""
+    """Return a read-only array."""
     array.flags.writeable = False
     return array
 
 
 def short_repr(cls: Class) -> Class:
-    """Let a dataclass say how large its arrays are, instead of printing them.
+    """Make a dataclass's `repr` show the shapes of its arrays instead of their values.
 
     >>> from dataclasses import dataclass
     >>> @short_repr
@@ -140,7 +140,7 @@ def short_repr(cls: Class) -> Class:
 
 
 def array_values(cls: Class) -> Class:
-    """Let a dataclass own its arrays, and say how large they are: `own_arrays`, `short_repr`."""
+    """Make a dataclass own its arrays, with a short `repr`: `own_arrays` and `short_repr`."""
     return own_arrays(short_repr(cls))
 
 

@@ -1,8 +1,8 @@
-"""The errors that this package raises, as a small hierarchy.
+"""The exceptions that this package raises, as a small hierarchy.
 
-Every message says what was wrong, where, and how to correct it. All of them are
-`EvenbreakError`; those caused by a wrong value are also `ValueError`, so that code which
-knows nothing of this package catches them too.
+Every message says what was wrong, where, and how to correct it. All of them are `EvenbreakError`;
+those caused by an invalid value are also `ValueError`, so code that doesn't know this package
+catches them too.
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ from evenbreak.words import Sentence, joined, say
 
 
 class EvenbreakError(Exception):
-    """The base of every error that this package raises on purpose.
+    """Base class of every exception that this package raises on purpose.
 
     Parameters
     ----------
     template
-        what went wrong, as `evenbreak.words.say` takes it, or a sentence.
+        what went wrong: a template for `evenbreak.words.say`, or a sentence.
     values
-        what fills it in.
+        the values that fill in the template.
 
     Attributes
     ----------
     sentence
-        what went wrong, for a face to say; `str` of the error is its English text.
+        what went wrong, in a form that can be translated; `str` of the error is its English text.
 
     >>> error = InputError("{name!r} has not entered", name="Tom and Jerry")
     >>> str(error), error.sentence.template
@@ -45,7 +45,7 @@ class InputError(EvenbreakError, ValueError):
 
 
 class GameError(EvenbreakError, ValueError):
-    """A game does not follow the rules of a game (see `evenbreak.game`)."""
+    """A game breaks the rules of a game (see `evenbreak.game`)."""
 
 
 class ChainError(EvenbreakError, ValueError):
@@ -53,15 +53,15 @@ class ChainError(EvenbreakError, ValueError):
 
 
 class AccuracyError(EvenbreakError, ArithmeticError):
-    """The method asked for cannot guarantee the accuracy of the answer."""
+    """The requested method cannot guarantee the accuracy of the answer."""
 
 
 class WorkerError(EvenbreakError, RuntimeError):
-    """The processes or the cluster that should do the work cannot be reached or have stopped."""
+    """The worker processes or the cluster cannot be reached or have stopped."""
 
 
 class DataError(EvenbreakError, ValueError):
-    """A file cannot be used; `problems` lists everything that is wrong with it, one line each.
+    """A file cannot be used; `problems` lists everything wrong with it, one line each.
 
     >>> error = DataError(["r.csv:2: score_a 'x' isn't a whole number. Write 0, 1, 2, ..."])
     >>> error.problems

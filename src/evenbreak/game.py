@@ -1,9 +1,8 @@
-"""What a game is, and its diagram.
+"""The interface of a game, and its diagram.
 
-A game is a directed graph that is described rather than stored: where it starts, what can
-happen next and with what probability, and who has won once it is over. Any object that
-answers these three questions is a game, and so is any `networkx.DiGraph` whose arcs carry
-a `probability`.
+A game is a directed graph that is described rather than stored: where it starts, what can happen
+next and with what probability, and who has won once it is over. Any object that answers these three
+questions is a game, and so is any `networkx.DiGraph` whose arcs have a `probability`.
 """
 
 from __future__ import annotations
@@ -23,10 +22,10 @@ _ONE = 1.0 + 1e-9  # a sum of probabilities may miss 1 by rounding
 
 @runtime_checkable
 class Game(Protocol):
-    """Anything that says where it starts, what can happen next, and who has won.
+    """Any object that knows where it starts, what can happen next, and who has won.
 
-    A game may also have a method `label(state)`, which returns how a diagram writes a state, and
-    a method `arcs()` (see `ArcArrays`).
+    A game may also have a method `label(state)`, which returns a state's text in a diagram, and a
+    method `arcs()` (see `ArcArrays`).
     """
 
     @property
@@ -49,7 +48,7 @@ class ArcArrays(NamedTuple):
     `sources[k]` and `targets[k]` are positions in `states`; `probabilities[k]` > 0 is the
     probability of the target, given the source. States without arcs are terminal. A game
     may have a method `arcs()` that returns these, for the start and every state that can
-    be reached from it, or None if they have to be found by its moves.
+    be reached from it, or None if they have to be found from its moves.
     """
 
     states: Sequence[Any]
@@ -64,12 +63,12 @@ def arcs_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> Ar
     Parameters
     ----------
     game
-        the game. If it has arrays of its own, these are used; otherwise its states are
-        found move by move, breadth-first. Moves of probability zero are left out.
+        the game. If it has its own arrays, they are used; otherwise, its states are found move by
+        move, breadth-first. Moves of probability zero are left out.
     start
         the state to start from; None: the game's own start.
     max_states
-        give up beyond this many states; the game may be endless.
+        the largest number of states; beyond it an error is raised, as the game may be endless.
 
     Returns
     -------
@@ -129,7 +128,7 @@ def _walk(game: Game, start: Any, max_states: int) -> ArcArrays:
 def moves_of(
     game: Game, start: Any, max_states: int = 5_000_000
 ) -> tuple[list[Any], list[int], list[int], list[Any]]:
-    """Return the states from `start` on, and the sources, targets and chances of the moves.
+    """Return the states from `start` on, and the moves' sources, targets and chances.
 
     The states are found breadth-first. A chance is kept as the game gives it: any kind of number
     that can be compared with 0 and 1.
@@ -201,16 +200,16 @@ def _too_many(max_states: int) -> GameError:
 def graph_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> nx.DiGraph[Any]:
     """Return the game's diagram: every state that can be reached from its start.
 
-    Arcs carry `probability` (of the target, given the source); nodes carry `kind`
-    ('start', 'transient' or 'terminal') and `winner` (1, 2, ... or None). Moves of
-    probability zero are left out. If the game is over at its start, the start is 'terminal'.
+    Arcs have a `probability` (of the target, given the source); nodes have a `kind` ('start',
+    'transient' or 'terminal') and a `winner` (1, 2, ... or None). Moves of probability zero are
+    left out. If the game is over at its start, the start is 'terminal'.
 
     Parameters
     ----------
     start
         the state to start from; None: the game's own start.
     max_states
-        give up beyond this many states; the game may be endless.
+        the largest number of states; beyond it an error is raised, as the game may be endless.
 
     Raises
     ------
@@ -232,7 +231,7 @@ def graph_of(game: Game, *, start: Any = None, max_states: int = 5_000_000) -> n
 
 
 def graph_of_arcs(arcs: ArcArrays, start: Any) -> nx.DiGraph[Any]:
-    """Return the diagram of some arcs, as `graph_of` makes it, without winners.
+    """Return the diagram of the given arcs, like `graph_of` but without winners.
 
     >>> import numpy as np
     >>> graph_of_arcs(ArcArrays("SW", *map(np.array, ([0], [1], [1.0]))), "S").nodes(data="kind")

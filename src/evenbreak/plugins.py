@@ -1,8 +1,8 @@
-"""Systems, charts and games of installed packages, known by name to every command.
+"""Systems, charts and games from installed packages, available by name to every command.
 
 A package declares them as entry points of the groups `evenbreak.systems`, `evenbreak.charts` and
-`evenbreak.games`. None is searched for where a name is one of ours, and only the package that has
-the name is imported: a broken one stops no one else.
+`evenbreak.games`. Built-in names take precedence, and only the package that has the name is
+imported, so a broken package does not affect others.
 """
 
 from __future__ import annotations
@@ -20,28 +20,29 @@ Kind = Literal["system", "chart", "game"]
 
 
 def added(kind: Kind) -> dict[str, str]:
-    """Return the package of each system, chart or game that is added, by name; import none."""
+    """Return the package of each added system, chart or game, by name, without importing any."""
     return {point.name: package_of(point) for point in _points(kind)}
 
 
 def plugin(kind: Kind, name: str, admit: Callable[[Any], Any], *arguments: Any) -> Any:
-    """Return what an installed package adds under a name; None if none has this name.
+    """Return the object that an installed package adds under a name, or None if no package has it.
 
     Parameters
     ----------
     kind
-        what it is.
+        the kind of object.
     name
-        its name; blanks, hyphens, underscores and case do not matter.
+        its name; spaces, hyphens, underscores and case do not matter.
     admit
-        takes an object that a package adds, and returns it, or refuses it by a law that it breaks.
+        function that takes an object that a package adds and returns it, or raises an error for a
+        rule that it breaks.
     arguments
-        for the class or the function that makes the object.
+        for the class or function that makes the object.
 
     Raises
     ------
     InputError
-        if the package cannot be imported, what it adds is refused, or two packages have the name.
+        if the package cannot be imported, its object breaks a rule, or two packages have the name.
     """
     points = [point for point in _points(kind) if plain(point.name) == plain(name)]
     if not points:
@@ -66,12 +67,12 @@ def plugin(kind: Kind, name: str, admit: Callable[[Any], Any], *arguments: Any) 
 
 
 def made(named: Any, *arguments: Any) -> Any:
-    """Return what a class or a function makes of its arguments, or an object as it is.
+    """Return the result of calling a class or function, or the object itself if it is neither.
 
     Raises
     ------
     InputError
-        if it takes other arguments, or a class lacks methods.
+        if the arguments don't fit, or a class lacks methods.
 
     >>> made(dict, [("a", 1)]), made(3)
     ({'a': 1}, 3)
@@ -97,7 +98,7 @@ def made(named: Any, *arguments: Any) -> Any:
 
 
 def broken_of(laws: Iterable[Callable[[], Iterable[str]]]) -> list[str]:
-    """Return what is broken of laws, in sentences, up to the first that raises an error.
+    """Return the rules that are broken, as sentences, up to the first rule that raises an error.
 
     >>> broken_of([lambda: [], lambda: ["it is late"], lambda: 1 / 0, lambda: ["never asked"]])
     ['it is late', 'it failed with ZeroDivisionError: division by zero']
@@ -112,14 +113,14 @@ def broken_of(laws: Iterable[Callable[[], Iterable[str]]]) -> list[str]:
 
 
 def lawful(value: Any, broken: Sequence[str]) -> Any:
-    """Return a value that breaks no law, or refuse it by the first that it breaks."""
+    """Return a value that breaks no rule, or raise an error for the first rule that it breaks."""
     if broken:
         raise InputError("{sentence}", sentence=broken[0])
     return value
 
 
 def why(error: BaseException) -> str:
-    """Return what an error says, with its kind where it is not one of ours.
+    """Return an error's message, with its type if the type is not from this package.
 
     >>> why(InputError("k is 0")), why(ImportError("No module named 'numpyy'"))
     ('k is 0', "it failed with ImportError: No module named 'numpyy'")
@@ -129,12 +130,12 @@ def why(error: BaseException) -> str:
 
 
 def package_of(point: EntryPoint) -> str:
-    """Return the package of an entry point, with its version."""
+    """Return an entry point's package and version."""
     return f"{point.dist.name} {point.dist.version}" if point.dist else point.value
 
 
 def plain(name: str) -> str:
-    """Return a name without what does not matter in it.
+    """Return a name without the characters that do not matter.
 
     >>> plain(" Last_Ten")
     'last ten'

@@ -1,12 +1,13 @@
-"""Work in pieces, done by this process, by several, or by a cluster, with the same results.
+"""Do work in pieces in this process, in several, or on a cluster, always with the same results.
 
 Results come back in the order of the pieces, so they do not depend on how many workers there are
 or how fast they are. Only a few pieces are under way at a time, so memory does not grow with
 their number.
 
-The processes are those of `concurrent.futures`, with two additions. Worker processes end when
-their parent is killed; those of a bare pool wait for work forever. And Ctrl-C, which a terminal
-sends to every process of a program, ends the workers silently instead of with a traceback each.
+The processes come from `concurrent.futures`, with two additions. Worker processes end when their
+parent is killed, whereas those in a bare pool would wait for work forever. And Ctrl-C, which a
+terminal sends to all of a program's processes, ends the workers silently instead of with a
+traceback each.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ Piece = TypeVar("Piece")
 Result = TypeVar("Result")
 
 _AHEAD = 2
-"""Pieces given out for each worker: the one it is working on and the one it does next."""
+"""Pieces assigned to each worker: the one in progress and the next one."""
 
 
 def in_order(
@@ -54,15 +55,15 @@ def in_order(
     task
         a function that a worker can import by its name.
     shared
-        what every piece needs; sent once to each of our own processes and to a cluster, and with
-        each piece to any other executor.
+        data that every piece needs; sent once to each built-in worker process and to a cluster, and
+        with each piece to any other executor.
     pieces
-        taken only as they are needed.
+        the pieces, an iterable that is consumed only as needed.
     executor
         an executor of `concurrent.futures`, or a `distributed.Client`; None: as many processes as
         `jobs` says.
     jobs
-        the number of processes where there is no executor; 1 works in this one.
+        the number of processes if there is no executor; 1: only this process.
 
     Raises
     ------
@@ -92,16 +93,16 @@ def in_order(
 
 
 Share: TypeAlias = Callable[[Callable[[Any, Any], Any], Any, Iterable[Any]], Iterator[Any]]
-"""What does several tasks like `in_order`, with the same workers: task, shared, pieces."""
+"""Runs several tasks like `in_order`, with the same workers: task, shared, pieces."""
 
 
 @contextmanager
 def crew(
     *, executor: Executor | distributed.Client | None = None, jobs: int = 1
 ) -> Iterator[Share | None]:
-    """Yield what does several tasks, one after another, by the workers of `in_order`.
+    """Yield a function that runs several tasks in turn with the workers of `in_order`.
 
-    Processes of our own stay for all of them. None: there is only this process.
+    Built-in worker processes are kept for all of them. None: there is only this process.
 
     >>> with crew() as share:
     ...     share is None
@@ -128,7 +129,7 @@ def _do_any(_: None, piece: tuple[Callable[[Any, Any], Any], Any, Any]) -> Any:
 
 @contextmanager
 def _broken_is_said() -> Iterator[None]:
-    """Say why a pool of processes is broken."""
+    """Return the error that explains why a pool of processes is broken."""
     try:
         yield
     except BrokenExecutor as error:
@@ -153,9 +154,9 @@ def _results(
 def _on_cluster(
     client: distributed.Client, task: Callable[[Shared, Piece], Result], shared: Shared
 ) -> Callable[[Piece], Any]:
-    """Return what gives pieces to a cluster, which keeps what they share.
+    """Return a function that submits pieces to a cluster, which keeps their shared data.
 
-    It is kept as the result of a task; dask does the task again if the worker that held it is lost.
+    The data is kept as the result of a task, which dask repeats if the worker that held it is lost.
     """
     import dask
 
@@ -171,14 +172,14 @@ def _same(value: Shared) -> Shared:
 
 
 _kept: tuple[Callable[[Any, Any], Any], Any]
-"""In a worker process: the task, and what its pieces share."""
+"""In a worker process: the task, and the data that its pieces share."""
 
 
 @contextmanager
 def _processes(
     jobs: int, task: Callable[[Shared, Piece], Result], shared: Shared
 ) -> Iterator[Callable[[Piece], Any]]:
-    """Yield what gives pieces to worker processes of our own, which end with the block.
+    """Yield a function that submits pieces to built-in worker processes, which end with the block.
 
     They are spawned: a fork copies the locks that other threads hold, and Windows has none.
     """
@@ -199,10 +200,10 @@ def _processes(
 
 @contextmanager
 def _safe_path() -> Iterator[None]:
-    """Let processes that start in the block not look for modules in the working folder.
+    """Keep processes that start in the block from importing modules from the working folder.
 
-    There a file of data, or of someone else, may have the name of a module. Once such a process
-    runs, it looks for modules where this one does.
+    A data file there, or someone else's file, may have a module's name. Once such a process runs,
+    it looks for modules where this one does.
     """
     before = os.environ.get(_SAFE_PATH)
     os.environ[_SAFE_PATH] = "1"
@@ -217,7 +218,7 @@ def _safe_path() -> Iterator[None]:
 
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
-    """Let Ctrl-C wait until the block is done, and for processes that start in it even longer."""
+    """Delay Ctrl-C until the block is done, and longer for processes that start in it."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return

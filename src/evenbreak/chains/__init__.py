@@ -1,9 +1,9 @@
-"""Markov chains and their stochastic limits; nothing here knows what a game is about.
+"""Markov chains and their stochastic limits; nothing in this package knows about particular games.
 
-A `chain` is read from a game, a graph, arcs or a matrix (`explore`, `matrices`). Its graph says
-which states are left for good and with what period the others come back (`structure`). Its numbers
-come from one idea: states are eliminated one after the other, with sums of arcs for pivots, so that
-nothing is subtracted. The graph gives the order, and the kernel suits the numbers:
+A `chain` is read from a game, a graph, arcs or a matrix (`explore`, `matrices`). Its graph shows
+which states are left for good and with what period the others recur (`structure`). Its numbers come
+from one idea: states are eliminated one after the other, with sums of arcs as pivots, so that
+nothing is subtracted. The graph determines the order, and the kernel depends on the numbers:
 
 | what is eliminated | by | for |
 |---|---|---|
@@ -15,9 +15,10 @@ nothing is subtracted. The graph gives the order, and the kernel suits the numbe
 | a line | `birth_death` | closed forms and solves in linear time |
 | a class too large for that | `certified` | any approximation, proved afterward |
 
-`factorization` chooses for each class and `transient` watches for underflow. On their two solves,
-visits and values, stand `limits`, `absorption`, `passage_times`, `rewards` and `sensitivity`. The
-other road, by eigenvectors (`eigenpairs`, `spectrum`), comes to the same limits and checks them.
+`factorization` chooses for each class and `transient` watches for underflow. Their two solves,
+visits and values, are the basis of `limits`, `absorption`, `passage_times`, `rewards` and
+`sensitivity`. The other route, by eigenvectors (`eigenpairs`, `spectrum`), leads to the same limits
+and checks them.
 """
 
 import lazy_loader

@@ -1,11 +1,11 @@
-"""Where a chain is absorbed, and how often it visits each state before.
+"""Where a chain is absorbed, and how often it visits each state before that.
 
 With T the arcs among the transient states and v the starting vector, x = (I - T)^-1 v are the
 expected visits to them, and the recurrent states are entered with the probabilities
 
     v + M x,
 
-summed over each closed class. A chain without cycles needs one substitution only.
+summed over each closed class. A chain without cycles needs only one substitution.
 
 Reference: Kemeny and Snell 1960, Finite Markov Chains, chapter III.
 """
@@ -30,10 +30,10 @@ if TYPE_CHECKING:
 def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> pd.Series[Any]:
     """Return the probability of ending in each closed class, given the start, as a Series.
 
-    A class of one state has that state as its label, a larger one the tuple of its states. Each
-    entry is right to about machine precision (see `stochastic_limit`).
+    The label of a class is its state if it has only one, otherwise the tuple of its states. Each
+    entry is accurate to about machine precision (see `stochastic_limit`).
 
-    With `exact` the entries are fractions (see `stochastic_limit`).
+    With `exact`, the entries are fractions (see `stochastic_limit`).
 
     Raises
     ------
@@ -66,10 +66,10 @@ def absorption(chain: Chain, start: Any = None, *, exact: bool = False) -> pd.Se
 
 
 def expected_visits(chain: Chain, start: Any = None) -> pd.Series[float]:
-    """Return the expected number of steps started in each state, given the start, as a Series.
+    """Return the expected number of steps that start in each state, given the start, as a Series.
 
-    Transient states have a finite number. Recurrent states have inf if they can be reached,
-    otherwise 0. The accuracy is that of `absorption`.
+    For transient states, the number is finite. For recurrent states, it is inf if they can be
+    reached, otherwise 0. The accuracy is that of `absorption`.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def expected_visits(chain: Chain, start: Any = None) -> pd.Series[float]:
 
 
 def masses_of(chain: Chain, start: Any = None) -> Floats:
-    """Return the probability of ending in each class, 0 if it is not closed; shape (classes,)."""
+    """Return the probability of ending in each class, 0 for open classes; shape (classes,)."""
     v, arcs, structure = chain.density(start), chain.arcs, chain.structure
     if structure.is_acyclic:
         arrivals = ends_of(chain, v)
@@ -113,7 +113,7 @@ def masses_of(chain: Chain, start: Any = None) -> Floats:
 
 
 def visits_from(chain: Chain, start: Any = None) -> Floats:
-    """Return the `expected_visits` to each state as an array."""
+    """Return the `expected_visits` to all states as an array."""
     v = chain.density(start)
     states = chain.transient.states
     visits = np.zeros(len(chain))
@@ -133,7 +133,7 @@ def ends_of(chain: Chain, v: Floats) -> Floats:
 
 
 def closed_classes_reached(chain: Chain, v: Floats) -> Bools:
-    """Return which closed classes can be reached, even with a chance smaller than any float."""
+    """Return which closed classes can be reached, even with a chance too small for a float."""
     arcs, structure = chain.arcs, chain.structure
     seen = reachable(len(chain), arcs.sources, arcs.targets, v > 0.0)
     reached = np.zeros(structure.count, dtype=bool)

@@ -1,16 +1,16 @@
-"""A rough solve of balance equations by aggregation and disaggregation on many levels.
+"""Approximate solver for balance equations, by aggregation and disaggregation on many levels.
 
-States that exchange much are joined in pairs, and the pairs in pairs, until a few hundred groups
-are left, which are solved for at once. On the way back each group's correction is given to all its
-states alike, and a step of Jacobi's iteration before and after smooths what differs within groups.
-Each level visits the coarser one twice (a W cycle), which costs about as much as the finest level
-alone.
+States that exchange much flow are joined in pairs, and the pairs in pairs, until a few hundred
+groups are left, which are solved for directly. On the way back, each group's correction is applied
+equally to all its states, and a step of Jacobi iteration before and after smooths the differences
+within groups. Each level visits the coarser one twice (a W cycle), which costs about as much as the
+finest level alone.
 
-The equations are those of flows: entry [i, j] of B off the diagonal is minus the flow from j to i,
-about the chance of the arc times the expected visits to j, and the flows into and out of a state
+The equations are in terms of flows: entry [i, j] of B off the diagonal is minus the flow from j to
+i, about the chance of the arc times the expected visits to j, and the flows into and out of a state
 nearly balance. Then a group of states is a state of a smaller chain, and a constant is nearly a
-solution on every level, so that a handful of cycles suffice for grids of any dimension, for graphs
-that nothing cuts in two, and for parts that hardly communicate.
+solution on every level, so a handful of cycles is enough for grids of any dimension, for graphs
+without a small separator, and for parts that hardly communicate.
 
 References: Takahashi 1975; Koury, McAllister and Stewart 1984, "Iterative methods for computing
 stationary distributions of nearly completely decomposable Markov chains"; Horton and Leutenegger
@@ -29,7 +29,7 @@ from evenbreak.arrays import Floats
 from evenbreak.chains.arcs import Places
 
 _FEW = 400
-"""So few groups are solved for directly."""
+"""Number of groups up to which they are solved for directly."""
 _DAMPING = 0.7
 _MATCHINGS = 6
 
@@ -41,10 +41,10 @@ class _Level(NamedTuple):
 
 
 class Aggregation:
-    """A rough inverse of B; calling it on b, of shape (m,), returns roughly B^-1 b.
+    """Approximate inverse of B; calling it on b, of shape (m,), returns roughly B^-1 b.
 
-    B is sparse, shape (m, m): positive on the diagonal, nowhere else. A RuntimeError if the
-    equations of the last groups are singular in floats.
+    B is sparse, shape (m, m): positive on the diagonal, nowhere else. Raises RuntimeError if the
+    equations of the last groups are singular in floating point.
     """
 
     def __init__(self, B: csr_array) -> None:
@@ -74,7 +74,7 @@ class Aggregation:
 
 
 def _pairs(B: csr_array, rng: np.random.Generator) -> Places:
-    """Return a group for each state: a pair that exchanges much; states left over join a pair."""
+    """Return a group for each state: pairs that exchange much; leftover states join a pair."""
     size = B.shape[0]
     flows = csr_array(abs(B) + abs(B.T))
     flows.setdiag(0.0)
@@ -98,7 +98,7 @@ def _pairs(B: csr_array, rng: np.random.Generator) -> Places:
 
 
 def _heaviest(indptr: Places, source: Places, target: Places, weight: Floats) -> Places:
-    """Return the target of each state's heaviest arc, -1 where all weigh nothing."""
+    """Return the target of each state's heaviest arc, or -1 if all weigh nothing."""
     most = np.maximum.reduceat(np.append(weight, 0.0), indptr[:-1])
     most[np.diff(indptr) == 0] = 0.0
     heaviest = (weight > 0.0) & (weight == most[source])
@@ -108,7 +108,7 @@ def _heaviest(indptr: Places, source: Places, target: Places, weight: Floats) ->
 
 
 def _joined(B: csr_array, group: Places) -> csr_array:
-    """Return the equations of the groups: sums over the equations and unknowns of each."""
+    """Return the equations of the groups: sums of each group's equations and unknowns."""
     entries, size = B.tocoo(), int(group.max()) + 1
     at = group[entries.row], group[entries.col]
     return csr_array(coo_array((entries.data, at), shape=(size, size)))

@@ -1,8 +1,8 @@
 """The arcs of a chain between different states: all that a solver needs to know.
 
-A self-loop carries no information of its own: its probability is what the other arcs of
-its state leave over. So every solver starts from the off-diagonal entries of M and their
-column sums, the outflows, and never computes 1 - M[j, j].
+A self-loop carries no information of its own: its probability is the remainder of the state's other
+arcs. So every solver starts from the off-diagonal entries of M and their column sums, the outflows,
+and never computes 1 - M[j, j].
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Places: TypeAlias = NDArray[np.integer[Any]]
 """Positions of states, or numbers of classes."""
 
 _FEW_TERMS = 4
-"""So few values are added up one after the other."""
+"""Number of values up to which they are added one after the other."""
 
 
 @array_values
@@ -30,7 +30,7 @@ class Arcs:
     """Arcs between different states, in the order of their sources.
 
     The arcs out of state j are those from indptr[j] to indptr[j + 1]; states are positions; a
-    chance is the probability of the target, given the source; positive.
+    chance, always positive, is the probability of the target, given the source.
 
     >>> arcs = arcs_of(csc_array([[0.25, 0.0], [0.75, 1.0]]))
     >>> arcs.sources, arcs.targets, arcs.chances, arcs.outflow
@@ -45,11 +45,11 @@ class Arcs:
 
     @cached_property
     def outflow(self) -> Floats:
-        """The probability to leave each state in a step: the sum of its arcs, shape (n,)."""
+        """The probability of leaving each state in a step: the sum of its arcs, shape (n,)."""
         return sums(self.sources, self.chances, self.size)
 
     def among(self, states: Places) -> tuple[Arcs, Floats]:
-        """Return the arcs among some states, renumbered, and each state's chance to leave them.
+        """Return the arcs among some states, renumbered, and each state's chance of leaving them.
 
         States are increasing positions, shape (m,).
         """
@@ -91,10 +91,10 @@ def arcs_of(matrix: csc_array) -> Arcs:
 def sums(place: Places, values: Floats, size: int) -> Floats:
     """Return the sum of the `values` at each place; shape (size,).
 
-    If no value is negative, each sum is right to about one rounding, however many values it
-    adds up; if some are, to one rounding of the sum of their sizes. The values are cut in two
-    at one bit for each place. The upper parts are added without rounding; what the lower
-    parts lose is too small to show (Rump, Ogita and Oishi 2008, "Accurate floating-point
+    If no value is negative, each sum is accurate to about one rounding, no matter how many values
+    it adds up; if some are, it is accurate to one rounding of the sum of their absolute values. The
+    values are split at the same bit for each place. The upper parts are added without rounding;
+    what the lower parts lose is negligible (Rump, Ogita and Oishi 2008, "Accurate floating-point
     summation").
 
     >>> float(sums(np.zeros(10**6, dtype=int), np.full(10**6, 1e-6), 1)[0])
@@ -124,7 +124,7 @@ def summed(rows: Places, columns: Places, values: Floats, shape: tuple[int, int]
 
 
 def reachable(size: int, sources: Places, targets: Places, seeds: Bools) -> Bools:
-    """Return which states can be reached from the `seeds`, which count too; shape (size,).
+    """Return which states can be reached from the `seeds`, including these; shape (size,).
 
     >>> reachable(3, np.array([0, 1]), np.array([1, 0]), np.array([True, False, False]))
     array([ True,  True, False])
@@ -149,7 +149,7 @@ def tree_from(size: int, sources: Places, targets: Places, roots: Places) -> tup
 
 
 def put_back(x: Floats, order: Places) -> Floats:
-    """Return the rows of `x`, which are in the given order of the states, by state.
+    """Return the rows of `x`, given in an order of states, sorted by state.
 
     >>> put_back(np.array([0.25, 0.5]), np.array([1, 0]))
     array([0.5 , 0.25])

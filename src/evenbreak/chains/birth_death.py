@@ -1,33 +1,33 @@
-"""Chains whose states are in a line: each moves to its neighbors only (birth and death).
+"""Chains whose states are in a line: each moves only to its neighbors (birth and death).
 
 A closed stretch of the line has the stationary distribution
 
     pi[i] / pi[a] = (up[a] ... up[i - 1]) / (down[a] ... down[i - 1]),
 
-and play that starts in state s of a stretch lo..hi with two ways out leaves it on the right
-with the probability of the gambler's ruin,
+and a chain that starts in state s of a stretch lo..hi with two exits leaves it on the right with
+the gambler's-ruin probability
 
     W = (g[lo] + ... + g[s]) / (g[lo] + ... + g[hi + 1]),
     g[i] = (down[lo - 1] ... down[i - 2]) / (up[lo] ... up[i - 1]), g[lo] = 1,
 
-where up[i] is the arc from i to i + 1 and down[i] the arc from i + 1 to i. These are
-products, quotients and sums of positive numbers only. Each is a significand and a whole exponent
-of 2, kept apart, so no digits are lost however many decades a law spans. Only the last step, to
-floats on a common scale, turns into zero what is smaller than any float.
+where up[i] is the arc from i to i + 1 and down[i] the arc from i + 1 to i. These formulas use only
+products, quotients and sums of positive numbers. Each number is stored as a significand and an
+integer exponent of 2, so no digits are lost, no matter how many decades a distribution spans. Only
+the last step, to floats on a common scale, turns numbers smaller than any float into zero.
 
 Numerators and denominators are multiplied separately. A running product of quotients would
 repeat the rounding error of one quotient n times if all are equal; a running product of the
 given numbers rounds differently at each step, so its error grows like the square root of n.
 
-`LineElimination` solves for such a class by eliminating every second state. No two states at odd
-places are neighbors, so all of them are eliminated at once, in one vector operation: with d[i]
-the sum of the arcs out of state i and its leak, the arc from i - 1 to i + 1 becomes up[i - 1]
-up[i] / d[i], and likewise down the line. Half the states are left, again in a line; after log2(n)
-rounds one is: the elimination of Grassmann, Taksar and Heyman (1985) in the order of cyclic
-reduction (Hockney 1965). It works in the platform's extended precision. Where all arcs are equal,
-each round repeats the rounding errors of the round before, which in doubles would show at n =
-10,000; and arcs between states far apart are smaller than any double. Where a long double is no
-wider than a double (Windows, some ARM), lines are solved in another way (see `factorization`).
+`LineElimination` solves such a class by eliminating every second state. No two states at odd places
+are neighbors, so all of them are eliminated at once, in one vector operation: with d[i] the sum of
+the arcs out of state i and its leak, the arc from i - 1 to i + 1 becomes up[i - 1] up[i] / d[i],
+and likewise down the line. Half the states are left, again in a line; after log2(n) rounds, one is
+left. This is the elimination of Grassmann, Taksar and Heyman (1985) in the order of cyclic
+reduction (Hockney 1965). It works in the platform's extended precision. If all arcs are equal, each
+round repeats the rounding errors of the round before, which in doubles would show at n = 10,000;
+and arcs between states far apart are smaller than any double. If a long double is no wider than a
+double (Windows, some ARM), lines are solved by another method (see `factorization`).
 
 References: Feller, An Introduction to Probability Theory I, chapter XIV; Karlin and McGregor 1957.
 """
@@ -50,13 +50,13 @@ _BLOCK = 32
 _SMALL_FACTOR = 2.0**-30
 _STRETCH = 900
 _HIGH = 900
-"""Terms are added up at this power of 2, from where those that count do not underflow."""
+"""Terms are added up at this power of 2, so that significant ones do not underflow."""
 
 
 @array_values
 @dataclass(frozen=True, eq=False)
 class BirthDeath:
-    """A chain whose states are in a line.
+    """Chain whose states are in a line.
 
     `up` and `down`, shape (n - 1,), are the arcs from i to i + 1 and back; `loops` has shape (n,).
     """
@@ -88,10 +88,10 @@ class BirthDeath:
         return limit, period
 
     def limits(self) -> csc_array | None:
-        """Return the limits from all states, column j that from j, if all play ends in one state.
+        """Return the limits from all states as columns, if the chain always ends in one state.
 
-        None if play may end in a closed stretch of several states, or if the products leave the
-        range of a long double, in which they are formed.
+        Column j is the limit from state j. None if the chain may end in a closed stretch of several
+        states, or if the products leave the range of long doubles, in which they are formed.
         """
         n = len(self.loops)
         first, last, leftmost, rightmost = self._stretches
@@ -140,10 +140,11 @@ class BirthDeath:
 
     @cached_property
     def _stretches(self) -> tuple[Places, Places, Places, Places]:
-        """The first and the last state of each class, and the classes where play ends from it.
+        """The first and the last state of each class, and the classes where the chain ends from it.
 
         These are one on the left and one on the right, or the class itself if it is not left on
-        that side. Beyond a cut there is no way back: play ends at the next missing outward arc.
+        that side. Beyond a cut there is no way back: the chain ends at the next missing outward
+        arc.
         """
         n, cuts = len(self.loops), np.flatnonzero((self.up == 0.0) | (self.down == 0.0))
         first, last = np.append(0, cuts + 1).astype(np.int32), np.append(cuts, n - 1)
@@ -181,9 +182,9 @@ def birth_death_of(matrix: csc_array) -> BirthDeath | None:
 
 
 def line_of(matrix: csc_array) -> tuple[Places, BirthDeath] | None:
-    """Return the order in which the states of a chain are in a line, and the chain in it.
+    """Return the order that puts a chain's states in a line, and the chain in that order.
 
-    None if they do not.
+    None if there is no such order.
 
     >>> one_ball = csc_array([[0, 0, 0.2, 0], [0.4, 1, 0, 0], [0.6, 0, 0, 0], [0, 0, 0.8, 1]])
     >>> order, line = line_of(one_ball)
@@ -202,7 +203,7 @@ def line_of(matrix: csc_array) -> tuple[Places, BirthDeath] | None:
 
 
 def prefix_products(numerators: Floats, denominators: Floats) -> tuple[Floats, Places]:
-    """Return, for each i, the first i numerators multiplied over the first i denominators.
+    """Return, for each i, the product of the first i numerators over the first i denominators.
 
     Both are positive, at most 1, shape (n,). The result, (value, exponent) of shape (n + 1,) each,
     starts with the empty product: the quotients are value * 2**exponent, scaled by a common power
@@ -250,7 +251,7 @@ def _prefix_of_blocks(products: Floats) -> tuple[Floats, Places]:
 
 
 def shares(value: Floats, exponent: Places, split: int) -> tuple[float, float]:
-    """Return the shares of the first `split` numbers and of the rest in the sum of all.
+    """Return the shares of the first `split` numbers, and of the rest, in the total sum.
 
     >>> shares(np.full(4, 0.5), np.array([0, 0, -2000, -2000]), 2)
     (1.0, 0.0)
@@ -266,7 +267,7 @@ Wide = NDArray[np.longdouble]
 
 
 class _Round(NamedTuple):
-    """The states at odd places: their pivots, their arcs down and up, and arcs to them."""
+    """The states at odd places: their pivots, their arcs down and up, and the arcs into them."""
 
     pivot: Wide
     out: tuple[Wide, Wide]
@@ -274,7 +275,7 @@ class _Round(NamedTuple):
 
 
 def line_order(T: csc_array) -> Places | None:
-    """Return the order in which the states of a class are in a line, or None.
+    """Return the order that puts the states of a class in a line, or None.
 
     `T` holds the arcs within the class, without its diagonal.
 

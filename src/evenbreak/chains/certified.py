@@ -1,20 +1,20 @@
-"""Solves of large classes, whose every entry comes with a proved bound on its relative error.
+"""Solver for large classes, with a proved bound on the relative error of every entry.
 
-A = D - T, for states that are all left in the end, is an M-matrix: its inverse has no negative
+For states that are all left eventually, A = D - T is an M-matrix: its inverse has no negative
 entry. Hence, if some w >= 0 has A w >= 1, every x is within
 
     |x - A^-1 b| <= w max |b - A x|,
 
-entry by entry. So it does not matter how x was found: here by a sparse LU factorization or, where
-no few states cut the class in two and the factors would not fit, by Krylov iterations, on the
-aggregates of `aggregation` where plain ones are slow. Either is repeated on what is still missed.
-The residual is calculated in twice the precision of doubles, its own rounding errors are bounded,
-and the inequality for w is checked in the same way.
+entry by entry. So it does not matter how x was found: here by a sparse LU factorization or, if the
+class has no small separator and the factors would not fit, by Krylov iterations, which use the
+aggregates of `aggregation` if plain iterations are slow. Either is repeated on the residual. The
+residual is calculated in twice the precision of doubles, its own rounding errors are bounded, and
+the inequality for w is checked in the same way.
 
 Unknowns and equations are scaled by powers of 2 so that every unknown and every diagonal entry is
-near 1. This is exact and turns the bound into one on relative errors. Entries of any size, 1e-200
-next to 1, are found alike: each round, with new scales, finds digits that the last one could not
-see.
+near 1. This is exact and turns the bound into one on relative errors. Entries of any size, such as
+1e-200 next to 1, are found equally well: each round, with new scales, finds digits that the last
+one could not see.
 
 References: Varga 1962, Matrix Iterative Analysis, and Neumaier 1999 for bounds by M-matrices; Rump
 2010, "Verification methods"; van der Vorst 1992 for the iteration.
@@ -38,28 +38,28 @@ from evenbreak.chains.double_double import ROUND, Balance, Pair, Rows, two_sum
 from evenbreak.errors import AccuracyError
 
 GUARANTEED = 1e-14
-"""Answers whose entries may be off by more than this, relatively, are not returned."""
+"""Relative error bound above which answers are not returned."""
 _SHARP = 3.0 * ROUND
 _NEAR = 2.0**-50
-"""What is missed when a bound is worth the work."""
+"""Relative residual at which computing a bound is worth the work."""
 _SHARE = 1e-10
 _DENSE = 0.2
-"""A matrix with this share of its entries is factored as a dense one."""
+"""Share of nonzero entries at which a matrix is factored as a dense one."""
 _PLAIN, _AGGREGATED = 64, 200
 """Iterations before aggregates are made, and with them."""
 _ROUNDS, _TRIES, _STALLS = 40, 6, 2
 _UNSEEN, _NEAR_ONE = -32, 3
-"""An unknown below this power of 2 is not seen in a round; one up to this power is near 1."""
+"""An unknown below this power of 2 is not visible in a round; one up to this power is near 1."""
 _RARE = 1e-17
-"""States that are left no more often than this are not left often enough for a proof."""
+"""States that are left no more often than this are left too rarely for a proof."""
 _SPREAD = 64
-"""So many steps find the part of a class where it spends most of its time."""
+"""Number of steps that finds the part of a class where it spends most of its time."""
 _SETTLED = 1e-3
-"""Steps that change nothing by more than this share are the last."""
+"""Iteration stops when a step changes nothing by more than this share."""
 
 
 class NotCertifiedError(AccuracyError):
-    """No approximation was found that could be proved right."""
+    """No approximation was found whose error could be proved small enough."""
 
     def __init__(self) -> None:
         super().__init__(
@@ -69,7 +69,7 @@ class NotCertifiedError(AccuracyError):
 
 
 class CertifiedSolve:
-    """(I - T) solved for one class of states, each answer with a proved bound on its error.
+    """Solver of (I - T) for one class of states, with a proved error bound for each answer.
 
     T is sparse, shape (m, m), the arcs within the class; no diagonal. `leak`, not all zero, is the
     chance of leaving the class, given the state. `error` is the largest bound on a relative error
@@ -107,14 +107,14 @@ class CertifiedSolve:
 
     @cached_property
     def forward(self) -> Equations:
-        """The equations of the visits."""
+        """The equations for the visits."""
         solve = self._factors
         factors = solve and (lambda b: self._unit * solve(b, "N"))
         return Equations(csr_array(self._T), self._outflow, self._spread, self._even, factors)
 
     @cached_property
     def backward(self) -> Equations:
-        """The equations of the values."""
+        """The equations for the values."""
         solve = self._factors
         factors = solve and (lambda b: solve(self._unit * b, "T"))
         return Equations(self._T.T, self._outflow, self._even, self._spread, factors)
@@ -150,7 +150,7 @@ def spread(T: csc_array, outflow: Floats) -> Floats:
 def _factors(T: csc_array, diagonal: Floats) -> Callable[..., Floats]:
     """Return the function (b, "N" or "T") -> A^-1 b or A^-T b in floats, A = D - T.
 
-    A NotCertifiedError if A is singular in floats.
+    Raises NotCertifiedError if A is singular in floating point.
     """
     if T.nnz > _DENSE * T.shape[0] ** 2:
         dense = -T.toarray(order="F")
@@ -168,11 +168,11 @@ def _factors(T: csc_array, diagonal: Floats) -> Callable[..., Floats]:
 
 
 class Equations:
-    """A x = b for any b >= 0, with A = diag(outflow) - arcs.
+    """The equations A x = b for any b >= 0, with A = diag(outflow) - arcs.
 
-    The arcs are sparse, shape (m, m), nonnegative, no diagonal; `right` and `left`, positive, are
-    about the vectors to which A is closest to singular. `factors` returns A^-1 b as floats give it;
-    None if the factors do not fit.
+    The arcs are sparse, shape (m, m), nonnegative, no diagonal; `right` and `left`, both positive,
+    approximate the vectors for which A is closest to singular. `factors` returns A^-1 b in floating
+    point; None if the factors do not fit.
     """
 
     def __init__(
@@ -188,9 +188,9 @@ class Equations:
         self.rows = Rows(arcs.indptr)
 
     def near(self, b: Floats) -> tuple[Floats, Floats]:
-        """Return x >= 0 near A^-1 b, for b >= 0, and at least by how much each equation is missed.
+        """Return x >= 0 near A^-1 b, for b >= 0, and an upper bound on each residual.
 
-        The miss is that of an x of which the answer is the rounding.
+        The residual is that of the unrounded x.
         """
         nothing, shift = np.zeros(len(b)), self._as_they_are.shift
         best, least, y = nothing, np.ldexp(b, -shift), Pair(nothing, nothing)
@@ -208,7 +208,7 @@ class Equations:
         return best, np.ldexp(least, shift)
 
     def error(self, missed: Floats) -> Floats:
-        """Return at least |A^-1| `missed`; a NotCertifiedError if no bound is found."""
+        """Return an upper bound on |A^-1| `missed`; NotCertifiedError if none is found."""
         with np.errstate(all="ignore"):
             w = self._as_they_are.witness()
         return np.asarray(w * np.ldexp(missed, -self._as_they_are.shift).max())
@@ -220,8 +220,8 @@ class Equations:
     def solve(self, b: Floats) -> tuple[Floats, float, Floats]:
         """Return A^-1 b > 0, a bound on the relative error of every entry, and a witness.
 
-        No diagonal entry of A^-1 is larger than the witness over that of A. A NotCertifiedError if
-        no answer could be proved to `GUARANTEED`.
+        No diagonal entry of A^-1 is larger than the witness over that of A. Raises
+        NotCertifiedError if no answer could be proved to `GUARANTEED`.
         """
         nothing = np.zeros(len(b))
         with np.errstate(all="ignore"):  # what overflows is not proved
@@ -255,7 +255,7 @@ class Equations:
 
 
 class _Scaled:
-    """The equations A x = b for x = 2^power y, whole powers, shape (m,), and y near `about`."""
+    """The equations A x = b for x = 2^power y: integer powers, shape (m,), and y near `about`."""
 
     def __init__(self, system: Equations, power: Places, about: Floats) -> None:
         arcs = system.arcs
@@ -270,7 +270,7 @@ class _Scaled:
         self._system, self._about = system, about
 
     def witness(self) -> Floats:
-        """Return w > 0 with A w >= 1, proved; a NotCertifiedError if none is found."""
+        """Return a w > 0 for which A w >= 1 is proved; NotCertifiedError if none is found."""
         w, two = np.zeros(len(self.shift)), np.full(len(self.shift), 2.0)
         residual = two
         for _ in range(_TRIES):
@@ -281,7 +281,7 @@ class _Scaled:
         raise NotCertifiedError
 
     def solved(self, b: Floats, share: float) -> Floats:
-        """Return y with A y = b, as floats give it, to a `share` of the size of b or more."""
+        """Return y with A y = b in floating point, to at least a `share` of the size of b."""
         if self._system.factors is not None:
             top = int((np.frexp(b)[1] + self.shift).max())
             x = self._system.factors(np.ldexp(b, self.shift - top))
@@ -299,7 +299,7 @@ class _Scaled:
         steps = count(1)
 
         def watch(y: Floats) -> None:
-            """Give up where the residual is still as large as b after some steps."""
+            """Give up if the residual is still as large as b after some steps."""
             step = next(steps)
             if step > _PLAIN and step % 16 == 0 and not np.abs(b - self._times(y)).max() <= 1.0:
                 raise NotCertifiedError
@@ -330,7 +330,7 @@ def _sum(y: Pair, more: Floats) -> Pair:
 def _moves(y: Floats) -> Places:
     """Return the powers of 2 that bring all unknowns near 1; all 0 if they are near already.
 
-    A NotCertifiedError if an unknown is not a number.
+    Raises NotCertifiedError if an unknown is NaN.
     """
     exponent = np.frexp(y)[1]
     if not np.isfinite(y).all() or y.max() <= 0.0:

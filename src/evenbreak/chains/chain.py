@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 _MOST_BYTES = 2e9
-"""Of a dense matrix."""
+"""Limit for a dense matrix."""
 
 
 @own_arrays
@@ -49,10 +49,10 @@ class Chain:
     states
         the states, in the order of the matrix; hashable and distinct.
     matrix
-        shape (n, n), column-stochastic: entry [i, j] is the chance of i, given j. Kept in
-        sparse CSC form, to which any other sparse matrix and a numpy array are converted. An
-        absorbing state has the self-loop 1. Where the arcs of a state miss a sum of 1, its
-        self-loop becomes what the others leave over, or without one all arcs are scaled.
+        shape (n, n), column-stochastic: entry [i, j] is the chance of i, given j. It is kept in
+        sparse CSC form, to which numpy arrays and other sparse matrices are converted. An absorbing
+        state has the self-loop 1. If the arcs of a state do not sum exactly to 1, its self-loop
+        becomes the remainder of the others; without a self-loop, all arcs are scaled.
     start
         the state in which the game starts, or None.
     given
@@ -62,8 +62,8 @@ class Chain:
     Raises
     ------
     ChainError
-        if there is not one row and one column for each state, a state is listed twice, or the
-        matrix is not column-stochastic; the message names the state and its sum.
+        if the matrix does not have one row and one column for each state, a state is listed twice,
+        or the matrix is not column-stochastic; the message names the state and its sum.
     """
 
     states: Sequence[Hashable]
@@ -102,7 +102,7 @@ class Chain:
         )
 
     def to_frame(self) -> pd.DataFrame:
-        """Return the matrix as a DataFrame: a column for each state left, a row for each entered.
+        """Return the matrix as a DataFrame: a column per source state, a row per target state.
 
         >>> from evenbreak.chains import chain_of
         >>> chain_of([("rain", "rain", 0.75), ("rain", "sun", 0.25), ("sun", "rain", 1)]).to_frame()
@@ -119,8 +119,8 @@ class Chain:
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
         """Return the matrix as a new dense array, column-stochastic; for `np.asarray(chain)`.
 
-        A ChainError if the array would take more than 2 GB; a ValueError if `copy` is False:
-        nothing dense is kept that could be shared.
+        Raises ChainError if the array would take more than 2 GB, and ValueError if `copy` is False,
+        since no dense array exists that could be shared.
 
         >>> from evenbreak.chains import chain_of
         >>> np.asarray(chain_of([("S", "W", 0.25), ("S", "S", 0.75)]))
@@ -142,9 +142,9 @@ class Chain:
     def to_networkx(self) -> nx.DiGraph[Any]:
         """Return the chain as a directed graph, which `chain_of` reads back.
 
-        As in `graph_of`, arcs carry `probability` and nodes `kind`: 'start', 'terminal' if the
-        state absorbs, which then has no arcs, or else 'transient'. Chances are floats, also
-        where `given` has fractions.
+        As in `graph_of`, arcs carry `probability` and nodes `kind`: 'start', 'terminal' for an
+        absorbing state, which then has no arcs, or else 'transient'. Chances are floats, even if
+        `given` has fractions.
 
         >>> from evenbreak.chains import chain_of
         >>> graph = chain_of([("S", "W", 0.25), ("S", "S", 0.75)], start="S").to_networkx()
@@ -171,17 +171,17 @@ class Chain:
 
     @cached_property
     def birth_death(self) -> BirthDeath | None:
-        """The chain as a line of states, if each moves to its neighbors in the matrix only."""
+        """The chain as a line of states, if each moves only to its neighbors in the matrix."""
         return birth_death_of(self.matrix)
 
     @cached_property
     def line(self) -> tuple[Places, BirthDeath] | None:
-        """The order in which the states are in a line, and the chain in it; see `line_of`."""
+        """The order that puts the states in a line, and the chain in that order; see `line_of`."""
         return line_of(self.matrix)
 
     @cached_property
     def structure(self) -> Structure:
-        """The communicating classes: which are closed, their kinds and periods."""
+        """The communicating classes: which ones are closed, their kinds and periods."""
         return structure_of(self.arcs, self.matrix.diagonal() > 0.0)
 
     @cached_property
@@ -190,7 +190,7 @@ class Chain:
         return TransientPart(self.arcs, np.flatnonzero(~self.structure.recurrent))
 
     def density(self, start: Any = None) -> Floats:
-        """Return the start as a probability vector: length n, sum 1.
+        """Return the start as a probability vector with length n and sum 1.
 
         Parameters
         ----------
@@ -220,8 +220,8 @@ class Chain:
         Parameters
         ----------
         values
-            an array of n numbers; a mapping or a pandas Series from states to numbers, 0 for
-            the others; or a state, which gets 1.
+            an array of n numbers; a mapping or a pandas Series from states to numbers, with 0 for
+            states not listed; or a single state, which gets 1.
         name
             its name, for the error message.
 
@@ -297,7 +297,7 @@ class Chain:
         return None if isinstance(start, (Mapping, np.ndarray)) else self._search(start)
 
     def _search(self, state: Hashable) -> int:
-        """Return the position of one state, without making a dictionary of all of them."""
+        """Return the position of one state without building a dictionary of all of them."""
         if "position" in self.__dict__:
             return self.index(state)
         try:
@@ -324,7 +324,7 @@ class Chain:
 
 
 def check_chain(chain: object) -> None:
-    """Refuse what is not a chain, at the door of every function that takes one.
+    """Raise an error unless the argument is a chain; used by every function that takes one.
 
     >>> check_chain([("A", "B", 1.0)])
     Traceback (most recent call last):
@@ -340,7 +340,7 @@ def check_chain(chain: object) -> None:
 
 
 def by_label(values: Any, name: str) -> Any:
-    """Return a pandas Series as a dict from its labels, anything else as it is."""
+    """Return a pandas Series as a dict keyed by its labels, anything else unchanged."""
     if not (
         hasattr(values, "to_dict") and hasattr(values, "index") and getattr(values, "ndim", 0) == 1
     ):
@@ -351,7 +351,7 @@ def by_label(values: Any, name: str) -> Any:
 
 
 def check_present(states: Iterable[Hashable]) -> None:
-    """Refuse NaN as a state: it is a gap in the data, and no NaN equals another."""
+    """Raise an error for NaN as a state: it is a gap in the data, and NaN does not equal itself."""
     for state in states:
         if isinstance(state, float) and math.isnan(state):
             raise ChainError(
@@ -360,7 +360,7 @@ def check_present(states: Iterable[Hashable]) -> None:
 
 
 def labels(states: Sequence[Any], name: str) -> pd.Index[Any]:
-    """Return the states as an index of pandas, in which tuples stay tuples."""
+    """Return the states as a pandas index, in which tuples stay tuples."""
     import pandas as pd
 
     index: pd.Index[Any] = pd.Index(list(states), name=name, tupleize_cols=False)

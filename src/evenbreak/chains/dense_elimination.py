@@ -1,4 +1,4 @@
-"""Elimination of the states of a dense array, in blocks: the kernel of fronts and dense classes.
+"""Block elimination of states in a dense array: the kernel for fronts and dense classes.
 
 The matrix A = I - T of some states has their arcs with a minus sign off the diagonal, and its
 diagonal is fixed by them and the leak. Eliminating the first states splits it as
@@ -7,11 +7,11 @@ diagonal is fixed by them and the leak. Eliminating the first states splits it a
         | D  E |   | X rest | |    I |
 
 with the leak as the last row of D and E. The pivots on the diagonal of L are sums of arcs and
-never 1 minus something: what leaves B is the same whichever later state it goes to, so one row
-with the column sums of D is all that B needs to be factored. B is halved in the same way until
-it is small, and then eliminated state by state (Grassmann, Taksar and Heyman 1985).
+never 1 minus something: the flow that leaves B is the same no matter which later state it goes to,
+so one row with the column sums of D is enough to factor B. B is halved in the same way until it is
+small, and then eliminated state by state (Grassmann, Taksar and Heyman 1985).
 
-All that is added has one sign, so the order of the additions does not matter: each entry is as
+All terms have the same sign, so the order of the additions does not matter: each entry is as
 accurate as in elimination state by state, at the speed of BLAS.
 
 References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993; Alfa, Xue and Ye 2002.
@@ -27,22 +27,22 @@ from scipy.linalg.blas import ddot, dgemm, dtrsm, dtrsv
 from evenbreak.arrays import Floats
 
 MOST_ENTRIES = 40_000_000
-"""Of an array or of factors: those of some 6,000 states with arcs to all others."""
+"""Memory limit for an array or its factors: enough for about 6,000 fully connected states."""
 _ONE_BY_ONE = 64
-"""So few states are eliminated one by one."""
+"""Number of states up to which they are eliminated one by one."""
 _TERMS = 128
 _FEW, _SMALL, _LARGE = 1000, 2**18, 2**24
-"""BLAS solves for so few numbers, and multiplies so many, without waking threads.
+"""Sizes up to which BLAS solves and multiplies without waking threads.
 
-Waking threads for small matrices can take a hundred times as long as the work itself when the
-cores are busy. From `_LARGE` multiplications on, threads are worth it.
+Waking threads for small matrices can take a hundred times as long as the work itself when the cores
+are busy. For `_LARGE` multiplications or more, threads are worth it.
 """
 _LATER = -np.triu(np.ones((_ONE_BY_ONE + 1, _ONE_BY_ONE + 1)), 1)
 """Row k times the arcs out of state k is, but for the sign, what they take to later states."""
 
 
 class Factors(NamedTuple):
-    """The factors of a front: L and U (with ones on its diagonal) in one array, X^T and Y."""
+    """Factors of a front: L and U (with ones on its diagonal) in one array, X^T and Y."""
 
     block: Floats
     onward: Floats
@@ -50,7 +50,7 @@ class Factors(NamedTuple):
 
 
 def is_dense(states: int, arcs: int) -> bool:
-    """Whether so many states have arcs between a quarter of their pairs, or more."""
+    """Whether this many states have arcs between at least a quarter of their pairs."""
     return states * states <= 4 * arcs
 
 
@@ -70,10 +70,10 @@ def split(A: Floats, size: int) -> tuple[Factors, Floats]:
 
 
 def factored(B: Floats) -> Floats:
-    """Return L and U in one array, of a block with the sums of what leaves it as the last row.
+    """Return L and U in one array, for a block whose last row is the sums of its outgoing arcs.
 
-    B has shape (n + 1, n), in Fortran order; the diagonal does not count. Used up. Without the last
-    row, nothing leaves it.
+    B has shape (n + 1, n), in Fortran order; the diagonal is ignored. B is overwritten. Without the
+    last row, nothing leaves the block.
     """
     size = B.shape[1]
     if size <= _ONE_BY_ONE:
@@ -108,10 +108,9 @@ def _factored_one_by_one(B: Floats) -> Floats:
 
 
 def less(C: Floats, A: Floats, B: Floats, *, transposed: bool = False) -> Floats:
-    """Return C - A B (A transposed on request); C may be used up.
+    """Return C - A B (A transposed on request); C may be overwritten.
 
-    Only `_TERMS` products at a time are added up one after the other, which keeps rounding
-    errors small.
+    Only `_TERMS` products at a time are added up sequentially, which keeps rounding errors small.
     """
     C = np.asfortranarray(C)
     rows, columns = C.shape
@@ -126,7 +125,7 @@ def less(C: Floats, A: Floats, B: Floats, *, transposed: bool = False) -> Floats
 
 
 def solved(block: Floats, B: Floats, part: str, *, transposed: bool = False) -> Floats:
-    """Return L^-1 B or U^-1 B for a factored block (transposed on request); B may be used up."""
+    """Return L^-1 B or U^-1 B for a factored block (transposed on request); may overwrite B."""
     B = np.asfortranarray(B)
     lower, columns = part == "L", B.shape[1]
     few = _FEW // max(len(block), 1)

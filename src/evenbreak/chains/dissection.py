@@ -1,12 +1,12 @@
-"""Nested dissection: an order of elimination in which few arcs arise, and its dense fronts.
+"""Nested dissection: an elimination order that creates few arcs, and its dense fronts.
 
 A few states that cut a graph in two (a separator) are eliminated after the states on both sides,
 and each side is cut again in the same way until it is small. States that are eliminated together
 make a front; eliminating them changes only arcs among themselves and a few later states.
 
 The cuts follow a breadth-first order of the states. If the states before place c form one
-side, then those from c on that have a neighbor before c separate it from the others; among the
-places near the middle the one with the fewest such states is taken. On a square grid of n states
+side, then the states from c on that have a neighbor before c separate it from the others; among the
+places near the middle, the one with the fewest such states is chosen. On a square grid of n states
 the factors then have O(n log n) entries and take O(n^1.5) operations.
 
 The states of a front are eliminated together in a dense array (see `dense_elimination`); what is
@@ -32,19 +32,19 @@ from evenbreak.chains.arcs import Places, put_back
 from evenbreak.chains.dense_elimination import Factors, less, solved, split
 
 _LEAF = 96
-"""So few states are not cut again."""
+"""Number of states below which a part is not cut again."""
 _MIDDLE = 0.25
-"""Each side of a cut, separator included, has at least this share of the states."""
+"""Minimum share of the states on each side of a cut, separator included."""
 _WIDEST = 0.5
-"""A part is not cut if the separator would hold more than this share of it."""
+"""A part is not cut if its separator would hold more than this share of the part."""
 
 
 class Front(NamedTuple):
-    """States that are eliminated together, by their places in the order of elimination.
+    """States that are eliminated together, by their places in the elimination order.
 
     `first` to `last` - 1 are the states, and `later` the later states that they have arcs to or
-    from when they are eliminated, increasing. Arcs that arise among these are taken up by the
-    front of the first of them.
+    from when they are eliminated, increasing. Arcs created among these are added to the front of
+    the first of them.
     """
 
     first: int
@@ -53,18 +53,18 @@ class Front(NamedTuple):
 
     @property
     def entries(self) -> int:
-        """The numbers that its factors hold."""
+        """The number of entries in its factors."""
         return (self.last - self.first) * (self.last - self.first + 2 * len(self.later))
 
     @property
     def work(self) -> float:
-        """About the multiplications that its elimination takes."""
+        """The approximate number of multiplications in its elimination."""
         size = self.last - self.first
         return float(size * (size + len(self.later)) ** 2)
 
 
 def neighbors(T: csc_array) -> csc_array:
-    """Return which states are joined by an arc either way, each with itself; entries are 1."""
+    """Return which states are joined by an arc either way, and each with itself; entries are 1."""
     graph = csc_array(T + T.T + eye_array(T.shape[0], format="csc"))
     graph.data = np.ones(graph.nnz, dtype=np.int8)
     return graph
@@ -84,7 +84,7 @@ def bandwidth(graph: csc_array) -> int:
 
 
 def dissect(graph: csc_array) -> tuple[Places, list[Front]]:
-    """Return the states in an order of elimination, and the fronts in this order.
+    """Return the states in elimination order, and the fronts in this order.
 
     The graph has the `neighbors` among the states.
 
@@ -112,7 +112,7 @@ def dissect(graph: csc_array) -> tuple[Places, list[Front]]:
 
 
 def _better_together(front: Front, following: Front) -> bool:
-    """Whether one front for both would hold no more, as where all states are joined."""
+    """Whether one front for both would hold no more entries, as when all states are joined."""
     if not len(front.later) or front.later[0] >= following.last:
         return False
     together = Front(front.first, following.last, following.later)
@@ -164,7 +164,7 @@ def _crossing(earliest: Places) -> Places:
 
 
 def _cut(crossing: Places, begin: int, end: int) -> int | None:
-    """Return where to cut the part from `begin` to `end`, or None if it is best left whole."""
+    """Return where to cut the part from `begin` to `end`, or None if it is best left uncut."""
     size = end - begin
     if size <= _LEAF:
         return None
@@ -236,7 +236,7 @@ class FrontElimination:
 def _arcs_by_front(
     T: csc_array, order: Places, fronts: list[Front]
 ) -> Iterator[tuple[Places, Places, Floats]]:
-    """Yield, for each front, its arcs that no earlier front has: sources, targets, chances."""
+    """Yield, for each front, the arcs that no earlier front has: sources, targets, chances."""
     arcs = T.tocoo()
     rank = np.empty(len(order), dtype=np.intp)
     rank[order] = np.arange(len(order))

@@ -1,11 +1,11 @@
-"""Sums and products of doubles in twice their precision, by arithmetic in doubles alone.
+"""Sums and products of doubles in twice their precision, using only double arithmetic.
 
-A number is a pair of doubles, the rounded value and what rounding took from it. The sum of two
-doubles is such a pair exactly (Knuth), and so is their product (Dekker), unless it under- or
-overflows. With u = 2^-53, terms that are added in pairs, pairs of pairs, and so on, L times, with
-their errors added separately, make a sum that is off by at most u of itself and ((L + 1) u)^2 of
-the sum of their sizes (compare Ogita, Rump and Oishi 2005, "Accurate sum and dot product"). The
-platform needs no longer type.
+A number is a pair of doubles, the rounded value and its rounding error. The sum of two doubles is
+such a pair exactly (Knuth), and so is their product (Dekker), unless it under- or overflows. Let u
+= 2^-53. If terms are added in pairs, then pairs of pairs, and so on, L times, with their errors
+added separately, the error of the sum is at most u of the sum and ((L + 1) u)^2 of the sum of
+absolute values (compare Ogita, Rump and Oishi 2005, "Accurate sum and dot product"). The platform
+does not need a longer type.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ if TYPE_CHECKING:
 ROUND = 2.0**-53
 _SPLITTER = 2.0**27 + 1.0
 _BITS = 3
-"""Numbers of terms are rounded up to so many binary digits."""
+"""Numbers of terms are rounded up to this many binary digits."""
 _DENSE = 0.2
-"""A matrix with more than this share of its entries is kept with zeros in place of the others."""
+"""Share of nonzero entries above which a matrix is stored with its zeros."""
 _TINY = 2.0**-1000
-"""More than underflow takes from all the products of a row."""
+"""An upper bound on what underflow takes from all the products in a row."""
 
 
 class Pair(NamedTuple):
-    """A number of twice the precision: `high` is the double next to it, `low` is the rest."""
+    """Number in twice the precision: `high` is the nearest double, `low` is the rest."""
 
     high: Floats
     low: Floats
@@ -50,7 +50,7 @@ def two_sum(a: Floats, b: Floats) -> Pair:
 
 
 def halves(a: Floats) -> Pair:
-    """Return a number as two of at most 26 bits each."""
+    """Split a number into two of at most 26 bits each."""
     stretched = _SPLITTER * a
     high = stretched - (stretched - a)
     return Pair(high, a - high)
@@ -66,7 +66,7 @@ def two_product(a: Floats, b: Floats) -> Pair:
 
 
 def product(a: Floats, of_a: Pair, b: Floats, of_b: Pair) -> Pair:
-    """Return a b exactly, as `two_product` does, of factors that are cut in `halves` already."""
+    """Return a b exactly, as `two_product` does, for factors that are already split in `halves`."""
     high = a * b
     middle = of_a.high * of_b.low + of_a.low * of_b.high
     return Pair(high, ((of_a.high * of_b.high - high) + middle) + of_a.low * of_b.low)
@@ -75,8 +75,8 @@ def product(a: Floats, of_a: Pair, b: Floats, of_b: Pair) -> Pair:
 class Rows:
     """Sums over the rows of a sparse matrix, in twice the precision of doubles.
 
-    Rows of about the same number of terms are added up together, one half of their terms to the
-    other half, again and again. Row i holds the entries from indptr[i] to indptr[i + 1].
+    Rows with about the same number of terms are added up together, repeatedly adding one half of
+    their terms to the other half. Row i holds the entries from indptr[i] to indptr[i + 1].
     """
 
     def __init__(self, indptr: Places) -> None:
@@ -93,7 +93,7 @@ class Rows:
             self.blocks.append((rows, entries))
 
     def sum(self, terms: Floats) -> Pair:
-        """Return the sum of the terms, of shape (entries,), by row."""
+        """Return the row sums of terms of shape (entries,)."""
         high, low = np.zeros(len(self.terms)), np.zeros(len(self.terms))
         padded = np.append(terms, 0.0)
         for rows, entries in self.blocks:
@@ -103,7 +103,7 @@ class Rows:
 
 
 def _added_up(some: Floats, lost: Floats) -> Pair:
-    """Return the sums of columns, and of what has been lost of their terms."""
+    """Return the sums of columns, and of the rounding errors of their terms."""
     if not len(some):
         return Pair(np.zeros(some.shape[1]), np.zeros(some.shape[1]))
     while len(some) > 1:
@@ -118,7 +118,7 @@ def _added_up(some: Floats, lost: Floats) -> Pair:
 
 
 class Balance:
-    """The equations A x = b, A = diag(outflow) - arcs, and by how much they are missed.
+    """The equations A x = b with A = diag(outflow) - arcs, and their residuals.
 
     The arcs are sparse, shape (m, m), nonnegative, no diagonal; `rows` are the sums over their
     rows.
@@ -136,7 +136,7 @@ class Balance:
         self._blocks = [(some, at, data, halves(data)) for some, at, data in blocks]
 
     def missed(self, x: Pair, b: Floats) -> tuple[Floats, Floats]:
-        """Return b - A x for x >= 0, and at least the size of each."""
+        """Return b - A x for x >= 0, and an upper bound on the size of each entry."""
         into = Pair(np.zeros_like(b), np.zeros_like(b))
         for rows, at, data, parts in self._blocks:
             high = x.high[at]

@@ -1,4 +1,4 @@
-"""Eigenpairs of a transition matrix: LAPACK (small) and ARPACK (large), and those of eigenvalue 1.
+"""Eigenpairs of a transition matrix: LAPACK (small), ARPACK (large), and solves for eigenvalue 1.
 
 The pairs of eigenvalue 1 are known (`UnitPairs`), and a closed class of period d also has the
 other d-th roots of 1. All other vectors are projected off these and made biorthogonal,
@@ -10,17 +10,17 @@ which exists if neither set is defective and both belong to the same eigenvalues
 `UnitPairs`. The structure says how often eigenvalue 1 occurs and where its vectors live: once for
 each closed class, whose right vector R is the stationary distribution and whose left vector L is
 the chance of ending there. Both are solved for from the arcs, by LU factors that are applied again
-to what is still missed, in pairs of doubles (see `certified`). With A = D - T, the arcs T among
-some states and D the chances of leaving them:
+to the residual, in pairs of doubles (see `certified`). With A = D - T, the arcs T among some states
+and D the chances of leaving them:
 
 - L v, for a start v, needs one solve for all classes: x = A^-1 v_T are visits to the transient
   states, and L_C v = v_C + B_C x with the arcs B_C into class C. Every column of A and B together
-  sums to 0, so that residuals r put the chances off by no more than sum |r|.
+  sums to 0, so residuals r change the chances by no more than sum |r|.
 - R: a state where some steps from anywhere spend much time is cut out of each class; the others
   solve A x = the arcs out of it. A w >= 1, checked in pairs too, proves that no entry is off by
   more than its w times the largest residual (A is an M-matrix).
 
-Other eigenvalues may therefore lie as close to 1 as they like without mixing in.
+Other eigenvalues may therefore be arbitrarily close to 1 without mixing in.
 
 References: Golub and Van Loan, Matrix Computations, chapter 7, for LAPACK's QR algorithm; Lehoucq,
 Sorensen and Yang 1998 for ARPACK; Varga 1962, Matrix Iterative Analysis, for bounds by M-matrices.
@@ -51,19 +51,19 @@ if TYPE_CHECKING:
 
 
 DENSE = 1000
-"""Up to this many states LAPACK finds all eigenvalues at once."""
+"""Number of states up to which LAPACK finds all eigenvalues at once."""
 SHIFT = 1.0 + 1e-10
-"""As close to eigenvalue 1 as a factorization can be made."""
+"""Distance of the shift from eigenvalue 1: as close as a factorization allows."""
 TOLERANCE = 1e-8
-"""Residuals and error estimates above this are refused."""
+"""Residuals and error estimates above this raise an error."""
 
 
 class Eigenpairs(NamedTuple):
-    """Eigenvalues, those of conjugate pairs one after the other, the upper first; real vectors.
+    """Eigenvalues, with conjugate pairs adjacent, upper one first; real vectors.
 
     The right vectors x + iy and x - iy of a conjugate pair are kept as x and y, its left vectors x
-    + iy and x - iy as 2x and -2y, so that products L R stay what they are. `left` has shape (k, n),
-    `right` (n, k).
+    + iy and x - iy as 2x and -2y, so products L R are unchanged. `left` has shape (k, n), `right`
+    (n, k).
     """
 
     values: NDArray[Any]
@@ -71,7 +71,7 @@ class Eigenpairs(NamedTuple):
     right: Floats
 
     def and_then(self, more: Eigenpairs) -> Eigenpairs:
-        """Return these pairs and more."""
+        """Return these pairs followed by more."""
         return Eigenpairs(
             np.concatenate((self.values, more.values)),
             np.vstack((self.left, more.left)),
@@ -90,7 +90,7 @@ class Eigenpairs(NamedTuple):
         )
 
     def in_complex(self) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-        """Return the values and the left and right vectors as they are; real if all are real."""
+        """Return the values and the left and right vectors; real if all are real."""
         upper = np.flatnonzero(self.values.imag > 0.0)
         if not len(upper):
             return self.values.real, self.left, self.right
@@ -102,9 +102,9 @@ class Eigenpairs(NamedTuple):
 
 
 def _whole_pairs(values: NDArray[Any], order: Places, k: int) -> Places:
-    """Return the first k places, or one more, of an order in which conjugate ones are together.
+    """Return the first k places, or one more, of an order that keeps conjugates together.
 
-    One without its conjugate is left out.
+    A value without its conjugate is left out.
     """
     ordered = values[order]
     whole = ordered.imag == 0.0
@@ -117,10 +117,10 @@ def _whole_pairs(values: NDArray[Any], order: Places, k: int) -> Places:
 
 
 def leading_pairs(chain: Chain, units: UnitPairs, k: int) -> tuple[Eigenpairs, float]:
-    """Return the k leading pairs of a chain, or one more, and by how much they are missed.
+    """Return the k leading pairs of a chain, or one more, and their residual.
 
-    Those of eigenvalue 1 come first. An AccuracyError if there are no k independent vectors, or the
-    iteration does not converge.
+    Pairs of eigenvalue 1 come first. Raises AccuracyError if there are not k independent vectors,
+    or if the iteration does not converge.
     """
     n, ones = units.right.shape
     M = chain.matrix
@@ -151,9 +151,9 @@ def leading_pairs(chain: Chain, units: UnitPairs, k: int) -> tuple[Eigenpairs, f
 
 
 def within_unit_disc(values: NDArray[Any]) -> NDArray[Any]:
-    """Return eigenvalues of a stochastic matrix with those beyond the unit circle put on it.
+    """Return eigenvalues of a stochastic matrix, with those outside the unit circle moved onto it.
 
-    The true ones lie in the disc, so that this brings none further from its own.
+    The true eigenvalues are in the disc, so this moves none further from its true value.
 
     >>> within_unit_disc(np.array([1.0, -1.0000000000000007, 0.5]))
     array([ 1. , -1. ,  0.5])
@@ -163,7 +163,7 @@ def within_unit_disc(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def roots_of_one(chain: Chain, units: UnitPairs, k: int) -> Eigenpairs:
-    """Return k pairs of eigenvalues of modulus 1 other than 1, or one more, those next to 1 first.
+    """Return k pairs (or one more) of eigenvalues of modulus 1 other than 1, closest to 1 first.
 
     A closed class of period d has each d-th root w of 1 once. Its right vector is the stationary
     distribution and its left vector is 1 in the class, both turned by w once for each step of the
@@ -222,9 +222,10 @@ def no_basis(k: int, ones: int | None = None, residual: float = np.inf) -> Accur
 
 
 def _dense_others(M: csc_array, apart: Eigenpairs, k: int) -> Eigenpairs:
-    """Return k other pairs, as LAPACK has them: with conjugate ones together, in real parts.
+    """Return k other pairs in LAPACK's form: conjugates adjacent, in real parts.
 
-    If with these there are all, the left vectors are left out: they follow from the right ones.
+    If all pairs are known with these, the left vectors are omitted: they follow from the right
+    ones.
     """
     n = M.shape[0]
     real, imaginary, left, right, failed = dgeev(
@@ -254,7 +255,7 @@ def _sparse_others(M: csc_array, apart: Eigenpairs, k: int) -> Eigenpairs:
         def resolvent(
             x: NDArray[Any], way: str = way, project: Any = project, basis: Any = basis
         ) -> Any:
-            """Return (SHIFT I - M)^-1 x, or the transpose's, with the known pairs projected out."""
+            """Return (SHIFT I - M)^-1 x, or its transpose's, with the known pairs projected out."""
             x = factors.solve(x - basis @ (project @ x), way)
             return x - basis @ (project @ x)
 
@@ -281,13 +282,13 @@ def _sparse_others(M: csc_array, apart: Eigenpairs, k: int) -> Eigenpairs:
 
 EPS = float(np.finfo(float).eps)
 _FEW, _MUCH_WORK = 1000, 1e11
-"""So few states are factored whatever their graph; others, with up to so many multiplications."""
+"""Number of states factored regardless of their graph; beyond it, a limit on multiplications."""
 
 
 class UnitPairs:
-    """The vectors of eigenvalue 1 of a chain with n states.
+    """The eigenvectors of eigenvalue 1 for a chain with n states.
 
-    An AccuracyError from all that is asked of it, if no bound on the errors is found.
+    Every method raises AccuracyError if no bound on the errors is found.
     """
 
     def __init__(self, chain: Chain) -> None:
@@ -296,7 +297,7 @@ class UnitPairs:
         number = np.full(structure.count, -1)
         number[structure.closed] = np.arange(structure.closed.sum())
         self._class = number[structure.label]
-        """The number of the closed class of each state, -1 if it is transient."""
+        """The number of each state's closed class, -1 if the state is transient."""
         self.count = int(structure.closed.sum())
 
     @cached_property
@@ -316,14 +317,14 @@ class UnitPairs:
     def error(self) -> float:
         """A bound on the sum of the errors of the limit R (L v), from any start v.
 
-        The product L v is to be right to about one rounding; see `limit_by`.
+        The product L v must be accurate to about one rounding; see `limit_by`.
         """
         return self._all_laws[1] + self._chances[1] + 2.0 * EPS
 
     def limit(self, v: Floats) -> tuple[Floats, float]:
         """Return the limit R (L v), and a bound on the sum of its errors.
 
-        One solve gives L v; no more of L is calculated.
+        One solve gives L v; the rest of L is not calculated.
         """
         arcs = self._chain.arcs
         seen = reachable(arcs.size, arcs.sources, arcs.targets, v > 0.0)
@@ -345,10 +346,10 @@ class UnitPairs:
         return self._laws(np.ones(self.count, dtype=bool))
 
     def _laws(self, wanted: Bools) -> tuple[Floats, float]:
-        """Return the laws of the wanted closed classes, by state, and a bound on the errors of one.
+        """Return the wanted closed classes' distributions, by state, and an error bound for each.
 
-        With x = 1 at the state that is cut out of a class, the law is x over its sum. If x is off
-        by e, the law is off by no more than 2 sum |e|.
+        If x = 1 at the state that is cut out of a class, the distribution is x over its sum. If x
+        is off by e, the distribution is off by no more than 2 sum |e|.
         """
         law = np.zeros(len(self._chain))
         here = self._class >= 0
@@ -395,9 +396,10 @@ class UnitPairs:
         return left, float(equations.error(missed).max()) + 4.0 * EPS
 
     def _equations(self, states: Places) -> CertifiedSolve:
-        """Return the equations of some states, factored.
+        """Return the factored equations of some states.
 
-        An AccuracyError if that would take too long, or floats take the factors for singular.
+        Raises AccuracyError if factoring would take too long, or if the factors are singular in
+        floating point.
         """
         arcs, leak = self._chain.arcs.among(states)
         T, m = arcs.matrix(), len(states)
@@ -412,7 +414,7 @@ class UnitPairs:
 
 
 def limit_by(right: NDArray[Any], left: NDArray[Any], v: Floats) -> Floats:
-    """Return the limit R (L v) by the vectors of eigenvalue 1, L v being right to one rounding.
+    """Return the limit R (L v) by the eigenvectors of 1, with L v accurate to one rounding.
 
     >>> limit_by(np.eye(2), np.array([[1.0, 0.25], [0.0, 0.75]]), np.array([0.5, 0.5]))
     array([0.625, 0.375])

@@ -6,14 +6,14 @@ j -> k -> i becomes an arc j -> i,
     a[j][i] += a[j][k] a[k][i] / d[k],
 
 where d[k], the pivot, is the sum of the arcs out of k and of its leak, never 1 minus
-something. Only nonnegative numbers are added, multiplied and divided, so each entry of the
-answer is right to a few units in the last place times the number of states, however stiff
-the chain.
+something. Only nonnegative numbers are added, multiplied and divided, so each entry of the answer
+is accurate to a few units in the last place times the number of states, no matter how stiff the
+chain is.
 
-Decimal numbers of 40 digits and practically unbounded exponents serve long and narrow classes, in
-which the rounding errors of doubles add up, and laws that span more decades than doubles do:
-intermediate results would over- or underflow, and digits of the answer with them. They are slow
-(some microseconds an arc), so that what would take more than seconds is refused.
+Decimal numbers with 40 digits and practically unbounded exponents are used for long and narrow
+classes, in which the rounding errors of doubles add up, and for distributions that span more
+decades than doubles do, whose intermediate results would over- or underflow. They are slow (some
+microseconds per arc), so anything that would take more than seconds raises an error.
 
 References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993; Alfa, Xue and Ye 2002.
 """
@@ -40,15 +40,15 @@ Core: TypeAlias = Callable[[Rows, list[Any]], Any]
 
 _CONTEXT = Context(prec=40, Emax=MAX_EMAX, Emin=MIN_EMIN)
 MOST_ARCS = 3e6
-"""More are refused where that may take more than seconds."""
+"""Limit on arcs; more may take more than seconds."""
 
 
 class Elimination:
-    """(I - T) factored, where T holds the arcs of transient states among themselves.
+    """Factorization of (I - T), where T holds the arcs among transient states.
 
-    `arcs[j][i]` is the probability of i, given j, for i other than j (used up); `leaks[j]` is the
-    probability of leaving for good, given j. After making `most` arcs, `core` makes the solver of
-    the states that are left, of their arcs and leaks; without it that is an AccuracyError.
+    `arcs[j][i]` is the probability of i, given j, for i other than j (overwritten); `leaks[j]` is
+    the probability of leaving for good, given j. After `most` new arcs, `core` makes the solver for
+    the remaining states from their arcs and leaks; without `core`, AccuracyError is raised.
     """
 
     def __init__(
@@ -137,7 +137,7 @@ class Elimination:
 def limit_in(
     structure: Structure, rows: Rows, v: Mapping[int, Any], visits_of: VisitsOf
 ) -> dict[int, Any]:
-    """Return the stochastic limit of the states that it reaches, in any kind of numbers.
+    """Return the stochastic limit over the states reached, in any kind of numbers.
 
     `rows` are the arcs between different states, by source; v is the start, by position.
     `visits_of` returns the visits to some states, given all arcs and the probabilities on the
@@ -155,7 +155,7 @@ def limit_in(
 def masses_in(
     structure: Structure, rows: Rows, v: Mapping[int, Any], visits_of: VisitsOf
 ) -> dict[int, Any]:
-    """Return the probability of ending in each class that is reached; see `limit_in`."""
+    """Return the probability of ending in each class that can be reached; see `limit_in`."""
     label, recurrent = structure.label.tolist(), structure.recurrent.tolist()
     inner = [state for state, inside in enumerate(recurrent) if not inside]
     entered = [(state, chance) for state, chance in v.items() if recurrent[state]]
@@ -173,7 +173,7 @@ def masses_in(
 def eliminated(
     rows: Rows, states: Sequence[int], most: float = math.inf, core: Core | None = None
 ) -> Elimination:
-    """Return I - T factored, with T the arcs among some of the states; the rows are kept."""
+    """Return I - T factored, with T the arcs among some of the states; `rows` is unchanged."""
     place = {state: k for k, state in enumerate(states)}
     inner = [{place[i]: p for i, p in rows[j].items() if i in place} for j in states]
     leaks = [sum(p for i, p in rows[j].items() if i not in place) for j in states]
@@ -181,12 +181,12 @@ def eliminated(
 
 
 def _is_nothing(value: Any) -> bool:
-    """Return whether a number is 0; an array never counts as nothing."""
+    """Return whether a number is 0; always False for an array."""
     return not hasattr(value, "shape") and not value
 
 
 def rows_of(arcs: Arcs, number: Callable[[float], Any] = float) -> Rows:
-    """Return the arcs as a dictionary for each source: target to chance."""
+    """Return the arcs as a dictionary for each source, from target to chance."""
     rows: Rows = [{} for _ in range(arcs.size)]
     chances = map(number, arcs.chances.tolist())
     for j, i, chance in zip(arcs.sources.tolist(), arcs.targets.tolist(), chances, strict=True):
@@ -195,10 +195,10 @@ def rows_of(arcs: Arcs, number: Callable[[float], Any] = float) -> Rows:
 
 
 class PlainElimination:
-    """(I - T) factored with a dictionary for each state: the fastest for a few dozen states.
+    """Factorization of (I - T) with a dictionary for each state: fastest for a few dozen states.
 
-    `leak`, shape (m,), is the probability of leaving them, given the state. An AccuracyError if the
-    elimination would make more than `most` arcs.
+    `leak`, shape (m,), is the probability of leaving them, given the state. Raises AccuracyError if
+    the elimination would make more than `most` arcs.
     """
 
     bound, is_proved = None, False
@@ -225,7 +225,7 @@ class PlainElimination:
 
 
 class DecimalElimination(PlainElimination):
-    """(I - T) factored in decimal numbers; answers are floats, inf where floats end."""
+    """Factorization of (I - T) in decimal numbers; answers are floats, or inf beyond them."""
 
     _number = Decimal
 
@@ -233,7 +233,7 @@ class DecimalElimination(PlainElimination):
 def decimal_masses(structure: Structure, v: Floats) -> Floats:
     """Return the probability of ending in each class from the vector v; shape (classes,).
 
-    Expected visits that are larger than any float may be on the way. An AccuracyError if the
+    Intermediate expected visits may be larger than any float. Raises AccuracyError if the
     elimination would take too long.
     """
     with localcontext(_CONTEXT):
@@ -243,9 +243,9 @@ def decimal_masses(structure: Structure, v: Floats) -> Floats:
 
 
 def decimal_law(arcs: Arcs) -> Floats:
-    """Return the stationary distribution of the one closed class that the arcs make; shape (m,).
+    """Return the stationary distribution of the single closed class of these arcs; shape (m,).
 
-    An AccuracyError if the elimination would take too long.
+    Raises AccuracyError if the elimination would take too long.
     """
     with localcontext(_CONTEXT):
         rows, rest = rows_of(arcs, Decimal), range(1, arcs.size)

@@ -1,22 +1,22 @@
-"""The answers of a chain in fractions.
+"""A chain's answers in exact fractions.
 
-A chance given as a `Fraction` or as text is used unchanged, and a float as the decimal that it
-prints: 0.6 is 3/5. A state whose self-loop is listed stays with what its other arcs leave over;
-the arcs of every other state must sum to exactly 1.
+A chance given as a `Fraction` or a string is used unchanged, and a float as the decimal that it
+prints: 0.6 is 3/5. A listed self-loop gets the remainder of its state's other arcs; the arcs of
+every other state must sum to exactly 1.
 
-States with few arcs are eliminated. Where many arcs are left, the fractions would grow with every
-step, so what remains is solved in another way.
+States with few arcs are eliminated. With many arcs, the fractions would grow with every step, so
+the rest is solved differently.
 
-What remains is solved modulo the powers of a prime. With each column of I - T brought to whole
-numbers by its common denominator, A = (I - T) D, and C = A^-1 modulo a prime p, the digits y_k in
-base p of the solution of A x = b are
+The rest is solved modulo the powers of a prime. With each column of I - T brought to whole numbers
+by its common denominator, A = (I - T) D, and C = A^-1 modulo a prime p, the digits y_k in base p of
+the solution of A x = b are
 
     y_k = C r_k  mod p,   r_0 = b,   r_(k+1) = (r_k - A y_k) / p.
 
 Numerators and denominators are minors of A, and no minor of such a matrix is larger than the
-product of its diagonal; with twice the digits of that, each fraction is known. All this takes
-n^2 operations a digit on whole numbers of the machine, where elimination would take n^3 on
-fractions with thousands of digits.
+product of its diagonal; twice as many digits as that determine each fraction. This takes n^2
+operations per digit on machine integers, while elimination would take n^3 on fractions with
+thousands of digits.
 
 References: Kemeny and Snell 1960, Finite Markov Chains, chapter III; Dixon 1982, "Exact solution
 of linear equations using p-adic expansions"; Wang 1981 for the fractions.
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 
 _FILL = 8
-"""States are eliminated in fractions as long as that makes no more than so many arcs a state."""
+"""New arcs per state up to which states are eliminated in fractions."""
 
 
 class ExactPassage(NamedTuple):
@@ -84,7 +84,7 @@ def exact_absorption(chain: Chain, start: Any) -> NDArray[np.object_]:
 
 
 def exact_passage(chain: Chain, start: Any, ends: Bools) -> ExactPassage:
-    """Return how many steps it takes to reach one of the `ends`.
+    """Return how many steps it takes to reach any of the `ends`.
 
     With u the expected steps on the paths that reach them and w the expected sum of u, the
     second moment is 2 w - u.
@@ -107,7 +107,7 @@ def exact_passage(chain: Chain, start: Any, ends: Bools) -> ExactPassage:
 
 
 def exact_chance(value: Any) -> Fraction:
-    """Return a number as a fraction: a float as the decimal that it prints.
+    """Convert a number to a fraction: a float as the decimal that it prints.
 
     >>> exact_chance(0.6), exact_chance("0.6"), exact_chance(Fraction(2, 3))
     (Fraction(3, 5), Fraction(3, 5), Fraction(2, 3))
@@ -118,8 +118,8 @@ def exact_chance(value: Any) -> Fraction:
 def exact_rows(chain: Chain) -> Rows:
     """Return the arcs between different states, by source.
 
-    A ChainError if the arcs of a state without a self-loop do not sum to exactly 1, or those of a
-    state with one sum to more.
+    Raises ChainError if the arcs of a state without a self-loop do not sum to exactly 1, or those
+    of a state with one sum to more than 1.
     """
     rows: Rows = [
         {i: chain.given.get((j, i)) or exact_chance(p) for i, p in row.items()}
@@ -138,7 +138,7 @@ def exact_rows(chain: Chain) -> Rows:
 
 
 def exact_start(chain: Chain, start: Any) -> dict[int, Fraction]:
-    """Return the start as a vector: the probability of each position that has one."""
+    """Return the start as a vector: the probability at each position that has one."""
     at = chain.start_index(start)
     if at is not None:
         return {at: Fraction(1)}
@@ -172,20 +172,20 @@ def _shown(total: Any) -> str:
 
 
 _BITS = 24
-"""Primes and parts of entries have so many: 2^15 products of two of them fit 64 bits."""
+"""Bits of primes and of parts of entries: 2^15 products of two of them fit 64 bits."""
 
 
 _STEP = 16
-"""So many products of two numbers of `_BITS` bits add up to a whole number that a float holds."""
+"""Number of products of two `_BITS`-bit numbers whose sum a float holds exactly."""
 _MOST_STATES = 1000
-"""More are refused. So many take 5 to 15 seconds."""
+"""Limit on states; this many take 5 to 15 seconds. So many take 5 to 15 seconds."""
 
 
 class Lifting:
-    """(I - T) for fractions, where T holds the arcs of transient states among themselves.
+    """(I - T) in fractions, where T holds the arcs among transient states.
 
-    `arcs[j][i]` is the probability of i, given j, for i other than j; `leaks[j]` that of leaving
-    for good, given j. An AccuracyError if there are more than 1000 states.
+    `arcs[j][i]` is the probability of i, given j, for i other than j; `leaks[j]` is that of leaving
+    for good, given j. Raises AccuracyError if there are more than 1000 states.
     """
 
     def __init__(self, arcs: Sequence[Mapping[int, Fraction]], leaks: Sequence[Fraction]) -> None:
@@ -238,7 +238,7 @@ class Lifting:
 
 
 def whole_numbers(numbers: Iterable[Fraction]) -> tuple[list[int], int]:
-    """Return the numerators of fractions over their least common denominator, and that.
+    """Return the numerators of fractions over their least common denominator, and the denominator.
 
     >>> whole_numbers([Fraction(1, 2), Fraction(1, 3)])
     ([3, 2], 6)
@@ -249,7 +249,7 @@ def whole_numbers(numbers: Iterable[Fraction]) -> tuple[list[int], int]:
 
 
 def _parts(A: NDArray[np.object_]) -> Iterator[Ints]:
-    """Yield A cut into parts of `_BITS` bits, the lowest first."""
+    """Yield A split into parts of `_BITS` bits, lowest first."""
     sign, rest = np.where(A < 0, -1, 1), abs(A)
     while rest.any():
         yield sign * (rest % (1 << _BITS)).astype(np.int64)
@@ -265,7 +265,7 @@ def _inverse(A: NDArray[np.object_]) -> tuple[int, Ints]:
 
 
 def _inverse_modulo(prime: int, W: Ints) -> Ints:
-    """Return the inverse of W modulo a prime, by Gauss-Jordan elimination of blocks."""
+    """Return the inverse of W modulo a prime, by block Gauss-Jordan elimination."""
     n = len(W)
     if n == 1:
         return np.array([[pow(int(W[0, 0]), -1, prime)]])
@@ -284,14 +284,14 @@ def _inverse_modulo(prime: int, W: Ints) -> Ints:
 
 
 def _primes() -> Iterator[int]:
-    """Yield the primes below 2^24, from the largest on."""
+    """Yield the primes below 2^24, from the largest down."""
     for q in range(2**_BITS - 1, 2, -2):
         if all(q % d for d in range(3, math.isqrt(q) + 1, 2)):
             yield q
 
 
 def _fractions(residues: Sequence[int], modulus: int, bound: int) -> Iterator[Fraction]:
-    """Yield the fractions that are the residues, no part of any of them above the bound."""
+    """Yield the fractions represented by the residues, with no part above the bound."""
     common = 1
     for residue in residues:
         above = residue * common % modulus

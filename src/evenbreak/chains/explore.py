@@ -1,13 +1,13 @@
-"""From games, graphs and lists of arcs to chains: what is refused, and what is completed.
+"""Convert games, graphs and lists of arcs to chains: which ones are valid, and what is filled in.
 
 The rules of a chain:
 
 - the listed arcs of a state, its self-loop included, sum to 1 within 1e-9;
 - each probability is a number in [0, 1], and no arc is listed twice;
 - an arc of probability zero counts as listed and makes no arc;
-- a listed self-loop (unless zero) becomes whatever the other arcs leave over. If none is
-  listed, none is added: three float arcs often miss 1 by one rounding error, and a self-loop
-  of 1e-16 would turn a period of 2 into 1;
+- a listed self-loop (unless zero) becomes the remainder of the other arcs. If none is listed, none
+  is added: three float arcs often miss 1 by one rounding error, and a self-loop of 1e-16 would turn
+  a period of 2 into 1;
 - a state without listed arcs absorbs.
 """
 
@@ -66,20 +66,20 @@ def chain_of(
         - a dict that has, for each state, a dict from the next states to their probabilities;
         - (source, target, probability) triples.
 
-        A probability is always that of the target, given the source. In dicts, triples and
-        graphs it may be a `Fraction`, or text such as "0.6" or "3/5"; `exact=True` then
-        calculates with just that.
+        A probability is always that of the target, given the source. In dicts, triples and graphs,
+        it may be a `Fraction` or a string such as "0.6" or "3/5"; `exact=True` then calculates with
+        exactly that value.
     start
-        the starting state. If None: the start of the game, or the graph's node of
-        `kind` 'start' if it has one; the others have no start of their own.
+        the starting state. If None: the start of the game, or the graph's node of `kind` 'start' if
+        it has one; other sources have no start of their own.
     rows
         how to read a matrix. 'from': a row holds the chances out of its state. 'to': a row
-        holds the chances into its state, as in `Chain`. It may be left out if the matrix is
-        stochastic one way only, or symmetric.
+        holds the chances into its state, as in `Chain`. It may be omitted if the matrix is
+        stochastic in only one direction, or symmetric.
     weight
         the attribute of a graph's arcs that holds their probability. None: 'probability', or
-        networkx's own 'weight' where no arc has a probability. Weights that are something else,
-        such as lengths or counts, do not sum to 1 and are refused.
+        networkx's own 'weight' if no arc has a probability. Other weights, such as lengths or
+        counts, do not sum to 1 and raise an error.
 
     Raises
     ------
@@ -133,7 +133,7 @@ def chain_from_arrays(
     probabilities: ArrayLike,
     start: Hashable | None = None,
 ) -> Chain:
-    """Return the chain of arcs given as arrays.
+    """Return a chain from arcs given as arrays.
 
     Parameters
     ----------
@@ -142,8 +142,8 @@ def chain_from_arrays(
     sources, targets
         positions in `states`, one for each arc, in any order.
     probabilities
-        the probability of each arc's target, given its source; numbers, fractions, or text
-        such as "0.6" or "3/5".
+        the probability of each arc's target, given its source; numbers, fractions, or strings such
+        as "0.6" or "3/5".
     start
         the starting state, or None.
 
@@ -173,7 +173,7 @@ def chain_from_arrays(
 
 
 def _fractions(probabilities: ArrayLike) -> tuple[NDArray[Any], dict[int, Fraction]]:
-    """Return the probabilities as numbers, and those of them that are fractions or text."""
+    """Return the probabilities as numbers, and those given as fractions or strings."""
     entered = np.asarray(probabilities)
     if entered.dtype.kind not in "OU":
         return entered, {}
@@ -270,7 +270,7 @@ def _chain_of_graph(graph: Any, weight: str | None, start: Hashable | None) -> C
 
 
 def _without_probability(graph: Any, name: str) -> ChainError:
-    """Return what is wrong with the first arc that has no number of this name."""
+    """Return what is wrong with the first arc that has no number with this name."""
     for source, target, arc in graph.edges(data=True):
         where, remedy = f"the arc {source!r} -> {target!r}", "Give each arc a number from 0 to 1."
         if name not in arc:
@@ -287,7 +287,7 @@ def _without_probability(graph: Any, name: str) -> ChainError:
 
 
 def _arcs_of_mapping(moves: Mapping[Any, Any]) -> ArcArrays:
-    """Return the arcs of a dict of dicts; the states in order: its keys, then other targets."""
+    """Return the arcs of a dict of dicts; states are in the order of its keys, then targets."""
     for state, row in moves.items():
         if not isinstance(row, Mapping):
             raise ChainError(
@@ -299,7 +299,7 @@ def _arcs_of_mapping(moves: Mapping[Any, Any]) -> ArcArrays:
 
 
 def _arcs_of_triples(triples: Iterable[Any], states: Iterable[Any] = ()) -> ArcArrays:
-    """Return the arcs of triples; the states in order: those given, then as they come."""
+    """Return the arcs of triples; states are in the order given, then in order of appearance."""
     position: dict[Any, int] = {state: k for k, state in enumerate(states)}
     sources: list[int] = []
     targets: list[int] = []
@@ -325,7 +325,7 @@ def _arcs_of_triples(triples: Iterable[Any], states: Iterable[Any] = ()) -> ArcA
 
 
 def _number(chance: Any) -> float | Fraction:
-    """Return a chance as a float, or as a fraction if it is one or text.
+    """Return a chance as a float, or as a fraction if it is a fraction or a string.
 
     >>> _number(1), _number("0.6")
     (1.0, Fraction(3, 5))

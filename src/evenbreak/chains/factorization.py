@@ -1,17 +1,17 @@
-"""I - T factored class by class, each class by the method that suits its graph.
+"""Factorization of I - T class by class, each by the method that suits its graph.
 
 | class | method | time, memory |
 |---|---|---|
 | one state, or up to 64 | forward substitution over all of them (`TriangularSolve`) | linear |
-| a line of states, if long doubles are long | cyclic reduction (`birth_death`) | linear |
-| some hundreds of states, or dense | elimination in fronts (`dissection`) | cubic |
-| cut in two by few states | sparse LU, every entry proved (`certified`) | n^1.5 on a grid |
-| others | iteration on aggregates, every entry proved (`certified`) | about linear |
+| a line of states, if long doubles are long | cyclic reduction (`birth_death`) | linear | | some
+hundreds of states, or dense | elimination in fronts (`dissection`) | cubic | | cut in two by few
+states | sparse LU, every entry proved (`certified`) | n^1.5 on a grid | | others | iteration on
+aggregates, every entry proved (`certified`) | about linear |
 
-Consecutive small classes are solved together. A class that is left so rarely that twice the digits
-of a double prove nothing is eliminated without subtraction: in fronts, up to 40 million factors,
-or in decimal numbers if it is long and narrow, since doubles would repeat the same rounding error
-at each state. What would take more than that is refused.
+Consecutive small classes are solved together. A class that is left so rarely that even
+double-double precision proves nothing is eliminated without subtraction: in fronts, up to 40
+million factors, or in decimal numbers if it is long and narrow, since doubles would repeat the same
+rounding error at each state. Anything larger raises an error.
 
 A state that is alone in its class is watched only when it moves (`TriangularSolve`): with P[i, j]
 the arc from j to i over the sum of all arcs out of j, the flow f through the states from a vector b
@@ -22,10 +22,10 @@ obeys
 upstream states first. This is a triangular system whose terms all have one sign, and the expected
 visits are f[j] over the sum of the arcs out of j. A small class of several states enters it with
 each state twice, as it is entered and as it is left, joined by the factors of
-`eliminate_together`: what enters a state moves on to states eliminated later, divided by the pivot
-it is the visits to it, and visits to a state bring visits to states eliminated earlier. So the
-whole is triangular, its size at most twice the number of states, and I - T and its transpose are
-each solved in one call.
+`eliminate_together`: the flow into a state moves on to states eliminated later; divided by the
+pivot, it is the visits to the state; and visits to a state bring visits to states eliminated
+earlier. So the whole system is triangular, with at most twice as many rows as states, and I - T and
+its transpose are each solved in one call.
 
 Graphs of the same size are eliminated together (`eliminate_together`): stacked into one array, the
 last axis of which counts them, each step of the elimination of Grassmann, Taksar and Heyman (1985)
@@ -60,13 +60,13 @@ from evenbreak.errors import AccuracyError
 
 SMALL = 64
 _FEW, _MUCH_WORK = 500, 1e10
-"""States that are eliminated at once, and multiplications that a factorization is worth."""
+"""States that are eliminated at once, and multiplications that make a factorization worthwhile."""
 _HUB = 1000
-"""A state that so many arcs lead out of makes ordering take longer than the factorization."""
+"""Number of arcs out of one state that makes ordering take longer than the factorization."""
 _WIDE = bool(np.finfo(np.longdouble).eps < np.finfo(np.float64).eps)
 """Whether a long double has more digits than a double, which lines need."""
 _NARROW, _MOST_ARCS = 4, 2e7
-"""So wide a class is eliminated in decimal numbers, if no more arcs arise: half a minute's work."""
+"""Width up to which a class is eliminated in decimal numbers; more takes over half a minute."""
 
 
 class _Solver(Protocol):
@@ -97,7 +97,7 @@ class _Piece:
 
     @cached_property
     def solver(self) -> _Solver:
-        """The factors of the piece, made when first used."""
+        """The factors of the piece, made on first use."""
         size = self.last - self.first
         if len(self._offsets) > 2 or size <= SMALL:
             return TriangularSolve(self._inner, self._leaks, self._outflow, self._offsets)
@@ -142,7 +142,7 @@ class _Piece:
         return dissect(neighbors(self._arcs))
 
     def _eliminated(self, reason: str) -> _Solver:
-        """Return the factors without subtraction; an AccuracyError if they are too many."""
+        """Return the factors without subtraction; AccuracyError if there are too many."""
         if self._bandwidth <= _NARROW:
             return DecimalElimination(arcs_of(self._arcs), self._leaks, _MOST_ARCS)
         order, fronts = self._fronts
@@ -157,7 +157,7 @@ class _Piece:
 
 
 class Factorization:
-    """I - T factored, where T holds the arcs of m states among themselves.
+    """Factorization of I - T, where T holds the arcs among m states.
 
     `leak`, shape (m,), is the probability of leaving them, given the state; from each state a state
     with a leak can be reached. `outflow` is the sum of all arcs out of each state and its leak.
@@ -188,21 +188,21 @@ class Factorization:
 
     @property
     def bound(self) -> float | None:
-        """A proved bound on the relative errors so far; None where elimination needed none."""
+        """A proved bound on the relative errors so far; None if elimination needed none."""
         errors = [solver.error for _, solver in self._used if isinstance(solver, CertifiedSolve)]
         return sum(errors) if errors else None
 
     @property
     def is_proved(self) -> bool:
-        """Whether answers are proved as a whole; what flows between pieces may underflow."""
+        """Whether answers are proved as a whole, since flow between pieces may underflow."""
         return len(self._pieces) == 1 and self.bound is not None
 
     @property
     def pivots(self) -> Floats:
         """The chance of moving on to later states, given each state, when it is eliminated.
 
-        Less, where answers are proved; 0 where no flow has arrived so far, for want of arcs or by
-        underflow.
+        It is a lower bound where answers are proved, and 0 where no flow has arrived so far,
+        because of missing arcs or underflow.
         """
         pivots = np.zeros(self._pieces[-1].last)
         for piece, solver in self._used:
@@ -235,7 +235,7 @@ class Factorization:
 
 
 def _add(to: Floats, place: Places, values: Floats) -> None:
-    """Add each row of `values` to the row of `to` at its place."""
+    """Add each row of `values` to its place in `to`."""
     if len(place):
         first, last = int(place.min()), int(place.max()) + 1
         for k, column in enumerate(values.T):
@@ -243,7 +243,7 @@ def _add(to: Floats, place: Places, values: Floats) -> None:
 
 
 def _runs(offsets: Places) -> list[Places]:
-    """Cut the classes into runs: each large class alone, the small ones between them together."""
+    """Cut the classes into runs: each large class alone, small ones in between together."""
     large = np.flatnonzero(np.diff(offsets) > SMALL)
     if not len(large):
         return [offsets]
@@ -255,11 +255,11 @@ Triples = tuple[Places, Places, Floats]
 
 _ENTRIES = 2_000_000
 _FEW_TERMS = 256
-"""More arcs into or out of a state are added up with a correction."""
+"""Number of arcs into or out of a state above which sums are compensated."""
 
 
 class TriangularSolve:
-    """(I - T) factored for consecutive classes, all of them small.
+    """Factorization of (I - T) for consecutive classes, all of them small.
 
     States are numbered class by class, upstream first; `offsets` has the first state of each class,
     and m. `leak`, the chance of leaving all these states, given the state, is only read for classes
@@ -338,7 +338,7 @@ class TriangularSolve:
 def _stacks(
     offsets: Places, label: Places, arcs: Triples, leaks: Floats
 ) -> Iterator[tuple[Places, Floats]]:
-    """Yield the classes of several states, those of one size together, as memory allows.
+    """Yield the classes of several states, with equal sizes together, as memory allows.
 
     Each stack is the states, shape (size, classes), and their arcs, shape (size + 1, size,
     classes): entry [i, j] is the arc from the j-th to the i-th state, and the last row the leaks.
@@ -362,7 +362,7 @@ def _stacks(
 
 
 def _unit_lower(size: int, columns: Places, rows: Places, entries: Floats) -> csc_array:
-    """Return I - E for arcs E that all lead forward, sorted and with ones as SuperLU needs it."""
+    """Return I - E for arcs E that all lead forward, sorted and with ones as SuperLU requires."""
     diagonal = np.arange(size, dtype=np.int32)
     at = [
         np.concatenate((diagonal, ends), dtype=np.int32, casting="same_kind")
@@ -372,7 +372,7 @@ def _unit_lower(size: int, columns: Places, rows: Places, entries: Floats) -> cs
 
 
 def eliminate_together(A: Floats, size: int) -> Floats:
-    """Eliminate the first `size` states of all graphs of a stack in place; return the pivots.
+    """Eliminate the first `size` states of all graphs in a stack in place; return the pivots.
 
     A has shape (m, n, graphs), m >= n >= size: A[i, j] is the arc from the j-th to the i-th state;
     a leak may be the last row. It becomes the arcs onward below the diagonal, and above it those

@@ -1,16 +1,16 @@
 """The limits of a family of games at once: one game, arrays of chances.
 
-The game is made once for a batch of chances, from `Numbers` that stand for all of them, and walked
-once. Where the chances of the batch lead to different graphs (a chance of 0 or 1, or a game that
-branches on a chance), the batch is split and each part is walked again. The limits are then
+The game is made once for a batch of chances, from `Numbers` that stand for all of them, and
+traversed once. If the chances in the batch lead to different graphs (a chance of 0 or 1, or a game
+that branches on a chance), the batch is split and each part is traversed again. The limits are then
 calculated over arrays (see `family_elimination`).
 
-Of a large family the first part alone is walked: what was done for it is repeated for every batch
-that gives the same answers (see `family_numbers`).
+In a large family, only the first part is traversed: its operations are repeated for every batch
+whose comparisons give the same answers (see `family_numbers`).
 
-Nothing is taken on trust: at three members of each part, and at one of each batch, the game is
-made again from plain floats and must have the same arcs. A part that fails this, or whose game
-needs plain floats, is calculated member by member.
+As a check, the game is made again from plain floats for three members of each part and one of each
+batch, and must have the same arcs. A part that fails this, or whose game needs plain floats, is
+calculated member by member.
 """
 
 from __future__ import annotations
@@ -38,19 +38,19 @@ from evenbreak.errors import ChainError, InputError
 from evenbreak.game import Game, moves_of
 
 _BATCH = 8192
-"""Members at a time: an array of them fits into the cache."""
+"""Batch size in members: an array of them fits into the cache."""
 _FIRST = 1024
-"""Of more than one batch so many are worked out first, and what was done is then repeated."""
+"""Members worked out first if there is more than one batch; their operations are then repeated."""
 _FEW = 3
-"""So few members are calculated one by one; from a larger part so many are checked."""
+"""Members up to which each is calculated alone; in a larger part, this many are checked."""
 _SAME = 1e-14
-"""The relative difference up to which an arc is that of the game made from plain floats."""
+"""Relative tolerance between an arc and that of the game made from plain floats."""
 
 
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class FamilyLimit:
-    """The stochastic limits of a family of games; `limit[state]` is an array over the family.
+    """Stochastic limits of a family of games; `limit[state]` is an array over the family.
 
     Parameters
     ----------
@@ -87,13 +87,14 @@ def limits_over(game_of: Callable[..., Game], /, **chances: ArrayLike) -> Family
     """Return the stochastic limits of a game for arrays of its chances.
 
     Each limit is conditional on the start of its game, and as accurate as that of
-    `stochastic_limit`, also where a chance is 0 or 1.
+    `stochastic_limit`, even if a chance is 0 or 1.
 
     Parameters
     ----------
     game_of
-        makes the game: a class such as `OneBall`, or any function that takes the chances by name
-        and returns a game, such as `lambda p1, p2: Ahead(5, 3, Rack(p1, p2), breaks=...)`.
+        a callable that makes the game: a class such as `OneBall`, or any function that takes the
+        chances by name and returns a game, such as `lambda p1, p2: Ahead(5, 3, Rack(p1, p2),
+        breaks=...)`.
     **chances
         the chances, as numbers or arrays; they are broadcast together.
 
@@ -113,7 +114,7 @@ def limits_over(game_of: Callable[..., Game], /, **chances: ArrayLike) -> Family
     functions of single numbers work as well. The result is right for any game, but one that needs
     plain floats (`math.exp(p)`, `round(p, 2)`, a chance in the name of a state) is calculated
     member by member, in a loop over `stochastic_limit`; so is a game whose graph differs from
-    member to member. A limit that may have been touched by underflow is calculated again alone.
+    member to member. A limit that underflow may have affected is recalculated alone.
 
     >>> from evenbreak.games import OneBall
     >>> limit = limits_over(OneBall, p1=[[0.25], [0.5], [1.0]], p2=[0.0, 0.5])
@@ -155,7 +156,7 @@ class _Found:
     def add(
         self, members: Any, states: list[Any], limits: Iterable[tuple[int, Any]], period: int
     ) -> None:
-        """Add the limits of some members, by places in the list of their states."""
+        """Add the limits of some members, by position in the list of their states."""
         if not any(states is listed for listed in self._listed):
             self._listed.append(states)
             for state in states:
@@ -169,7 +170,7 @@ class _Found:
         self._periods.setdefault(period, []).append(members)
 
     def together(self, shape: tuple[int, ...]) -> FamilyLimit:
-        """Return all of them, with the states of the largest graph first."""
+        """Return all limits, with the states of the largest graph first."""
         order: dict[Any, int] = {}
         for states in sorted(self._listed, key=len, reverse=True):
             for state in states:
@@ -194,20 +195,20 @@ class _Found:
 
 
 class _Again(NamedTuple):
-    """What was done for one part, to be repeated for members that give the same answers."""
+    """The operations for one part, to be repeated for members that give the same answers."""
 
     states: list[Any]
     sources: list[int]
     targets: list[int]
     period: int
     places: list[int]
-    """Where the limits belong that `limits` returns."""
+    """Positions of the limits that `limits` returns."""
     limits: Program
     chances: Program
 
 
 class _Family:
-    """A game and arrays of chances of shape (k,), or floats."""
+    """A game with arrays of chances of shape (k,), or floats."""
 
     def __init__(
         self, game_of: Callable[..., Game], chances: dict[str, Floats | float], count: int
@@ -247,7 +248,7 @@ class _Family:
         return self._found.together(shape)
 
     def _again(self, batch: slice) -> bool:
-        """Repeat what was done for another batch; return whether that is right for this one."""
+        """Repeat the operations for another batch; return whether they are valid for it."""
         values = [value[batch] for value in self._chances.values() if not isinstance(value, float)]
         middle = (batch.start + batch.stop) // 2
         at = [value[middle - batch.start, None] for value in values]
@@ -276,7 +277,7 @@ class _Family:
         self._found.add(member, states, enumerate(limit.probability), limit.period)
 
     def _together(self, members: Places) -> Places:
-        """Work out the limits of members with one graph; return those that remain doubtful."""
+        """Work out the limits of members with the same graph; return those that remain doubtful."""
         record = Record()
         first, last = int(members[0]), int(members[-1])
         part: Any = slice(first, last + 1) if last - first < len(members) else members
@@ -321,7 +322,7 @@ class _Family:
         targets: list[int],
         chances: list[float],
     ) -> None:
-        """Refuse arcs that are not those of the game made from plain floats."""
+        """Raise an error if arcs differ from those of the game made from plain floats."""
         game = self._game(member)
         *graph, exact = moves_of(game, game.start)
         same = graph == [states, sources, targets] and all(
@@ -346,10 +347,10 @@ def _at(chance: Any, place: int) -> float:
 def _completed(
     size: int, sources: list[int], targets: list[int], chances: list[Any]
 ) -> tuple[list[int], list[int], list[Any]]:
-    """Return the arcs with sums of 1, as `chain_of` completes those of one chain.
+    """Return the arcs with sums of 1, as `chain_of` completes the arcs of one chain.
 
-    A self-loop becomes what the other arcs leave over, which must be nothing for all or for none.
-    Without a self-loop, arcs that miss 1 by more than a rounding error are scaled.
+    A self-loop becomes the remainder of the other arcs, which must be zero for all members or for
+    none. Without a self-loop, arcs that miss 1 by more than a rounding error are scaled.
     """
     others: list[Any] = [0.0] * size
     loops: list[Any] = [None] * size

@@ -1,4 +1,4 @@
-"""The limits of many chains with one graph: elimination of states over arrays of chances.
+"""Limits of many chains with the same graph: elimination of states over arrays of chances.
 
 The order of elimination depends on the graph alone. Each step is done for all chains at once,
 and free of subtraction, as for one chain (see `elimination` and `factorization`).
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
     from evenbreak.chains.structure import Structure
 
 _DENSE_FROM = 8
-"""A class of so many states with a quarter of all arcs is eliminated in a dense array."""
+"""Number of states at which a class with a quarter of all arcs is eliminated in a dense array."""
 _AT_ONCE = 512
-"""So many dense chains at a time: the calls of numpy cost little, and the caches still help."""
+"""Dense chains at a time: numpy's overhead is small, and the caches still help."""
 _SMALL = 1e-290
-"""A float below this, relative to the largest, may have lost digits to underflow."""
+"""Relative to the largest, a float below this may have lost digits to underflow."""
 _LEAST, _MOST = 1e-120, 1e40
-"""Visits between these, with pivots above the first, are far from what `_SMALL` excludes."""
+"""Range of visits, with pivots above the first number, that is far from what `_SMALL` excludes."""
 
 
 def family_limits(
@@ -41,10 +41,10 @@ def family_limits(
 ) -> tuple[dict[int, Numbers | float], Bools | None]:
     """Return the limits from state 0, and which of them have to be calculated one by one.
 
-    All classes of the structure can be reached from state 0; arcs may include self-loops. An arc's
-    positive chance of the target, given the source, is `count` numbers, or one for all chains. The
-    array, shape (count,), is whether a limit spans so many decades that underflow may have touched
-    it. None: no limit does, nor one of other chains that give the same answers.
+    All classes in the structure must be reachable from state 0; arcs may include self-loops. An
+    arc's positive chance of the target, given the source, is `count` numbers, or one for all
+    chains. The array, shape (count,), is whether a limit spans so many decades that underflow may
+    have affected it. None: no limit does, nor does any other chain that gives the same answers.
     """
     rows: Rows = [{} for _ in structure.label]
     for j, i, chance in zip(sources, targets, chances, strict=True):
@@ -80,7 +80,7 @@ def _dense_visits(
 ) -> tuple[list[Any], list[Any]]:
     """Return the visits to states and their pivots, by elimination in arrays.
 
-    The last place is for all other states: what leaves goes there, and `b` comes from there.
+    The last place stands for all other states: outgoing flow goes there, and `b` comes from there.
     """
     last = len(states)
     place = {state: k for k, state in enumerate(states)}
@@ -107,7 +107,7 @@ def _dense_visits(
 
 
 def _are_safe(visits: Sequence[Any], pivots: Sequence[Any]) -> bool:
-    """Return whether visits and pivots are far from what underflow may touch, for all chains."""
+    """Return whether all chains' visits and pivots are far from any effect of underflow."""
     try:
         return all(_LEAST < x < _MOST for x in visits) and all(x > _LEAST for x in pivots)
     except Disagreement:
@@ -115,7 +115,7 @@ def _are_safe(visits: Sequence[Any], pivots: Sequence[Any]) -> bool:
 
 
 def _doubtful(visits: Sequence[Any], pivots: Sequence[Any]) -> Any:
-    """Return for which chains overflow or underflow may have touched the visits."""
+    """Return for which chains overflow or underflow may have affected the visits."""
     top: Any = 1.0
     low: Any = 1.0
     for visited, pivot in zip(visits, pivots, strict=True):

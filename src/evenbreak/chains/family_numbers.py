@@ -2,13 +2,13 @@
 
 `Numbers` adds, multiplies and divides entry by entry. It answers a comparison with one True or
 False, as a float does, if all entries agree; otherwise it raises `Disagreement` with the entries
-for which the answer is True, so that the caller can ask again for these and for the others. So
-code that branches on a value stays right. What needs one true number (`float`, `round`, `hash`,
-`str`) raises `Disagreement` without such a list: only one entry at a time can answer.
+for which the answer is True, so that the caller can ask again for these and for the others. So code
+that branches on a value remains correct. Functions that need a single number (`float`, `round`,
+`hash`, `str`) raise `Disagreement` without such a list: only one entry at a time can answer.
 
-What is done with the numbers is kept in a `Record`. As nothing but these answers can lead the code
-another way, the same operations are right for any other numbers that give the same answers: a
-`Program` repeats them for these, in memory that stays in the cache, and asks again.
+The operations on the numbers are kept in a `Record`. Since only these answers can change the code's
+path, the same operations are valid for any other numbers that give the same answers: a `Program`
+repeats them for these, in memory that stays in the cache, and asks again.
 """
 
 from __future__ import annotations
@@ -31,12 +31,11 @@ _EXTREMES: dict[Any, Any] = {
     np.greater: (operator.gt, _LEAST, _MOST),
     np.greater_equal: (operator.ge, _LEAST, _MOST),
 }
-"""Which entry answers for all that a comparison with a constant is true, and which that it is
-not."""
+"""The entry that answers true for all in a comparison with a constant, and the one for false."""
 
 
 class Disagreement(Exception):  # noqa: N818  it is an answer, not a failure
-    """The entries of `Numbers` do not answer alike.
+    """The entries of `Numbers` give different answers.
 
     `true` is where the answer is True; None if there is no answer for many at once.
     """
@@ -55,11 +54,11 @@ class _Step(NamedTuple):
 
 
 class _Place(int):
-    """The place of a number in a record, told apart from a constant."""
+    """The place of a number in a record, distinguished from a constant."""
 
 
 class Record:
-    """What is done with some numbers, and which answers they give."""
+    """The operations on some numbers, and the answers that they give."""
 
     def __init__(self) -> None:
         self.steps: list[_Step | None] = []
@@ -67,7 +66,7 @@ class Record:
         self._places: dict[Any, _Place] = {}
 
     def place(self, step: _Step | None = None) -> _Place:
-        """Return the place of the number made in this step; None stands for one that is given."""
+        """Return the place of the number made in this step; None stands for a given number."""
         key = step and (step.function, *((type(x), x) for x in step.arguments))
         if key in self._places:
             return self._places[key]
@@ -81,7 +80,7 @@ class Record:
 class Numbers(NDArrayOperatorsMixin, ManyAsOne):
     """Several numbers, or several truth values, that go through arithmetic as one.
 
-    What is done with them is kept in `record`, the same for all numbers that meet.
+    The operations on them are kept in `record`, which is shared by all numbers that are combined.
     """
 
     __slots__ = ("place", "record", "values")
@@ -100,7 +99,7 @@ class Numbers(NDArrayOperatorsMixin, ManyAsOne):
         return np.shape(self.values)
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        """Return a function of numpy, entry by entry."""
+        """Apply a numpy function entry by entry."""
         if method != "__call__" or options or ufunc.nout != 1:
             raise Disagreement(None)
         if ufunc is np.add:  # sums begin with 0
@@ -143,7 +142,7 @@ class Numbers(NDArrayOperatorsMixin, ManyAsOne):
 
 
 def _plain(value: Any) -> Any:
-    """Return what numpy calculates with: entries, or one number for all of them."""
+    """Return the values that numpy calculates with: entries, or one number for all of them."""
     if isinstance(value, Numbers):
         return value.values
     if np.ndim(value):
@@ -152,15 +151,16 @@ def _plain(value: Any) -> Any:
 
 
 _MEMORY = 2_500_000
-"""Bytes of a cache that numbers under way should fit into."""
+"""Bytes of cache that the numbers in progress should fit into."""
 _SHORTEST, _LONGEST = 4096, 32_000
-"""Numbers at a time: more of them cost fewer calls, as far as the cache goes."""
+"""Numbers at a time: more means fewer calls, as long as they fit in the cache."""
 
 
 class Program:
-    """The operations of a record, to be repeated with other numbers, `size` or fewer at a time.
+    """A record's operations, to be repeated with other numbers, at most `size` at a time.
 
-    `outputs` are some of the record's numbers, or floats; `answers`: the answers must be the same.
+    `outputs` are some of the record's numbers, or floats; `answers` is whether the answers must be
+    the same.
     """
 
     def __init__(self, record: Record, outputs: Iterable[Any], *, answers: bool = True) -> None:
@@ -177,7 +177,7 @@ class Program:
             self._registers[k] = room[shift : shift + self.size]
 
     def _plan(self, record: Record, needed: set[Any]) -> None:
-        """Give each number that is needed a register, and use it again after its last use."""
+        """Give each number that is needed a register, and reuse it after its last use."""
         last: dict[int, int] = {}
         for place in range(len(record.steps) - 1, -1, -1):
             step = record.steps[place]
@@ -221,7 +221,7 @@ class Program:
         return len(self._registers) - 1
 
     def run(self, values: Sequence[Floats]) -> list[Any] | None:
-        """Return the outputs for these numbers; None if they answer otherwise.
+        """Return the outputs for these numbers; None if they give different answers.
 
         They are overwritten by the next run.
         """
@@ -245,7 +245,7 @@ class Program:
 
 
 def _passed(numbers: Any, tests: dict[Any, bool]) -> bool:
-    """Return whether numbers answer as those before did."""
+    """Return whether numbers give the same answers as before."""
     extremes: dict[Any, Any] = {}
     for (extreme, compare, limit), answer in tests.items():
         x = extremes.get(extreme)

@@ -4,8 +4,8 @@ With c_ij steps seen from j to i, and n_j = sum_i c_ij, the most likely chances 
 
     p_ij = c_ij / n_j,   standard error sqrt(p_ij (1 - p_ij) / n_j).
 
-What follows from the chances, such as a limit, is as uncertain as it is over chains whose
-columns are drawn from Dirichlet(c_j): the posterior under Haldane's prior.
+The uncertainty of anything derived from the chances, such as a limit, is its spread over chains
+whose columns are drawn from Dirichlet(c_j): the posterior under Haldane's prior.
 
 References: Anderson and Goodman 1957, "Statistical inference about Markov chains"; Rubin 1981,
 "The Bayesian bootstrap".
@@ -29,12 +29,12 @@ from evenbreak.errors import ChainError
 @array_values
 @dataclass(frozen=True, eq=False)
 class FittedChain:
-    """The most likely chain of observed sequences.
+    """Maximum likelihood chain for observed sequences.
 
     Parameters
     ----------
     chain
-        the chain with the most likely chances. A state that was never seen to be left absorbs.
+        the chain with the most likely chances. A state that was never seen to be left is absorbing.
     counts
         shape (n, n): entry [i, j] is the number of steps seen from state j to state i.
     """
@@ -44,7 +44,7 @@ class FittedChain:
 
     @property
     def standard_errors(self) -> csc_array:
-        """The standard error of each chance, shape (n, n); 0 where no step was seen."""
+        """The standard error of each chance, shape (n, n); 0 if no step was seen."""
         seen = np.repeat(self.counts.sum(axis=0), np.diff(self.counts.indptr))
         p = self.counts.data / seen
         errors = self.counts.copy()
@@ -52,11 +52,11 @@ class FittedChain:
         return errors
 
     def draw(self, rng: np.random.Generator | int) -> Chain:
-        """Return a chain drawn from those that may lie behind the sequences.
+        """Return a chain drawn from the posterior, given the sequences.
 
-        Only steps that were seen have a chance. Draw several hundred chains; whatever is
-        calculated from the chain is as uncertain as its values spread over them. `rng` is a
-        generator, or a seed for a single chain.
+        Only steps that were seen have a positive chance. Draw several hundred chains: the spread of
+        any quantity over them is its uncertainty. `rng` is a generator, or a seed for a single
+        chain.
 
         >>> fitted = fit_chain([["rack", "won"]] * 60 + [["rack", "lost"]] * 40)
         >>> rng = np.random.default_rng(1)
@@ -71,7 +71,7 @@ class FittedChain:
 def fit_chain(
     sequences: Iterable[Iterable[Hashable]], *, start: Hashable | None = None
 ) -> FittedChain:
-    """Return the most likely chain of observed sequences of states.
+    """Return the maximum likelihood chain for observed sequences of states.
 
     Parameters
     ----------
@@ -84,8 +84,8 @@ def fit_chain(
     Raises
     ------
     ChainError
-        if no step was seen, a sequence is text, a state is NaN or cannot be hashed, or the start
-        is not a state.
+        if no step was seen, a sequence is a string, a state is NaN or cannot be hashed, or the
+        start is not a state.
 
     >>> fitted = fit_chain([["A", "B", "A", "A", "won"], ["B", "A", "lost"]])
     >>> fitted.chain.states
@@ -127,7 +127,7 @@ def fit_chain(
 def _chain(
     states: Sequence[Hashable], counts: csc_array, weights: Floats, start: Hashable | None
 ) -> Chain:
-    """Return the chain whose chances are in proportion to weights, one for each entry of counts."""
+    """Return the chain whose chances are proportional to weights, one for each entry of counts."""
     sources = np.repeat(np.arange(len(states)), np.diff(counts.indptr))
     chances = weights / np.bincount(sources, weights)[sources]
     return chain_from_arrays(states, sources, counts.indices, chances, start)

@@ -5,16 +5,16 @@ The limit is the projection of the starting vector v on the eigenspace of M for 
     limit = sum over closed classes C of a_C pi_C,
 
 with a_C the probability of ending in C from v and pi_C the stationary distribution of C. If every
-closed class that can be reached has period 1, it is lim M^n v; otherwise M^n v goes round
-forever, and it is the long-run average (the Cesàro limit).
+closed class that can be reached has period 1, it is lim M^n v; otherwise M^n v cycles forever, and
+the limit is the long-run average (the Cesàro limit).
 
-The road from a game to its limit, in one call, is `limit_of`:
+`limit_of` goes from a game to its limit in one call:
 
     kernel          game -> states in a line -> closed form
     elimination     game -> sparse matrix -> elimination without subtraction
     eigen           game -> networkx.DiGraph -> sparse matrix -> eigenvectors of eigenvalue 1
 
-Every function that answers for a game, and has a faster kernel of its own, is held against this.
+Every game function that has its own faster kernel is tested against this.
 
 References: Kemeny and Snell 1960, Finite Markov Chains, chapters III to V; O'Cinneide 1993
 for the accuracy, entry by entry.
@@ -51,15 +51,15 @@ _ERROR_BY_EIGENVECTORS = 1e-12
 
 _SHOWN = 5
 _COLUMNS = 64
-"""So many closed classes are solved for at once."""
+"""Number of closed classes that are solved for at once."""
 MOST_ENTRIES = 50_000_000
-"""Entries that a matrix of limits may have; they take 12 bytes each, and more on the way."""
+"""Limit on the entries in a matrix of limits; they take 12 bytes each, and more temporarily."""
 
 
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class Limit(Mapping[Hashable, float]):
-    """A stochastic limit: a mapping from each state to its probability, given the start.
+    """Stochastic limit: a mapping from each state to its probability, given the start.
 
     Parameters
     ----------
@@ -68,9 +68,10 @@ class Limit(Mapping[Hashable, float]):
     period
         the least common multiple of the periods of the closed classes reached.
     bound
-        a proved bound. After solves whose residual was measured (see `stochastic_limit`): on the
-        relative error of each number of visits; sums and quotients of these add a few roundings. By
-        eigenvectors: on the sum of the absolute errors. None after elimination without subtraction.
+        a proved error bound. After solves whose residual was measured (see `stochastic_limit`), it
+        bounds the relative error of each number of visits; sums and quotients of these add a few
+        roundings. By eigenvectors, it bounds the sum of the absolute errors. None after elimination
+        without subtraction.
 
     >>> from evenbreak.chains import chain_of
     >>> limit = stochastic_limit(chain_of([("rack", "won", 0.6), ("rack", "lost", 0.4)]), "rack")
@@ -145,7 +146,7 @@ class Limit(Mapping[Hashable, float]):
         return pd.Series(self.probability, index=index, name="probability", copy=True)
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> Floats:
-        """Return the probabilities, in the order of the states, where numpy asks for an array."""
+        """Return the probabilities in the order of the states, for use by numpy."""
         if copy is False:
             return np.asarray(self.probability, dtype)
         return np.array(self.probability, dtype)
@@ -156,8 +157,8 @@ def stochastic_limit(
 ) -> Limit | Any:
     """Return the stochastic limit of the chain: where it ends, or its long-run average.
 
-    Each probability is conditional on the start alone. The structure of the graph says
-    whether M^n v has this limit or goes round it with a period (see `Limit.is_cesaro`).
+    Each probability is conditional only on the start. The structure of the graph shows whether M^n
+    v converges to this limit or cycles around it with a period (see `Limit.is_cesaro`).
 
     Parameters
     ----------
@@ -166,13 +167,13 @@ def stochastic_limit(
     via
         'kernel': the closed form for states in a line, from a state. 'elimination': elimination of
         states without subtraction, for any chain. 'eigen': the eigenvectors of eigenvalue 1 (see
-        `spectrum`). None: the kernel where there is one, otherwise elimination.
+        `spectrum`). None: the kernel if there is one, otherwise elimination.
     exact
-        whether to calculate in fractions and return a dict of them, by state. A chance that
-        `chain_of` got as a `Fraction` or as text is used unchanged, a float as the decimal that it
-        prints. Matches, series and one-ball games keep a `Fraction`; drills and ladders hold
-        floats. Time and the length of the fractions grow with the number of states: a thousand
-        states take a second or two, and so do some thousands of scores of a race.
+        whether to calculate in fractions and return a dict of them, by state. A chance that was
+        given to `chain_of` as a `Fraction` or a string is used unchanged; a float is used as the
+        decimal that it prints. Matches, series and one-ball games keep a `Fraction`; drills and
+        ladders hold floats. Time and the length of the fractions grow with the number of states: a
+        thousand states take a second or two, and so do some thousands of scores of a race.
 
     Raises
     ------
@@ -189,15 +190,14 @@ def stochastic_limit(
 
     Notes
     -----
-    However stiff the chain, each entry is right to a few units in the last place times the
-    length of the path to it (seen: 2e-14 over a line of 20,000 states, 4e-15 over 5,000
-    states with arcs at random). In classes of more than some hundreds of states the residual
-    proves a bound on the relative error of every number of visits. The limit carries it: `bound`
-    is a few times 1e-16. Where it would be above 1e-14, states are eliminated instead.
+    No matter how stiff the chain is, each entry is accurate to a few units in the last place times
+    the length of the path to it (seen: 2e-14 over a line of 20,000 states, 4e-15 over 5,000 states
+    with arcs at random). In classes of more than some hundreds of states the residual proves a
+    bound on the relative error of every number of visits. This is the limit's `bound`, a few times
+    1e-16. If it would be above 1e-14, states are eliminated instead.
 
-    Time and memory are about linear in the number of arcs, whatever the graph, except where a large
-    class is left so rarely that nothing can be proved; see `factorization`. Reference: O'Cinneide
-    1993.
+    Time and memory are about linear in the number of arcs for any graph, except when a large class
+    is left so rarely that nothing can be proved; see `factorization`. Reference: O'Cinneide 1993.
 
     >>> from evenbreak.chains import chain_of
     >>> miss_forever = chain_of([("S1", "S2", 1.0), ("S2", "S1", 1.0)])
@@ -251,19 +251,19 @@ def limit_of(
         None: the game's own start.
     via
         as in `stochastic_limit`. With 'eigen' the game becomes a `networkx.DiGraph` first. None:
-        the closed form where there is one, otherwise elimination.
+        the closed form if there is one, otherwise elimination.
 
     Raises
     ------
     AccuracyError, ChainError, InputError
-        as `stochastic_limit` does; each names a way that answers.
+        as `stochastic_limit` does; each message names a method that works.
     GameError
         as `chain_of` does.
 
     Notes
     -----
-    The matrix of a race is defective: it has fewer independent eigenvectors than states. Those of
-    eigenvalue 1 are never too few, and the limit needs only them.
+    The matrix of a race is defective: it has fewer independent eigenvectors than states. There are
+    always enough for eigenvalue 1, and the limit needs only these.
 
     >>> from evenbreak.games import OneBall, Rack, Race
     >>> [round(limit_of(OneBall(0.4, 0.8), via=via)["W"], 12) for via in ("elimination", "eigen")]
@@ -282,9 +282,9 @@ def limit_of(
 def limit_matrix(chain: Chain) -> csc_array:
     """Return the limits from all states; shape (n, n), column j is the limit from state j.
 
-    For states in a line, with absorbing states at its ends, there is a closed form. Otherwise
-    time and memory are those of one solve for each closed class that is entered from outside,
-    and of the entries that are not 0. The accuracy is that of `stochastic_limit`.
+    For states in a line, with absorbing states at its ends, there is a closed form. Otherwise, time
+    and memory are those of one solve per closed class that is entered from outside, plus the
+    nonzero entries. The accuracy is that of `stochastic_limit`.
 
     Raises
     ------
@@ -339,7 +339,7 @@ def _ends_from_all(chain: Chain, inside: Places, home: Places) -> csc_array:
 
 
 def _limit_in_line(chain: Chain, at: int | None) -> Limit:
-    """Return the limit from the state `at`, whatever the order in which the line is given."""
+    """Return the limit from the state `at`, regardless of the order in which the line is given."""
     if chain.line is None or at is None:
         raise ChainError(
             "there's no closed form for this chain and start: either the chain's states don't "
@@ -352,7 +352,7 @@ def _limit_in_line(chain: Chain, at: int | None) -> Limit:
 
 
 def _limit_by_eigenvectors(chain: Chain, start: Any) -> Limit:
-    """Return the limit as sum R_i (L_i v) over the eigenvalues 1."""
+    """Return the limit as the sum of R_i (L_i v) over the eigenvalues 1."""
     from evenbreak.chains.eigenpairs import UnitPairs
 
     limit, error = UnitPairs(chain).limit(chain.density(start))

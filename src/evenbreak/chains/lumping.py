@@ -1,9 +1,9 @@
-"""Lumping: one state for many that cannot be told apart, without changing any answer.
+"""Lumping: merge states that cannot be told apart, without changing any answer.
 
-A partition of the states is lumpable if all states of a block move to each other block with the
-same chance. Then the block that the chain is in makes a Markov chain too, whatever the start. The
-coarsest lumpable partition that keeps given states apart is found by refinement: a block whose
-states differ in their chances into another block is split by them, until none is. As long as
+A partition of the states is lumpable if all states in a block move to each other block with the
+same chance. Then the blocks form a Markov chain too, regardless of the start. The coarsest lumpable
+partition that keeps given states apart is found by refinement: a block whose states have different
+chances of moving to another block is split accordingly, until no block is left to split. As long as
 blocks split, only arcs into new pieces are looked at; the last look is at all arcs.
 
 References: Kemeny and Snell 1960, Finite Markov Chains, section 6.3; Valmari and Franceschinis
@@ -29,18 +29,18 @@ Labels: TypeAlias = Callable[[Any], Hashable] | Mapping[Any, Hashable]
 """The label of each state: a function of the state, or a mapping or Series from the states."""
 
 _ROUNDING = 1e-12
-"""Chances count as equal if they differ by no more than this, relatively."""
+"""Relative tolerance within which chances count as equal."""
 
 
 def lumped(chain: Chain, by: Labels) -> Chain:
-    """Return the chain of the labels of its states: states with the same label become one.
+    """Return the chain of labels: states with the same label become one.
 
-    All answers stay exact: a label has the probability of all its states together.
+    All answers stay exact: a label has the total probability of its states.
 
     Parameters
     ----------
     chain
-        its start becomes the label of the start.
+        a chain; the new start is the label of its start.
     by
         the label of each state, as a function or a mapping. Chances count as equal if they differ
         only by rounding, no more than 1e-12 of themselves.
@@ -81,7 +81,7 @@ def lumped(chain: Chain, by: Labels) -> Chain:
 
 
 def coarsest_lumping(chain: Chain, by: Labels) -> dict[Hashable, Hashable]:
-    """Return the fewest labels by which the chain can be lumped, keeping some states apart.
+    """Return the smallest set of labels that can lump the chain, keeping some states apart.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def coarsest_lumping(chain: Chain, by: Labels) -> dict[Hashable, Hashable]:
     Returns
     -------
     dict
-        for each state the first of those that are lumped with it.
+        for each state, the first of the states lumped with it.
 
     >>> from evenbreak.chains import chain_of
     >>> from evenbreak.games import Race, Rack
@@ -125,7 +125,7 @@ def coarsest_lumping(chain: Chain, by: Labels) -> dict[Hashable, Hashable]:
 
 
 def _labeled(chain: Chain, by: Any) -> tuple[list[Hashable], Places]:
-    """Return the labels, in the order of their first states, and the number of each state's."""
+    """Return the labels, in the order of their first states, and the label number of each state."""
     by = by_label(by, "by")
     if isinstance(by, Mapping):
         missing = [state for state in chain.states if state not in by]
@@ -155,8 +155,8 @@ def _leaving(block: Places, sizes: list[int], into: csr_array, targets: Places) 
     """Return the states that must leave their block, piece by piece.
 
     The arcs are those into some targets, which make up whole blocks: the states of a piece have
-    the same chance into each of these. Of each block stay the states without such arcs, or the
-    largest piece if there are none.
+    the same chance into each of these. The states without such arcs stay in their block; if there
+    are none, the largest piece stays.
     """
     arcs = into[targets].tocoo()
     sources, entered = arcs.col, block[targets[arcs.row]]
@@ -184,7 +184,7 @@ def _leaving(block: Places, sizes: list[int], into: csr_array, targets: Places) 
 def _not_lumpable(
     chain: Chain, names: list[Hashable], block: Places, piece: list[int]
 ) -> ChainError:
-    """Return the error that names a state of the piece, another of its block, and what differs."""
+    """Return the error that names a state in the piece, another in its block, and what differs."""
     mine = block[piece[0]]
     others = block == mine
     others[piece] = False

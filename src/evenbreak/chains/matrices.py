@@ -1,8 +1,8 @@
-"""Square matrices: numpy and scipy sparse arrays, DataFrames, lists of lists, and their columns.
+"""Read square matrices: numpy and scipy sparse arrays, DataFrames, and lists of lists.
 
-Half of the literature puts the state that a step leaves in the row of a matrix and half in the
-column. A matrix whose rows and columns all sum to 1 reads either way, and the two chains differ.
-So the reading must be given, unless one alone makes sense or the matrix is symmetric.
+Half of the literature uses a matrix's rows for the state that a step leaves, and half uses its
+columns. A matrix whose rows and columns all sum to 1 reads either way, and the two chains differ.
+So the reading must be given, unless only one makes sense or the matrix is symmetric.
 """
 
 from __future__ import annotations
@@ -19,25 +19,25 @@ from evenbreak.checks import one_of
 from evenbreak.errors import ChainError
 
 SUM_TOLERANCE = 1e-9
-"""The arcs of a state may miss a sum of 1 by no more than this."""
+"""Tolerance for the sum of a state's arcs, which should be 1."""
 ROUNDING = 1e-15
-"""Columns that miss a sum of 1 by no more than this are left as they are."""
+"""Tolerance for a column's sum within which it is left unchanged."""
 
 Rows: TypeAlias = Literal["from", "to"]
-"""What the row of a matrix says: the state that a step leaves, or the one it enters."""
+"""The meaning of a matrix's row: the state that a step leaves, or the one it enters."""
 
 
 def is_matrix(source: object) -> bool:
-    """Whether the source is a numpy array, a scipy sparse matrix, a DataFrame or square lists."""
+    """Whether the source is a numpy array, a scipy sparse matrix, a DataFrame, or square lists."""
     is_array = isinstance(source, np.ndarray) or issparse(source) or _is_frame(source)
     return is_array or _is_nested(source)
 
 
 def read_matrix(source: Any, rows: Rows | None) -> tuple[list[Hashable], csc_array]:
-    """Return the states of a square matrix, its labels or 0, 1, 2, ..., and the M that is meant.
+    """Return a square matrix's states, its labels or 0, 1, 2, ..., and the intended M.
 
-    A ChainError if the matrix is not square and stochastic, its labels differ or repeat, or both
-    readings are possible and `rows` does not say which is meant.
+    Raises ChainError if the matrix is not square and stochastic, its labels differ or repeat, or if
+    both readings are possible and `rows` is not given.
 
     >>> import numpy as np
     >>> states, matrix = read_matrix(np.array([[0.9, 0.1], [0.5, 0.5]]), None)
@@ -80,7 +80,7 @@ def _only_reading(matrix: csc_array) -> Rows:
 
 
 def _is_nested(source: object) -> bool:
-    """Whether the source is n lists of n numbers; 3 such may also be arcs between numbers."""
+    """Whether the source is n lists of n numbers; 3 such lists may also be arcs between numbers."""
     if not isinstance(source, list | tuple):
         return False
     n = len(source)
@@ -101,7 +101,7 @@ def _is_frame(source: object) -> bool:
 
 
 def _labeled(frame: Any) -> tuple[list[Hashable], csc_array]:
-    """Return the row labels of a frame, and its numbers with the columns in their order."""
+    """Return a DataFrame's row labels, and its numbers with the columns in the same order."""
     states, columns = list(frame.index), list(frame.columns)
     for labels in (states, columns):
         if len(set(labels)) < len(labels):
@@ -120,7 +120,7 @@ def _labeled(frame: Any) -> tuple[list[Hashable], csc_array]:
 def csc_of(matrix: Any) -> csc_array:
     """Return a matrix of numbers in CSC form, its columns sorted and without duplicates.
 
-    A ChainError if it is neither a sparse matrix nor a two-dimensional array of numbers.
+    Raises ChainError if it is neither a sparse matrix nor a two-dimensional array of numbers.
 
     >>> from scipy.sparse import coo_array
     >>> csc_of(coo_array(([0.25, 0.25], ([0, 0], [1, 1])))).toarray()
@@ -143,10 +143,11 @@ def csc_of(matrix: Any) -> csc_array:
 
 
 def adding_up(matrix: csc_array, states: Sequence[Hashable]) -> csc_array:
-    """Return the matrix with columns that sum to 1 to about one rounding.
+    """Return the matrix with columns that sum to 1 to within about one rounding.
 
-    Where one does not, its self-loop becomes the remainder of the other arcs; without one the arcs
-    are scaled. A ChainError if one misses 1 by more than 1e-9; it names the state and its sum.
+    If a column does not, its self-loop becomes the remainder of the other arcs; without a
+    self-loop, the arcs are scaled. Raises ChainError if a sum differs from 1 by more than 1e-9; it
+    names the state and its sum.
 
     >>> adding_up(csc_array([[0.3, 0.0], [0.7 + 1e-10, 1.0]]), "AB").toarray()
     array([[0.3, 0. ],

@@ -4,10 +4,10 @@
     mixing time = the first n at which M^n v is within eps of its limit from every start v.
 
 The transition matrix is block triangular in its classes, so its eigenvalues are those of
-the classes, each found by the method that suits it: the self-loop of a single state; for a
-line of states those of a similar symmetric tridiagonal matrix (S_ij^2 = M_ij M_ji); LAPACK
-for any other class, or ARPACK if it is large. Defects between classes, as in races, do no
-harm here.
+the classes, each found by the method that suits it: the self-loop of a single state; for a line of
+states, the eigenvalues of a similar symmetric tridiagonal matrix (S_ij^2 = M_ij M_ji); LAPACK for
+any other class, or ARPACK if it is large. Defectiveness between classes, as in races, does no harm
+here.
 
 Reference: Levin, Peres and Wilmer, Markov Chains and Mixing Times, chapters 4 and 12.
 """
@@ -35,22 +35,22 @@ from evenbreak.checks import number
 from evenbreak.errors import AccuracyError, ChainError
 
 _ON_CIRCLE = 1e-8
-"""Eigenvalues as close to a root of 1 as this, other than 1 itself, count as it."""
+"""Distance from a root of 1 (other than 1) within which an eigenvalue counts as that root."""
 _LEAST = 1e-290
-"""States with less of the law than this are scaled alike."""
+"""States with less probability than this are scaled alike."""
 _BASIS = 60
-"""ARPACK iterates with at least so many vectors: with its 20 it may not converge."""
+"""Minimum number of vectors for ARPACK: with its default of 20, it may not converge."""
 
 
 def spectral_gap(chain: Chain) -> float:
     """Return 1 minus the largest modulus of an eigenvalue off the unit circle.
 
     A closed class of period d has d eigenvalues on the unit circle, the d-th roots of 1.
-    They are left out: for a ladder of +-1 steps (period 2, spectrum symmetric about 0) the
-    gap is 1 minus the largest eigenvalue below 1 and describes the two-step average. In
-    the end the distance to the limit falls like (1 - gap)^n. So are those of an
-    `apparent_period`, within 1e-8 of such roots: a ladder that holds an error at its ends
-    once in ages has period 1, but goes back and forth for longer than anyone plays.
+    They are left out: for a ladder with +-1 steps (period 2, spectrum symmetric about 0) the gap is
+    1 minus the largest eigenvalue below 1 and describes the two-step average. Eventually, the
+    distance to the limit falls like (1 - gap)^n. Eigenvalues of an `apparent_period`, within 1e-8
+    of such roots, are left out too: a ladder that very rarely holds an error at its ends has period
+    1, but alternates for longer than anyone plays.
 
     Raises
     ------
@@ -86,11 +86,11 @@ def spectral_gap(chain: Chain) -> float:
 
 
 def apparent_period(chain: Chain) -> int:
-    """Return the period of a chain as far as anyone can see: the least common one of its classes.
+    """Return the apparent period of a chain: the least common multiple of its classes' periods.
 
-    It is the period, or a multiple d of it where the d-th roots of 1 have eigenvalues within 1e-8
-    of them: what these carry goes round for a hundred million steps. An AccuracyError as for
-    `spectral_gap`.
+    It is the period, or a multiple d of it if there are eigenvalues within 1e-8 of the d-th roots
+    of 1: their components cycle for a hundred million steps. Raises AccuracyError as `spectral_gap`
+    does.
     """
     seen = [seen for _, _, seen in _classes(chain, chain.structure.closed)]
     # In Python's integers: the least common multiple of a dozen periods may exceed 64 bits.
@@ -98,10 +98,10 @@ def apparent_period(chain: Chain) -> int:
 
 
 def _classes(chain: Chain, wanted: Bools) -> Iterator[tuple[NDArray[Any], float, int]]:
-    """Yield eigenvalues of each wanted class, the error of the first off the circle, the period.
+    """Yield each wanted class's eigenvalues, the error of the first off the circle, and the period.
 
-    The eigenvalues fall in modulus; as many as the period says are on the unit circle, or as close
-    to it as can be seen.
+    The eigenvalues are in order of decreasing modulus; as many as the period are on the unit
+    circle, or indistinguishable from it.
     """
     structure, M = chain.structure, evened(chain)
     large = wanted & (np.diff(structure.offsets) > structure.periods)
@@ -119,11 +119,11 @@ def _classes(chain: Chain, wanted: Bools) -> Iterator[tuple[NDArray[Any], float,
 
 
 def _values(block: csc_array, law: Floats, period: int) -> tuple[NDArray[Any], float, int]:
-    """Return the eigenvalues of a class by falling modulus, an error, and its `_period`.
+    """Return a class's eigenvalues by decreasing modulus, an error, and its `_period`.
 
-    With D the square roots of the law, D^-1 M D has the norm 1 whatever decades the law spans, and
-    that of a reversible class is symmetric. How far its eigenvalues are right shows when as much as
-    rounding may change is changed.
+    If D is the square roots of the stationary distribution, D^-1 M D has the norm 1, no matter how
+    many decades the distribution spans, and is symmetric for a reversible class. The accuracy of
+    its eigenvalues is found by perturbing the matrix by the size of rounding errors.
     """
     n = block.shape[0]
     line = line_of(block)
@@ -150,7 +150,7 @@ def _falling(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def _period(values: NDArray[Any], period: int) -> int:
-    """Return a period that eigenvalues, by falling modulus, cannot be told from; see above."""
+    """Return a period from which eigenvalues, by decreasing modulus, cannot be told apart."""
     count = int((np.abs(values) >= 1.0 - _ON_CIRCLE).sum())
     if not period or count % period:
         return period
@@ -193,8 +193,8 @@ def _largest(block: csc_array, period: int) -> NDArray[Any]:
 def mixing_time(chain: Chain, eps: float = 0.25) -> int:
     """Return the number of steps after which every start is within `eps` of its limit.
 
-    Distance is total variation, half the sum of absolute differences, from the worst start.
-    If a closed class is periodic, the average over the next d steps is compared, with d the
+    The distance is total variation, half the sum of absolute differences, from the worst start. If
+    a closed class is periodic, the average over the next d steps is compared, with d the
     `apparent_period`.
 
     Raises
@@ -252,7 +252,7 @@ def mixing_time(chain: Chain, eps: float = 0.25) -> int:
 
 
 def _average_of_powers(M: Floats, terms: int) -> Floats:
-    """Return (I + M + ... + M^(terms - 1)) / terms by doubling, its columns summing to 1."""
+    """Return (I + M + ... + M^(terms - 1)) / terms by doubling, with columns that sum to 1."""
     eye = np.eye(len(M))
     average, power, count = eye, M, 1
     for bit in f"{terms:b}"[1:]:

@@ -6,10 +6,10 @@ reached) = h . x_t, hence
 
     P(reached) = h . v,   E[T; reached] = sum_t h . x_t = u . v,   u = (I - Q)^-T h,
 
-which takes two solves without subtraction. The variance is the sum of what each step adds
-to it, E sum_t (m(X_t+1) - m(X_t) + 1)^2 with m = u / h the mean time left: a sum of squares
-under the chances given that the target is reached (Doob's transform). No digits are lost
-where the variance is small next to the squared mean. The chain given that it reaches the target is
+which takes two solves without subtraction. The variance is the sum of what each step adds to it, E
+sum_t (m(X_t+1) - m(X_t) + 1)^2 with m = u / h the mean time left: a sum of squares under the
+chances given that the target is reached (Doob's transform). No digits are lost if the variance is
+small compared with the squared mean. Given that the target is reached, the chain is
 
     P(i | j, target reached) = M[i, j] h_i / h_j.
 
@@ -37,15 +37,15 @@ from evenbreak.checks import number_probability, one_of, whole
 from evenbreak.errors import AccuracyError, ChainError
 
 TIE = 1e-12
-"""A cumulative probability this close below q counts as q: sums of floats miss ties."""
+"""Tolerance for a cumulative probability below q: sums of floats miss ties."""
 MOST_STEPS = 100_000
-"""Quantiles beyond this are refused."""
+"""Largest quantile; beyond it, an error is raised."""
 
 
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class PassageTime:
-    """How many steps it takes to reach a target, given the start.
+    """Number of steps it takes to reach a target, given the start.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class PassageTime:
         of the number of steps, given that the target is reached; None if it cannot be.
         The variance is inf if it is larger than any float.
     certain
-        whether the graph says that the target is always reached; then `p_never` is exactly 0.
+        whether the graph guarantees that the target is reached; then `p_never` is exactly 0.
 
     Notes
     -----
@@ -95,15 +95,15 @@ class PassageTime:
         Parameters
         ----------
         tail
-            stop when the chance of reaching the target later is no more than this.
+            stop when the chance of reaching the target later is at most this.
         max_steps
             stop after this many steps.
 
         Returns
         -------
         array, float
-            the probabilities, and the chance of reaching the target later than they cover;
-            they, the tail and `p_never` sum to 1.
+            the probabilities, and the chance of reaching the target after the steps that they
+            cover; together with `p_never`, these sum to 1.
         """
         tail, max_steps = number_probability(tail, "tail"), whole(max_steps, "max_steps")
         chances = []
@@ -115,10 +115,10 @@ class PassageTime:
         return np.array(chances), left
 
     def quantile(self, q: float) -> int | None:
-        """Return the first t with P(reached within t steps) >= q; None if there is none.
+        """Return the first t for which P(reached within t steps) >= q; None if there is none.
 
         A probability within 1e-12 of q counts as q, so that ties do not depend on rounding.
-        For a time without a largest value the quantile at 1 is that at 1 - 1e-12.
+        If the time has no largest value, the quantile at 1 is the one at 1 - 1e-12.
 
         Raises
         ------
@@ -166,8 +166,8 @@ def steps_to_absorption(
     chain, start
         as in `propagate`.
     into
-        'absorbing': until a state is reached that is never left (the match is over); a
-        closed class of several states is then a way of never being absorbed. 'closed':
+        'absorbing': until the chain reaches a state that is never left (the match is over);
+        entering a closed class of several states then counts as never being absorbed. 'closed':
         until any closed class is entered, which always happens.
     exact
         whether to calculate the chances, mean and variance in fractions (see
@@ -234,10 +234,10 @@ def first_passage(chain: Chain, start: Any, target: Any) -> PassageTime:
 
 
 def conditioned(chain: Chain, target: Any) -> Chain:
-    """Return the chain given that it reaches the target, where it stops.
+    """Return the chain conditioned on reaching the target, where it stops.
 
-    It holds the states from which the target can be reached, with the chances of each step
-    conditional on reaching the target sooner or later.
+    It holds the states from which the target can be reached, with each step's chances conditional
+    on eventually reaching the target.
 
     Parameters
     ----------
@@ -287,7 +287,7 @@ def conditioned(chain: Chain, target: Any) -> Chain:
 def target_of(chain: Chain, target: Any) -> Bools:
     """Return which states are the target, given as a state or a list or set of states.
 
-    A ChainError if a state is unknown, or there is none.
+    Raises ChainError if a state is unknown, or if there are none.
     """
     targets = target if isinstance(target, (list, set, frozenset)) else [target]
     if isinstance(target, Hashable) and target in chain.position:
@@ -300,9 +300,9 @@ def target_of(chain: Chain, target: Any) -> Bools:
 
 
 def approach(chain: Chain, ends: Bools, met: Bools) -> tuple[Places, TransientPart, Floats]:
-    """Return those of the states `met` that can reach the `ends`, before they do.
+    """Return which of the states `met` can reach the `ends`, excluding the ends.
 
-    Their positions, their solves, and the chance of stepping into the ends, given each.
+    The result is their positions, their solves, and the chance of stepping from each into the ends.
     """
     n, arcs = len(chain), chain.arcs
     before = ~ends[arcs.sources]

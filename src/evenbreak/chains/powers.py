@@ -1,7 +1,7 @@
 """The probability vector after a number of steps: M^n v.
 
 It takes n products with v, or about 2 log2(n) squares and products of a dense M, all free
-of subtraction. Squaring, cubic in the number of states, pays only for very many steps.
+of subtraction. Squaring is cubic in the number of states, so it pays off only for very many steps.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from evenbreak.checks import whole
 from evenbreak.errors import InputError
 
 MOST_APPLIED = 4_000_000_000
-"""More steps than this are refused: rounding errors of 2^-52 would add up to 1e-6."""
+"""Limit on the number of steps: rounding errors of 2^-52 would add up to 1e-6."""
 _SQUARED, _CALL = 500, 5000
-"""M may be squared up to this many states; a call costs as much as this many arcs."""
+"""Number of states up to which M may be squared; the overhead of a call, in arcs."""
 _MOST_WORK, _MOST_ENTRIES = 5e10, 100_000_000
-"""About a minute of steps, counted in arcs; the entries of a path, 0.8 GB of them."""
+"""Limits: about a minute of steps, counted in arcs; and the entries in a path, 0.8 GB."""
 
 
 def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = False) -> Floats:
@@ -54,12 +54,11 @@ def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = F
 
     Notes
     -----
-    M is applied `steps` times or, for very many steps of at most 500 states, squared again
-    and again. These are sums of products of nonnegative numbers, so the relative error of
-    each entry is at most about steps * (arcs into a state) * 2^-52, with n instead of the
-    arcs if M is squared. Arcs of a state that miss a sum of 1 by rounding are scaled to it,
-    and so are the columns of the squares, so that no probability is lost on the way.
-    Source: P5.23.
+    M is applied `steps` times or, for very many steps of at most 500 states, squared repeatedly.
+    These are sums of products of nonnegative numbers, so the relative error of each entry is at
+    most about steps * (arcs into a state) * 2^-52, with n instead of the arcs if M is squared. If
+    rounding keeps a state's arcs from summing to 1, they are scaled, and so are the columns of the
+    squares, so that no probability is lost on the way. Source: P5.23.
 
     >>> from evenbreak.chains import chain_of
     >>> duel = chain_of([("S1", "W", 0.5), ("S1", "S2", 0.5), ("S2", "L", 0.5), ("S2", "S1", 0.5)])
@@ -104,7 +103,7 @@ def propagate(chain: Chain, start: Any = None, steps: int = 1, *, path: bool = F
 
 
 def _by_squares(power: Floats, v: Floats, steps: int) -> Floats:
-    """Return M^steps v by squaring `power`, which is M at first."""
+    """Return M^steps v by squaring `power`, which is initially M."""
     while steps:
         if steps & 1:
             v = power @ v

@@ -5,7 +5,7 @@ taken), pi the stochastic limit and x the expected visits to the transient state
 
     per step in the long run: sum_j pi_j r_j,    until absorption: sum_j x_j r_j.
 
-Neither pi nor x is computed by subtraction, so rewards of one sign lose no digits.
+Neither pi nor x is computed by subtraction, so rewards with the same sign lose no digits.
 
 Reference: Kemeny and Snell 1960, Finite Markov Chains, chapters III and IV.
 """
@@ -34,8 +34,8 @@ def long_run_reward(
 ) -> float:
     """Return the expected reward per step in the long run, given the start.
 
-    For a periodic chain this is the average over a period; if several classes are closed,
-    the mean over the classes in which play may end.
+    For a periodic chain this is the average over a period; if several classes are closed, it is the
+    mean over the classes in which play may end.
 
     Parameters
     ----------
@@ -80,8 +80,8 @@ def total_reward(
 ) -> float:
     """Return the expected total reward until absorption, given the start.
 
-    All steps count up to and including the one that enters a closed class. What is earned
-    inside the class does not (see `long_run_reward`), so the total is always finite.
+    All steps count up to and including the one that enters a closed class. Rewards inside the class
+    do not count (see `long_run_reward`), so the total is always finite.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def _expected_reward(
     per_state: Mapping[Any, float] | NDArray[Any] | None,
     per_arc: Mapping[tuple[Hashable, Hashable], float] | None,
 ) -> Floats:
-    """Return the expected reward of a step started in each state; shape (n,)."""
+    """Return the expected reward of a step from each state; shape (n,)."""
     if per_state is None and per_arc is None:
         raise ChainError("no reward was given. Give per_state or per_arc.")
     per_state = {} if per_state is None else by_label(per_state, "per_state")

@@ -45,8 +45,8 @@ class Sensitivity:
         the weighted sum itself.
     matrix
         shape (n, n), sparse, with the arcs of the chain: entry [i, j] is the derivative of
-        `value` with respect to the probability of the arc from j to i, taken from the other
-        arcs of j in proportion; 0 if j has no other arc.
+        `value` with respect to the probability of the arc from j to i, with j's other arcs reduced
+        in proportion; 0 if j has no other arc.
     """
 
     chain: Chain
@@ -118,8 +118,8 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
     Parameters
     ----------
     weights
-        what is summed: a state (its limit probability), a mapping from states to weights
-        (0 for those not named), or an array of shape (n,).
+        the weights of the sum: a state (its limit probability), a mapping from states to weights (0
+        for those not named), or an array of shape (n,).
     start
         as in `stochastic_limit`; it is held fixed.
 
@@ -161,14 +161,14 @@ def sensitivity(chain: Chain, weights: Any, start: Any = None) -> Sensitivity:
 
 
 def _slopes(chain: Chain, sides: tuple[Floats, Floats, Floats], j: Any, i: Any) -> Floats:
-    """Return G above, up to a constant for each source, which no change of M can see."""
+    """Return G above, up to a constant for each source, which does not affect any change of M."""
     forward, ends, relative = sides
     backward = np.where(chain.structure.recurrent[j], relative[i], ends[i])
     return np.asarray(forward[j] * backward)
 
 
 def _signed_values(part: TransientPart, r: Floats) -> Floats:
-    """Return the expected sum of r over the visits, r of either sign."""
+    """Return the expected sum of r over the visits, where r may have either sign."""
     return np.asarray(part.values(np.maximum(r, 0.0)) - part.values(np.maximum(-r, 0.0)))
 
 
@@ -184,7 +184,7 @@ def _relative_values(chain: Chain, surplus: Floats) -> Floats:
 
 
 def _in_proportion(chain: Chain, sides: tuple[Floats, Floats, Floats]) -> csc_array:
-    """Return the derivative for each arc, its probability taken from the others in proportion.
+    """Return the derivative for each arc, with its source's other arcs reduced in proportion.
 
     For each source it is G_i - sum_{k != i} p_k G_k / sum_{k != i} p_k. Leaving out the
     largest arc is done by not adding it, leaving out another by subtraction, which is safe.

@@ -1,4 +1,4 @@
-"""Eigenvalues and eigenvectors of the transition matrix, and the limit that they give.
+"""Eigenvalues and eigenvectors of the transition matrix, and the resulting limit.
 
 M R = R diag(lambda), L M = diag(lambda) L, L R = I. Eigenvalue 1 occurs once for each closed
 class; its right vectors are scaled to be the stationary distributions of those classes and its left
@@ -8,22 +8,22 @@ vectors the chances of ending there, so that the stochastic limit is
 
 (the source text's derivation after P5.22). This is the second route to the limit. It shares
 only the chain's arcs and structure with the eliminations of `stochastic_limit`. Every answer comes
-with a proved bound on its error (see `eigenpairs`); what cannot be proved, in chains that nearly
-fall apart, is refused.
+with a proved bound on its error (see `eigenpairs`); if no bound can be proved, as in nearly
+decomposable chains, an error is raised.
 
-Where the classes are reversible, as in rating ladders and n-ahead matches, the pairs come from
-symmetric matrices instead: all of them, and all real.
+If the classes are reversible, as in rating ladders and n-ahead matches, the pairs come from
+symmetric matrices instead: all of them are found, and all are real.
 
 A class is reversible if some weights w > 0 balance every pair of its arcs, w_j M_ij = w_i M_ji;
 in a closed class they are the stationary distribution. With D = diag(sqrt(w)) the matrix
 
     S = D^-1 M D,    S_ij = sqrt(M_ij M_ji),
 
-is symmetric, so all eigenvalues are real and there are n orthonormal eigenvectors Q, however many
-decades the law spans. M has the right vectors D Q and the left vectors Q^T D^-1. States in a line
-are always reversible, and S is then tridiagonal. The weights come from a tree of arcs that reaches
-the whole class, as products of pairs of doubles with their exponents apart; the arcs off the tree
-must agree with them (Kolmogorov's criterion).
+is symmetric, so all eigenvalues are real and there are n orthonormal eigenvectors Q, no matter how
+many decades the distribution spans. M has the right vectors D Q and the left vectors Q^T D^-1.
+States in a line are always reversible, and S is then tridiagonal. The weights come from a tree of
+arcs that reaches the whole class, as products of pairs of doubles with their exponents apart; the
+arcs off the tree must agree with them (Kolmogorov's criterion).
 
 All pairs of a chain are put together from those of its classes, if it has no transient states or
 one transient class between absorbing states, as n-ahead matches have. With T = D S D^-1 the arcs
@@ -70,7 +70,7 @@ from evenbreak.checks import whole
 from evenbreak.errors import AccuracyError, ChainError, InputError
 
 MOST_ENTRIES = 20_000_000
-"""More entries of vectors than this (k times n) are refused: they would fill the memory."""
+"""Limit on the entries in the vectors (k times n): more would fill the memory."""
 LEADING = 6
 """Beyond `DENSE` states, this many eigenvalues are found, or as many as are 1."""
 
@@ -83,14 +83,14 @@ class Spectrum:
     Parameters
     ----------
     values
-        shape (k,): the eigenvalues 1 first, the others by falling modulus (beyond 1000
+        shape (k,): the eigenvalues 1 first, then the others by decreasing modulus (beyond 1000
         states: those nearest to 1 first); none has a modulus above 1.
     units
         how many eigenvalues are 1: the number of closed classes.
     residual
-        the largest entry of `M R - R diag(values)`, `L M - diag(values) L` and `L R - I`, real
-        and imaginary parts apart;
-        with `orthonormal` vectors Q, that of `S Q - Q diag(values)` and `Q^T Q - I`.
+        the largest entry of `M R - R diag(values)`, `L M - diag(values) L` and `L R - I`, with real
+        and imaginary parts taken separately; with `orthonormal` vectors Q, that of `S Q - Q
+        diag(values)` and `Q^T Q - I`.
     limit_error
         a bound on the sum of the absolute errors of `limit`, from any start.
     orthonormal
@@ -133,13 +133,13 @@ class Spectrum:
     def limit(self, start: Any = None) -> Floats:
         """Return the stochastic limit by eigenvectors: sum R_i (L_i v) over eigenvalue 1.
 
-        It is conditional on `start` (see `Chain.density`). Entries are right to an absolute
-        error of `limit_error`; `stochastic_limit` is right in every digit of every entry.
+        It is conditional on `start` (see `Chain.density`). Entries have an absolute error of at
+        most `limit_error`; `stochastic_limit` has full relative accuracy in every entry.
 
         Raises
         ------
         AccuracyError
-            if `limit_error` is above 1e-8: the chain is nearly decomposable, or slow.
+            if `limit_error` is above 1e-8, because the chain is nearly decomposable or slow.
         """
         if not self.limit_error <= TOLERANCE:
             raise AccuracyError(
@@ -156,7 +156,7 @@ class Spectrum:
         return spectral_gap(self.chain)
 
     def mixing_time(self, eps: float = 0.25) -> int:
-        """Return the steps after which every start is within `eps` of its limit."""
+        """Return the number of steps after which every start is within `eps` of its limit."""
         return mixing_time(self.chain, eps)
 
 
@@ -166,9 +166,9 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
     Parameters
     ----------
     k
-        how many eigenvalues: at least the number of closed classes, at most n. By
-        default all of them up to 1000 states (2000 where the classes are reversible),
-        beyond that the 6 nearest to 1 (more if more classes are closed).
+        how many eigenvalues: at least the number of closed classes, at most n. By default, all of
+        them up to 1000 states (2000 if the classes are reversible); beyond that, the 6 nearest to 1
+        (more if more classes are closed).
 
     Raises
     ------
@@ -178,19 +178,19 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
         if the vectors would have more than 20 million entries, k times n; a race has an
         eigenvalue 1 for every final score.
     AccuracyError
-        if the vectors asked for do not exist, or only barely: the matrix is defective
-        (every race is: its states empty after finitely many racks, so eigenvalue 0 has too
-        few vectors), or k cuts through a repeated eigenvalue. The eigenvalues 1 alone (k =
-        the number of closed classes) are never defective. Also if other eigenvalues are so
-        close to 1 that no bound on the errors of its vectors can be proved.
+        if the requested vectors do not exist, or barely exist: the matrix is defective (every race
+        is: its states empty after finitely many racks, so eigenvalue 0 has too few vectors), or k
+        splits a repeated eigenvalue. The eigenvalues 1 alone (k = the number of closed classes) are
+        never defective. Also if other eigenvalues are so close to 1 that no bound on the errors of
+        its vectors can be proved.
 
     Notes
     -----
-    The structure says how often eigenvalue 1 occurs: once for each closed class; its vectors
-    are solved for class by class. The others come from LAPACK's geev up to 1000 states;
-    beyond that, those nearest to 1 come from ARPACK in shift-invert mode. For chains of
-    reversible classes all of them come from similar symmetric matrices, of which LAPACK finds
-    every eigenvector to the last digits, whatever the stationary distribution.
+    The structure tells how often eigenvalue 1 occurs: once for each closed class; its vectors are
+    solved for class by class. The others come from LAPACK's geev up to 1000 states; beyond that,
+    those nearest to 1 come from ARPACK in shift-invert mode. For chains of reversible classes all
+    of them come from similar symmetric matrices, for which LAPACK finds every eigenvector to full
+    precision, for any stationary distribution.
 
     >>> from evenbreak.chains import Chain
     >>> from scipy.sparse import csc_array
@@ -228,14 +228,14 @@ def spectrum(chain: Chain, k: int | None = None) -> Spectrum:
 
 
 ALL_REVERSIBLE = 2000
-"""Up to this many states LAPACK finds all eigenvalues of a class that is not a line."""
+"""Number of states up to which LAPACK finds all eigenvalues of a class that is not a line."""
 _BALANCED = 1e-12
 _SAMPLE = 1000
 
 
 @dataclass(frozen=True, eq=False)
 class SymmetricForm:
-    """One reversible class: S and D.
+    """A reversible class, as S and D.
 
     `states` are m increasing positions; `matrix` is S, sparse, in their order. `roots` is the
     diagonal of D, the square roots of weights that sum to 1 (the stationary distribution, if the
@@ -251,7 +251,7 @@ class SymmetricForm:
     def pairs(self, k: int) -> tuple[Floats, Floats]:
         """Return k eigenvalues of S, ascending, and their orthonormal vectors as columns.
 
-        All m of them up to `ALL_REVERSIBLE` states; beyond that those nearest to 1. An
+        All m of them up to `ALL_REVERSIBLE` states; beyond that those nearest to 1. Raises
         AccuracyError if the iteration for a large class does not converge.
         """
         m = len(self.states)
@@ -318,7 +318,7 @@ def symmetric_form(chain: Chain, states: Places) -> SymmetricForm | None:
 
 
 def _weights(T: csc_array) -> tuple[Floats, Places]:
-    """Return the weights along a tree of arcs, as numbers near 1 and whole exponents of 2."""
+    """Return the weights along a tree of arcs, as numbers near 1 and integer exponents of 2."""
     size = T.shape[0]
     high, low, power = np.ones(size), np.zeros(size), np.zeros(size, dtype=np.int64)
     if size == 1:
@@ -344,7 +344,7 @@ def _weights(T: csc_array) -> tuple[Floats, Places]:
 
 
 def reversible_classes(chain: Chain) -> list[SymmetricForm] | None:
-    """Return the symmetric forms of the classes, or None if this module does not serve the chain.
+    """Return the symmetric forms of the classes, or None if the chain is not of the kind required.
 
     >>> from evenbreak.chains import chain_of
     >>> reversible_classes(chain_of([(0, 1, 1.0), (1, 2, 1.0), (2, 0, 1.0)])) is None
@@ -371,7 +371,7 @@ def reversible_pairs(
 
     In the pairs, an entry of a left vector that no float can hold is infinite. The vectors Q of the
     symmetric forms, shape (n, k), follow, and the largest entry of S Q - Q diag(values) and of Q^T
-    Q - I. An AccuracyError if the iteration for a large class does not converge.
+    Q - I. Raises AccuracyError if the iteration for a large class does not converge.
     """
     n = len(chain)
     recurrent, periods = chain.structure.recurrent, chain.structure.periods
@@ -410,10 +410,10 @@ def reversible_pairs(
 def _with_known(
     form: SymmetricForm, values: Floats, Q: Floats, period: int, phases: Places
 ) -> tuple[Floats, Floats]:
-    """Put in what the structure knows of a closed class, the pair of eigenvalue 1 first.
+    """Insert the known pairs of a closed class, with the pair of eigenvalue 1 first.
 
-    Its vector is D itself; in a class of period 2 that of eigenvalue -1 is D with the signs of
-    the phases. The others are made orthogonal to these, which matters only where an eigenvalue
+    Its vector is D itself; in a class of period 2, the vector of eigenvalue -1 is D with the signs
+    of the phases. The others are made orthogonal to these, which matters only where an eigenvalue
     is very close.
     """
     exact, places = [form.roots], [len(values) - 1]

@@ -1,13 +1,13 @@
 """The stationary distribution of every closed class, and the mean times between its states.
 
-Cut one state c out of the class. With T the arcs among the others, which are all left in the
-end, and b the arcs out of c,
+Cut one state c out of the class. If T holds the arcs among the others, which are all left
+eventually, and b the arcs out of c,
 
     (I - T) x = b,   law = (1, x) / (1 + sum x):
 
 x is the expected number of visits to the others between two visits to c. The solve is free of
-subtraction (see `transient`). Where the whole chain is one small or dense class, c is the state
-that is eliminated last: with L U = I - T of the whole class, the law is the last column of U^-1.
+subtraction (see `transient`). If the whole chain is one small or dense class, c is the state that
+is eliminated last: if L U = I - T for the whole class, the distribution is the last column of U^-1.
 
 The mean time m_j from j to a target solves, over the states that are certain to reach it and with
 w_j = 1 the time that a step from j takes,
@@ -26,7 +26,7 @@ m_A = h + P^T m_B, and the targets in A follow with A and B exchanged. Nothing i
 I - T_AA is factored as in `dense_elimination`, and the rest adds up products of positive numbers.
 Each level of halving costs a quarter of the one before: 1.1 n^3 multiplications and as many
 additions in all, about as many as it takes to invert a matrix. Each state's arcs and its time are
-multiplied by a number at random, which changes no mean: otherwise hundreds of states alike would
+multiplied by a random number, which changes no mean: otherwise hundreds of identical states would
 all round in the same direction.
 
 A transient state t is certain to be reached from j if and only if every path from j into a
@@ -35,9 +35,9 @@ states that a state r dominates, if no other dominates r, make a closed class wi
 arcs to all of them: before they reach a target other than r, they do not meet r.
 
 Underflow takes at most 2^-1074 away from an arc. As a step takes a time of 1 or more, the visits
-to all states before the target come to m_j or fewer, so that m_j loses no more than n 2^-1074
-max m of itself: nothing that shows, unless a mean comes close to the largest float. Then the
-target is solved for alone (see `transient`).
+to all states before the target come to m_j or fewer, so m_j has a relative loss of at most n
+2^-1074 max m, which is negligible unless a mean is close to the largest float. Then the target is
+solved for alone (see `transient`).
 
 References: Grassmann, Taksar and Heyman 1985; O'Cinneide 1993; Kemeny and Snell 1960, Finite
 Markov Chains, sections 4.4 and 4.5; Meyer 1989, "Stochastic complementation, uncoupling Markov
@@ -68,9 +68,9 @@ if TYPE_CHECKING:
 
 
 _LARGE = 500
-"""Classes of so many states may be solved by iteration."""
+"""Number of states above which classes may be solved by iteration."""
 _FAR = 1e290
-"""Numbers so far apart are left to the general way, which knows what underflow costs."""
+"""Ratio of numbers above which the general method is used, which accounts for underflow."""
 
 
 def stationary_laws(chain: Chain) -> Floats:
@@ -94,10 +94,10 @@ def stationary_laws(chain: Chain) -> Floats:
 
 
 def laws_of(chain: Chain, classes: Bools) -> tuple[Floats, float | None]:
-    """Return the laws of those of `classes` that are closed, and a bound if there is one.
+    """Return the distributions of the closed classes among `classes`, and a bound if there is one.
 
-    One state of each class is cut out; the visits to the others between two visits to it
-    are proportional to the law.
+    One state of each class is cut out; the visits to the others between two visits to it are
+    proportional to the distribution.
     """
     structure = chain.structure
     if structure.count == 1 and classes[0] and suits_array(chain.arcs):
@@ -136,13 +136,13 @@ def laws_of(chain: Chain, classes: Bools) -> tuple[Floats, float | None]:
 
 
 def suits_array(arcs: Arcs) -> bool:
-    """Whether the states are so few, or the arcs so many, that a dense array is best."""
+    """Whether there are so few states, or so many arcs, that a dense array is best."""
     n = arcs.size
     return n <= SMALL or (n * n <= MOST_ENTRIES and is_dense(n, len(arcs.chances)))
 
 
 def dense_law(arcs: Arcs) -> Floats | None:
-    """Return the law of the one class that the arcs make, or None if floats may be too short.
+    """Return the distribution of the class that these arcs form; None if floats may be too short.
 
     >>> from scipy.sparse import csc_array
     >>> from evenbreak.chains.arcs import arcs_of
@@ -169,7 +169,7 @@ def dense_law(arcs: Arcs) -> Floats | None:
 
 
 def _law_of(arcs: Arcs) -> Floats:
-    """Return the law of one closed class, also if it spans more decades than floats do."""
+    """Return the distribution of one closed class, even if it spans more decades than floats do."""
     line = line_of(arcs.matrix())
     if line is None:
         return decimal_law(arcs)
@@ -178,19 +178,19 @@ def _law_of(arcs: Arcs) -> Floats:
 
 
 MOST_STATES = 4000
-"""Larger chains are refused. So many take some 5 seconds and 600 MB."""
+"""Limit on the size of a chain. The largest takes about 5 seconds and 600 MB."""
 _LARGEST = 2.0**960
-"""If no mean to a target is larger, neither underflow nor overflow has touched one of them."""
+"""Largest mean for which no underflow or overflow can have occurred."""
 _FEW = 16
-"""So few states are eliminated one by one, for all targets at once."""
+"""Number of states up to which they are eliminated one by one, for all targets at once."""
 
 
 def mean_first_passages(chain: Chain) -> pd.DataFrame:
     """Return the mean number of steps until each state is first visited, from each state.
 
-    As in `Chain.to_frame`, there is a column for each state to start from, and a row for each
-    state to be visited. The mean is 0 from a state to itself, and inf where the state may never be
-    reached. For one target or the distribution see `first_passage`.
+    As in `Chain.to_frame`, there is a column for each starting state, and a row for each state to
+    be visited. The mean is 0 from a state to itself, and inf if the state may never be reached. For
+    a single target, or the distribution, see `first_passage`.
 
     Raises
     ------
@@ -201,8 +201,9 @@ def mean_first_passages(chain: Chain) -> pd.DataFrame:
 
     Notes
     -----
-    However stiff the chain, each mean is right to a few units in the last place. Along a line of
-    n states alike, rounding adds up like the square root of n (seen: 1e-14 for n = 1000).
+    No matter how stiff the chain is, each mean is accurate to a few units in the last place. Along
+    a line of n identical states, rounding errors add up like the square root of n (seen: 1e-14 for
+    n = 1000).
 
     >>> from evenbreak.chains import chain_of
     >>> mean_first_passages(chain_of([(1, 0, 0.25), (1, 2, 0.75), (2, 1, 1.0)]))
@@ -246,8 +247,8 @@ def mean_first_passages(chain: Chain) -> pd.DataFrame:
 def kemeny_constant(chain: Chain) -> float:
     """Return the mean number of steps to a state drawn from the stationary distribution.
 
-    It doesn't depend on the recurrent state in which the chain starts, and counts 0 steps if that
-    state itself is drawn. It is small where the chain soon visits all that matters.
+    The number doesn't depend on the recurrent state in which the chain starts, and counts 0 steps
+    if that state itself is drawn. It is small if the chain soon visits all states that matter.
 
     Raises
     ------
@@ -276,10 +277,10 @@ def kemeny_constant(chain: Chain) -> float:
 
 
 def _certain_visits(chain: Chain) -> tuple[Places, Bools]:
-    """Return the transient states, and what each of them is certain to meet.
+    """Return the transient states, and the classes and states that each is certain to meet.
 
-    Entry [j, c] of the second says whether the j-th transient state is certain to get to the c-th
-    closed class; after the columns of these come those of the transient states themselves.
+    Entry [j, c] of the second array says whether the j-th transient state is certain to get to the
+    c-th closed class; after the columns of these come those of the transient states themselves.
     """
     structure, arcs = chain.structure, chain.arcs
     inside, closed = structure.recurrent, np.flatnonzero(structure.closed)
@@ -316,7 +317,7 @@ def _certain_visits(chain: Chain) -> tuple[Places, Bools]:
 
 
 def _means_among(chain: Chain, states: Places, root: int = -1) -> Floats:
-    """Return the means among states none of which leaves the others, but for a root that may."""
+    """Return the means among states that never leave each other, except for a root that may."""
     n = len(states)
     if n == 1:
         return np.zeros((1, 1))
@@ -343,7 +344,7 @@ def _by_halves(A: Floats) -> Floats:
     """Return the means among all states of a chain; shape (n, n).
 
     A has shape (n + 1, n): the arcs, and the time of a step as the last row, all with a minus sign;
-    the diagonal does not count.
+    the diagonal is ignored.
     """
     n = A.shape[1]
     if n <= _FEW:

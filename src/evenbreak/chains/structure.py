@@ -1,4 +1,4 @@
-"""What the graph of a chain shows before any number is computed: classes, kinds, periods.
+"""The structure of a chain's graph, before any number is computed: classes, kinds, periods.
 
 Two states belong to the same (communicating) class if each can be reached from the other.
 The classes form an acyclic graph and are numbered in a topological order of it, upstream
@@ -69,7 +69,7 @@ class Structure:
 
     @cached_property
     def closed(self) -> Bools:
-        """Whether each class is never left; shape (k,)."""
+        """Whether each class is closed (never left); shape (k,)."""
         if self.is_acyclic:
             closed: Bools = self.arcs.outflow[self.order] == 0.0
             return closed
@@ -138,7 +138,7 @@ class Structure:
         return np.asarray(np.where(self.recurrent, depth % periods[self.label], 0))
 
     def _depths(self, classes: Bools) -> Places:
-        """Return the depth of each state of some classes in a tree of arcs."""
+        """Return the depth of each state of the given classes in a tree of arcs."""
         n = self.arcs.size
         roots = self.order[self.offsets[:-1][classes]]
         _, parent = tree_from(n, self.arcs.sources, self.arcs.targets, roots)
@@ -152,7 +152,7 @@ class Structure:
 
 
 def structure_of(arcs: Arcs, loops: Bools | None = None) -> Structure:
-    """Return the communicating classes of the graph that `arcs`, between different states, make.
+    """Return the communicating classes of the graph with these `arcs` between different states.
 
     Time is linear in the number of arcs. If all arcs lead forward in the given order, or all lead
     backward, no search is needed. Self-loops (`loops`) matter only for the periods.

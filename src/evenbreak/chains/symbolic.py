@@ -1,9 +1,9 @@
 """The stochastic limit as a formula, for diagrams whose probabilities are sympy expressions.
 
-It is the limit by elimination (see `elimination`) with another kind of number: elements of the
+The limit is found by elimination (see `elimination`) with another kind of number: elements of the
 field of rational functions of the symbols.
 
-It needs sympy, which the extra `symbolic` installs.
+This needs sympy, which the extra `symbolic` installs.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ def symbolic_limit(
         a `networkx.DiGraph` with `probability` on its arcs; an iterable of arcs
         (source, target, probability); or an object with `start` and `moves(state)`.
         A probability is a sympy expression or a number (write 1/3 as
-        `sympy.Rational(1, 3)`); those of a state sum to 1 identically. A state without
-        arcs absorbs. `OneBall` takes expressions too; `evenbreak.matches.win_formula` has
-        the formulas of races and n-ahead matches.
+        `sympy.Rational(1, 3)`); those of a state sum to 1 identically. A state without arcs is
+        absorbing. `OneBall` takes expressions too; `evenbreak.matches.win_formula` has the formulas
+        of races and n-ahead matches.
     start
         the starting state; by default the game's own start, the graph's
         node of kind 'start', or the source of the first arc.
@@ -59,9 +59,9 @@ def symbolic_limit(
 
     Notes
     -----
-    Every listed arc whose probability is not identically zero counts as possible. The
-    formulas hold where all of these are positive; at the edges (p = 0, p = 1) they hold
-    only if they have a limit. Source: P5.20, P5.24, P5.27.
+    Every listed arc whose probability is not identically zero counts as possible. The formulas hold
+    if all of these are positive; at the edges (p = 0, p = 1) they hold only if they have a limit.
+    Source: P5.20, P5.24, P5.27.
 
     >>> import sympy
     >>> p1, p2 = sympy.symbols("p1 p2")
@@ -92,7 +92,7 @@ def _visits(rows: Any, states: Any, b: list[Any]) -> list[Any]:
 
 
 def _readable(formula: Any) -> Any:
-    """Return the formula factored, its denominator positive where the symbols are 1/2."""
+    """Return the factored formula, with a denominator that is positive if the symbols are 1/2."""
     sympy = _sympy()
     above, below = sympy.fraction(sympy.factor(formula))
     middle = below.subs(dict.fromkeys(below.free_symbols, sympy.Rational(1, 2)))
@@ -148,7 +148,7 @@ def _diagram(source: Any, start: Hashable | None) -> tuple[Rows, Hashable]:
 
 
 def _arcs(source: Any) -> tuple[Iterable[Any], Hashable | None]:
-    """Return the arcs, and the start where the source has one."""
+    """Return the arcs, and the start if the source has one."""
     if hasattr(source, "adjacency"):
         starts = (state for state, kind in source.nodes(data="kind") if kind == "start")
         return source.edges(data="probability"), next(starts, None)

@@ -1,4 +1,4 @@
-"""The transient part of a chain, and the two solves from which everything else is made.
+"""The transient part of a chain, and the two solves on which everything else is based.
 
 With T the arcs among the transient states (T[i, j] = P(j -> i)):
 
@@ -7,8 +7,8 @@ With T the arcs among the transient states (T[i, j] = P(j -> i)):
 
 Both are free of subtraction for nonnegative b and r; callers split a right-hand side of
 both signs into its positive and its negative part. The states are taken class by class,
-upstream first, and each class by the method that suits it (see `factorization`). An answer
-that overflow or underflow may have touched is computed again in decimal numbers.
+upstream first, and each class is solved by the method that suits it (see `factorization`). An
+answer that overflow or underflow may have affected is recomputed in decimal numbers.
 
 References: Kemeny and Snell 1960, Finite Markov Chains, chapter III, for the fundamental
 matrix (I - T)^-1; Alfa, Xue and Ye 2002 for its accuracy, entry by entry.
@@ -64,8 +64,8 @@ class TransientPart:
     def _steps(self) -> Floats:
         """The expected steps until the states are left, from each of them; none underflows.
 
-        They bound what underflow can cost: what is lost of r at a state is lost at each visit
-        to it. Visits lose only what is lost of the flow through a state, over its pivot.
+        They bound the effect of underflow: a loss in r at a state is lost again at each visit to
+        it. Visits lose only the loss in the flow through a state, divided by its pivot.
         """
         return self._factor.values(np.ones((len(self.states), 1)))[:, 0]
 
@@ -73,8 +73,8 @@ class TransientPart:
     def bound(self) -> float | None:
         """A proved bound on the relative errors of the answers so far.
 
-        None if all classes were eliminated without subtraction: then every entry is right to a few
-        units in the last place times the length of the paths to it.
+        None if all classes were eliminated without subtraction: then every entry is accurate to a
+        few units in the last place times the length of the paths to it.
         """
         factor = self.__dict__.get("_factor")
         return None if factor is None else factor.bound
@@ -110,7 +110,7 @@ class TransientPart:
         return self._guaranteed(r, transposed=True)
 
     def attempt(self, b: Floats, *, transposed: bool = False) -> tuple[Floats, Bools]:
-        """Return the visits (or values), and where overflow or underflow may have touched them.
+        """Return the visits (or values), and where overflow or underflow may have affected them.
 
         Both have the shape (m, k) of `b`.
         """
@@ -150,11 +150,11 @@ class TransientPart:
 
 
 def where_doubtful(x: Floats, gain: Floats) -> Bools:
-    """Return where underflow may show in x, of shape (m, k); everywhere if x has overflowed.
+    """Return where underflow may affect x, of shape (m, k); everywhere if x has overflowed.
 
-    Underflow loses at most 2^-1074 a term, times the largest entry of x; `gain`, of shape
-    (m,), is how much of the answer a loss costs. It matters where that is not small next to
-    x, unless x is below all normal floats anyway.
+    Underflow loses at most 2^-1074 per term, times the largest entry of x; `gain`, of shape (m,),
+    is the effect of a loss on the answer. It matters where the effect is not small compared with x,
+    unless x is below all normal floats anyway.
     """
     top = x.max()
     if not top < np.inf:

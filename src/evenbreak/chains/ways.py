@@ -1,4 +1,4 @@
-"""The ways to a stochastic limit, by name; hardly anything is loaded for them."""
+"""The names of the methods for a stochastic limit; this module loads hardly anything else."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from evenbreak.checks import one_of
 from evenbreak.errors import InputError
 
 Way: TypeAlias = Literal["kernel", "elimination", "eigen"]
-"""A way to the limit: a closed form, elimination of states, or eigenvectors."""
+"""A method for the limit: a closed form, elimination of states, or eigenvectors."""
 WAYS: tuple[Way, ...] = ("kernel", "elimination", "eigen")
 
 
 def way_of_limit(via: Way | None, *, exact: bool = False) -> Way | None:
-    """Return a way that leads over the limit of a chain; None where a function's kernel answers.
+    """Return a method that uses a chain's limit, or None for a function's own kernel.
 
-    An InputError if it is not a way, or is given together with `exact`.
+    Raises InputError if it is not a known method, or if it is given together with `exact`.
 
     >>> way_of_limit("eigen"), way_of_limit("kernel"), way_of_limit(None)
     ('eigen', None, None)

@@ -1,4 +1,4 @@
-"""Checks of parameters: each returns its value, or an error with the remedy."""
+"""Parameter checks: each returns the value, or raises an error with a remedy."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Checks of arrays, their shapes and their columns; numpy is imported only for an array."""
+"""Checks of arrays, their shapes and columns; numpy is imported only for an array."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _WANTED = {
     "M": "days of the years 1 to 9999, such as 2026-01-31",
     "O": "text, '' where there is none",
 }
-"""What a column of each kind of dtype must hold."""
+"""The values that a column of each dtype must hold."""
 
 
 @overload
@@ -46,7 +46,7 @@ def probability(value: Any, name: str) -> Any:
     Parameters
     ----------
     value
-        anything that numpy can make a float array of.
+        anything that numpy can convert to a float array.
     name
         the value's name in the error.
 
@@ -82,8 +82,8 @@ def floats(
     Parameters
     ----------
     values
-        a number, or something that numpy can make a float array of; text is refused. One
-        number becomes an array without dimensions, which `plain` turns back into a float.
+        a number, or anything that numpy can convert to a float array, except strings. A single
+        number becomes a zero-dimensional array, which `plain` turns back into a float.
     name, low, high, above, below, wanted
         as for `number`.
 
@@ -117,7 +117,7 @@ def floats(
 def whole_numbers(
     values: Any, name: str, *, at_least: int | None = None, wanted: str = ""
 ) -> Floats:
-    """Return `values` as a float array if all are whole numbers, `at_least` or more.
+    """Return `values` as a float array if all are whole numbers of at least `at_least`.
 
     >>> whole_numbers([1, 2.0], "n")
     array([1., 2.])
@@ -141,8 +141,8 @@ def whole_numbers(
 def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = float) -> NDArray[Any]:
     """Return a read-only copy of `values`, one value for each player, row or match.
 
-    It is a copy so that a later change to the caller's array changes nothing here. NaN and
-    infinity pass where `dtype` is float.
+    It is a copy, so later changes to the caller's array have no effect. NaN and infinity are
+    allowed if `dtype` is float.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = flo
         how many values there must be, and of what: 3, 'players'.
     dtype
         float, int (floats pass if they are whole numbers), bool (0 and 1 pass), days (as dates or
-        as text such as 2026-01-31, NaT or None for no date), or object, for text.
+        as strings such as 2026-01-31, NaT or None for no date), or object, for strings.
 
     Raises
     ------
@@ -196,7 +196,7 @@ def column(values: Any, name: str, count: int, each: str, dtype: DTypeLike = flo
 
 
 def names(values: Iterable[Any], name: str) -> tuple[str, ...]:
-    """Return `values` as a tuple if they are text, each once.
+    """Return `values` as a tuple if they are distinct strings.
 
     >>> names(["Ann", float("nan")], "players")
     Traceback (most recent call last):
@@ -217,7 +217,7 @@ def names(values: Iterable[Any], name: str) -> tuple[str, ...]:
 
 
 def together(**arrays: ArrayLike) -> tuple[int, ...]:
-    """Return the shape to which the arrays broadcast; numbers have the shape ().
+    """Return the broadcast shape of the arrays; numbers have the shape ().
 
     Raises
     ------
@@ -245,7 +245,7 @@ def together(**arrays: ArrayLike) -> tuple[int, ...]:
 
 
 def plain(array: Any) -> Any:
-    """Return a float for a number or an array without dimensions, any other array as it is.
+    """Return a float for a number or a zero-dimensional array, any other array unchanged.
 
     >>> import numpy as np
     >>> plain(np.array(2.5)), plain(np.array([2.5]))
@@ -255,7 +255,7 @@ def plain(array: Any) -> Any:
 
 
 def _converted(values: Any, kind: np.dtype[Any]) -> NDArray[Any] | None:
-    """Return a copy of `values` as this type, None where that would change what they say."""
+    """Return a copy of `values` as this type, or None if that would change their meaning."""
     import numpy as np
 
     if kind.kind == "O":
@@ -279,7 +279,7 @@ def _converted(values: Any, kind: np.dtype[Any]) -> NDArray[Any] | None:
 
 
 def _array(values: Any) -> Floats:
-    """Return `values` as a float array; NaN for what is not numbers."""
+    """Return `values` as a float array, with NaN for values that are not numbers."""
     import numpy as np
 
     try:
@@ -292,7 +292,7 @@ def _array(values: Any) -> Floats:
 
 
 def _unmasked(values: Any) -> NDArray[Any]:
-    """Return `values` as an array; NaN stands for what is masked, whose number does not count."""
+    """Return `values` as an array, with NaN for masked values."""
     import numpy as np
 
     if np.ma.is_masked(values):

@@ -1,4 +1,4 @@
-"""The probability of the opposite, with the digits that the decimal has."""
+"""The complement of a probability, with the digits of its decimal."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ def complement(p: float) -> float: ...
 @overload
 def complement(p: Floats) -> Floats: ...
 def complement(p: Any) -> Any:
-    """Return 1 - p, for a p of at most 15 decimals as the decimal: .1 for .9.
+    """Return 1 - p, computed in decimal if p has at most 15 decimals: .1 for .9.
 
-    So the chance of losing keeps its digits where it is small. Other values give 1 - p in floats,
-    a `Fraction` or a formula of sympy one.
+    So a small chance of losing keeps its digits. For other values, 1 - p is a float, or a
+    `Fraction` or sympy formula if p is one.
 
     >>> complement(0.9), 1.0 - 0.9
     (0.1, 0.09999999999999998)

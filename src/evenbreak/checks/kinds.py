@@ -1,4 +1,4 @@
-"""Checks of the kind of a thing, where a function takes an object and not a number."""
+"""Checks of types, for functions that take an object rather than a number."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Kind = TypeVar("Kind")
 
 
 def kind_of(value: Any, name: str, kind: type[Kind]) -> Kind:
-    """Return `value` if it is of this kind.
+    """Return `value` if it has this type.
 
     Parameters
     ----------
@@ -21,7 +21,7 @@ def kind_of(value: Any, name: str, kind: type[Kind]) -> Kind:
     Raises
     ------
     InputError
-        if it is of another.
+        if it has another type.
 
     >>> from fractions import Fraction
     >>> kind_of(Fraction(1, 2), "p", Fraction)
@@ -42,7 +42,7 @@ def kind_of(value: Any, name: str, kind: type[Kind]) -> Kind:
 
 
 def kind_or_usual(value: Any, name: str, kind: type[Kind]) -> Kind:
-    """Return `value` if it is of this kind, and the default of this kind for None.
+    """Return `value` if it has this type, or the type's default for None.
 
     >>> kind_or_usual(None, "size", int)
     0

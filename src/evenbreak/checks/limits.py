@@ -1,4 +1,4 @@
-"""The limits within which a number is accepted, and how to say them."""
+"""The limits within which a number is accepted, and their wording."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Limits(NamedTuple):
-    """Where numbers must lie: from `low` to `high`, and between `above` and `below`."""
+    """The allowed range: from `low` to `high`, and between `above` and `below`."""
 
     low: float
     high: float
@@ -15,13 +15,13 @@ class Limits(NamedTuple):
     below: float
 
     def hold(self, least: float, most: float) -> bool:
-        """Return whether `least` and `most` lie within the limits; NaN never does."""
+        """Return whether `least` and `most` are within the limits; NaN never is."""
         return bool(
             self.above < least and most < self.below and self.low <= least and most <= self.high
         )
 
     def numbers(self, *, many: bool = False) -> str:
-        """Return the words for the numbers that lie within the limits.
+        """Return the wording for the numbers within the limits.
 
         >>> Limits(-math.inf, 2, 0, math.inf).numbers()
         'a number above 0, at most 2'

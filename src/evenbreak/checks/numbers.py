@@ -1,4 +1,4 @@
-"""Checks of single values. None of them imports numpy: scalar questions start without it."""
+"""Checks of single values. None of them imports numpy, so scalar questions start without it."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ Choice = TypeVar("Choice")
 
 
 class ManyAsOne:
-    """Base of numbers that stand for many at once, and that games take like one float.
+    """Base class of numbers that stand for many at once, and that games accept as a single float.
 
-    All of them answer a comparison alike, or the comparison raises an error of its own (see
+    All of them give the same answer to a comparison, or the comparison raises its own error (see
     `evenbreak.chains.family_numbers`).
     """
 
@@ -43,7 +43,7 @@ def number(
     Parameters
     ----------
     value
-        text is refused, and so are arrays with dimensions.
+        a number; strings and arrays with dimensions are errors.
     name
         the value's name in the error.
     low, high
@@ -51,7 +51,7 @@ def number(
     above, below
         the limits, excluded.
     wanted
-        what to give, for the error message; by default the limits.
+        the valid values, for the error message; default: the limits.
 
     Raises
     ------
@@ -88,7 +88,7 @@ def positive(value: Any, name: str, *, wanted: str = "") -> float:
 
 
 def number_probability(value: Any, name: str) -> float:
-    """Return `value` as a float if it is one probability, not an array of them.
+    """Return `value` as a float if it is a single probability.
 
     >>> number_probability([0.4, 0.5], "p1")
     Traceback (most recent call last):
@@ -109,9 +109,9 @@ def number_probability(value: Any, name: str) -> float:
 
 
 def exact_probability(value: Any, name: str) -> Any:
-    """Return one probability as exact answers need it: a `Fraction` or a formula as it is.
+    """Return a single probability for exact answers: a `Fraction` or a formula unchanged.
 
-    A formula is an expression of sympy in symbols.
+    A formula is a sympy expression with symbols.
 
     >>> from fractions import Fraction
     >>> exact_probability(Fraction(1, 3), "p1"), exact_probability(1, "p1")
@@ -124,7 +124,7 @@ def exact_probability(value: Any, name: str) -> Any:
 
 
 def number_probabilities(values: Any, name: str, each: str) -> tuple[float, ...]:
-    """Return `values` as one probability or more; errors call the i-th of them `each` i.
+    """Return `values` as one or more probabilities; errors call the i-th of them `each` i.
 
     >>> number_probabilities([], "shots", "shot")
     Traceback (most recent call last):
@@ -156,11 +156,11 @@ def whole(
     value
         a whole number, of any numeric type.
     name
-        the name of the value where the caller wrote it.
+        the value's name in the caller's code.
     at_least, at_most
-        the smallest and the largest number that is allowed; None for no limit.
+        the smallest and the largest number allowed; None: no limit.
     wanted
-        what to give, for the error message; by default the limit says it.
+        the valid values, for the error message; default: the limits.
 
     Raises
     ------
@@ -196,7 +196,7 @@ def whole(
 
 
 def increasing(values: Iterable[Any], name: str, *, at_least: int | None = 0) -> tuple[int, ...]:
-    """Return whole numbers that increase; each is called by its name and place.
+    """Return increasing whole numbers; errors refer to each by name and position.
 
     Raises
     ------
@@ -223,7 +223,7 @@ def increasing(values: Iterable[Any], name: str, *, at_least: int | None = 0) ->
 
 
 def seed_of(value: Any, name: str = "seed") -> int:
-    """Return a seed: `value` if it is a whole number from 0, or one drawn from a generator.
+    """Return a seed: `value` if it is a whole number from 0 up, or one drawn from a generator.
 
     >>> seed_of(7)
     7
@@ -237,7 +237,7 @@ def seed_of(value: Any, name: str = "seed") -> int:
 
 
 def generator_of(value: Any, name: str = "rng") -> Generator:
-    """Return a random generator: `value` itself, or one of this seed; of any for None.
+    """Return a random generator: `value` itself, or one with this seed; None: a random seed.
 
     >>> bool(generator_of(7).integers(100) == generator_of(7).integers(100))
     True
@@ -259,7 +259,7 @@ def _seed_or_generator(value: Any, name: str) -> Any:
 
 
 def one_of(value: Any, name: str, choices: tuple[Choice, ...]) -> Choice:
-    """Return the one of `choices` that `value` equals: 1 for 1.0 or True.
+    """Return the element of `choices` that `value` equals: 1 for 1.0 or True.
 
     >>> one_of(3, "first_breaker", (1, 2))
     Traceback (most recent call last):
@@ -280,7 +280,7 @@ def one_of(value: Any, name: str, choices: tuple[Choice, ...]) -> Choice:
 
 
 def _float(value: Any) -> float:
-    """Return one number as a float; NaN for what is not one."""
+    """Return a single number as a float, or NaN if it isn't a number."""
     if isinstance(value, str | bytes) or getattr(value, "ndim", False):
         return math.nan
     try:

@@ -1,6 +1,6 @@
 """Games as directed graphs, one family of games in each module.
 
-Games are only described here; `evenbreak.chains` and `evenbreak.matches` solve them.
+This package only describes games; `evenbreak.chains` and `evenbreak.matches` solve them.
 """
 
 import lazy_loader

@@ -10,7 +10,7 @@ from evenbreak.games.rack import ChanceT
 
 @dataclass(frozen=True, repr=False)
 class Ahead(Match[ChanceT]):
-    """First to lead by the games needed: m for player 1, n for player 2 (P5.27, Fig. 5.10).
+    """n-ahead match: player 1 needs a lead of m games, player 2 a lead of n (P5.27, Fig. 5.10).
 
     Only the lead matters, so the score of a state is the lead: (2, 0) means that player 1
     leads by two games, (0, 1) that player 2 leads by one. The parameters are those of `Match`.
@@ -29,12 +29,12 @@ class Ahead(Match[ChanceT]):
     """
 
     def decided(self, a: int, b: int) -> int | None:
-        """Return who has won at the score a:b: 1, 2, or None while the match goes on."""
+        """Return who has won at the score a:b: 1, 2, or None while the match continues."""
         if a - b >= self.m:
             return 1
         return 2 if b - a >= self.n else None
 
     def fold(self, a: int, b: int) -> Score:
-        """Return the lead as a score: the games that both players have are taken off."""
+        """Return the lead as a score: games that both players have are subtracted."""
         common = min(a, b)
         return a - common, b - common

@@ -1,7 +1,7 @@
 """Break formats: who breaks the next rack, given who broke the last one and who won it.
 
-A format is a plain function of (breaker, winner), both 1 or 2, so a league with its own
-rule passes its own function.
+A format is a plain function of (breaker, winner), both 1 or 2, so a league with its own rule can
+pass its own function.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ def alternate_breaks(breaker: int, winner: int) -> int:  # noqa: ARG001
 
 
 def player_1_breaks(breaker: int, winner: int) -> int:  # noqa: ARG001
-    """Return the next breaker: always player 1; a handicap."""
+    """Return the next breaker, which is always player 1: a handicap."""
     return 1
 
 
 def player_2_breaks(breaker: int, winner: int) -> int:  # noqa: ARG001
-    """Return the next breaker: always player 2; a handicap."""
+    """Return the next breaker, which is always player 2: a handicap."""
     return 2
 
 
@@ -47,11 +47,11 @@ BREAK_FORMATS: dict[str, BreakFormat] = {
     "player 1": player_1_breaks,
     "player 2": player_2_breaks,
 }
-"""The usual formats by name."""
+"""The usual formats, by name."""
 
 
 def checked_format(breaks: Any) -> BreakFormat:
-    """Return `breaks` if it gives the next breaker, 1 or 2, after every rack (else InputError).
+    """Return `breaks` if it returns the next breaker, 1 or 2, after every rack; else InputError.
 
     >>> checked_format(lambda breaker, winner: winner - 1)
     Traceback (most recent call last):

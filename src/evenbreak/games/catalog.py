@@ -49,20 +49,22 @@ CATALOG: dict[str, Game] = {
 
 
 def game_of_catalog(name: str, *chances: float) -> tuple[str, Game]:
-    """Return a game of the catalog with its full name, perhaps with other chances.
+    """Return a game from the catalog with its full name, optionally with other chances.
 
     Parameters
     ----------
     name
-        its name, or words of it that no other game has; or that of an installed package's game.
+        its name, or words in it that no other game has; or the name of an installed package's game.
     chances
-        p1 and p2 of its racks or shots, or one chance: of its racks, whoever breaks, or of a
-        shot in a drill; of what it says, a package's. None: those of the catalog.
+        p1 and p2 of its racks or shots, or a single chance: for its racks, regardless of who
+        breaks, or for a shot in a drill; for a package's game, what its documentation says. None:
+        the catalog's chances.
 
     Raises
     ------
     InputError
-        if no game or several have this name, or the game takes another number of chances.
+        if no game, or more than one, has this name, or the game takes a different number of
+        chances.
 
     >>> game_of_catalog("One-ball", 0.3, 0.6)
     ('one-ball', OneBall(p1=0.3, p2=0.6))
@@ -100,7 +102,7 @@ def game_of_catalog(name: str, *chances: float) -> tuple[str, Game]:
 
 
 def _words(name: str) -> list[str]:
-    """Return the words and numbers of a name, however they are joined.
+    """Return the words and numbers in a name, however they are joined.
 
     >>> _words("Drill, progressive 9_ball"), _words("race 9:5")
     (['drill', 'progressive', '9', 'ball'], ['race', '9:5'])

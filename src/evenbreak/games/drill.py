@@ -9,12 +9,12 @@ from evenbreak.checks import complement, number_probabilities, number_probabilit
 from evenbreak.errors import InputError
 
 EIGHT_BALL_LEVELS = 7
-"""The most levels of the 8-ball drill: seven balls of each group and the 8-ball."""
+"""The most levels in the 8-ball drill: seven balls of each group and the 8-ball."""
 
 
 @dataclass(frozen=True)
 class Drill:
-    """A progressive drill of n levels (P5.26, Fig. 5.7).
+    """A progressive drill with n levels (P5.26, Fig. 5.7).
 
     A success leads to the next level (the last level repeats), a failure to the previous one
     (the first level repeats).
@@ -43,7 +43,7 @@ class Drill:
 
     @classmethod
     def progressive(cls, p: float, levels: int = 9) -> Drill:
-        """Return the model of the progressive 9-ball drill: level i succeeds with p^(i-1).
+        """Return a model of the progressive 9-ball drill: level i succeeds with p^(i-1).
 
         >>> Drill.progressive(0.5, levels=4).success
         (1.0, 0.5, 0.25, 0.125)
@@ -56,9 +56,9 @@ class Drill:
         """Return a model of the progressive 8-ball drill: level i succeeds with p^i.
 
         Level i starts with i balls of each group and the 8-ball on the table and ball in hand. The
-        player runs one group and the 8-ball; the first of these i + 1 balls counts as certain, as
-        in the 9-ball drill. At level 7 all 15 balls are on the table. How much the other group is
-        in the way is part of p.
+        player runs one group and the 8-ball; the first of these i + 1 balls is treated as certain,
+        as in the 9-ball drill. At level 7, all 15 balls are on the table. The effect of the other
+        group's balls being in the way is part of p.
 
         Raises
         ------

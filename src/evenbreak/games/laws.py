@@ -1,4 +1,4 @@
-"""What every game has to hold to, as one from someone else's package may not."""
+"""The rules that every game must follow, including games from other packages."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from evenbreak.game import Game, arcs_of
 from evenbreak.plugins import broken_of, lawful
 
 MOST_TRIED = 2_000
-"""States on which the laws are tried: the first ones from the start."""
+"""Number of states on which the rules are tried, counted from the start."""
 
 _LONGEST = 40
 _Tried: TypeAlias = Callable[[], list[Any]]
@@ -23,10 +23,10 @@ _Tried: TypeAlias = Callable[[], list[Any]]
 def broken_laws(game: Game) -> list[str]:
     """Return the rules that a game breaks, in sentences; empty if it breaks none.
 
-    Checked, on the first 2,000 states from its start: moves have chances that sum to 1, and are the
-    same each time; no one has won while there are moves, and a winner is 1, 2, ... or None; states
-    can be told apart in print; arcs given as arrays are its moves; and it can be sent to other
-    processes.
+    These rules are checked on the first 2,000 states from its start: the chances of moves sum to 1,
+    and moves are the same each time; no one has won while there are moves, and a winner is a
+    positive whole number or None; states can be told apart in print; arcs given as arrays match its
+    moves; and the game can be sent to other processes.
 
     >>> from evenbreak.games import OneBall
     >>> broken_laws(OneBall(0.4, 0.8))
@@ -38,7 +38,7 @@ def broken_laws(game: Game) -> list[str]:
 
 
 def lawful_game(game: Any) -> Game:
-    """Return a game that breaks no law, or refuse it by the first that it breaks."""
+    """Return a game that breaks no rule, or raise an error for the first rule that it breaks."""
     lacking = [name for name in ("start", "moves", "winner") if not hasattr(game, name)]
     if lacking:
         raise InputError("it has no {lacking}; a game needs them", lacking=" and no ".join(lacking))

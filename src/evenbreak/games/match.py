@@ -1,4 +1,4 @@
-"""What all matches have in common: the score, the rule that ends them, and who breaks next.
+"""Common base of all matches: the score, the rule that ends them, and who breaks next.
 
 A match can itself be the rack of a longer match: a race whose rack is a race is a match of
 sets, and so on to any depth.
@@ -22,31 +22,31 @@ Score: TypeAlias = tuple[int, int]
 
 @dataclass(frozen=True)
 class Match(ABC, Generic[ChanceT]):
-    """Base of `Race` and `Ahead`: a score a:b that grows rack by rack until one player wins.
+    """Base class of `Race` and `Ahead`: a score a:b that grows rack by rack until one player wins.
 
     Parameters
     ----------
     m, n
-        what player 1 and player 2 need.
+        the games (or sets) that player 1 and player 2 need.
     rack
-        what is played for one point of the score: a `Rack`, another match (a set), or a game
-        of your own, which player 1 or player 2 wins and which itself says who starts.
+        what is played for one point of the score: a `Rack`, another match (a set), or a custom
+        game, which player 1 or player 2 wins and which itself determines who starts.
     breaks
         who breaks next (see `evenbreak.games.breaks`); needed if the break matters. In a
         match of sets it decides who breaks first in the next set, given who broke first in
-        the last one and who won it; with None the set's own format carries on across sets.
+        the last one and who won it; with None, the set's own format carries over from set to set.
     first_breaker
         who breaks the first rack to be played, 1 or 2.
     score
-        the score to start with: games on the wire, or a match under way.
+        the score to start from: games on the wire, or a match in progress.
 
     Notes
     -----
     A state is (a, b) if the break does not matter, (a, b, breaker) if it does, and (a, b,
     state of the set) in a match of sets, with the set's first breaker before the set's state
-    if the match has its own break format; the state of a game of your own replaces
-    the set's. Scores that differ only in racks that no longer
-    matter are one state, so even a match without a longest length has a finite graph.
+    if the match has its own break format; a custom game's state replaces the set's. Scores that
+    differ only in racks that no longer matter are one state, so even a match without a longest
+    length has a finite graph.
     """
 
     m: int
@@ -124,7 +124,7 @@ class Match(ABC, Generic[ChanceT]):
             )
 
     def _played_from(self, a: int, b: int) -> list[Score]:
-        """Return the scores one rack before a:b at which the match goes on."""
+        """Return the scores one rack before a:b at which the match continues."""
         return [
             (x, y)
             for x, y in ((a - 1, b), (a, b - 1))
@@ -133,7 +133,7 @@ class Match(ABC, Generic[ChanceT]):
 
     @abstractmethod
     def decided(self, a: int, b: int) -> int | None:
-        """Return who has won at the score a:b: 1, 2, or None while the match goes on."""
+        """Return who has won at the score a:b: 1, 2, or None while the match continues."""
 
     @abstractmethod
     def fold(self, a: int, b: int) -> Score:
@@ -146,7 +146,7 @@ class Match(ABC, Generic[ChanceT]):
 
     @property
     def innermost_rack(self) -> Rack[ChanceT] | Game:
-        """The rack, or game of your own, at the bottom of a match of sets, or of sets of sets."""
+        """The rack, or custom game, at the bottom of a match of sets, or of sets of sets."""
         return self.rack.innermost_rack if isinstance(self.rack, Match) else self.rack
 
     @property
@@ -170,7 +170,7 @@ class Match(ABC, Generic[ChanceT]):
         return self._after_rack_of_set(a, b, rest, self.rack)
 
     def winner(self, state: Any) -> int | None:
-        """Return who has won in `state`: 1, 2, or None while the match goes on."""
+        """Return who has won in `state`: 1, 2, or None while the match continues."""
         return self.decided(state[0], state[1])
 
     def label(self, state: Any) -> str:

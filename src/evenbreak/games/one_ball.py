@@ -15,8 +15,8 @@ class OneBall:
     Parameters
     ----------
     p1, p2
-        P(player 1, 2 makes the ball | that player shoots); a `Fraction` is kept, for exact answers,
-        and an expression of sympy for `evenbreak.chains.symbolic_limit`.
+        P(player 1, 2 makes the ball | that player shoots); a `Fraction` is kept for exact answers,
+        and a sympy expression for `evenbreak.chains.symbolic_limit`.
 
     Raises
     ------

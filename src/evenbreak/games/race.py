@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Race(Match[ChanceT]):
-    """First to the games needed: m for player 1, n for player 2 (P5.5, P5.6).
+    """Race in which player 1 needs m games and player 2 needs n (P5.5, P5.6).
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class Race(Match[ChanceT]):
         super().__post_init__()
 
     def decided(self, a: int, b: int) -> int | None:
-        """Return who has won at the score a:b: 1, 2, or None while the race goes on.
+        """Return who has won at the score a:b: 1, 2, or None while the race continues.
 
         >>> from evenbreak.games import Rack
         >>> Race(5, 4, Rack(0.5), win_by=2).decided(5, 3) is None
@@ -64,8 +64,8 @@ class Race(Match[ChanceT]):
     def fold(self, a: int, b: int) -> Score:
         """Return the lowest score from which the rest of the race is the same as from a:b.
 
-        Once both players are within `win_by` games of what they need, only the difference
-        between what they still need matters ("deuce").
+        Once both players need at most `win_by` more games, only the difference between the games
+        they need matters ("deuce").
 
         >>> from evenbreak.games import Rack
         >>> Race(5, 5, Rack(0.5), win_by=2).fold(8, 7)
@@ -77,7 +77,7 @@ class Race(Match[ChanceT]):
     def arcs(self) -> ArcArrays | None:
         """Return all states and arcs as arrays; None for sets, win-by-K, or chances in fractions.
 
-        They are those of `moves`, made without a Python loop over the states.
+        They are the same as those of `moves`, but made without a Python loop over the states.
 
         >>> from evenbreak.games import Rack
         >>> len(Race(100, 100, Rack(0.5)).arcs().states)

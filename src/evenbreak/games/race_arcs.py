@@ -1,6 +1,6 @@
 """The arcs of a plain race as arrays, made without a Python loop over the states.
 
-They are those of `Race.moves`. The states are the scores, sorted by the number of racks
+They are the same as those of `Race.moves`. The states are the scores, sorted by the number of racks
 played, so every arc leads to a later state.
 """
 
@@ -23,7 +23,7 @@ from evenbreak.games.rack import Rack
 class ScoreStates(Sequence[tuple[int, ...]]):
     """The states (a, b) or (a, b, breaker) of a race, made only when they are read.
 
-    a and b are the score of each cell; a state's place is its cell, or 2 cell + breaker - 1 with
+    a and b are the score in each cell; a state's position is its cell, or 2 cell + breaker - 1 with
     breakers.
     """
 
@@ -41,7 +41,7 @@ class ScoreStates(Sequence[tuple[int, ...]]):
         return columns if late is None else [*columns, late + 1]
 
     def __repr__(self) -> str:
-        """Return how many there are, and the first of them.
+        """Return the number of states, and the first one.
 
         >>> ScoreStates(*np.divmod(np.arange(9), 3), np.arange(9), with_breaker=False)
         <9 states: (0, 0), (0, 1), (0, 2), ...>
@@ -83,10 +83,10 @@ class ScoreStates(Sequence[tuple[int, ...]]):
 def race_arcs(
     need: Score, rack: Rack, breaks: BreakFormat | None, first_breaker: int, score: Score
 ) -> ArcArrays:
-    """Return the states and arcs of the race to `need` from `score`, winning by one.
+    """Return the states and arcs of the race to `need` from `score`, won by one game.
 
     The states that can be reached are sorted by racks played, the arcs by source, each with the
-    probability of its target, given the source. An InputError if the rack holds arrays.
+    probability of its target, given the source. Raises InputError if the rack holds arrays.
     """
     breakers = (1, 2) if rack.break_matters else (1,)
     count = len(breakers)
@@ -117,8 +117,8 @@ def race_arcs(
 def _cells(m: int, n: int) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Return the scores a, b of a race m:n from 0:0, sorted by a + b, then by a.
 
-    The third array is the position of (a, b+1); that of (a+1, b) is the next one. Neither
-    means anything where the race is over.
+    The third array is the position of (a, b+1); that of (a+1, b) is the next one. Neither is
+    meaningful if the race is over.
     """
     index_type = np.int32 if 2 * (m + 1) * (n + 1) < 2**31 else np.int64
     if m == 0 or n == 0:  # over before it begins

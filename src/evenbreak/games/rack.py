@@ -22,29 +22,29 @@ else:
     ChanceT = TypeVar("ChanceT", covariant=True)
 
 _ROUNDING = 1e-12
-"""How far p + q may be from 1: what is left of roundings where the two were computed."""
+"""Tolerance for p + q, which should be 1: the remaining rounding if the two were computed."""
 
 
 @dataclass(frozen=True)
 class Rack(Generic[ChanceT]):
-    """One rack of 9-ball, 8-ball or any other game, of which one player wins.
+    """One rack of 9-ball, 8-ball or any other game that one of the players wins.
 
     Parameters
     ----------
     p1
-        with `p2`: P(player 1 wins the rack | player 1 breaks it); alone: P(player 1
-        wins the rack), whoever breaks.
+        with `p2`: P(player 1 wins the rack | player 1 breaks it); alone: P(player 1 wins the rack),
+        regardless of who breaks.
     p2
         P(player 2 wins the rack | player 2 breaks it); None if the break does not matter.
 
     q1, q2
-        P(the player of p1, p2 loses that rack), where it is known to more digits than 1 - p
-        has; None: 1 - p, which of a p with at most 15 decimals is taken as the decimal (.1 for .9).
+        P(the player of p1, p2 loses that rack), if it is known to more digits than 1 - p has; None:
+        1 - p, computed in decimal if p has at most 15 decimals (.1 for .9).
 
     A `Fraction` is kept in `given` for exact answers.
 
-    All may be arrays for the vectorised kernels of `evenbreak.matches`; the graph of a game
-    takes numbers only.
+    All may be arrays for the vectorized kernels in `evenbreak.matches`; the graph of a game takes
+    only numbers.
 
     Raises
     ------
@@ -83,7 +83,7 @@ class Rack(Generic[ChanceT]):
         _ = self.shape  # raises if p1 and p2 do not broadcast
 
     def _check(self, player: str) -> None:
-        """Check p and q of a player, and form q if it is not given."""
+        """Check a player's p and q, and compute q if it is not given."""
         p = probability(getattr(self, "p" + player), "p" + player)
         q = getattr(self, "q" + player)
         if q is None:
@@ -130,11 +130,11 @@ class Rack(Generic[ChanceT]):
 
     @property
     def in_fractions(self) -> bool:
-        """Whether a chance was given as a `Fraction`, which floats may not hold."""
+        """Whether any chance was given as a `Fraction`, which floats may not represent."""
         return any(isinstance(chance, Fraction) for chance in self.given)
 
     def move(self, player: int, breaker: int = 1) -> Any:
-        """Return P(`player` wins the rack | `breaker` breaks it), for the moves of a game.
+        """Return P(`player` wins the rack | `breaker` breaks it), for a game's moves.
 
         It is a `Fraction` if the chance was given as one.
 
@@ -149,7 +149,7 @@ class Rack(Generic[ChanceT]):
         return exact if player == own else 1 - exact
 
     def of_numbers(self) -> Rack[float]:
-        """Return the rack itself if it holds numbers, which a graph needs.
+        """Return the rack itself if it holds numbers, as a graph requires.
 
         Raises
         ------
@@ -170,7 +170,7 @@ class Rack(Generic[ChanceT]):
 
 
 def game_repr(game: Any) -> str:
-    """Return how a game is written: break formats by their names, arrays by their sizes.
+    """Return the `repr` of a game: break formats by name, arrays by size.
 
     >>> from evenbreak.games import Race, winner_breaks
     >>> Race(9, 5, Rack(0.6, 0.5), breaks=winner_breaks)

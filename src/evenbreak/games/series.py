@@ -1,4 +1,4 @@
-"""Endless play: rack after rack in one break format, with no score to end it."""
+"""Endless play: rack after rack in one break format, without a final score."""
 
 from __future__ import annotations
 

@@ -1,9 +1,8 @@
 """Handicaps: what makes an uneven game even, and what it does to ratings in the long run.
 
-`fair` finds the races that come nearest to a chance that was asked for, `chart` looks races
-up by rating difference, `level_chart` by skill levels, `ladder` says how far ratings wander
-that each match moves by a point; a system of `systems` moves a list's ratings, `moves` by how
-much after a night.
+`fair` finds the races closest to a given chance, `chart` looks up races by rating difference,
+`level_chart` looks them up by skill level, `ladder` calculates how far ratings wander when each
+match moves them by a point, and the systems in `systems` move a list's ratings after a night.
 """
 
 import lazy_loader

@@ -1,7 +1,7 @@
-"""Leagues over a season and longer: seasons simulated, and what sandbagging pays and shows.
+"""Leagues over a season and longer: simulated seasons, and the gains and signs of sandbagging.
 
 `players`, `schedule` and `season` describe a season, `many_seasons` plays many replicas of it at
-once, and `tally` keeps what came of them.
+once, and `tally` keeps the results.
 """
 
 import lazy_loader

@@ -1,8 +1,9 @@
-"""One league played under several handicap systems: what is added up for each of them.
+"""One league played under several handicap systems: the sums for each system.
 
 Every replica of the league is drawn once (`evenbreak.league.world`) and played by each system in
 turn. Sums are kept for groups of replicas, which are independent of each other, so that the error
-of any measure, and of the difference of two systems, follows from how it varies between groups.
+of any measure, and of the difference between two systems, follows from its variation between
+groups.
 """
 
 from __future__ import annotations
@@ -34,28 +35,29 @@ EVEN = 0.6
 """A match is even if neither player's chance is higher than this, given their true skills."""
 
 DECILES = 10
-"""Groups of players by true skill, if there are as many players."""
+"""Number of groups of players by true skill, if there are as many players."""
 
 GROUPS = 40
-"""Groups of replicas, if there are as many: errors come from them."""
+"""Number of groups of replicas, if there are as many: errors come from them."""
 
 _AT_ONCE = 1 << 13
-"""About how many players are played at a time: replicas times players."""
+"""Approximate number of players simulated at a time: replicas times players."""
 
 _INNINGS = 0.1
-"""Games that a player of middling skill wins an inning; twice as many a doubling above that.
+"""Games that a player with average skill wins per inning; a doubling above that, twice as many.
 
-Then the first to finish wins with the chance that the skills say. No league publishes its innings:
-at this rate the levels of the innings rule as told (`apa-like`) stay where they are, on average.
+With this, the first to finish wins with the chance that the skills give. No league publishes its
+innings: at this rate, the levels under the reported innings rule (`apa-like`) stay the same on
+average.
 """
 
 Captains = Callable[["Doublings", Floats, Floats, Floats], tuple[Ints, Ints]]
-"""Lineups of two teams: from the system, the published numbers of the players there of each team,
-and two uniform numbers to the places of those who play, as many of each team."""
+"""A function for two teams' lineups: from the system, the published numbers of each team's players
+present, and two uniform numbers, to the positions of those who play, equally many on each team."""
 
 
 class Doublings:
-    """How the numbers that a system publishes and the skills of a world go together."""
+    """How the numbers that a system publishes relate to the skills in a world."""
 
     def __init__(self, system: System, world: World) -> None:
         self.system, self.world = system, world
@@ -71,13 +73,13 @@ class Doublings:
 
     @property
     def fixed(self) -> bool:
-        """Whether it is known which skill a number stands for."""
+        """Whether the skill that a number stands for is known."""
         return self.levels is not None or (
             self.system.publishes == "ratings" and self.system.scale is not None
         )
 
     def skill(self, published: Floats) -> Floats:
-        """Return the skill that a published number stands for; itself if nothing says that."""
+        """Return the skill that a published number stands for, or the number if that is unknown."""
         if self.levels is not None:
             return np.asarray(np.interp(published, self.levels, self.points))
         if not self.fixed:
@@ -117,28 +119,29 @@ class Contest:
     replicas
         in each group, shape (groups,).
     matches
-        shape (systems, groups, 7): matches, those that are even, the chances of the better players,
-        games, the matches with one skill on both sides (there is no better player), those whose
-        race is right, and the chances of players a doubling better than their race expects.
+        shape (systems, groups, 7): matches, even matches, the better players' chances, games,
+        matches with equal skills (without a better player), matches whose race is right, and the
+        chances of players a doubling better than their race expects.
     nights
-        shape (systems, groups, 3): nights, the games of the player (or team) with the most games
-        on each, and numbers published again with a change.
+        shape (systems, groups, 3): nights, the games of the player (or team) with the most games on
+        each, and published numbers that changed.
     deciles
-        shape (systems, groups, deciles, 3): the matches of the players, their chances to win, and
-        the even ones; by true skill at the start, the weakest first.
+        shape (systems, groups, deciles, 3): the players' matches, their chances of winning, and
+        their even matches, by true skill at the start from the weakest up.
     titles
-        shape (systems, groups, deciles): seasons won by players (or teams) of each part.
+        shape (systems, groups, deciles): seasons won by players (or teams) in each decile.
     weeks
         shape (systems, groups, nights + 1, 6): players; of the numbers published (as skills, in
         doublings) and the true skills the sums of squares and of products about their means in
         a replica, in the order xx, xy, yy; the sum of the differences of the two means; replicas.
     newcomers
-        shape (systems, groups, nights + 1, 4): the same of newcomers, without means, by the
-        nights since they came.
+        shape (systems, groups, nights + 1, 4): the same for newcomers, without means, by the number
+        of nights since they joined.
     dumped
-        shape (systems, groups, 2, 2): matches that count and those won, of others and sandbaggers.
+        shape (systems, groups, 2, 2): matches that count and wins in them, for others and for
+        sandbaggers.
     players
-        shape (systems, groups, players, 2): matches and wins of each player.
+        shape (systems, groups, players, 2): each player's matches and wins.
     """
 
     replicas: Ints
@@ -153,7 +156,7 @@ class Contest:
 
 
 class _Side:
-    """One system's course through the replicas of a chunk."""
+    """One system's progress through the replicas in a chunk."""
 
     def __init__(self, system: System, play: Play, sums: _Sums, captains: Captains | None) -> None:
         self.system, self.play, self.world, self.sums = system, play, play.world, sums
@@ -176,7 +179,7 @@ class _Side:
                               shape[1]))  # fmt: skip
 
     def play_night(self, night: Night, tables: RaceTables) -> None:
-        """Play the matches of a night and publish what follows from them."""
+        """Play a night's matches and publish the resulting numbers."""
         sums, many = self.sums, self.play.replicas
         a, b = self._pairs(night)
         columns = np.arange(many)
@@ -209,7 +212,7 @@ class _Side:
         sums.count_night(self, night, played, at_a, at_b, score_a + score_b)
 
     def _count_wins(self, night: Night, both: list[Ints], won: Bools) -> None:
-        """Count the wins of a night: for the title, for what dumping pays, for each player."""
+        """Count a night's wins: for the title, for the gain from dumping, and for each player."""
         sums, size = self.sums, self.play.skill.size
         winner = np.where(won, *both)
         wins = np.bincount(winner, minlength=size).reshape(self.play.skill.shape)
@@ -238,7 +241,7 @@ class _Side:
         self.before, self.ratings = self.ratings, updated(self.system, self.history)
 
     def _pairs(self, night: Night) -> tuple[Ints, Ints]:
-        """Return which players meet; in a league of teams, by the captains' lineups."""
+        """Return which players meet; in a team league, by the captains' lineups."""
         if self.world.team is None:
             return night.a, night.b
         ups = [self._line_up(team, night) for team in range(self.world.sides)]
@@ -253,7 +256,7 @@ class _Side:
         return np.asarray(holder[(holder >= 0) & (np.asarray(self.world.teams) == team)])
 
     def _line_up(self, team: int, night: Night) -> Ints:
-        """Return who a captain with a habit puts up: anyone there, as long as the cap allows."""
+        """Return whom a captain with a habit puts up: anyone present, if the cap allows."""
         world, sets, rows = self.world, self.world.sets, self._members(team, night)
         groups = np.array(list(combinations(range(len(rows)), sets)))
         pick = night.pick[rows] - 10.0 * ~night.here[rows]
@@ -267,7 +270,7 @@ class _Side:
     def _best(
         self, night: Night, teams: tuple[int, int], usual: tuple[Ints, Ints]
     ) -> tuple[Ints, Ints]:
-        """Return the captains' best lineups; the usual ones where too few are there for those."""
+        """Return the captains' best lineups, or the usual ones if too few players are present."""
         if self.captains is None:
             return usual
         ours, theirs = (side.copy() for side in usual)
@@ -294,7 +297,7 @@ _COLUMNS: dict[str, Any] = {
 
 
 class _Sums:
-    """The sums of one system over a chunk, by group."""
+    """One system's sums over a chunk, by group."""
 
     def __init__(self, play: Play, groups: Ints) -> None:
         world, many = play.world, int(groups.max()) + 1
@@ -318,13 +321,13 @@ class _Sums:
         self.starts = np.searchsorted(groups, np.arange(many))
 
     def by_group(self, values: Any) -> Floats:
-        """Return the sums of each group, the last axis being the replicas."""
+        """Return the sums for each group, with the replicas on the last axis."""
         return np.asarray(np.add.reduceat(values, self.starts, axis=-1), dtype=float)
 
     def count_matches(
         self, at_a: Ints, at_b: Ints, played: Bools, chance: Floats, true: Floats, each: Any
     ) -> None:
-        """Count the matches of a night, how even they are, their games, and how right races are."""
+        """Count a night's matches: how even they are, their games, and how right the races are."""
         even = played & (np.maximum(chance, 1.0 - chance) <= EVEN)
         better = np.where(true > 0, chance, 1.0 - chance)
         better = np.where(true == 0, 0.5, better)
@@ -340,7 +343,7 @@ class _Sums:
                 self.deciles[..., k] += counted.reshape(shape)
 
     def count_players(self, games: Ints, wins: Ints, dumps: Bools | None) -> None:
-        """Count matches and wins of each player, and those that count by who holds back."""
+        """Count each player's matches and wins, and those that count, by who holds back."""
         for k, value in enumerate((games, wins)):
             self.players[..., k] += self.by_group(value).T
             if dumps is not None:
@@ -348,19 +351,19 @@ class _Sums:
                     self.dumped[:, who, k] += self.by_group((value * rows).sum(axis=0))
 
     def count_titles(self, share: Floats) -> None:
-        """Count the titles of a season; those who are level share one."""
+        """Count a season's titles, which players with equal results share."""
         size = self.titles.size
         counted = np.bincount(self.title_key.ravel(), share.ravel(), size)
         self.titles += counted.reshape(self.titles.shape)
 
     def count_start(self, side: _Side) -> None:
-        """Count how far off the numbers are before the first night."""
+        """Count the errors of the numbers before the first night."""
         self._count_errors(side, 0, side.world.holders(1))
 
     def count_night(
         self, side: _Side, night: Night, played: Bools, at_a: Ints, at_b: Ints, games: Ints
     ) -> None:
-        """Count the length of a night, what was published after it, and how far off that is."""
+        """Count a night's length, the numbers published after it, and their errors."""
         shape = self.play.skill.shape
         each: Floats = np.zeros(shape)
         for at in (at_a, at_b):
@@ -399,7 +402,7 @@ class _Sums:
 
 
 class _Work(NamedTuple):
-    """What all workers know."""
+    """The data that all workers share."""
 
     world: World
     systems: tuple[System, ...]
@@ -412,7 +415,7 @@ class _Work(NamedTuple):
         return min(self.replicas, GROUPS)
 
     def chunks(self) -> list[tuple[int, int]]:
-        """Return the first and the last group of each chunk."""
+        """Return the first and last group of each chunk."""
         size = max(1, _AT_ONCE * self.groups // (self.world.many * self.replicas))
         starts = range(0, self.groups, size)
         return [(start, min(start + size, self.groups)) for start in starts]
@@ -429,25 +432,26 @@ def play_systems(
     jobs: int = 1,
     progress: Callable[[int, int], None] | None = None,
 ) -> Contest:
-    """Return the results of replicas of one league under each of some systems.
+    """Return the results of replicas of one league under each of the given systems.
 
     Parameters
     ----------
     systems
-        one or more; differences are taken from the first.
+        one or more systems; differences are taken from the first.
     replicas
-        how many leagues are drawn, 1 or more; 40 or more for good standard errors.
+        how many leagues are drawn, 1 or more; good standard errors need at least 40.
     seed
         a whole number from 0, which gives the same sums to the last bit, or a generator.
     captains
-        who plays in a league of teams; None: anyone there, as long as the cap allows.
+        who chooses the players in a team league; None: any player present, as far as the cap
+        allows.
     executor, jobs, progress
         as of `simulate`; the result is the same for any number of workers.
 
     Raises
     ------
     InputError
-        if a number is not whole or too small, or a system returns what it must not.
+        if a number is not whole or too small, or a system returns invalid values.
     """
     work = _Work(world, tuple(systems), whole(replicas, "replicas", at_least=1), seed_of(seed),
                  captains)  # fmt: skip

@@ -1,4 +1,4 @@
-"""What is counted while a chunk is played, and how it becomes a tally."""
+"""The quantities counted while a chunk is played, and their conversion to a tally."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from evenbreak.handicaps.ladders.comparison import near
 from evenbreak.league.season import FIFTHS, WEEK_COLUMNS, Season, Tally, fifths_of
 
 _DOUBLINGS = 4.0
-"""How far rating errors and moves are counted one by one: to odds of 16 to 1."""
+"""How far rating errors and moves are counted individually: up to odds of 16 to 1."""
 
 _BINS = 128
-"""The most gaps of skill that are counted separately."""
+"""The most skill gaps that are counted separately."""
 
 ALONE = 1 << 15
 """In a league with more players than this each batch is one replica."""
@@ -27,14 +27,14 @@ _SMALL = 1 << 15
 """The first whole number that signed 16 bits cannot hold."""
 
 _FEW = 1 << 18
-"""Errors of a whole chunk that are kept and counted at once, since each count takes a while."""
+"""Errors in a whole chunk that are kept and counted at once, since each count takes a while."""
 
 _BLOCK = 1 << 15
 """Ratings counted at a time, so that they stay in the cache."""
 
 
 class Ended(NamedTuple):
-    """The arrays at the end of a chunk, players down: one column, or one for each replica."""
+    """The arrays at the end of a chunk, with players as rows: one column, or one per replica."""
 
     rating: NDArray[Any]
     wins: NDArray[Any]
@@ -44,7 +44,7 @@ class Ended(NamedTuple):
 
 
 class Counting:
-    """Counts of a chunk while it is played."""
+    """Counts for a chunk while it is played."""
 
     def __init__(self, season: Season, replicas: int, batches: int) -> None:
         self.season, self.replicas, self.batches = season, replicas, batches
@@ -72,7 +72,7 @@ class Counting:
         skill: NDArray[np.int16],
         here: Bools | None,
     ) -> None:
-        """Count the rating errors of the players in the league (None: everyone)."""
+        """Count the rating errors of the league's current players (None: everyone)."""
         if here is None and rating.size * len(self.errors) <= _FEW:
             self.kept.append((week, rating - skill))
             return
@@ -113,7 +113,7 @@ class Counting:
         self.weeks[:, weeks] = np.stack([np.full_like(sums[0], errors.shape[2]), *sums]).T
 
     def matches(self, cell: Places, won: Bools, played: Any) -> None:
-        """Count matches by their place in the tables of all batches, and by winner.
+        """Count matches by their position in the tables of all batches, and by winner.
 
         `cell` is even, and is overwritten.
         """
@@ -123,7 +123,7 @@ class Counting:
     def scores(self, row: NDArray[Any], apart: NDArray[Any], score: Any, played: Any) -> None:
         """Count matches by skill difference and by class of their final score.
 
-        `row` is the row of the skill difference in the tables of all batches.
+        `row` is the row for the skill difference in the tables of all batches.
         """
         look = self.look
         place = (apart.astype(np.intp) + look.widest) * look.outcomes + score
@@ -168,7 +168,7 @@ class Counting:
         return rows.reshape(self.batches, many, -1).transpose(1, 0, 2).reshape(many, -1)
 
     def _products(self, wins: Any, moved: Any, matches: Any, share: int) -> Any:
-        """Return the `products` of a tally; None if a batch is one replica."""
+        """Return a tally's `products`; None if a batch is one replica."""
         if len(wins) > ALONE:
             return None
         won, gone, played = (
@@ -220,7 +220,7 @@ class Counting:
 
 
 def _add_up(tables: Ints, where: NDArray[Any], played: Any) -> None:
-    """Add one at each place where a match is played."""
+    """Add one at each position where a match is played."""
     np.add.at(tables.reshape(-1), where.ravel() if played is None else where[played], 1)
 
 

@@ -1,12 +1,12 @@
-"""What losing on purpose pays in the long run, in cycles of dumping and playing in earnest.
+"""Long-run gain from losing on purpose, in cycles of dumping and playing in earnest.
 
-A cycle of D matches dumped and E in earnest is one step of a chain of rating errors,
-C = K^E B^D, and its stochastic limit is the rating error at which the player arrives each time.
+A cycle of D dumped matches and E in earnest is one step of a chain of rating errors, C = K^E B^D,
+and its stochastic limit is the rating error at which the player arrives each time.
 
 If a match won is a point up and one lost a point down, the rating comes back to where it was
-exactly if the player wins (D + E) / 2 of the E matches: the share won follows from the counts
-alone, whatever the chart. The chart only sets how low the rating must be for that; if it has no
-race that one-sided, the rating falls without end.
+exactly if the player wins (D + E) / 2 of the E matches: so the share of wins follows from the
+counts alone, for any chart. The chart only determines how low the rating must be for that; if it
+has no race that one-sided, the rating falls forever.
 """
 
 from __future__ import annotations
@@ -29,29 +29,29 @@ from evenbreak.league.sandbag_pay import (
 )
 
 _FOLLOWED, _SQUARINGS = 256, 40
-"""Steps taken before the chain is squared, and the most squarings."""
+"""Number of steps taken before the chain is squared, and the largest number of squarings."""
 
 _SETTLED = 1e-15
-"""A smaller change than this is only rounding."""
+"""A change smaller than this is only rounding."""
 
 
 class DumpCycle(NamedTuple):
-    """A cycle in the long run.
+    """Long-run behavior of a cycle.
 
     Parameters
     ----------
     dumped, earnest
-        matches of a cycle: dumped, and played to win.
+        matches in a cycle: dumped, and played to win.
     rating_error
-        rating less skill when the matches that count start, on average, in points.
+        mean rating minus skill when the matches that count start, in points.
     p_win
-        P(a match that counts is won), averaged over those of a cycle.
+        P(a match that counts is won), averaged over a cycle.
     profit
-        per match, including dumped ones, beyond a player who always plays to win (and wins half of
-        the matches, if the system takes as much as it gives).
+        per match, including dumped ones, compared with a player who always plays to win (and wins
+        half of the matches, if the system takes as much as it gives).
     held
-        P(before a match that counts the rating is at the lower end of the ladder, or so near that
-        another defeat would pass it); above a millionth the end, and not the chart, decides.
+        P(before a match that counts the rating is at the lower end of the ladder, or so close that
+        another defeat would pass it); above a millionth, the end decides, not the chart.
     """
 
     dumped: int
@@ -70,11 +70,12 @@ def dump_cycle(
     Parameters
     ----------
     ladder
-        at its lower end a rating falls no further.
+        the ladder; a rating does not fall below its lower end.
     dumped, earnest
         matches dumped and then played to win, again and again.
     stake, dumped_stake
-        difference in value between winning and losing a match that counts, and one that is dumped.
+        difference in value between winning and losing, for a match that counts and for a dumped
+        one.
 
     Raises
     ------
@@ -91,7 +92,7 @@ def dump_cycle(
 
 
 def _limit(chain: Floats, start: Floats) -> Floats:
-    """Return the stochastic limit of a column-stochastic chain from a start."""
+    """Return the stochastic limit of a column-stochastic chain, given the start."""
     # The chain may have a period; its average with standing still has none, and the same limit.
     # Single steps are cheap; where convergence is slow, squaring makes them longer.
     lazy, law = (chain + np.eye(chain.shape[0])) / 2.0, start
@@ -108,7 +109,7 @@ def _limit(chain: Floats, start: Floats) -> Floats:
 def _cycles(
     ladder: Ladder, counts: Iterable[tuple[int, int]], stake: float, dumped_stake: float
 ) -> list[DumpCycle]:
-    """Return the long run of each of some cycles: matches dumped, and played in earnest."""
+    """Return the long run of each cycle, given as matches dumped and matches played in earnest."""
     step, dump = earnest_matrix(ladder), dumped_matrix(ladder)
     last, start = at_the_end(ladder), start_law(ladder, 0)
     errors, wins = np.asarray(ladder.errors, dtype=float), np.asarray(ladder.wins)
@@ -142,12 +143,12 @@ def best_cycle(
     stake: float = 10.0,
     dumped_stake: float = 1.0,
 ) -> DumpCycle:
-    """Return the cycle with the largest profit per match, among those of some lengths.
+    """Return the cycle with the largest profit per match among the given lengths.
 
     Parameters
     ----------
     lengths
-        the matches of a cycle, dumped ones included.
+        the number of matches in a cycle, including dumped ones.
     lowest
         the lowest mean rating error, in points and below 0, at which the player is willing to start
         playing to win; None: any that the chart allows.

@@ -1,8 +1,8 @@
-"""What the sums of a contest say of each system, with errors, and of the difference of two.
+"""Measures of each system from a contest's sums, with errors, and differences between systems.
 
-A measure is a function of sums over all groups of replicas. Its error is the jackknife's: how it
-varies when each group is left out in turn. The measure of a difference leaves the same group out
-of both systems, so what the two have in common (the same players, nights and luck) cancels.
+A measure is a function of sums over all groups of replicas. Its error is a jackknife estimate, from
+its variation when each group is left out in turn. For a difference, the same group is left out of
+both systems, so whatever the two have in common (the same players, nights and luck) cancels.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from evenbreak.league.contest import Contest
 from evenbreak.league.world import World
 
 RIGHT = 0.5
-"""Newcomers are right once their ratings are off by this much (root mean square), in doublings."""
+"""Error (root mean square, in doublings) at which newcomers' ratings count as right."""
 
 _AROUND = 8
-"""Newcomers' errors are smoothed over this part of a season's nights on either side."""
+"""Newcomers' errors are smoothed over this fraction of a season's nights on either side."""
 
 _LATE = 4
-"""Errors are means over the last part of a league, one in this many of its nights."""
+"""Errors are means over the last part of a league, one over this number of its nights."""
 
 
 class Estimate(NamedTuple):
@@ -34,12 +34,12 @@ class Estimate(NamedTuple):
     Parameters
     ----------
     value, error
-        of each system, and the standard error; shape (systems,) or (systems, parts). NaN where
+        each system's value and its standard error; shape (systems,) or (systems, parts). NaN where
         nothing was counted, or there are too few groups for an error.
     change, change_error
         the difference from the first system, and its standard error.
     quantile
-        by which a standard error is multiplied for a 90 % interval.
+        the factor on a standard error for a 90% interval.
     """
 
     value: Floats
@@ -50,24 +50,24 @@ class Estimate(NamedTuple):
 
     @property
     def margin(self) -> Floats:
-        """Half of the interval of each value."""
+        """Half the width of each value's interval."""
         return np.asarray(self.quantile * self.error)
 
     @property
     def change_margin(self) -> Floats:
-        """Half of the interval of each difference."""
+        """Half the width of each difference's interval."""
         return np.asarray(self.quantile * self.change_error)
 
     @property
     def clear(self) -> Floats:
-        """The sign of the difference from the first system; 0 where it is within its error."""
+        """The sign of the difference from the first system; 0 if it is within its error."""
         beyond = np.abs(self.change) > self.change_margin + 1e-12
         return np.where(beyond, np.sign(self.change), 0.0)
 
 
 @dataclass(frozen=True, eq=False)
 class _Total:
-    """Sums over groups, and what is needed to read them."""
+    """Sums over groups, and what is needed to interpret them."""
 
     sums: Mapping[str, Floats]
     world: World
@@ -79,7 +79,7 @@ class _Total:
 
 
 Measure = Callable[[_Total], Floats]
-"""From sums with the systems and the samples first to a value for each of them."""
+"""A function from sums, with systems and samples as the first axes, to a value for each."""
 
 
 def _ratio(above: Floats, below: Floats) -> Floats:
@@ -95,7 +95,7 @@ def _squares(of: Floats, slope: Floats) -> Floats:
 
 
 def _slope(total: _Total) -> Floats:
-    """Return by how much a point of each system is multiplied: 1 where its scale says it."""
+    """Return the factor on a point of each system: 1 if its scale is fixed."""
     sums = total["weeks"].sum(axis=-2)
     fitted = _ratio(sums[..., 2], sums[..., 1])
     free = total.calibrated.reshape(-1, *(1,) * (fitted.ndim - 1))
@@ -103,7 +103,7 @@ def _slope(total: _Total) -> Floats:
 
 
 def _errors_by_night(total: _Total) -> Floats:
-    """Return the root mean square error after each night, over the cycle that ends there."""
+    """Return the root mean square error after each night, over the cycle that ends that night."""
     squares = _squares(total["weeks"], _slope(total))
     mean = squares.copy()
     for night in range(2, mean.shape[-1]):
@@ -126,7 +126,7 @@ def _newcomer_errors(total: _Total) -> Floats:
 
 
 def _nights_until_right(total: _Total) -> Floats:
-    """Return after how many nights newcomers are right, between nights by a straight line."""
+    """Return the number of nights until newcomers are right, interpolated linearly."""
     errors = _smooth_newcomer_errors(total)
     there = errors <= np.log(RIGHT)
     first = there.argmax(axis=-1)
@@ -138,11 +138,11 @@ def _nights_until_right(total: _Total) -> Floats:
 
 
 def _smooth_newcomer_errors(total: _Total) -> Floats:
-    """Return logs of newcomers' errors after each night from 1, by a line through those near it.
+    """Return the log of newcomers' errors after each night from 1, by a local linear fit.
 
-    The first of many noisy values below a limit comes too early: intervals for it held in 77 of
-    100 runs, and those for a parabola's in 80, where the errors hardly fall any more. Infinite
-    after nights that no newcomer has had.
+    The first of many noisy values below a limit comes too early: its intervals held in 77 of 100
+    runs, and those of a parabola in 80, where the errors hardly fall any more. The value is
+    infinite after nights that no newcomer has reached.
     """
     counted = total["newcomers"][..., 1 : total.world.weeks + 1, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -211,18 +211,17 @@ MEASURES: Mapping[str, Measure] = {
     "titles_strongest": lambda total: _titles(total)[..., -_fifth(total) :].mean(axis=-1),
     "titles_weakest": lambda total: _titles(total)[..., : _fifth(total)].mean(axis=-1),
 }
-"""One number of each system: shares, doublings of the odds, nights, games.
+"""Measures with one number per system: shares, doublings of the odds, nights, games.
 
-`p_even`: matches in which neither player's chance is above 60 %, given the true skills.
-`p_right`: matches whose race makes up for the difference of skills to within a quarter doubling;
-unlike `p_even` it does not depend on how long races are. `p_doubling_wins`: the chance of a player
-who is a doubling better than the race expects. `p_better_wins`: the chance of the better player.
-`rating_error`: the root mean square difference of published number and skill over the last quarter
-of the nights, whole cycles only, less what all have in common. `sandbagging_pays`: how much more
-of the matches that count sandbaggers win than others. `drift`: by how much all numbers rise
-against the skills in a season.
-`titles_strongest`, `titles_weakest`: titles of the strongest and the weakest fifth, as a multiple
-of an equal share.
+`p_even`: matches in which neither player's chance is above 60%, given the true skills. `p_right`:
+matches whose race makes up for the skill difference to within a quarter doubling; unlike `p_even`
+it does not depend on how long races are. `p_doubling_wins`: the chance of a player who is a
+doubling better than the race expects. `p_better_wins`: the chance of the better player.
+`rating_error`: the root mean square difference between published number and skill over the last
+quarter of the nights, in whole cycles, after removing the part common to all players.
+`sandbagging_pays`: the share of matches that count that sandbaggers win, minus that of others.
+`drift`: how much all numbers rise relative to the skills in a season. `titles_strongest`,
+`titles_weakest`: titles of the strongest and the weakest fifth, as a multiple of an equal share.
 """
 
 PARTS: Mapping[str, Measure] = {
@@ -249,7 +248,7 @@ def estimate(
     calibrated: Floats | None = None,
     confidence: float = 0.9,
 ) -> Estimate:
-    """Return a measure of each system of a contest, with errors.
+    """Return a measure of each system in a contest, with errors.
 
     Parameters
     ----------
@@ -258,10 +257,10 @@ def estimate(
     cycle
         the least common multiple of the systems' cycles.
     calibrated
-        which systems publish numbers of no fixed scale: a point of them is worth what fits the
-        skills best. None: no system does.
+        which systems publish numbers without a fixed scale: the value of a point is then fitted to
+        the skills. None: no system does.
     confidence
-        of the intervals by `Estimate.quantile`.
+        the confidence level of the intervals from `Estimate.quantile`.
     """
     names = [name for name in vars(contest) if name != "replicas"]
     systems, groups = contest.matches.shape[:2]

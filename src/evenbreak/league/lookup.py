@@ -1,8 +1,8 @@
-"""The chances and moves of matches as flat tables of whole numbers, for millions of draws.
+"""The chances and moves of matches as flat integer tables, for millions of draws.
 
-A match is looked up by two whole differences: of ratings (which race it is, how ratings move) and
-of skills (how likely each score is). Chances are held in 32 bits and compared with 32 random
-bits, so a chance is off by less than 2^-32.
+A match is looked up by two integer differences: the rating difference (its race and the moves) and
+the skill difference (the chance of each score). Chances are held in 32 bits and compared with 32
+random bits, so a chance is off by less than 2^-32.
 """
 
 from __future__ import annotations
@@ -19,21 +19,21 @@ from evenbreak.arrays import Bools, Floats, Ints, Places
 from evenbreak.handicaps.systems.match_table import MatchTable
 
 CLASSES = 3
-"""What is counted of a final score: hill-hill, shutout, games."""
+"""The features counted for a final score: hill-hill, shutout, games."""
 
 _CERTAIN = 12.0
-"""Larger gaps of skill, in doublings of the odds, are treated as this one."""
+"""Limit on skill gaps, in doublings of the odds; larger ones are treated as equal to it."""
 
 _AT_ONCE = 64
-"""Skill differences whose scores are worked out at a time."""
+"""Number of skill differences whose scores are worked out at a time."""
 
 
 @dataclass(frozen=True, eq=False)
 class Lookup:
-    """A system's matches, looked up by difference of skills and of ratings; `lookup_of` makes it.
+    """Lookup of a system's matches, by skill difference and rating difference; see `lookup_of`.
 
-    Skill differences larger than `gap`, in whole points, count as this one. `wins` has P(player 1
-    wins) in 2^32nds, flat, at 2 * ((skill difference + gap) * races + number of the race) and the
+    Skill differences larger than `gap`, in whole points, are treated as `gap`. `wins` has P(player
+    1 wins) in 2^32nds, flat, at 2 * ((skill difference + gap) * races + number of the race) and the
     place after it, so that the winner can be added to the place.
     """
 
@@ -43,27 +43,27 @@ class Lookup:
 
     @property
     def widest(self) -> int:
-        """The largest rating difference; larger ones are treated as this one."""
+        """The largest rating difference; larger ones are treated as equal to it."""
         return self.table.widest
 
     @property
     def width(self) -> int:
-        """How many rating differences there are."""
+        """The number of rating differences."""
         return 2 * self.table.widest + 1
 
     @property
     def races(self) -> int:
-        """How many different races there are."""
+        """The number of different races."""
         return len(self.table.races[0])
 
     @cached_property
     def twice_race(self) -> Places:
-        """Twice the number of the race by rating difference, negative ones from the end."""
+        """Twice the race number by rating difference; negative differences count from the end."""
         return np.asarray(np.roll(2 * self.table.races[1], -self.widest))
 
     @property
     def outcomes(self) -> int:
-        """The number of final scores that fit at each rating difference."""
+        """The number of possible final scores at each rating difference."""
         return int(self.table.games.shape[1])
 
     @cached_property
@@ -79,7 +79,7 @@ class Lookup:
 
     @cached_property
     def steps(self) -> tuple[int, int] | None:
-        """The points that every winner and every loser moves; None if they depend on the match."""
+        """The points that winners and losers move in every match; None if they vary by match."""
         table = self.table
         real = table.games[..., 0] >= 0
         won = np.where(table.won, table.moves[..., 0], table.moves[..., 1])[real]
@@ -90,7 +90,7 @@ class Lookup:
 
     @cached_property
     def by_winner(self) -> tuple[NDArray[np.int16], NDArray[np.int16]] | None:
-        """Points of player 1 and of player 2, flat by (rating difference, does player 1 win).
+        """Points of player 1 and player 2, flat by (rating difference, whether player 1 wins).
 
         None if they depend on the final score too.
         """
@@ -107,7 +107,7 @@ class Lookup:
 
     @cached_property
     def moves(self) -> tuple[NDArray[np.int16], NDArray[np.int16]]:
-        """Points of player 1 and of player 2, flat by (rating difference, final score)."""
+        """Points of player 1 and player 2, flat by (rating difference, final score)."""
         first, second = np.moveaxis(self.table.moves.astype(np.int16), 2, 0)
         return first.ravel(), second.ravel()
 
@@ -121,7 +121,8 @@ class Lookup:
     def classes(self) -> Ints:
         """Hill-hill, shutout and games of each final score, shape (width, outcomes, 3).
 
-        A match is hill-hill if the loser lacks one game, a shutout if the loser has none.
+        A match is hill-hill if the loser is one game short, and a shutout if the loser has no
+        games.
         """
         games, needs = self.table.games, self.table.needs[:, None, :]
         real = games[..., 0] >= 0
@@ -131,23 +132,23 @@ class Lookup:
 
     @property
     def codes(self) -> int:
-        """The number of values that `code` can have."""
+        """The number of possible values of `code`."""
         return 4 * (int(self.classes[..., 2].max()) + 1)
 
     @cached_property
     def code(self) -> Ints:
-        """`classes` as one number, 4 * games + 2 * shutout + hill-hill, flat."""
+        """`classes` as a single number, 4 * games + 2 * shutout + hill-hill, flat."""
         return np.asarray(self.classes @ np.array([1, 2, 4])).ravel()
 
     @cached_property
     def noted(self) -> Ints:
-        """The `classes` of each value of `code`, shape (codes, 3)."""
+        """The `classes` for each value of `code`, shape (codes, 3)."""
         code = np.arange(self.codes)
         return np.column_stack([code & 1, code >> 1 & 1, code >> 2])
 
     @cached_property
     def won_games(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """Games of player 1 and of player 2, flat by (rating difference, final score)."""
+        """Games of player 1 and player 2, flat by (rating difference, final score)."""
         first, second = np.moveaxis(self.table.games.astype(np.int32), 2, 0)
         return first.ravel(), second.ravel()
 
@@ -164,7 +165,7 @@ class Lookup:
 
     @cached_property
     def cumulative(self) -> tuple[NDArray[np.uint32], Places]:
-        """The largest draw for each final score, and the race of each rating difference.
+        """The largest draw for each final score, and the race at each rating difference.
 
         The first has shape (final scores, (2 * gap + 1) * races): a table for each score.
         """
@@ -203,7 +204,7 @@ Score = NDArray[np.int8]
 
 
 def random_bits(rng: np.random.Generator, shape: tuple[int, ...]) -> NDArray[np.uint32]:
-    """Return whole numbers from 0 to 2^32 - 1, each equally likely.
+    """Return integers from 0 to 2^32 - 1, each equally likely.
 
     >>> random_bits(np.random.default_rng(1), (2, 3)).shape
     (2, 3)
@@ -215,7 +216,7 @@ def random_bits(rng: np.random.Generator, shape: tuple[int, ...]) -> NDArray[np.
 
 
 def draw_winners(wins: NDArray[np.uint32], cell: NDArray[Any], rng: np.random.Generator) -> Bools:
-    """Return where player 1 wins; `cell` is the place in `wins`, the chances in 2^32nds."""
+    """Return where player 1 wins; `cell` is the position in `wins`, with chances in 2^32nds."""
     limit = np.empty(cell.shape, dtype=np.uint32)
     np.take(wins, cell, out=limit, mode="wrap")  # all are in range; 'raise' would copy
     return random_bits(rng, cell.shape) < limit

@@ -1,15 +1,15 @@
-"""Many replicas of a season at once, a round of matches at a time.
+"""Simulate many replicas of a season at once, a round of matches at a time.
 
-Ratings are an array of small whole numbers, players down and replicas across, so the replicas of
-a player lie side by side in memory. A round gathers the rows of the players who meet, looks up
-all their matches in flat tables by race and skill difference, draws each winner with 32 random
-bits, adds the moves, and counts everything on the way. Rounds are played in blocks that stay in
-the cache.
+Ratings are an array of small integers, with players as rows and replicas as columns, so a player's
+replicas are adjacent in memory. A round gathers the rows of the players who meet, looks up all
+their matches in flat tables by race and skill difference, draws each winner with 32 random bits,
+adds the moves, and counts everything along the way. Rounds are played in blocks that stay in the
+cache.
 
 Replicas side by side share the draw of opponents: they are a *batch*. Standard errors come from
 the differences between batches, so there must be many of them, while numpy is fast with long
-arrays. So a *chunk* plays several batches as one league, the players of each batch below those of
-the one before.
+arrays. So a *chunk* plays several batches as one league, with the players of each batch placed
+below those of the previous batch.
 """
 
 from __future__ import annotations
@@ -37,13 +37,13 @@ _HIGHEST = 16_000
 """The highest rating, in points, whose differences fit 16 bits."""
 
 _MANY = 30_000
-"""With more matches than this a player's wins in another week might not fit 16 bits."""
+"""Number of matches above which a player's wins in another week might not fit 16 bits."""
 
 _LOOK = 8
-"""Weeks between two looks at the highest and the lowest rating."""
+"""Number of weeks between two checks of the highest and the lowest rating."""
 
 _WIN = 1 << 16
-"""A win in the upper bits of a player's state."""
+"""One win, in the upper bits of a player's state."""
 
 
 def run_chunk(
@@ -56,7 +56,7 @@ def run_chunk(
     replicas
         in each batch, 1 or more.
     seed
-        of all draws of the chunk; the same seed gives the same tally.
+        for all draws in the chunk; the same seed gives the same tally.
     batches
         1 or more.
 
@@ -79,12 +79,12 @@ def run_chunk(
 
 
 class _Chunk:
-    """The state of the replicas while they are played.
+    """State of the replicas while they are played.
 
     The arrays have a row for each player of the first batch, then of the second, and so on.
 
-    `state` has a player's rating in its lower 16 bits and the wins in its upper ones, so that
-    both are gathered and put back together: rating + 2^16 wins.
+    `state` has a player's rating in its lower 16 bits and the wins in its upper bits, so that both
+    are gathered and written together: rating + 2^16 wins.
     """
 
     def __init__(
@@ -124,7 +124,7 @@ class _Chunk:
         self.count = Counting(season, replicas, batches)
 
     def _column(self, of_players: NDArray[Any]) -> NDArray[Any]:
-        """Return a column of the players for all rows."""
+        """Return a column of the players, expanded to all rows."""
         stacked = of_players if self.batches == 1 else np.tile(of_players, self.batches)
         return stacked[:, None]
 
@@ -146,7 +146,7 @@ class _Chunk:
         self.count.week(week, rating, self.points, here)
 
     def here(self, week: int) -> Bools | None:
-        """Return which rows are in the league in a week; None: all of them."""
+        """Return which rows are in the league in a week; None: all rows."""
         return None if self.stay else self._column(self.season.players.here(week))[:, 0]
 
     def play(self, week: int) -> None:
@@ -203,7 +203,7 @@ class _Chunk:
         return [(a[both], b[both]) for a, b in rounds for both in [here[a] & here[b]]]
 
     def _count_matches(self, a: Places, b: Places) -> None:
-        """Count the matches of a round in all replicas."""
+        """Count a round's matches in all replicas."""
         if 2 * len(a) == len(self.matches):  # nobody occurs twice, so everybody plays
             self.matches += 1
         else:
@@ -217,7 +217,7 @@ class _Chunk:
         a: Places,
         b: Places,
     ) -> None:
-        """Play matches in which no one occurs twice."""
+        """Play matches in which no player occurs twice."""
         look = self.lookup
         one, two = before.take(a, axis=0), before.take(b, axis=0)
         apart = (one - two).astype(np.int16)  # the lower bits of the difference: of ratings
@@ -259,7 +259,7 @@ class _Chunk:
             self.matches[b] += played
 
     def _rows(self, a: Places, b: Places) -> Places:
-        """Return the difference of the skills of the day, as a row of the tables."""
+        """Return the difference between the skills of the day, as a row of the tables."""
         row = self.today.take(a, axis=0).astype(np.intp)
         row -= self.today.take(b, axis=0)
         if self.beyond:
@@ -268,7 +268,7 @@ class _Chunk:
         return row
 
     def _first_rows(self, a: Places) -> Places:
-        """Return the first row of the table of each player's batch."""
+        """Return the first row of the table for each player's batch."""
         batch = a // len(self.season.players)
         return (batch * (2 * self.lookup.gap + 1))[:, None]
 
@@ -281,7 +281,7 @@ class _Chunk:
     def _changes(
         self, a: Places, b: Places, apart: Any, won: Any, score: Any
     ) -> Iterator[NDArray[np.int32]]:
-        """Yield what is added to the states of the two players: moves and wins."""
+        """Yield the amounts added to the two players' states: moves and wins."""
         for rows, move, wins in zip(
             (a, b), self._moves(apart, won, score), (won, ~won), strict=True
         ):
@@ -292,7 +292,7 @@ class _Chunk:
     def _draw(
         self, row: NDArray[Any], cell: NDArray[Any], apart: NDArray[np.int16]
     ) -> tuple[Bools, NDArray[Any] | None]:
-        """Return where player 1 wins and the final score, if that is drawn."""
+        """Return where player 1 wins, and the final score if it is drawn."""
         look = self.lookup
         if self.season.play == "matches" and look.by_winner is not None:
             return draw_winners(self.wins, cell, self.rng), None
@@ -333,7 +333,7 @@ class _Chunk:
         return factor
 
     def ended(self) -> Ended:
-        """Return the arrays with which the chunk ends."""
+        """Return the arrays at the end of the chunk."""
         rating = self.state.astype(np.int16)
         wins = (self.state - rating) >> 16
         return Ended(rating, wins, self.games, self.matches, self.began)
@@ -346,14 +346,14 @@ def _points(skill: NDArray[Any]) -> NDArray[np.int16]:
 
 
 def _below(of_batches: Sequence[Round | None], many: int) -> Round:
-    """Return a round of every batch as one round, each batch below the one before."""
+    """Return a round of every batch as a single round, each batch below the previous one."""
     there = [(k * many, pairs) for k, pairs in enumerate(of_batches) if pairs is not None]
     a, b = (np.concatenate([first + pairs[side] for first, pairs in there]) for side in (0, 1))
     return a, b
 
 
 def _absence(players: LeaguePlayers) -> NDArray[np.uint32] | None:
-    """Return P(absent) in 2^32nds, or None if no one ever is."""
+    """Return P(absent) in 2^32nds, or None if no one ever is absent."""
     if not players.absence.any():
         return None
     scaled = np.minimum(np.rint(np.ldexp(players.absence, 32)), 2.0**32 - 1.0)
@@ -370,7 +370,7 @@ def _factors(season: Season) -> NDArray[np.int16] | None:
 
 
 def _put(to: NDArray[Any], rows: Places, what: NDArray[Any]) -> None:
-    """Set rows, none of which occurs twice."""
+    """Set rows, with no row occurring twice."""
     if to.shape[1] == 1:  # a column alone is twice as fast as a line
         to[:, 0][rows] = what[:, 0]
     else:

@@ -1,8 +1,7 @@
-"""One season match by match: every rack, as a league would write it down.
+"""Simulate one season match by match, with every rack, as a league would record it.
 
-What `evenbreak.league.many_seasons` does for thousands of seasons is done here for one, in the
-obvious way: its results can be rated like those of any league, and it is the witness for the
-fast way.
+This module does for one season, in the obvious way, what `evenbreak.league.many_seasons` does for
+thousands: its results can be rated like any league's, and it is the reference for the fast version.
 """
 
 from __future__ import annotations
@@ -21,10 +20,10 @@ from evenbreak.league.season import Season
 from evenbreak.ratings.results import Results
 
 FIRST_NIGHT = np.datetime64("2025-01-07")
-"""The date of week 1 by default."""
+"""The default date of week 1."""
 
 _APART = 0x6D617463
-"""Makes the draws of this season independent of those of the replicas of the same seed."""
+"""Makes this season's draws independent of those of the replicas with the same seed."""
 
 
 class _Match(NamedTuple):
@@ -42,7 +41,7 @@ class _Match(NamedTuple):
 @array_values
 @dataclass(frozen=True, eq=False)
 class PlayedSeason:
-    """A season that was played, with the true skills that are unknown in a real one.
+    """A simulated season, with the true skills, which are unknown in a real season.
 
     Parameters
     ----------
@@ -50,7 +49,7 @@ class PlayedSeason:
         the matches, in the order in which they were played: dates, races, scores and racks;
         players in the order of the season.
     week
-        of each match, from 1.
+        the week of each match, from 1.
     rating_a, rating_b
         before each match, in points.
     skill
@@ -73,9 +72,9 @@ class PlayedSeason:
 def season_matches(season: Season, seed: int | np.random.Generator) -> PlayedSeason:
     """Play one season rack by rack and return its matches.
 
-    In each week everyone who is present plays at their skill of the day. The ratings before the
-    week set its races, and its moves are added at its end, as `apply_results` does for a night.
-    A match of an absent player is not played.
+    In each week, everyone who is present plays at their skill of the day. The ratings before the
+    week set its races, and its moves are added at the end of the week, as `apply_results` does for
+    a night. Absent players' matches are not played.
 
     Parameters
     ----------
@@ -124,7 +123,7 @@ def _there(season: Season, week: int, rng: np.random.Generator) -> Bools:
 
 
 def _rounds(season: Season, week: int, rng: np.random.Generator) -> list[Round]:
-    """Return who meets who; random opponents are drawn among the members of the week only."""
+    """Return who meets whom; random opponents are drawn only among the week's members."""
     if not isinstance(season.schedule, RandomPairing):
         return list(season.schedule.pairs(week, rng, len(season.players)))
     who = np.flatnonzero(season.players.here(week))
@@ -158,7 +157,7 @@ def _points(
     race: tuple[int, int],
     played: tuple[int, int],
 ) -> tuple[int, int]:
-    """Return the points that the two ratings move; the rule sees the winner first."""
+    """Return the points that the two ratings move; the rule takes the winner first."""
     (r, s), (m, n), (i, j) = rating, race, played
     won, lost = racks.count("a"), racks.count("b")
     rule: UpdateRule = season.system.rule

@@ -1,4 +1,4 @@
-"""The players of a simulated league: their ratings, their skills, and when they play."""
+"""The players in a simulated league: their ratings, their skills, and when they play."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from evenbreak.checks import floats, whole_numbers
 from evenbreak.errors import InputError
 
 ESTABLISHED = 1_000_000
-"""Matches played before, if nothing else is said: more than any newcomer has."""
+"""Default number of earlier matches: more than any newcomer has."""
 
 _FAR = 15_000
 """The largest rating or skill, in points: a season holds differences in 16 bits."""
@@ -37,7 +37,7 @@ _COLUMNS: dict[str, tuple[bool, int, float]] = {
 @array_values
 @dataclass(frozen=True, eq=False)
 class LeaguePlayers:
-    """The players of a league as read-only columns; `LeaguePlayers.of` fills in defaults.
+    """A league's players as read-only columns; `LeaguePlayers.of` fills in defaults.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class LeaguePlayers:
     skill
         the true skill at the start, in points of the same scale.
     skill_sd
-        how uncertain the true skill is, in points: each replica of a season draws its own skill
+        the uncertainty of the true skill, in points: each replica of a season draws its own skill
         from a normal distribution with mean `skill` and this standard deviation.
     day_sd
         standard deviation of a player's form from day to day, in points.
@@ -59,14 +59,14 @@ class LeaguePlayers:
     absence
         P(a player misses a week | the player is in the league).
     played
-        the matches played before the season, for a system that moves newcomers faster.
+        the number of matches played before the season, for a system that moves newcomers faster.
     names
         the names, or None.
 
     Raises
     ------
     InputError
-        if a column does not have a value for each player, or has one that is out of range.
+        if a column does not have one value per player, or has a value that is out of range.
 
     >>> club = LeaguePlayers.of([92, 80, 71], skill=[90, 84.5, 71], joins=[1, 1, 5])
     >>> len(club), club.skill, club.absence
@@ -119,7 +119,7 @@ class LeaguePlayers:
         played: ArrayLike = ESTABLISHED,
         names: Iterable[str] | None = None,
     ) -> LeaguePlayers:
-        """Return players from columns, or from one number for all of them.
+        """Return players from columns, or from single numbers that apply to everyone.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""The scores of races between players of any skill, looked up by the gap of their skills."""
+"""Scores of races between players of any skill, looked up by their skill gap."""
 
 from __future__ import annotations
 
@@ -14,24 +14,25 @@ from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.errors import InputError
 
 CLOSE = 0.25
-"""A race is right if it makes up for the difference of skills to within so many doublings.
+"""A race is right if it makes up for the skill difference to within this many doublings.
 
-The chance in a race to 5 is 60% then; but how right a race is does not depend on its length.
+The chance in a race to 5 is then at most 60%; but whether a race is right does not depend on its
+length.
 """
 
 STEPS = 128
-"""Steps of the grid of gaps a doubling: a chance of a game is off by .0007 at most."""
+"""Grid steps per doubling: a chance of winning a game is off by at most .0007."""
 
 WIDEST = 6
-"""Wider gaps of skill, in doublings, are treated as this one."""
+"""Limit on skill gaps, in doublings; wider ones are treated as equal to it."""
 
 _GAPS = np.arange(-WIDEST * STEPS, WIDEST * STEPS + 1) / STEPS
 _MOST = 128
-"""Every race is to fewer games."""
+"""Every race is to fewer games than this."""
 
 
 class RaceTables:
-    """The chances of all races that were asked for, by number and gap of skills.
+    """The chances of all requested races, by race number and skill gap.
 
     `form` is the standard deviation of a player's form, in doublings: chances given the true skills
     are means over the form of both.
@@ -54,7 +55,7 @@ class RaceTables:
         self.races: list[tuple[int, int]] = []
 
     def places(self, m: Ints, n: Ints, gap: Floats) -> Ints:
-        """Return where races m:n between players this far apart are in the tables."""
+        """Return the positions in the tables of races m:n between players this far apart."""
         if max(m.max(initial=0), n.max(initial=0)) >= _MOST:
             raise InputError(
                 "a race is to {games} games; in a league, the limit is {most}",
@@ -74,24 +75,24 @@ class RaceTables:
         return place
 
     def numbers(self, place: Ints) -> Ints:
-        """Return which race each place belongs to: where it is in `fair` and `worth`.
+        """Return which race each position belongs to, as an index in `fair` and `worth`.
 
-        `fair` is the gap of skills at which a race is even, in doublings; `worth` the chance of
-        winning it for a player who is a doubling better than that.
+        `fair` is the skill gap at which a race is even, in doublings; `worth` is the chance of
+        winning for a player who is a doubling better than that.
         """
         return np.asarray(place // len(_GAPS))
 
     def right(self, number: Ints, gap: Floats) -> Bools:
-        """Return which races make up for the gaps of skills that they are played at."""
+        """Return which races make up for the skill gaps at which they are played."""
         return np.asarray(np.abs(gap - self.fair.take(number)) <= CLOSE + 1e-9)
 
     def scores(
         self, place: Ints, m: Ints, n: Ints, luck: NDArray[np.floating[Any]]
     ) -> tuple[Ints, Ints]:
-        """Return the final scores that the luck of each match makes of its chances.
+        """Return the final scores determined by each match's luck and chances.
 
-        The better the luck of player a the better their score, from m:0 down to 0:n, so that the
-        same luck is worth alike in races of different lengths.
+        The better player a's luck, the better their score, from m:0 down to 0:n, so the same luck
+        has the same effect in races of different lengths.
         """
         width = self.reached.shape[1]
         where, flat = place * width, self.reached.ravel()
@@ -130,12 +131,12 @@ class RaceTables:
 
 @lru_cache(maxsize=1)
 def known_tables(form: float) -> RaceTables:
-    """Return the tables for a form, with the races that were asked for before."""
+    """Return the tables for a form, including the races requested earlier."""
     return RaceTables(form)
 
 
 def score_law(m: int, n: int, p: Floats) -> Floats:
-    """Return the chances of the scores m:0, m:1, ..., m:n-1, m-1:n, ..., 0:n, a row for each p.
+    """Return the chances of scores m:0, m:1, ..., m:n-1, m-1:n, ..., 0:n, with a row for each p.
 
     >>> score_law(2, 1, np.array([0.5]))
     array([[0.25, 0.25, 0.5 ]])

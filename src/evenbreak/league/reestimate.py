@@ -1,9 +1,9 @@
-"""Ratings that are refitted to all results, as Fargo's are: how far off they stay.
+"""Long-run error of ratings that are refitted to all results, as Fargo's are.
 
 A ladder moves a rating by the last match alone. A league may instead refit all ratings to all
-results every week, with older results counting less. The error that remains is not a chain
-with few states, so it is simulated: leagues of players of known skill play by their ratings, and
-the ratings are refitted to all results every week.
+results every week, with older results counting less. The error that remains is not a chain with few
+states, so it is simulated: leagues of players of known skill play by their ratings, and the ratings
+are refitted to all results every week.
 """
 
 from __future__ import annotations
@@ -31,20 +31,20 @@ from evenbreak.stats.summary import Distribution
 _FIRST_NIGHT = np.datetime64("2001-01-01")
 
 _NEWCOMERS = (1, -1, 1, -1)
-"""How many doublings of the odds each newcomer is better than the mean of the league."""
+"""How many doublings of the odds each newcomer is better than the league's mean."""
 
 
 @array_values
 @dataclass(frozen=True, eq=False)
 class Reestimated:
-    """The uncertainty of refitted ratings, by simulation, with Monte Carlo standard errors.
+    """Uncertainty of refitted ratings, by simulation, with Monte Carlo standard errors.
 
     Parameters
     ----------
     row
-        the row that `compare_systems` would have for it. The error, the favorite's chance and the
-        length of a match are from the second half of the weeks before newcomers arrive; settling is
-        the newcomers'. The sum of all ratings is fixed, so there is no inflation.
+        the row as in `compare_systems`. The error, the favorite's chance and the length of a match
+        come from the second half of the weeks before newcomers arrive; settling comes from the
+        newcomers. The sum of all ratings is fixed, so there is no inflation.
     sd_error
         standard error of `row.sd`, in points, from the differences between the leagues.
     settling_error
@@ -53,7 +53,7 @@ class Reestimated:
         share of newcomers who had not settled by the end. They count as if they settled then, so if
         it is not 0, settling takes longer than the row shows.
     sd_by_week
-        shape (leagues, weeks): standard deviation of rating less skill after each week.
+        shape (leagues, weeks): standard deviation of rating minus skill after each week.
     """
 
     row: SystemRow
@@ -64,7 +64,7 @@ class Reestimated:
 
 
 class _Plan(NamedTuple):
-    """What all simulated leagues have in common."""
+    """The data that all simulated leagues share."""
 
     skill: Floats
     begun_with: int
@@ -75,7 +75,7 @@ class _Plan(NamedTuple):
 
 
 class _Course(NamedTuple):
-    """What came of one league."""
+    """The results of one league."""
 
     sd: list[float]
     settled: Ints
@@ -96,28 +96,28 @@ def reestimate(
 ) -> Reestimated:
     """Return the uncertainty of ratings refitted to all results, with old ones fading.
 
-    Players with the given skills, which do not change, are paired at random each week (with an
-    odd number of players one rests). The chart gives the race for the current ratings, rounded
-    to whole points, and the skills decide every game. All players start at their mean skill; so
-    do the newcomers, half of whom are a doubling of the odds better than that, and half a
+    Players with the given skills, which do not change, are paired at random each week (if their
+    number is odd, one sits out). The chart gives the race for the current ratings, rounded to whole
+    points, and the skills decide every game. All players, including newcomers, start at the mean
+    skill; half of the newcomers are a doubling of the odds better than that, and half are a
     doubling worse.
 
     Parameters
     ----------
     skill
-        points, one for each player, two or more.
+        the skill of each player, in points; two players or more.
     chart
         the races by rating difference.
     scale
-        what a difference means, as in `fit`.
+        the scale of the ratings, as in `fit`.
     weeks
-        played before newcomers arrive, 2 or more.
+        number of weeks before newcomers arrive, 2 or more.
     newcomer_weeks
         weeks for which the four newcomers are followed.
     half_life
         weeks after which a match counts half; None: age does not matter.
     leagues
-        simulated leagues, 2 or more.
+        number of simulated leagues, 2 or more.
     seed
         a whole number, which always gives the same answer, or a generator.
 
@@ -192,7 +192,7 @@ def _summed_up(plan: _Plan, courses: list[_Course]) -> Reestimated:
 
 
 def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
-    """Play one league: first weeks with the given players, then weeks with newcomers too."""
+    """Play one league: first weeks with the given players, then weeks with newcomers as well."""
     skill, (first, later) = plan.skill, plan.weeks
     center = float(skill.mean())
     rating = np.full(len(skill), center)
@@ -228,7 +228,7 @@ def _league(plan: _Plan, rng: np.random.Generator) -> _Course:
 
 
 def _night(plan: _Plan, rating: Floats, rng: np.random.Generator) -> tuple[Ints, Floats]:
-    """Return rows of a, b and the games of each, shape (4, matches), and P(a wins)."""
+    """Return rows of a, b and their games, shape (4, matches), and P(a wins)."""
     order = rng.permutation(len(rating))
     half = len(rating) // 2
     a, b = order[:half], order[half : 2 * half]

@@ -1,9 +1,9 @@
 """The evidence that a player sandbags: a likelihood ratio that may be looked at after every match.
 
-A sandbagger dumps a share s of their matches, no one knows which: they play those d points below a
-constant skill, or lose them on purpose with the score of an honest defeat. The evidence averages
-over s, d and the skill. With L_t(x) the chance of the t-th result at skill x, and w a distribution
-of the skill,
+A sandbagger dumps a share s of their matches, and no one knows which: they play those d points
+below a constant skill, or lose them on purpose with the score of an honest defeat. The evidence
+averages over s, d and the skill. If L_t(x) is the chance of the t-th result at skill x, and w is a
+distribution of the skill,
 
     e_t = mean over s, d of [sum over x of w(x) prod (1 - s) L_t(x) + s L_t(x - d)] / honest
 
@@ -41,30 +41,32 @@ SHARES = (0.1, 0.25, 0.5)
 """The shares of matches that a sandbagger may dump."""
 
 SHARES_MARKED = (0.3, 0.6, 0.9)
-"""The same, among the matches marked as those that may be dumped."""
+"""The same shares, among the matches that are marked as possibly dumped."""
 
 DEPTHS = (30, 60, 120)
-"""How many points below their skill a sandbagger may play the dumped matches."""
+"""How many points below their skill a sandbagger may play dumped matches."""
 
 GAINS = (-0.25, 0.0, 0.25, 0.5)
-"""Points a match by which an honest player's skill may keep changing."""
+"""Points per match by which an honest player's skill may keep changing."""
 
 AHEAD = (0, 15, 30)
-"""How many points a sandbagger's skill may be above the rating at the start."""
+"""How far a sandbagger's skill may be above the rating at the start, in points."""
 
 HONEST = ("any", "established")
-"""Who counts as honest: players of any skill, or with ratings as accurate as the ladder's."""
+"""Who counts as honest: players of any skill, or players whose ratings are as accurate as the
+ladder's.
+"""
 
 WIDEST = 60
 """The largest rating error at the start, in points, of a sandbagger or an established player."""
 
 FARTHEST = WIDEST + max(DEPTHS)
-"""The same for an honest player of any skill: as far as a sandbagger sinks. Otherwise a hopeless
-beginner would look like somebody who dumps most of their matches."""
+"""The same limit for an honest player of any skill: as far as a sandbagger sinks. Otherwise, a
+hopeless beginner would look like someone who dumps most of their matches."""
 
 
 class SandbagEvidence:
-    """The evidence against several players at once, match by match.
+    """Evidence against several players at once, match by match.
 
     `prior` is the distribution of each player's skill at the start, shape (players, skills): skills
     are whole points from -WIDEST to WIDEST around the rating. `shares` of dumped matches are
@@ -87,10 +89,11 @@ class SandbagEvidence:
         self._log = {name: np.zeros(players) for name in _HELD}
 
     def add(self, drifting: Floats, kinds: Floats, *, marked: bool = True) -> None:
-        """Add a match of each player, maybe dumped if `marked`.
+        """Add a match for each player, which may have been dumped if `marked`.
 
         Chances of the result have shape (players, gains, 2 * FARTHEST + 1), and by way of dumping
-        (players, kinds, skills). An AccuracyError if it is all but impossible at every skill.
+        (players, kinds, skills). Raises AccuracyError if a result is all but impossible at every
+        skill.
         """
         near = slice(FARTHEST - WIDEST, FARTHEST + WIDEST + 1)
         steady = drifting[:, GAINS.index(0.0), near]
@@ -112,7 +115,7 @@ class SandbagEvidence:
             self._log[name] += np.log(top)
 
     def log_e(self, honest: str) -> Floats:
-        """Return log e against honest players of a kind of `HONEST`, shape (players,)."""
+        """Return log e against one kind of honest players in `HONEST`, shape (players,)."""
         sandbagger = np.log(self.other.sum(axis=(1, 2, 3))) + self._log["other"]
         if honest == "any":
             return np.asarray(
@@ -122,7 +125,7 @@ class SandbagEvidence:
 
 
 def _ahead(prior: Floats, points: int) -> Floats:
-    """Return the prior moved up; what would leave the range stays at its end."""
+    """Return the prior shifted up; anything beyond the range is held at its end."""
     if not points:
         return prior
     moved = np.zeros_like(prior)
@@ -141,9 +144,9 @@ _UNITS = SCALES["npl"]
 
 
 def units(points: float, scale: Scale) -> int:
-    """Return points of a scale in the whole points in which skills are counted here.
+    """Convert points of a scale to the whole points used for skills in this module.
 
-    They are the National Pool League's, 30 of which double the odds of a game.
+    These are the National Pool League's points, 30 of which double the odds of a game.
 
     >>> from evenbreak.ratings.scale import SCALES
     >>> units(72.0, SCALES["npl"]), units(610.0, SCALES["fargo"])
@@ -154,10 +157,10 @@ def units(points: float, scale: Scale) -> int:
 
 
 class Result(NamedTuple):
-    """A match as the watched player sees it.
+    """A match from the watched player's point of view.
 
     The opponent's rating is in whole points of which 30 double the odds; games and race, the
-    player's own first, are None where not known.
+    player's own first, are None if unknown.
     """
 
     opponent: int
@@ -168,10 +171,10 @@ class Result(NamedTuple):
 
 
 class Likelihood:
-    """The chance of a result, by how far the player's skill is above the opponent's rating.
+    """Chance of a result, by how far the player's skill is above the opponent's rating.
 
-    `error` is the distribution of a player's rating less skill, and `day_sd` the standard deviation
-    of everyone's form, drawn for each match, both in points of the scale.
+    `error` is the distribution of a player's rating minus skill, and `day_sd` the standard
+    deviation of everyone's form, drawn for each match, both in points of the scale.
     """
 
     def __init__(self, scale: Scale, error: Distribution, day_sd: float = 0.0) -> None:
@@ -193,9 +196,9 @@ class Likelihood:
     ) -> tuple[Floats, Floats]:
         """Return the chance of a result if it is honest, and if it is a feigned honest defeat.
 
-        Arrays of shape (last - first + 1,): differences are skill less the opponent's rating, in
-        points. The number of ways in which a score can come about is left out, since it does not
-        depend on the skills.
+        The arrays have shape (last - first + 1,); differences are skill minus the opponent's
+        rating, in points. The number of ways in which a score can come about is left out, since it
+        does not depend on the skills.
         """
         points = np.arange(first + self.least, last + self.least + self.weights.size)
         p, q = _UNITS.win_probability(points), _UNITS.win_probability(-points)
@@ -231,7 +234,7 @@ class Likelihood:
 
 
 def _law_in_units(error: Distribution, scale: Scale) -> tuple[Floats, int]:
-    """Return a distribution in the points of `units`, and the lowest of them."""
+    """Return a distribution in `units` points, and the lowest of these points."""
     values = np.array([units(float(value), scale) for value in error.values])
     chances = np.array([float(chance) for chance in error.probability])
     lowest = int(values.min())

@@ -1,4 +1,4 @@
-"""What losing on purpose pays, exactly, on the ladder of rating errors.
+"""Exact gain from losing on purpose, on the ladder of rating errors.
 
 A player with error e wins the next match with the chance W(e), and the ladder's kernel K moves
 the rating. From a distribution v of the error, D matches lost on purpose lead to B^D v, where B
@@ -8,9 +8,9 @@ takes each error down by the points that the most costly defeat moves it, and
 
 compared with W . K^(D + i - 1) v for a player who plays all D + i matches in earnest.
 
-If a match won is a point up and a match lost a point down, wins are conserved: in the long run
-the D points come back as D / 2 matches won beyond those of an honest player, as many as were
-given away. Dumping then pays only if the matches in earnest are worth more than those dumped.
+If a win moves the rating up a point and a loss moves it down a point, wins are conserved: in the
+long run, the D points come back as D / 2 more wins than an honest player has, as many as were given
+away. Dumping then pays only if the matches in earnest are worth more than those dumped.
 """
 
 from __future__ import annotations
@@ -31,39 +31,39 @@ from evenbreak.handicaps.systems.match_table import match_table
 from evenbreak.stats.summary import Distribution
 
 MOST_HELD = 1e-6
-"""With a larger chance than this of being held at the ladder's lower end, the end decides."""
+"""Chance of being held at the ladder's lower end above which the end decides."""
 
 _NOTHING = 1e-9
-"""Fewer extra wins than this are only rounding."""
+"""Fewer extra wins than this are due to rounding."""
 
 _MOST = 1000
 """The most matches dumped, or played in earnest."""
 
 
 class DumpRow(NamedTuple):
-    """The effect of losing some matches on purpose, compared with an honest player.
+    """Effect of losing some matches on purpose, compared with an honest player.
 
     Parameters
     ----------
     dumped
         matches lost on purpose before the first that counts.
     rating
-        points by which the rating is lower than the honest player's, on average.
+        mean number of points by which the rating is below the honest player's.
     given_away
-        matches that the honest player wins of those dumped, on average.
+        mean number of the dumped matches that the honest player would win.
     p_first
         P(the first match that counts is won).
     extra_wins
-        wins beyond the honest player's in matches that count, on average.
+        mean number of additional wins in matches that count, compared with the honest player.
     for_the_last
         extra wins from the last dumped match.
     break_even
-        multiple of a dumped match's stake that must be at stake in matches that count for dumping
-        to pay; infinite if it brings no extra win.
+        how many times a dumped match's stake must be at stake in matches that count for dumping to
+        pay; infinite if it brings no extra wins.
     p_in_a_row
-        P(the next matches are won, as many in a row as asked, at the rating after dumping).
+        P(the given number of matches in a row are won, at the rating after dumping).
     profit
-        in the units of the stakes, beyond the honest player's.
+        profit over the honest player, in the units of the stakes.
     """
 
     dumped: int
@@ -80,7 +80,7 @@ class DumpRow(NamedTuple):
 @array_values
 @dataclass(frozen=True, eq=False)
 class Sandbagging:
-    """The gain from matches lost on purpose, by their number.
+    """Gain from matches lost on purpose, by their number.
 
     Parameters
     ----------
@@ -89,8 +89,8 @@ class Sandbagging:
     p_win
         P(a match in earnest is won), shape (dumped, matches in earnest).
     p_honest
-        P(an honest player wins each match), the dumped ones first, shape (most dumped + matches
-        in earnest,).
+        P(an honest player wins each match), dumped matches first, shape (most dumped + matches in
+        earnest,).
     """
 
     rows: tuple[DumpRow, ...]
@@ -99,12 +99,12 @@ class Sandbagging:
 
     @property
     def best(self) -> DumpRow:
-        """The row with the largest profit; of equal ones the one with the fewest dumped."""
+        """The row with the largest profit, with the fewest dumped matches in case of a tie."""
         return max(self.rows, key=lambda row: (row.profit, -row.dumped))
 
     @property
     def cheapest(self) -> DumpRow:
-        """The row that pays at the smallest stakes in earnest; of equal ones the first."""
+        """The row that pays at the smallest stakes in earnest; the first one in case of a tie."""
         return min(self.rows, key=lambda row: row.break_even)
 
 
@@ -130,18 +130,19 @@ def sandbagging(
         the ladder; a match lost on purpose moves the rating by the most costly defeat in the
         race against an opponent who is rated at the player's skill.
     dumped
-        the most matches dumped; there is a row for each number from 0.
+        the largest number of matches dumped; there is a row for each number from 0.
     earnest
-        matches played in earnest afterward, all of which count.
+        the number of matches played in earnest afterward, all of which count.
     start
-        the rating error before, in points: a whole number, or a distribution such as
+        the rating error at the start, in points: a whole number, or a distribution such as
         `ladder.law()`.
     stake, dumped_stake
-        the difference in value between a match won and one lost: if it counts, and if dumped.
+        the difference in value between a win and a loss, for a match that counts and for a dumped
+        one.
     in_a_row, prize
-        how many matches in a row win a tournament, and what it pays. It is played first of the
-        matches in earnest, all of it at the ratings before it, and moves no ratings. Form varies
-        from match to match.
+        how many matches in a row win a tournament, and what it pays. The tournament comes first
+        among the matches in earnest, is played entirely at the ratings before it, and moves no
+        ratings. Form varies from match to match.
 
     Raises
     ------
@@ -208,16 +209,16 @@ def sandbagging(
 def entering_low(
     ladder: Ladder, by: int = 30, matches: int = 50, *, newcomer: bool = False
 ) -> Floats:
-    """Return the extra wins of a player who enters the league under-rated.
+    """Return the extra wins of a player who enters the league underrated.
 
     Parameters
     ----------
     by
-        points by which the rating is too low.
+        how many points too low the rating is.
     matches
-        all of them played to win.
+        the number of matches, all played to win.
     newcomer
-        whether the first matches move by the system's newcomer schedule.
+        whether the first matches follow the system's newcomer schedule.
 
     Returns
     -------
@@ -249,7 +250,7 @@ def entering_low(
 
 
 def most_dumped(ladder: Ladder, start: int | Distribution = 0) -> int:
-    """Return how many matches can be dumped before the ladder's end holds the rating.
+    """Return how many matches can be dumped before the ladder's end stops the rating.
 
     >>> from evenbreak.handicaps import Ladder
     >>> most_dumped(Ladder("npl", widest=120)), most_dumped(Ladder("step 3", widest=120), -30)
@@ -267,7 +268,7 @@ def most_dumped(ladder: Ladder, start: int | Distribution = 0) -> int:
 def start_law(ladder: Ladder, start: int | Distribution) -> Floats:
     """Return the probability of each of the ladder's errors.
 
-    An InputError if an error is not a whole number, or beyond the ladder's widest.
+    Raises InputError if an error is not a whole number, or is beyond the ladder's ends.
 
     >>> from evenbreak.handicaps import Ladder
     >>> start_law(Ladder("npl", widest=10), -10)[:2]
@@ -285,17 +286,17 @@ def start_law(ladder: Ladder, start: int | Distribution) -> Floats:
 
 
 def earnest_matrix(ladder: Ladder, factor: int = 1) -> Floats:
-    """Return P(next error | error) of a match that counts, shape (errors, errors).
+    """Return P(next error | error) for a match that counts, shape (errors, errors).
 
     Column-stochastic: v' = M v. A move beyond an end of the ladder is not made; a newcomer's moves
-    are multiplied by the factor. An InputError if the ladder's player drifts.
+    are multiplied by the factor. Raises InputError if the ladder's player drifts.
     """
     refuse_drift(ladder)
     return move_matrix(ladder, factor).T
 
 
 def dumped_matrix(ladder: Ladder) -> Floats:
-    """Return P(next error | error) of a match lost on purpose, shape (errors, errors).
+    """Return P(next error | error) for a match lost on purpose, shape (errors, errors).
 
     >>> from evenbreak.handicaps import Ladder
     >>> dumped_matrix(Ladder("npl", widest=1))
@@ -312,7 +313,7 @@ def dumped_matrix(ladder: Ladder) -> Floats:
 
 
 def dumped_moves(ladder: Ladder) -> Ints:
-    """Return how far the most costly defeat moves each error."""
+    """Return how far the most costly defeat moves the rating at each error."""
     table = match_table(ladder.system, ladder.chart, widest=int(ladder.errors[-1]))
     lost = ~table.won & (table.games[..., 1] >= 0)
     return np.asarray(np.where(lost, table.moves[..., 0], np.iinfo(np.int64).max).min(axis=1))

@@ -1,10 +1,10 @@
-"""What losing on purpose brings under any system, by playing it: many small leagues at once.
+"""Gain from losing on purpose under any system, by simulating many small leagues at once.
 
-For a system without a chain to solve, a player and some opponents, all of one skill, play a match a
-night; the opponents stay rightly rated. In one league the player is honest; in the others, which
-share all its draws, the player loses the first D matches without a game. Given the two published
-numbers, the chance of a match is exact, so only how the numbers move is drawn; what remains is
-stated as an error.
+This is for systems without a chain to solve. A player and some opponents, all with the same skill,
+play one match a night; the opponents stay correctly rated. In one league the player is honest; in
+the others, which share all its draws, the player loses the first D matches without a game. Given
+the two published numbers, the chance of a match is exact, so only the moves are random; the
+remaining uncertainty is stated as an error.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from evenbreak.league.race_tables import RaceTables
 from evenbreak.stats.summary import Distribution
 
 PLAYERS = 8
-"""Players of each league: the one who may dump, and the opponents."""
+"""Number of players in each league: the one who may dump, and the opponents."""
 
 _GAMES_BEFORE = 200
-"""Games behind each rating at the start: everyone is established."""
+"""Games behind each rating at the start, so that everyone is established."""
 
 _INNINGS = 2.25
-"""Innings a game; so that a level-4 player's score is in the middle of that level."""
+"""Innings per game, such that a level-4 player's score is in the middle of that level."""
 
 
 def dumping_played(
@@ -50,20 +50,20 @@ def dumping_played(
     dumped
         the numbers of matches lost on purpose.
     earnest
-        the matches played in earnest afterward.
+        the number of matches played in earnest afterward.
     in_a_row
-        the matches won in a row that win a tournament.
+        how many matches in a row win a tournament.
     replicas
-        how many leagues are played for each number.
+        how many leagues are simulated for each number.
     seed
-        of all draws.
+        for all draws.
     progress
-        called with the leagues done and their number.
+        called with the number of leagues done and the total.
 
     Raises
     ------
     InputError
-        if a number is out of range, or the system returns what it must not.
+        if a number is out of range, or the system returns invalid values.
 
     >>> from evenbreak.handicaps import system_of
     >>> honest, five = dumping_played(system_of("step 3"), [0, 5], earnest=10, replicas=50)
@@ -98,8 +98,8 @@ def errors_played(
 ) -> Distribution:
     """Return the error of an established player's number, in Fargo points, by simulation.
 
-    The player starts rightly rated, meets players of the same skill who stay so, and is looked at
-    in the second half of the nights.
+    The player starts correctly rated and meets equally skilled, correctly rated players; the second
+    half of the nights counts.
 
     >>> from evenbreak.handicaps import system_of
     >>> round(errors_played(system_of("npl")).sd / 100 * 30, 1)  # a ladder has 4.6 in the long run
@@ -114,7 +114,7 @@ def errors_played(
 
 
 def _entries(system: System, replicas: int) -> Entries:
-    """Return players who are all alike: of the middle level, or as the system takes newcomers."""
+    """Return identical players: at the middle level, or as newcomers to the system."""
     shape = PLAYERS, replicas
     levels = system.chart.levels if isinstance(system.chart, LevelChart) else (4,)
     center = np.nan if system.scale is None else system.scale.center
@@ -133,7 +133,7 @@ def _entries(system: System, replicas: int) -> Entries:
 def _play(
     system: System, dumped: int, nights: int, replicas: int, seed: int
 ) -> tuple[Floats, list[Floats]]:
-    """Return the first player's chance of each match, and their numbers before each."""
+    """Return the first player's chance in each match, and their numbers before each match."""
     rng = np.random.default_rng(seed)
     entries = _entries(system, replicas)
     initial = ratings = system.initial(entries)
@@ -167,7 +167,7 @@ def _play(
 
 
 def _pairs(night: int) -> tuple[Ints, Ints]:
-    """Return who meets: everyone another one each night, the first player always first."""
+    """Return who meets: a new opponent for everyone each night, with the first player first."""
     others = 1 + (np.arange(PLAYERS - 1) + night) % (PLAYERS - 1)
     half = PLAYERS // 2
     return np.array([0, *others[1:half]]), np.array([others[0], *others[half:][::-1]])

@@ -39,12 +39,12 @@ from evenbreak.stats.summary import Distribution
 @array_values
 @dataclass(frozen=True, eq=False)
 class Watched:
-    """The evidence against one player.
+    """Evidence against one player.
 
     Parameters
     ----------
     rows
-        rows of the player's matches in the results, in the order in which they were played.
+        row numbers of the player's matches in the results, in the order in which they were played.
     won
         whether the player won each.
     any, established
@@ -53,10 +53,10 @@ class Watched:
     honest
         which of the two raises the alarm.
     alpha
-        the largest chance that an honest player is ever flagged.
+        the largest acceptable chance that an honest player is ever flagged.
     tried
-        what `log_e` would be if matches were dumped only in an event that was tried, by its
-        name; under None, in any event. Empty if none was tried.
+        `log_e` if matches were dumped only in one of the events tried, by the event's name; under
+        the key None, in any event. Empty if no event was tried.
     """
 
     player: str
@@ -75,13 +75,13 @@ class Watched:
 
     @property
     def alarm(self) -> int | None:
-        """The place in `rows` of the match that first raised the alarm; None if none did."""
+        """The position in `rows` of the match that first raised the alarm; None if none did."""
         over = np.flatnonzero(self.log_e >= -math.log(self.alpha))
         return int(over[0]) if over.size else None
 
     @property
     def event(self) -> str | None:
-        """The tried event that raised the alarm; None if it was no single one of them."""
+        """The tried event that raised the alarm; None if no single event did."""
         place = self.alarm
         if place is None or not self.tried:
             return None
@@ -124,18 +124,18 @@ def watch(
         the distribution of rating errors (rating less skill), such as `Ladder(...).law()`; on the
         Fargo scale for a system that does not move points match by match (`errors_played`).
     alpha
-        the largest chance that an honest player is ever flagged.
+        the largest acceptable chance that an honest player is ever flagged.
     honest
         'any': the bound holds for every constant skill within 180 points of the rating at the
-        start, and for skills that change steadily by -1/4, 1/4 or 1/2 point a match (where 30
-        double the odds). 'established': it holds on average over the ladder's rating errors at
-        the start, and sandbaggers are flagged sooner; but honest players who improve, or whose
+        start, and for skills that change steadily by -1/4, 1/4 or 1/2 point per match (where 30
+        points double the odds). 'established': it holds on average over the ladder's rating errors
+        at the start, and sandbaggers are flagged sooner; but honest players who improve, or whose
         rating is far off, are flagged too.
     marked
-        for each match whether it may have been dumped; None: any may.
+        for each match, whether it may have been dumped; None: any match may.
     tried
-        for each of some events which matches belong to it. The evidence is the average of those
-        for dumps in each single event and for dumps as `marked` says.
+        for each event to try, which matches belong to it. The evidence is the average over dumping
+        in each single event and dumping as given by `marked`.
     day_sd
         standard deviation of every player's form, in points. Honest players whose form varies
         more are flagged too often.
@@ -145,14 +145,14 @@ def watch(
     InputError
         if alpha is not above 0 and below 1, honest is neither, or `day_sd` is out of range.
     AccuracyError
-        if a result is all but impossible by the ratings.
+        if a result is all but impossible given the ratings.
 
     Notes
     -----
     The bound holds for each player separately, on average over form and over the errors of the
     opponents' ratings, which are assumed to be independent from match to match with the
-    distribution `error`. Among N honest players at most N · alpha are flagged on average; at
-    alpha / N the chance that any of them is flagged stays below alpha.
+    distribution `error`. Among N honest players, at most N · alpha are flagged on average; at alpha
+    / N the chance that any of them is flagged stays below alpha.
 
     The bound needs no further correction for the events in `tried`: an average of e-values that
     were fixed before the results is an e-value.
@@ -247,10 +247,10 @@ def watch_player(
 ) -> tuple[Floats, Floats]:
     """Return the logarithm of e after each match of a player, in the order played.
 
-    The rating at the start is in whole points of which 30 double the odds; the shares of marked
-    matches that a sandbagger may dump are averaged over. Of the two arrays of shape (results,), one
-    is against honest players of any skill, the other against established ones, whose rating errors
-    at the start are those of `likelihood`.
+    The rating at the start is in whole points, 30 of which double the odds; the shares of marked
+    matches that a sandbagger may dump are averaged over. There are two arrays of shape (results,):
+    one against honest players of any skill, and one against established players, whose rating
+    errors at the start are those of `likelihood`.
     """
     evidence = SandbagEvidence(skill_prior(likelihood), shares, len(DEPTHS) + 1)
     log_e = np.empty((2, len(results)))
@@ -270,7 +270,7 @@ def watch_player(
 
 
 def skill_prior(likelihood: Likelihood) -> Floats:
-    """Return the distribution of skill less rating, shape (1, skills)."""
+    """Return the distribution of skill minus rating, shape (1, skills)."""
     prior = np.zeros((1, 2 * WIDEST + 1))
     for place, weight in enumerate(likelihood.error):
         skill = -(place + likelihood.lowest)
@@ -279,7 +279,7 @@ def skill_prior(likelihood: Likelihood) -> Floats:
 
 
 def drift_room(place: int) -> tuple[int, int]:
-    """Return how far honest skills can have risen and fallen before a match."""
+    """Return how far an honest player's skill can have risen and fallen before a match."""
     gained = [round(gain * place) for gain in GAINS]
     return max(*gained, 0), -min(*gained, 0)
 
@@ -302,7 +302,7 @@ def at_skills(chance: Floats, feigned: Floats, place: int) -> tuple[Floats, Floa
 
 
 def _e(log_e: float) -> float:
-    """Return e, limited to what a float can hold."""
+    """Return e, limited to the range of a float."""
     return math.exp(min(log_e, 700.0))
 
 
@@ -310,7 +310,7 @@ def _e(log_e: float) -> float:
 
 
 class PlayedNight(NamedTuple):
-    """A night of a season: the rows of its matches in the results, and what they changed."""
+    """A night in a season: its matches' rows in the results, and the resulting changes."""
 
     rows: Ints
     changes: RatingChanges
@@ -326,15 +326,14 @@ def played_nights(
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
 
-    Without dates each match is a night of its own, in the order of the rows; matches without a
-    date come last.
+    Without dates, each match is its own night, in row order; matches without a date come last.
 
     Parameters
     ----------
     chart
-        which sets the races where the results state none.
+        the chart that sets the races if the results don't state them.
     apply
-        how the matches of a night change a list of ratings; None: as `apply_results` does.
+        how a night's matches change a list of ratings; None: as `apply_results` does.
 
     Raises
     ------
@@ -362,7 +361,7 @@ def played_nights(
 
 
 def _nights(results: Results) -> list[Ints]:
-    """Return the rows of each night's matches by date; without dates each match is a night."""
+    """Return the rows of each night's matches by date; without dates, each match is a night."""
     if results.date is None:
         return [np.array([row]) for row in range(len(results))]
     _, night = np.unique(results.date, return_inverse=True)

@@ -1,8 +1,8 @@
-"""Who meets who in which week.
+"""Who meets whom in which week.
 
-A schedule answers `pairs(week, rng, count)`: the rounds of a week, each of them two arrays of the
-same length with the positions of the players who meet. In a round a player occurs at most once,
-so that all ratings of a round can move at once.
+A schedule answers `pairs(week, rng, count)`: a week's rounds, each of which is two arrays of equal
+length with the positions of the players who meet. In a round a player occurs at most once, so that
+all ratings of a round can move at once.
 """
 
 from __future__ import annotations
@@ -23,37 +23,37 @@ Round = tuple[Places, Places]
 """Who meets whom at one time: two arrays of positions, no position twice."""
 
 _FEW = 5000
-"""With fewer players than this, shuffling all is faster than drawing half of them."""
+"""Number of players below which shuffling all is faster than drawing half of them."""
 
 
 class Schedule(Protocol):
-    """The methods of every schedule."""
+    """The interface of every schedule."""
 
     def pairs(self, week: int, rng: np.random.Generator, count: int) -> Sequence[Round]:
-        """Return the rounds of a week (1 is the first) for `count` players."""
+        """Return a week's rounds (1 is the first week) for `count` players."""
 
 
 @dataclass(frozen=True)
 class RoundRobin:
-    """Everyone meets everyone once before any two meet again, over and over.
+    """Repeated round robin: everyone meets everyone once before any two meet again.
 
-    With an odd number of players one of them has a bye in each round.
+    With an odd number of players, one of them has a bye in each round.
 
     Parameters
     ----------
     players
-        how many there are, two or more.
+        number of players, two or more.
     matches_a_week
         matches per player and week.
 
     Raises
     ------
     InputError
-        if a number is too small; from `pairs`, if the league has another number of players.
+        if a number is too small; `pairs` raises it if the league has a different number of players.
 
     Notes
     -----
-    The circle method: one player stays, the others move on by a place each round.
+    The circle method: one player stays in place, and the others move on by one place each round.
 
     >>> league = RoundRobin(4)
     >>> rng = np.random.default_rng(1)
@@ -70,7 +70,7 @@ class RoundRobin:
         object.__setattr__(self, "matches_a_week", matches)
 
     def pairs(self, week: int, rng: np.random.Generator, count: int) -> list[Round]:  # noqa: ARG002
-        """Return the rounds of a week (1 is the first); nothing is drawn."""
+        """Return a week's rounds (1 is the first week); nothing is drawn."""
         if count != self.players:
             raise InputError(
                 "{players} is {value}, but the league has {count} players. Give "
@@ -95,7 +95,7 @@ class RoundRobin:
 
 @dataclass(frozen=True)
 class RandomPairing:
-    """Opponents are drawn at random for each round; of an odd number one player sits out.
+    """Random opponents, drawn for each round; with an odd number of players, one sits out.
 
     Parameters
     ----------
@@ -114,13 +114,13 @@ class RandomPairing:
         object.__setattr__(self, "matches_a_week", matches)
 
     def pairs(self, week: int, rng: np.random.Generator, count: int) -> list[Round]:  # noqa: ARG002
-        """Return the rounds of a week, drawn from `rng`."""
+        """Return a week's rounds, drawn from `rng`."""
         return [_matched(rng, count) for _ in range(self.matches_a_week)]
 
     def many_pairs(
         self, rng: np.random.Generator, count: int, times: int
     ) -> list[tuple[Places, Places]]:
-        """Return the rounds of a week for many leagues of one size, a row for each league.
+        """Return a week's rounds for many leagues of equal size, with a row for each league.
 
         >>> (a, b), = RandomPairing().many_pairs(np.random.default_rng(1), 6, 2)
         >>> np.sort(np.hstack([a, b])).tolist()
@@ -135,20 +135,20 @@ class RandomPairing:
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class FixedSchedule:
-    """The matches of a list, each in its week, in the order of the list.
+    """Schedule from a list of matches, each in its week, in list order.
 
     Parameters
     ----------
     week
         the week of each match, from 1.
     a, b
-        positions of the two who meet.
+        positions of the two players.
 
     Raises
     ------
     InputError
-        if the columns differ in length, hold something other than weeks and positions, or have
-        someone meet themselves; from `pairs`, if a position is beyond the players.
+        if the columns differ in length, hold something other than weeks and positions, or have a
+        player meet themselves; `pairs` raises it if a position is beyond the last player.
 
     >>> fixtures = FixedSchedule([1, 1, 3], [0, 0, 1], [1, 2, 2])
     >>> [(a.tolist(), b.tolist()) for a, b in fixtures.pairs(1, np.random.default_rng(1), 3)]
@@ -185,11 +185,11 @@ class FixedSchedule:
 
     @property
     def weeks(self) -> int:
-        """The last week that has a match; 0 if there is none."""
+        """The last week that has a match; 0 if there are no matches."""
         return int(self.week.max(initial=0))
 
     def pairs(self, week: int, rng: np.random.Generator, count: int) -> list[Round]:  # noqa: ARG002
-        """Return the rounds of a week, which may be none."""
+        """Return a week's rounds, of which there may be none."""
         most = int(max(self.a.max(initial=-1), self.b.max(initial=-1)))
         if most >= count:
             raise InputError(
@@ -212,10 +212,10 @@ class FixedSchedule:
 
 
 def _matched(rng: np.random.Generator, count: int) -> Round:
-    """Return a round in which all ways to pair `count` players are equally likely.
+    """Return a round, with all pairings of `count` players equally likely.
 
-    Of many players half are drawn, in random order; the others meet them in their own order.
-    That is half the work of shuffling all.
+    If there are many players, half of them are drawn, in random order, and the others meet them in
+    their own order. That is half the work of shuffling all.
     """
     half = count // 2
     if count < _FEW:

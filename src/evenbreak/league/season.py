@@ -1,4 +1,4 @@
-"""A season: who plays, by which system, against whom in which week, and for how long."""
+"""A season: its players, its system, who meets whom in which week, and its length."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from evenbreak.league.players import LeaguePlayers
 from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 
 _DOUBLINGS = 3.0
-"""The narrowest table of races and moves: to where the odds of a game are 8 to 1."""
+"""Narrowest table of races and moves: up to where the odds of a game are 8 to 1."""
 
 _SDS = 5.0
 """A league's skills are assumed to lie within this many standard deviations."""
@@ -41,12 +41,12 @@ class Season:
     system
         the handicap system, or its name.
     chart
-        which sets the races, or its name; None: the system's own.
+        the chart that sets the races, or its name; None: the system's own.
     schedule
-        who meets who; None: a round robin, over and over.
+        who meets whom; None: a repeated round robin.
     play
-        'matches': the winner of each match is drawn with the exact chance. 'racks': it is played
-        rack by rack, which gives final scores too. Both have the same distribution.
+        'matches': the winner of each match is drawn with the exact chance. 'racks': the match is
+        played rack by rack, which also gives final scores. Both have the same distribution.
 
     Raises
     ------
@@ -85,7 +85,7 @@ class Season:
 
     @cached_property
     def table(self) -> MatchTable:
-        """The races, moves and chances of the season's matches."""
+        """The races, moves and chances in the season's matches."""
         doubling = self.system.scale.points_per_doubling
         least = max(self.chart.rows[-1].difference_from, round(_DOUBLINGS * doubling))
         # If no two ratings are further apart than the table is wide, none need be clipped.
@@ -94,7 +94,7 @@ class Season:
 
     @cached_property
     def lookup(self) -> Lookup:
-        """The same as flat tables of whole numbers, for fast draws."""
+        """The same as flat integer tables, for fast draws."""
         return lookup_of(self.table, self.widest_gap)
 
     @cached_property
@@ -118,7 +118,7 @@ class Season:
 
     @cached_property
     def fifths(self) -> Ints:
-        """Each player's fifth by skill at the start, 0 the weakest; one column."""
+        """Each player's fifth by skill at the start, 0 being the weakest; one column."""
         return fifths_of(self.players.skill[:, None])
 
     def __reduce__(self) -> Any:
@@ -128,7 +128,7 @@ class Season:
 
 
 def _check_schedule(schedule: Any, players: int) -> None:
-    """Find out before the first week what would stop the season in a later week."""
+    """Check before the first week for anything that would stop the season in a later week."""
     if isinstance(schedule, RandomPairing):
         return
     if isinstance(schedule, RoundRobin | FixedSchedule):
@@ -144,53 +144,53 @@ def _check_schedule(schedule: Any, players: int) -> None:
 
 
 WEEK_COLUMNS = ("players", "error", "error_squared", "near")
-"""What is summed for each week."""
+"""The quantities summed for each week."""
 
 FIFTHS = 5
-"""Groups of players by true skill, the weakest first."""
+"""Groups of players by true skill, weakest first."""
 
 
 @array_values
 @dataclass(frozen=True, eq=False)
 class Tally:
-    """The results of a season's replicas; two tallies of one season are added with `+`.
+    """Results of a season's replicas; two tallies of the same season are added with `+`.
 
-    All counts are whole numbers, so sums of tallies do not depend on how they are bracketed;
-    what is kept batch by batch keeps the order in which tallies are added.
+    All counts are integers, so sums of tallies do not depend on how they are grouped; data kept by
+    batch keeps the order in which tallies are added.
 
-    The replicas of a batch share the random pairings, and each batch draws its own. So batches
-    are independent, replicas of one batch are not, and standard errors come from how sums vary
-    from batch to batch.
+    The replicas of a batch share the random pairings, and each batch draws its own. So batches are
+    independent, but replicas in the same batch are not, and standard errors come from the variation
+    of sums between batches.
 
     Parameters
     ----------
     replicas
         seasons counted in each batch, shape (batches,).
     matches, wins, wins_squared
-        of each player, summed over the replicas: matches played, matches won, and the square
-        of those won in a season; shape (players,).
+        for each player, summed over the replicas: matches played, matches won, and the square of
+        the number won in a season; shape (players,).
     rating, rating_squared
-        of each player, summed over the replicas: the change of the rating in the season, in
-        points, and the square of that.
+        for each player, summed over the replicas: the change in rating over the season, in points,
+        and its square.
     games
         games that each player won, summed over the replicas; None if matches are not played
         rack by rack.
     products
-        of each player, summed over the batches: wins by wins, wins by matches, matches by
-        matches, moved by moved, wins by replicas and moved by replicas, each of two sums over the
-        replicas of a batch (moved is `rating` of a batch); shape (players, 6). None in a league so
-        large that a batch is one replica.
+        for each player, summed over the batches: wins by wins, wins by matches, matches by matches,
+        moved by moved, wins by replicas and moved by replicas, each of two sums over the replicas
+        of a batch (moved is `rating` of a batch); shape (players, 6). None in a league so large
+        that a batch is one replica.
     wins_counts
-        in how many replicas each player won 0, 1, 2, ... matches: shape (players, most + 1).
-        None if it would be large.
+        the number of replicas in which each player won 0, 1, 2, ... matches: shape (players, most +
+        1). None if it would be large.
     rating_counts
-        in how many replicas each player's rating moved by -most, ..., most points: shape
+        the number of replicas in which each player's rating moved by -most, ..., most points: shape
         (players, 2 * most + 1); moves beyond four doublings are counted at the ends. None if it
         would be large.
     errors
-        how many players had each rating error (rating less true skill, rounded to whole points)
-        at the start and after each week, its drift included: shape (weeks + 1, 2 * widest + 1),
-        from -widest to widest; larger errors are counted at the ends.
+        how many players had each rating error (rating minus true skill, rounded to whole points) at
+        the start and after each week, including its drift: shape (weeks + 1, 2 * widest + 1), from
+        -widest to widest; larger errors are counted at the ends.
     gap_width
         points of a bin of `gaps`.
     gaps
@@ -241,7 +241,7 @@ class Tally:
 
     @property
     def error_values(self) -> Ints:
-        """The rating errors of the columns of `errors`, in points."""
+        """The rating error for each column of `errors`, in points."""
         most = self.errors.shape[1] // 2
         return np.arange(-most, most + 1)
 
@@ -309,9 +309,9 @@ class Tally:
 
 
 def fifths_of(skill: NDArray[Any]) -> Ints:
-    """Return each player's fifth by skill, 0 the weakest; equals go by their position.
+    """Return each player's fifth by skill, 0 being the weakest; ties go by position.
 
-    Players go down, replicas across.
+    Players are rows, and replicas are columns.
 
     >>> fifths_of(np.array([[50.0], [90.0], [70.0], [60.0], [80.0]])).ravel()
     array([0, 4, 2, 1, 3])

@@ -1,16 +1,16 @@
-"""Many replicas of a season, on any number of workers, with the same result for any number.
+"""Simulate many replicas of a season on any number of workers, always with the same result.
 
 Replicas are divided into batches, and these into chunks, by the season and the number of replicas
-alone. Each chunk has its own stream of random numbers, the child of the seed with its number, and
-tallies are added in the order of the chunks. So the result does not depend on who did the work or
-how fast.
+alone. Each chunk has its own stream of random numbers, the child of the seed with the chunk's
+number, and tallies are added in chunk order. So the result does not depend on which worker did the
+work or how fast.
 
 The replicas of a *batch* share the draw of opponents. Standard errors come from the differences
 between batches, so there must be many of them; but numpy is fast with long arrays. So a *chunk*,
 which is played at a time, has several batches if these are small.
 
 Workers are given several chunks at a time, a parcel, and return the sum of their tallies: sums of
-whole numbers do not depend on how they are bracketed.
+integers do not depend on how they are grouped.
 """
 
 from __future__ import annotations
@@ -38,19 +38,19 @@ _CHUNK = 1 << 16
 """Players times replicas in a chunk, unless the league alone is larger."""
 
 _BATCHES = 20
-"""The fewest batches, if there are as many replicas: standard errors come from them."""
+"""The smallest number of batches, if there are as many replicas: standard errors need them."""
 
 _CELLS = 1 << 22
-"""The most cells of the tables in which the batches of a chunk count their matches."""
+"""The most cells in the tables in which a chunk's batches count their matches."""
 
 _MATCHES = 1 << 24
-"""The most matches of a chunk with several batches, so that long seasons can use all workers."""
+"""The most matches in a chunk with several batches, so that long seasons can use all workers."""
 
 _TALLIES = 64
 """Tallies that are summed before they are added to the rest, since each sum copies its terms."""
 
 _PARCEL = 1 << 24
-"""About how many matches are given out at a time: half a second's work."""
+"""Approximate number of matches assigned at a time: half a second's work."""
 
 _PARCELS = 64
 """The fewest parcels, if there are as many chunks, so that no worker is idle for long."""
@@ -64,7 +64,7 @@ class Batching(NamedTuple):
 
 
 def batching_of(season: Season, replicas: int) -> Batching:
-    """Return how to divide replicas, so that a chunk fits the processor's cache.
+    """Return how to divide replicas so that a chunk fits into the processor's cache.
 
     There are 20 batches or more, if there are as many replicas.
 
@@ -81,7 +81,7 @@ def batching_of(season: Season, replicas: int) -> Batching:
 
 
 class _Work(NamedTuple):
-    """What all workers know: the season, and how its replicas are divided into chunks."""
+    """The data that all workers share: the season, and the division of its replicas into chunks."""
 
     season: Season
     replicas: int
@@ -89,12 +89,12 @@ class _Work(NamedTuple):
     seed: int
 
     def chunks(self) -> int:
-        """Return the number of chunks: the full ones, and one with the replicas left over."""
+        """Return the number of chunks: the full ones, plus one for leftover replicas."""
         full, left = divmod(self.replicas, self.batching.replicas)
         return -(-full // self.batching.batches) + (left > 0)
 
     def parcels(self) -> list[range]:
-        """Return the numbers of the chunks of each parcel."""
+        """Return the chunk numbers in each parcel."""
         matches = (
             self.batching.replicas
             * self.batching.batches
@@ -139,7 +139,7 @@ def simulate(
         any executor of `concurrent.futures`, or a `distributed.Client` for a dask cluster; None: as
         many processes as `jobs`.
     jobs
-        processes where there is no executor; 1 works in this one.
+        the number of processes if there is no executor; 1: only this process.
     progress
         called with the replicas done and `replicas`, at the start and after each parcel.
 
@@ -189,7 +189,7 @@ def _reported(
 
 
 def _sum(tallies: Iterator[Tally]) -> Tally:
-    """Add tallies up in their order, some at a time; how sums are bracketed changes nothing."""
+    """Add tallies in order, several at a time; the grouping does not change the sum."""
     total = next(tallies)
     for first in tallies:
         total += reduce(add, islice(tallies, _TALLIES - 1), first)

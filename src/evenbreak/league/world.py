@@ -1,9 +1,9 @@
-"""A league as several handicap systems find it: the same people, nights and luck for each of them.
+"""A league for comparing handicap systems: the same people, nights and luck for each system.
 
 Skills are in doublings of the odds of a game, 0 in the middle of the league's scale, so that
-systems with different scales can be told how strong the players of one league are. What is drawn
-(skills, form, absence, opponents, the luck of each match) depends on the seed alone and never on
-what a system makes of it: two systems differ by their races and ratings only.
+systems with different scales can be given the strengths of the same players. The draws (skills,
+form, absence, opponents, each match's luck) depend only on the seed and never on the system: two
+systems differ only in their races and ratings.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ from evenbreak.league.schedule import RandomPairing, RoundRobin
 from evenbreak.ratings.scale import SCALES, Scale
 
 DUMPED = 3.0
-"""By how many doublings of the odds a sandbagger plays below their skill when it pays."""
+"""How many doublings below their skill a sandbagger plays when it pays."""
 
 
 class Night(NamedTuple):
-    """What is drawn for a night, the same for every system.
+    """The draws for a night, the same for every system.
 
     Nights count from 1, seasons from 0. a and b are positions of players (or numbers of teams), -1
     for an empty place, shape (matches, replicas) or (matches, 1); by player the shape is (players,
-    replicas). `skill` of the night, in doublings, includes form, drift and what a sandbagger holds
-    back; `luck` and `pick` are uniform numbers, by match, and by player for captains with a habit.
-    `counts`: sandbaggers hold back in other matches for these.
+    replicas). `skill` of the night, in doublings, includes form, drift and how much a sandbagger
+    holds back; `luck` and `pick` are uniform random numbers, by match, and by player for captains
+    with a habit. `counts` marks the matches for which sandbaggers hold back in others.
     """
 
     night: int
@@ -56,31 +56,32 @@ class World:
     Parameters
     ----------
     players
-        who is in it at the start, with ratings and skills in points of `scale`.
+        the players at the start, with ratings and skills in points of `scale`.
     scale
-        of these ratings.
+        the scale of these ratings.
     level
-        their skill levels; NaN where not stated. None: no one has one.
+        the players' skill levels; NaN where not stated. None: no one has a level.
     games
         the games behind each rating, -1 where not stated. None: not stated for anyone.
     schedule
-        who meets who; None: a round robin of the players, or of the teams.
+        who meets whom; None: a round robin of the players, or of the teams.
     weeks, seasons
-        nights of a season, and seasons in a row; ratings go on from one to the next.
+        number of nights in a season, and of consecutive seasons; ratings carry over from one to the
+        next.
     newcomers
-        the share of the places that a newcomer takes over in each season, at nights spread over
-        it. The skill of a newcomer is drawn from a normal distribution like the league's.
+        the share of places that newcomers take over in each season, on nights spread over it. A
+        newcomer's skill is drawn from a normal distribution like the league's.
     starter_sd
         uncertainty of a newcomer's first rating (standard deviation), in doublings.
     sandbaggers
         the chance that a player is one. In the third quarter of a season sandbaggers play three
-        doublings below their skill; the last quarter counts, and there they play as they can.
+        doublings below their skill; the last quarter counts, and in it they play their best.
     teams
-        the number of each player's team, from 0; None: a league of single players.
+        the number of each player's team, from 0; None: a league of individual players.
     sets
-        matches of two teams on a night.
+        number of matches between two teams on a night.
     cap
-        the most that the levels of a lineup may add up to, where a system publishes levels.
+        the largest allowed sum of a lineup's levels, if a system publishes levels.
 
     Raises
     ------
@@ -133,34 +134,34 @@ class World:
 
     @property
     def sides(self) -> int:
-        """How many places the fixtures have: players, or teams."""
+        """The number of places in the fixtures: players, or teams."""
         return len(self.players) if self.teams is None else int(self.teams.max()) + 1
 
     @property
     def nights(self) -> int:
-        """How many nights are played in all."""
+        """The total number of nights."""
         return self.weeks * self.seasons
 
     @property
     def per_season(self) -> int:
-        """How many newcomers there are in a season."""
+        """The number of newcomers in a season."""
         return round(self.newcomers * len(self.players))
 
     @property
     def many(self) -> int:
-        """How many players there are in all, newcomers included."""
+        """The total number of players, including newcomers."""
         return len(self.players) + self.per_season * self.seasons
 
     @property
     def origin(self) -> float:
-        """The rating of skill 0: the middle of the scale, or of the league if that has none."""
+        """The rating of skill 0: the middle of the scale, or else of the league."""
         if self.scale.name in SCALES:
             return float(self.scale.center)
         return float(np.mean(self.players.rating))
 
     @cached_property
     def place(self) -> Ints:
-        """Whose place each player has: their own, or that of the player they follow."""
+        """Each player's place: their own, or that of the player they follow."""
         first = np.arange(len(self.players))
         # Who is followed is drawn, but the same in all replicas and for all seeds.
         drawn = np.random.default_rng(len(first)).permuted(
@@ -199,13 +200,13 @@ class World:
         return None if self.teams is None else np.asarray(self.teams)[self.place]
 
     def extended(self, values: Any, other: float) -> Floats:
-        """Return a column of the players with another value for the newcomers, in a column."""
+        """Return a column of the players, with a different value for the newcomers, as a column."""
         column = np.full(self.many, other)
         column[: len(self.players)] = values
         return column[:, None]
 
     def holders(self, night: int) -> Ints:
-        """Return who has each place on a night, -1 where it is empty."""
+        """Return who has each place on a night; -1 for an empty place."""
         joins, leaves = self.spans
         there = np.flatnonzero((joins <= night) & (night <= leaves))
         holder = np.full(len(self.players), -1)
@@ -214,7 +215,7 @@ class World:
 
     @cached_property
     def matches(self) -> int:
-        """The most matches of a night."""
+        """The largest number of matches on a night."""
         if isinstance(self.schedule, RandomPairing):
             games = self.sides // 2 * self.schedule.matches_a_week
         else:
@@ -222,7 +223,7 @@ class World:
         return games * (1 if self.teams is None else self.sets)
 
     def fixtures(self, week: int) -> tuple[Ints, Ints]:
-        """Return who meets who in a week of the season, where that is not drawn."""
+        """Return who meets whom in a week of the season, if that is not drawn."""
         if week not in self._rounds:
             rounds = self.schedule.pairs(week, np.random.default_rng(week), self.sides)
             sides = [np.concatenate([pair[k] for pair in rounds] or [[]]) for k in (0, 1)]
@@ -231,7 +232,7 @@ class World:
 
 
 class Play:
-    """The draws of some replicas of a world, night by night.
+    """The draws for some replicas of a world, night by night.
 
     >>> world = World(LeaguePlayers.of([92, 80, 71, 64]), SCALES["npl"], weeks=3, newcomers=0)
     >>> [night.a.ravel().tolist() for night in Play(world, 2, np.random.SeedSequence(1))]
@@ -264,7 +265,7 @@ class Play:
         self.absence = world.extended(players.absence, float(np.mean(players.absence)))
 
     def innings(self, shape: tuple[int, ...]) -> Floats:
-        """Return normal numbers for the innings of a night; drawn apart, so that none else move."""
+        """Return normal numbers for a night's innings; drawn separately from all others."""
         return self.innings_rng.standard_normal(shape)
 
     def __iter__(self) -> Iterator[Night]:

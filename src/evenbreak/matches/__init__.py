@@ -1,4 +1,4 @@
-"""Exact answers for matches: who wins, how long it takes, with what score.
+"""Exact answers for matches: who wins, how long the match takes, and the final score.
 
 `win_probability`, `match_length` and `final_scores` take arrays of probabilities.
 `match_odds` and `race_odds` take plain numbers and need no numpy.

@@ -1,18 +1,19 @@
 """The chances of an n-ahead match in closed form.
 
 The lead walks up and down by one. Let rho be the weight of a step down relative to a step up, and
-G(s) = 1 + rho + ... + rho^(s - 1). A player who is m games from winning and n from losing wins
-with the chance of the gambler's ruin, G(n)/G(m + n) (P5.27). Most break formats keep this form:
+G(s) = 1 + rho + ... + rho^(s - 1). A player who is m games from winning and n from losing wins with
+the gambler's-ruin probability G(n)/G(m + n) (P5.27). Most break formats keep this form:
 
-* Who breaks depends on who won the last rack. With the chance u of another step up after one up,
-  and d of another step down after one down, rho = d/u, and G counts with the chance of a turn:
-  after a step up the player wins with (u + (1 - u) G(n - 1)) / (u + (1 - u) G(m + n - 1)).
-* The breaks alternate. Whether the lead is even says who breaks, and rho = (q/p)(q'/p') is the
+* Who breaks depends on who won the last rack. If u is the chance of another step up after a step
+  up, and d is the chance of another step down after a step down, then rho = d/u, and G includes the
+  chance of a turn: after a step up, the player wins with probability
+  (u + (1 - u) G(n - 1)) / (u + (1 - u) G(m + n - 1)).
+* The breaks alternate. The parity of the lead determines who breaks, and rho = (q/p)(q'/p') is the
   weight of two racks.
 
-The walk is looked at from the side from which rho <= 1. Each chance is then a quotient of sums of
+The walk is viewed from the side for which rho <= 1. Each chance is then a quotient of sums of
 positive numbers none of which is large, and G(s) = (1 - rho^s)/(1 - rho) is formed with a logarithm
-of rho that has the digits of two floats: none are lost where rho is near 1 or a chance is tiny.
+of rho that has the digits of two floats: no digits are lost if rho is near 1 or a chance is tiny.
 
 Reference: Feller, An Introduction to Probability Theory I, chapter XIV.
 """
@@ -31,7 +32,7 @@ _LN_2, _LN_2_REST = 0.6931471803691238, 1.9082149292705877e-10
 _SERIES = tuple(1.0 / k for k in range(23, 1, -2))
 """The terms of atanh(z)/z - 1 in z^2, last term first: enough for |z| < 0.18."""
 _AT_ONCE = 4096
-"""Entries at a time, so that they stay in the cache."""
+"""Entries processed at a time, so that they stay in the cache."""
 _NEVER, _EVEN = -1e4, -(2.0**-960)
 """Logarithms that stand for those of 0 and of 1: G(s) becomes 1 and s."""
 
@@ -45,9 +46,9 @@ def ahead_chances(
 ) -> tuple[dict[tuple[int, int], Any], Any] | None:
     """Return the chance of each (winner, next breaker), and P(the match never ends).
 
-    None if the break format does not keep the closed form. m and n are by how many games player 1
-    and player 2 still have to pull ahead; `racks` has, by breaker, the chances that each wins the
-    rack, and `after` who breaks next if player 1 and if player 2 has won.
+    None if the break format does not keep the closed form. m and n are the number of games by which
+    player 1 and player 2 still have to pull ahead; `racks` has, by breaker, each player's chance of
+    winning the rack, and `after` is the next breaker if player 1 won and if player 2 won.
 
     >>> chances, never = ahead_chances(2, 2, 1, {1: (0.75, 0.25)}, {1: (1, 1)})
     >>> round(chances[1, 1], 15), never
@@ -70,7 +71,7 @@ def ahead_chances(
 
 
 class _Ratio:
-    """A ratio by its logarithm, of which `top` has so few bits that products are exact."""
+    """A ratio given by its logarithm, whose `top` has so few bits that products are exact."""
 
     def __init__(self, top: Any, rest: Any) -> None:
         self.top, self.rest, self._library = top, rest, _library(top)
@@ -126,7 +127,7 @@ class _Walk(NamedTuple):
     pairs: Any
     """Pairs of chances for `ends`, the first of which is that of the first step."""
     weights: slice
-    """Those of the pairs whose quotients down / up make rho."""
+    """The pairs whose quotients down / up make rho."""
 
     def chances(self) -> Any:
         """Return the chances of player 1 and of player 2."""
@@ -155,12 +156,12 @@ class _Walk(NamedTuple):
         return self._replace(pairs=pairs[:, :, part])
 
     def stuck(self) -> Any:
-        """Return the chances where play never leaves two leads unless the first rack decides."""
+        """Return the chances if play never leaves two leads unless the first rack decides."""
         p, q = self.pairs[0]
         return p * float(self.m == 1), q * float(self.n == 1)
 
     def moving(self, top: Any, rest: Any) -> Any:
-        """Return the chances, given the logarithm of rho, which has the same sign for all."""
+        """Return the chances, given the logarithm of rho, with the same sign for all entries."""
         if (top if isinstance(top, float) else top[0]) <= 0.0:
             return self.ends(self.m, self.n, _Ratio(top, rest), *self.pairs)
         turned = [(wins_2, wins_1) for wins_1, wins_2 in self.pairs]
@@ -245,7 +246,7 @@ def _exact_product(x: Any, y: Any) -> Pair:
 
 
 def _halves(x: Any, rest: Any) -> Pair:
-    """Return the upper 26 bits of x, and the others and `rest` together."""
+    """Return the upper 26 bits of x, and the sum of the other bits and `rest`."""
     far = x * (2.0**27 + 1.0)
     upper = far - (far - x)
     return upper, (x - upper) + rest
@@ -261,7 +262,7 @@ def _where(condition: Any, x: float, y: Any) -> Any:
 
 
 def _library(x: Any) -> Any:
-    """Return the library for a float or an array."""
+    """Return the math library for a float or an array."""
     if isinstance(x, float):
         return math
     import numpy as np

@@ -1,6 +1,6 @@
-"""Who wins a game, read off the stochastic limit of its graph.
+"""Who wins a game, from the stochastic limit of its graph.
 
-Every kernel of this package has to give the same chances; `via` on its functions leads here.
+Every kernel in this package must give the same chances; the functions' `via` option leads here.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class LimitOdds(NamedTuple):
-    """Who wins, by the limit of the game's chain; None as a player is no winner."""
+    """Who wins, from the limit of the game's chain; None as a player means no winner."""
 
     limit: Limit
     by_winner: dict[int | None, float]
@@ -35,7 +35,7 @@ class LimitOdds(NamedTuple):
 def odds_by_limit(game: Game, via: Way, start: Any = None) -> LimitOdds:
     """Return who wins a game, from its stochastic limit by 'elimination' or 'eigen'.
 
-    An InputError if the chances in a match are arrays; other errors as of `limit_of` and
+    Raises InputError if the chances in a match are arrays; other errors are those of `limit_of` and
     `game_odds`.
     """
     rack = game.innermost_rack if isinstance(game, Match) else None
@@ -53,7 +53,7 @@ def odds_by_limit(game: Game, via: Way, start: Any = None) -> LimitOdds:
 
 
 def match_odds_by_limit(match: Match, via: Way) -> dict[str, Any]:
-    """Return those of the `MatchOdds` of a match that its limit gives, by name.
+    """Return the fields of a match's `MatchOdds` that its limit determines, by name.
 
     >>> from evenbreak.games import Race
     >>> match_odds_by_limit(Race(2, 2, Rack(0.5)), "eigen")

@@ -1,13 +1,14 @@
-"""Where a match is even, and where two matches are worth the same to a player.
+"""Where a match is even, and where two matches give a player the same chance.
 
-If the break does not matter, both questions ask for the zeros of a polynomial with whole
-coefficients, which are counted exactly, so none is missed. If it does, the log-odds of the
-two matches are compared on a fine grid, and every change of sign is refined.
+If the break does not matter, both questions ask for the zeros of a polynomial with integer
+coefficients, which are counted exactly, so none is missed. If it does, the log-odds of the two
+matches are compared on a fine grid, and every change of sign is refined.
 
-By Descartes' rule, the changes of sign in the coefficients of p^k q^(N-k) bound the number of
-zeros for 0 < p < 1; with no change there is none, with one change there is one. With more changes
-the interval is halved and the form rewritten for each half (Vincent; Collins & Akritas 1976). All
-of it is done in whole numbers, so rounding neither makes a zero nor loses one.
+By Descartes' rule, the changes of sign in the coefficients of p^k q^(N-k) bound the number of zeros
+for 0 < p < 1: if there is no change, there is no zero, and if there is one change, there is one
+zero. If there are more changes, the interval is halved and the form rewritten for each half
+(Vincent; Collins & Akritas 1976). Everything is done in integers, so rounding neither creates a
+zero nor loses one.
 """
 
 from __future__ import annotations
@@ -33,15 +34,15 @@ from evenbreak.matches.win import win_probability
 from evenbreak.matches.win_formula import Form, degree_of, product, value_at, win_forms
 
 _HIGHEST_DEGREE = 500
-"""Of a polynomial that is solved exactly; a higher degree would take seconds."""
+"""Largest degree of a polynomial that is solved exactly; a higher one would take seconds."""
 _P1 = expit(np.linspace(-14.0, 14.0, 2801))
 """The grid: steps of a hundredth in the log-odds of p1, of 0.0025 in p1 near 1/2."""
 _NOISE = 1e-10
-"""Smaller differences of log-odds may be rounding."""
+"""Differences in log-odds below this may be due to rounding."""
 
 
 class Crossing(NamedTuple):
-    """A point where a match is even, or where two matches are worth the same.
+    """A point where a match is even, or where two matches give the same chance.
 
     Parameters
     ----------
@@ -60,15 +61,15 @@ class Crossing(NamedTuple):
 
 
 class Crossings(NamedTuple):
-    """All points where two matches are worth the same, and which is better between them.
+    """All points where two matches give the same chance, and which is better between them.
 
     Parameters
     ----------
     points
-        the points, by rising p1.
+        the points, by increasing p1.
     better
-        the better match for player 1, 1 or 2: below the first point, between each two points, and
-        above the last; 0 if the matches are worth the same everywhere.
+        the better match for player 1, 1 or 2: below the first point, between successive points, and
+        above the last; 0 if the matches give the same chance everywhere.
     exact
         whether the points were counted exactly, so that none is missed. If not, two points
         closer together than a hundredth in the log-odds of p1 may be missed, as may curves
@@ -93,21 +94,21 @@ def even_probability(
     Parameters
     ----------
     played
-        or a text such as "9:5" (see `match_format`).
+        a match format, or a string such as "9:5" (see `match_format`).
     p2
         P(player 2 wins a rack | player 2 breaks it), which stays fixed as p1 varies.
     break_odds
-        instead of p2: the advantage of the break, which stays fixed as p1 varies. It is the
-        factor by which player 1's odds of winning a rack are better on player 1's break than
-        on player 2's: p1/(1 - p1) × p2/(1 - p2). With neither p2 nor break_odds the break
-        does not matter, and p1 is P(player 1 wins a rack).
+        instead of p2: the advantage of the break, which stays fixed as p1 varies. It is the ratio
+        of player 1's odds of winning a rack on player 1's break to those on player 2's: p1/(1 - p1)
+        × p2/(1 - p2). With neither p2 nor break_odds the break does not matter, and p1 is P(player
+        1 wins a rack).
     breaks
         who breaks, if the break matters and the format does not say.
 
     Returns
     -------
     tuple of Crossing
-        by rising p1. If the break does not matter, there is exactly one.
+        by increasing p1. If the break does not matter, there is exactly one.
 
     Raises
     ------
@@ -144,12 +145,12 @@ def crossings(
     breaks: BreakFormat | str | None = None,
     first_breaker: int = 1,
 ) -> Crossings:
-    """Return every game probability at which two matches are worth the same to player 1.
+    """Return every game probability at which two matches give player 1 the same chance.
 
     Parameters
     ----------
     format_1, format_2
-        or texts such as "2:1" (see `match_format`).
+        match formats, or strings such as "2:1" (see `match_format`).
     p2, break_odds, breaks, first_breaker
         as for `even_probability`.
 
@@ -183,7 +184,7 @@ def crossings(
 
 
 def rack_along(p1: Any, *, p2: float | None = None, break_odds: float | None = None) -> Rack:
-    """Return the rack of the two players that `crossings` compares at p1, a number or an array.
+    """Return the rack that `crossings` compares at p1, a number or an array.
 
     >>> rack_along(0.6, break_odds=2.25)
     Rack(p1=0.6, p2=0.6)
@@ -207,7 +208,7 @@ def _read(played: MatchFormat | str) -> MatchFormat:
 
 
 def _difference(first: MatchFormat, second: MatchFormat) -> Form:
-    """Return a form with the sign of W of the first match less W of the second."""
+    """Return a form with the sign of W in the first match minus W in the second."""
     (win_1, lose_1), (win_2, lose_2) = win_forms(first), win_forms(second)
     pairs = zip(product(win_1, lose_2), product(win_2, lose_1), strict=True)
     return [x - y for x, y in pairs]
@@ -215,7 +216,7 @@ def _difference(first: MatchFormat, second: MatchFormat) -> Form:
 
 @dataclass(frozen=True)
 class _Line:
-    """The pairs of players for which matches are compared: one pair for each p1."""
+    """The pairs of players for whom matches are compared: one pair for each p1."""
 
     p2: float | None
     break_odds: float | None
@@ -261,7 +262,7 @@ def _log_odds_on_grid(line: _Line, played: MatchFormat) -> Any:
 
 
 def _changes_of_sign(function: Callable[[Any], Any]) -> tuple[list[float], list[int]]:
-    """Return where a function of p1 changes sign, and its signs between; nothing if all is noise.
+    """Return where a function of p1 changes sign, and its signs in between; empty if all is noise.
 
     The signs are those on the grid: halfway between two zeros both probabilities may underflow.
     """
@@ -278,9 +279,9 @@ def _changes_of_sign(function: Callable[[Any], Any]) -> tuple[list[float], list[
 
 
 _FINEST = 48
-"""Halvings after which zeros that are still together count as one."""
+"""Number of halvings after which zeros that are still together count as one."""
 _BITS = 64
-"""Halvings of an interval with one zero: more than a float can resolve."""
+"""Number of halvings of an interval with one zero: more than a float can resolve."""
 
 
 def form_roots(form: Sequence[int]) -> list[float] | None:
@@ -334,7 +335,7 @@ def _changes(form: Form) -> int:
 
 
 def _refined(form: Form, place: int, depth: int) -> float:
-    """Return the one zero of a form that is written for interval number `place` of 2^depth."""
+    """Return the single zero of a form that is written for interval number `place` of 2^depth."""
     low, rising = 0, form[-1] > 0
     for bit in range(1, _BITS + 1):
         low *= 2
@@ -350,7 +351,7 @@ def _refined(form: Form, place: int, depth: int) -> float:
 
 
 def _halves(form: Form) -> tuple[Form, Form]:
-    """Return the form as p and q run over the lower and over the upper half."""
+    """Return the forms as p and q run over the lower half and over the upper half."""
     left = _moved(form[::-1])[::-1]
     return left, _moved(form)
 

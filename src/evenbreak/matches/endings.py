@@ -1,7 +1,7 @@
 """After how many racks a match ends, and who wins it.
 
-Races of racks are solved on antidiagonals. Every other match is played rack by rack over all
-its states at once: a rack leads from each state to one of two, depending on who wins it.
+Races of racks are solved on antidiagonals. Every other match is played rack by rack over all its
+states at once: from each state, a rack leads to one of two states, depending on who wins it.
 
 All scores i : k - i of a race that are possible after k racks lie on an antidiagonal of the score
 table. Its probabilities, one row for each breaker, move to the next antidiagonal by two products
@@ -42,8 +42,8 @@ def endings_of(match: Match, never: Any, tail: float) -> Endings:
     """Return P(player 1, 2 wins after exactly k racks), k = 0, 1, ... along the first axis.
 
     p1, p2 and `never`, P(the match never ends), have the same shape. A match without a longest
-    length is followed until P(it is still going on, but will end) is at most `tail`, for 100,000
-    racks at most, and fewer where so many parameters would not fit in memory.
+    length is followed until P(it is still going on, but will end) is at most `tail`, for at most
+    100,000 racks, or fewer if the parameters would not fit in memory.
     """
     winner = match.decided(*match.score)
     rack = rack_in(match)
@@ -66,14 +66,14 @@ def _followed(match: Match, enough: Floats, most: float) -> Floats:
     """Return P(player 1, 2 wins after exactly k racks); shape (racks + 1, 2, parameters).
 
     The match is followed until P(it is still going on) is at most `enough`, one value for each
-    pair of parameters, but for `most` racks at the most.
+    pair of parameters, but for at most `most` racks.
     """
     moves = rack_moves(match)
     row = {state: i for i, state in enumerate(moves)}
     alive, size, columns = len(moves), enough.size, np.arange(len(moves))
 
     def place(state: Any) -> int:
-        """Return a state's row; the wins of player 1, player 2 are collected in the last two."""
+        """Return a state's row; wins by player 1 and player 2 are collected in the last two."""
         return row[state] if state in row else alive + (match.winner(state) == 2)
 
     def after(player: int) -> tuple[csr_array, Floats]:

@@ -1,12 +1,12 @@
-"""When an evening of matches ends: several tables, a list of matches, random times.
+"""Finish time of an evening of matches: several tables, a list of matches, random times.
 
 Whenever a table is free, the first match on the list whose players are both free starts there;
-between two matches the table is idle for the turnover. The luck of the matches and the
-turnovers are independent, and the pace of the evening stretches everything alike.
+between two matches, the table is idle for the turnover. The matches' random variation and the
+turnovers are independent, and the pace of the evening stretches everything equally.
 
-With one table, or one for each match, the end on an evening of the usual pace has a distribution
-that can be calculated (`minutes`); otherwise the evening is simulated many times. The pace of
-the evening is then averaged over by calculation.
+If there is one table, or one for each match, the finish time at the usual pace has a distribution
+that can be calculated (`minutes`); otherwise the evening is simulated many times. Then the result
+is averaged over the pace of the evening by calculation.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _Y_CHANCE = np.exp(-(_Y**2) / 2.0) / np.exp(-(_Y**2) / 2.0).sum()
 
 
 class LengthLike(Protocol):
-    """Anything with the length of a match: P(it takes games[k] games) = probability[k]."""
+    """Any object with the length of a match: P(it takes games[k] games) = probability[k]."""
 
     @property
     def games(self) -> ArrayLike:
@@ -57,16 +57,16 @@ class Length(NamedTuple):
 
 @dataclass(frozen=True)
 class Evening:
-    """When the last match ends, in minutes.
+    """Finish time of the last match, in minutes.
 
     Parameters
     ----------
     mean, sd
-        mean and standard deviation of the end.
+        mean and standard deviation of the finish time.
     p90
         the time by which all matches are over with probability .9.
     runs
-        how many evenings were simulated; 0 if the end was calculated.
+        how many evenings were simulated; 0 if the finish time was calculated.
     mean_error, p90_error
         the standard errors of `mean` and `p90` from the simulation; 0 if calculated.
     """
@@ -94,7 +94,7 @@ def evening(
     rng: np.random.Generator | int | None = None,
     runs: int | None = None,
 ) -> Evening:
-    """Return when an evening of matches ends.
+    """Return the finish time of an evening of matches.
 
     Parameters
     ----------
@@ -104,16 +104,16 @@ def evening(
     pace
         a `Pace`, or the name of a discipline in `PACES`.
     turnover
-        the time between two matches on a table; None: the usual one.
+        the time between two matches on a table; None: the usual time.
     players
         the two players of each match, so that no one plays two matches at once; None: no player is
         on the list twice.
     rng
-        a generator or a seed, if any are needed; None: seed 0.
+        a generator or a seed, if random numbers are needed; None: seed 0.
     runs
-        how often to simulate the evening; None: calculate the end if there is one table, or
-        one for each match and no player twice, else simulate 50,000 evenings, fewer for more
-        than about sixty matches.
+        how often to simulate the evening; None: calculate the finish time if there is one table, or
+        one for each match and no player twice; otherwise simulate 50,000 evenings, or fewer for
+        more than about sixty matches.
 
     Raises
     ------
@@ -124,8 +124,8 @@ def evening(
 
     Notes
     -----
-    What is calculated is on a grid of 1/500 of the standard deviation of the end, which moves
-    `p90` by less than .02 minutes for up to a hundred matches.
+    Calculations use a grid of 1/500 of the finish time's standard deviation, which changes `p90` by
+    less than .02 minutes for up to a hundred matches.
 
     >>> coin = Length([1, 2], [0.5, 0.5])
     >>> one = evening([coin] * 4, "9-ball")
@@ -194,7 +194,7 @@ def _numbered(players: Sequence[tuple[Hashable, Hashable]] | None, matches: int)
 
 
 def _calculated(end: End, pace: Pace) -> Evening:
-    """Return an evening from the distribution of its end at the usual pace."""
+    """Return an evening from the distribution of its finish time at the usual pace."""
     factor = np.exp(pace.evening_sd * _Y - pace.evening_sd**2 / 2.0)
 
     def reached(minutes: Floats) -> bool:
@@ -207,7 +207,7 @@ def _calculated(end: End, pace: Pace) -> Evening:
 
 
 def _with_pace(mean: float, sd: float, pace: Pace) -> float:
-    """Return the standard deviation of the finish time when the pace of the evening isn't known."""
+    """Return the standard deviation of the finish time if the evening's pace isn't known."""
     square = (mean**2 + sd**2) * math.exp(pace.evening_sd**2)
     return math.sqrt(max(square - mean**2, 0.0))
 
@@ -251,7 +251,7 @@ def _simulated(
 
 
 def _ends(minutes: Floats, turnover: Floats, tables: int, pairs: Ints) -> Floats:
-    """Return when each evening ends, given the time of each match and after it on the table."""
+    """Return each evening's finish time, given the time of each match and the turnover after it."""
     runs, matches = minutes.shape
     row = np.arange(runs)
     table_free = np.zeros((runs, tables))

@@ -1,8 +1,8 @@
 """The chance of winning a match as a fraction.
 
 As in `outcomes`, the score after each rack or set is a small Markov chain, and absorption in it
-gives the outcomes of a match, which may be a set of a longer one. In a race the scores only
-rise, and one pass over them in whole numbers does.
+gives the outcomes of a match, which may be a set of a longer one. In a race, the scores only rise,
+and a single pass over them in integers is enough.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _Outcomes = dict[tuple[int, int], Fraction]
 def exact_win(match: Match, player: int) -> Fraction:
     """Return P(`player` wins the match) from its start score on, as a fraction.
 
-    An InputError if the chances in a rack are arrays.
+    Raises InputError if the chances in a rack are arrays.
 
     >>> from evenbreak.games import Ahead
     >>> exact_win(Ahead(2, 2, Rack(0.6)), 1)
@@ -37,7 +37,7 @@ def exact_win(match: Match, player: int) -> Fraction:
 
 
 def exact_win_of_game(ends: Ends, player: int) -> Fraction:
-    """Return P(`player` wins the game) that ends like this, as a fraction.
+    """Return P(`player` wins the game) with these endings, as a fraction.
 
     >>> from evenbreak.games import OneBall
     >>> exact_win_of_game(ends_of_game(OneBall(0.6, 0.6)), 1)
@@ -67,9 +67,9 @@ def _outcomes(match: Match, score: Score, breaker: int) -> _Outcomes:
 
 
 def _rising(match: Match, start: tuple[int, int, int], units: dict[int, _Outcomes]) -> _Outcomes:
-    """Return the outcomes of a match whose scores only rise, in whole numbers until the end.
+    """Return the outcomes of a match whose scores only rise, in integers until the end.
 
-    With the chances of a unit over one denominator, those after k units are over its k-th power.
+    If a unit's chances have a common denominator, the chances after k units have its k-th power.
     """
     below = lcm(*(p.denominator for unit in units.values() for p in unit.values()))
     above = {
@@ -111,7 +111,7 @@ def _unit(match: Match, breaker: int) -> _Outcomes:
 
 
 def _chance(rack: Rack, breaker: int) -> Fraction:
-    """Return the chance of a rack that belongs to its breaker, as a fraction."""
+    """Return the breaker's chance in a rack, as a fraction."""
     numbers = rack.of_numbers()
     exact = rack.given[breaker - 1]
     if isinstance(exact, Fraction):

@@ -1,15 +1,15 @@
-"""Day-to-day form: in a match a player may be better or worse than usual, in all its games.
+"""Day-to-day form: a player may be better or worse than usual in all games of a match.
 
-On one day the log-odds of every game are c + e, with the same e throughout the match and
-e ~ N(0, f²). The form f is the standard deviation of log-odds that `evenbreak rate` estimates. c
-is such that the chance of a single game is what it is without form,
+On a given day, the log-odds of every game are c + e, with the same e throughout the match and e ~
+N(0, f²). The form f is the standard deviation of log-odds that `evenbreak rate` estimates. c is
+such that the chance of winning a single game is the same as without form,
 
     E expit(c + e) = p,
 
-since it is games that ratings are fitted to. Given e the games are independent, so the law of a
+since ratings are fitted to games. Given e the games are independent, so the distribution of the
 score is that of the match without form, averaged over e by Gauss-Hermite quadrature. Games already
-played show what form the players are in: at the score i:j, e has the density
-p(e)^i (1 - p(e))^j φ(e / f), normalized.
+played show the players' form: at the score i:j, e has the density p(e)^i (1 - p(e))^j φ(e / f),
+normalized.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ MOST_FORM = 3.0
 """The largest form allowed, in natural log-odds."""
 
 MOST_NODES, MOST_NODES_OF_SETS = 1000, 60
-"""Nodes of the average, of a race and of another match: enough for six digits, or for four."""
+"""Nodes of the average, for a race and for other matches: enough for six digits, or for four."""
 
 _FEWEST_GAMES = 6  # shorter races need as many nodes as these
 _CLOSE = 1e-7  # a step of Newton's method whose successor is a rounding
 
 
 def form_of(form: Any) -> float:
-    """Return a day-to-day form if it is one: the standard deviation of a game's log-odds."""
+    """Return a day-to-day form if it is valid: the standard deviation of a game's log-odds."""
     wanted = f"0 to {MOST_FORM:g}, the standard deviation of the log-odds of a game"
     return number(form, "form", low=0.0, high=MOST_FORM, wanted=wanted)
 
@@ -70,7 +70,7 @@ def _hermite(number: int) -> tuple[Floats, Floats]:
 
 
 def center_of_form(mean: ArrayLike, sd: ArrayLike, form: float) -> Floats:
-    """Return the c for which a game is won as often with form as without.
+    """Return the c for which a game is won as often with form as without it.
 
     That is, E expit(N(c, sd² + form²)) = E expit(N(mean, sd²)), to rounding, in log-odds of a game.
 
@@ -97,7 +97,7 @@ def center_of_form(mean: ArrayLike, sd: ArrayLike, form: float) -> Floats:
 
 
 def _game(mean: Floats, sd: Floats) -> tuple[Floats, Floats]:
-    """Return the chance of a game of which the log-odds are N(mean, sd²), and its slope."""
+    """Return the chance in a game whose log-odds are N(mean, sd²), and its slope."""
     chance, slope = np.zeros(mean.shape), np.zeros(mean.shape)
     for node, weight in zip(*normal_rule(float(sd.max(initial=0.0)), 2, MOST_NODES), strict=True):
         p = expit(mean + sd * node)
@@ -115,8 +115,8 @@ def chance_in_form(
 ) -> Callable[[ArrayLike], Floats]:
     """Return a function from the log-odds of a game to P(player 1 wins a race).
 
-    It is the same as averaging each of many chances over form, a standard deviation above 0, to
-    1e-6, but takes no longer than without form. `needs` are in all; the score shows some of the
+    It agrees to 1e-6 with averaging each of many chances over form, a standard deviation above 0,
+    but takes no longer than without form. `needs` are total games; the score shows some of the
     form.
 
     >>> chance_in_form((5, 5), 0.5)([0.0, 1.0]).round(4)
@@ -139,8 +139,8 @@ def on_days(match: AnyMatch, form: float) -> tuple[AnyMatch, Floats]:
     """Return a match on many days, and how likely each day is given the score.
 
     Its chances get another axis at the end, one entry per day; the weights of the days sum to 1
-    over the last axis. `form` is a standard deviation above 0. An InputError if games were played
-    and the chances depend on who broke them.
+    over the last axis. `form` is a standard deviation above 0. Raises InputError if games were
+    played and the chances depend on who broke them.
     """
     match = checked_match(match)
     rack = rack_in(match)
@@ -161,7 +161,7 @@ def _on_days(p: Any, form: float, nodes: Floats) -> Floats:
 
 
 def rule_for(match: Match, sd: float) -> tuple[Floats, Floats]:
-    """Return the rule that averages the odds of a match over log-odds that vary by `sd`."""
+    """Return the rule that averages a match's odds over log-odds that vary by `sd`."""
     if isinstance(match.rack, Rack) and getattr(match, "win_by", 0) == 1:
         return normal_rule(sd, match.m + match.n, MOST_NODES)
     return normal_rule(sd, (match.m + match.n) ** 2, MOST_NODES_OF_SETS)

@@ -29,7 +29,7 @@ WHO_BREAKS = {
 """Break formats as people name them, with the names that `evenbreak.games` has for them."""
 
 WORDS = ("ahead", "best", "breaks", "by", "first", "of", "race", "to", "win", *WHO_BREAKS)
-"""The words of a match format."""
+"""The words in a match format."""
 
 _BEST_OF = re.compile(r"\bbest of (\d{1,9})\b", re.ASCII)
 _ONE = re.compile(
@@ -39,13 +39,13 @@ _ONE = re.compile(
 )
 _JOINED = re.compile(r"(?<!\d)[_\-–—−]|[_\-–—−](?!\d)")
 _NUMBERS = (("m", "m"), ("n", "m"), ("by", "by"))
-"""The numbers of a format, each with the one that stands for it where it is left out."""
+"""The numbers in a format, each with the number that replaces it if it is left out."""
 
 _TAIL = re.compile(rf",? ({'|'.join(WHO_BREAKS)}) breaks$")
 
 
 class NotAFormatError(InputError):
-    """A text that is not spelled as a match, rather than a match that cannot be."""
+    """A string that is not spelled like a match, as opposed to a match that cannot exist."""
 
 
 @dataclass(frozen=True)
@@ -55,13 +55,13 @@ class MatchFormat:
     Parameters
     ----------
     m, n
-        what player 1 and player 2 need: games, or sets if there is a `set_`.
+        the games that player 1 and player 2 need, or the sets if there is a `set_`.
     ahead
         whether they must lead by m and n instead of reaching them.
     win_by
-        the race goes on until one player leads by this many (see `evenbreak.games.Race`).
+        the race continues until one player leads by this many (see `evenbreak.games.Race`).
     set_
-        what is played for one point of the score; None: a rack.
+        the match that is played for one point of the score; None: a rack.
     breaks
         the break format, a name in `evenbreak.games.BREAK_FORMATS`; None: left open.
 
@@ -132,7 +132,7 @@ class MatchFormat:
 
     @property
     def scores(self) -> int:
-        """About how many scores the match can have, which is what its kernels take time for."""
+        """The approximate number of scores, which determines how long the kernels take."""
         reach = max(self.m, self.win_by) * max(self.n, self.win_by)
         own = self.m + self.n if self.ahead else reach
         return own * (self.set_.scores if self.set_ else 1)
@@ -150,22 +150,22 @@ class MatchFormat:
 
 
 def match_format(text: str) -> MatchFormat:
-    """Return the format that a text names.
+    """Parse a match format.
 
     Parameters
     ----------
     text
         `9:5` (player 1, called A, needs 9 games, player 2, called B, needs 5), `7:7 win by 2`,
-        `ahead 5:3`, or one of them `of` another, which is then the set: `3:1 of 3:3`.
-        `best of 9` means `5:5`; `9-5` and `9/5` mean `9:5`; `race to 7` or `first to 7` means
-        `7:7`, and `3 ahead` or `n-ahead 3` means `ahead 3:3`. Words may be joined by hyphens or
-        underscores. The break format may follow: `winner breaks`, or loser, alternate, A or B.
-        Each number is from 1 to 1000.
+        `ahead 5:3`, or one of these `of` another, which is then the set: `3:1 of 3:3`. `best of 9`
+        means `5:5`; `9-5` and `9/5` mean `9:5`; `race to 7` or `first to 7` means `7:7`, and `3
+        ahead` or `n-ahead 3` means `ahead 3:3`. Words may be joined by hyphens or underscores. The
+        break format may follow: `winner breaks`, or loser, alternate, A or B. Each number is from 1
+        to 1000.
 
     Raises
     ------
     InputError
-        if the text is not a match format; it says what to write.
+        if `text` is not a match format; the message says what to write.
 
     Notes
     -----
@@ -231,7 +231,7 @@ def match_format(text: str) -> MatchFormat:
 
 
 def _half(most: int) -> str:
-    """Return the race that is the best of so many games; of one more if the number is even.
+    """Return the race that is the best of this many games, or one more if the number is even.
 
     >>> _half(9), _half(10)
     ('5:5', '6:6')

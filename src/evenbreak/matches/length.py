@@ -1,4 +1,4 @@
-"""How long a match takes in racks; and who wins any game, of any number of players, and when."""
+"""How long a match takes in racks; who wins any game with any number of players, and when."""
 
 from __future__ import annotations
 
@@ -53,24 +53,24 @@ def match_length(
     via: Way | None = None,
     form: float = 0.0,
 ) -> MatchLength[Any, Any]:
-    """Return the distribution of the number of racks that `match` still takes.
+    """Return the distribution of the number of racks left in `match`.
 
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks or of sets; p1 and p2 may be arrays. In a match
-        of a game of your own, each of these games counts as one rack. Any other game is
-        measured in its moves, as in `game_odds`.
+        a race or an n-ahead match, of racks or of sets; p1 and p2 may be arrays. In a match of a
+        custom game, each game counts as one rack. Any other game is measured in its moves, as in
+        `game_odds`.
     score
-        the score now (see `win_probability`); None: the match's own start score.
+        the current score (see `win_probability`); None: the match's own start score.
     tail
-        how much probability may be left out of the distribution if there is no longest
-        length. It is cut off after 100,000 racks in any case (fewer for large arrays);
-        `tail_mass` is what was left out.
+        how much probability may be omitted from the distribution if there is no longest length. It
+        is cut off after 100,000 racks in any case (fewer for large arrays); `tail_mass` is what was
+        left out.
     via
-        the way, for plain numbers: 'kernel', or 'elimination' in the chain of the match's graph.
-        A length is no stochastic limit, so there is no way by eigenvectors of eigenvalue 1.
-        None: the kernel, or elimination for any other game, which has none.
+        the method, for plain numbers: 'kernel', or 'elimination' in the chain of the match's graph.
+        A length is not a stochastic limit, so it cannot be found from the eigenvectors of
+        eigenvalue 1. None: the kernel, or elimination for any other game, which has no kernel.
     form
         how much the log-odds of a game vary from match to match (standard deviation); see
         `final_scores`.
@@ -78,8 +78,8 @@ def match_length(
     Raises
     ------
     InputError
-        if the score cannot be reached, `tail` is not a probability, there is no such way, or form
-        is not in 0 to 3, or given for a way or for another game than a match.
+        if the score cannot be reached, `tail` is not a probability, `via` is unknown, form is not
+        in 0 to 3, or form is combined with `via` or with a game that is not a match.
 
     Notes
     -----
@@ -201,8 +201,8 @@ class MatchLength(Generic[ChanceT, MeanT]):
     p_never_ends
         P(the match goes on forever).
     tail_mass
-        P(the match ends, but after more than games[-1] racks); 0 if there is a longest
-        length.
+        P(the match ends, but after more than games[-1]
+        racks); 0 if there is a longest length.
     bounded
         whether there is a longest length.
     """
@@ -237,7 +237,7 @@ class MatchLength(Generic[ChanceT, MeanT]):
         InputError
             if q is not a probability.
         AccuracyError
-            if the quantile lies in the tail that is left out.
+            if the quantile lies in the omitted tail.
 
         >>> from evenbreak.games import Race, Rack
         >>> from evenbreak.matches import match_length
@@ -287,7 +287,7 @@ class GameOdds:
     p_never_ends
         P(the game goes on forever).
     length
-        how many moves the game takes, whoever wins; its `games` are numbers of moves.
+        how many moves the game takes, regardless of who wins; its `games` are numbers of moves.
     by_length
         P(the player wins after exactly `length.games[k]` moves) at [i, k], for the i-th
         player of `p_win`; the last row is P(it ends then without a winner).
@@ -314,7 +314,7 @@ class GameOdds:
         return pd.Series(chances, name="probability").rename_axis("outcome")
 
     def to_frame(self) -> pd.DataFrame:
-        """Return P(each outcome after exactly so many moves): a row for each number of moves."""
+        """Return P(each outcome after exactly k moves), with a row for each number of moves."""
         import pandas as pd
 
         moves = pd.Index(self.length.games, name="moves")
@@ -334,9 +334,9 @@ def game_odds(
         `networkx.DiGraph` with a `probability` on its arcs and a `winner` at its final nodes.
         It is over in a state without moves.
     start
-        the state now; None: the start of the game.
+        the current state; None: the start of the game.
     tail
-        probability that may be left out of the distribution of the length if there is no longest
+        probability that may be omitted from the distribution of the length if there is no longest
         length. It is cut off after 100,000 moves in any case.
 
     Raises
@@ -400,7 +400,7 @@ def game_odds(
 def _length(
     over: PassageTime | None, *, bounded: bool, tail: float
 ) -> MatchLength[float, float | None]:
-    """Return the law of the number of moves until the game is over; None: it never is."""
+    """Return the distribution of the number of moves until the game is over; None if endless."""
     if over is None:
         return MatchLength(np.arange(1), np.zeros(1), None, None, 1.0, 0.0, bounded=True)
     law, left = over.distribution(tail=0.0 if bounded else tail, max_steps=_LONGEST)

@@ -1,7 +1,7 @@
-"""A match under way: the odds at every score, and the value of the next rack.
+"""A match in progress: the odds at every score, and the value of the next rack.
 
-One pass over the scores that can still come gives the odds at all of them: the course of the
-match, the leverage of a rack and the comeback table are read off it.
+One pass over the scores that are still possible gives the odds at all of them, and from these come
+the course of the match, the leverage of a rack and the comeback table.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ class Standing(NamedTuple):
     Parameters
     ----------
     scores
-        the score of the match, then of the set under way, and so on inwards.
+        the score of the match, then of the current set, and so on inward.
     breaker
-        of the next rack; None if the break does not matter or the match is over.
+        who breaks the next rack; None if the break does not matter or the match is over.
     p_win_1, p_win_2
         P(player 1, 2 wins the match); they add up to 1 minus P(it never ends).
     p_win_1_after
         P(player 1 wins the match), given that player 1, player 2 wins the next rack; None
         if the match is over.
     mean_racks
-        mean of the racks still to be played; None if the match may never end.
+        mean number of racks left; None if the match may never end.
     racks_p90
         the smallest number of racks within which the match ends with probability .9; None
         in a comeback table, if the match never ends with that probability, or if it takes
@@ -54,19 +54,19 @@ class Standing(NamedTuple):
 
     @property
     def leverage(self) -> float | None:
-        """The value of the next rack: player 1's chance after winning it minus after losing it."""
+        """Value of the next rack: player 1's chance after winning it minus that after losing."""
         after = self.p_win_1_after
         return None if after is None else after[0] - after[1]
 
 
 @dataclass(frozen=True, eq=False)
 class LiveOdds:
-    """A match so far, and how it can still go.
+    """A match so far, and its possible continuations.
 
     Parameters
     ----------
     course
-        where the match stood before the first rack, and after each rack.
+        the standing before the first rack, and after each rack.
     winners
         who won each rack, 1 or 2.
     """
@@ -88,10 +88,10 @@ class LiveOdds:
         return tuple(after - before for before, after in pairwise(wins))
 
     def comebacks(self) -> list[Standing]:
-        """Return the standing at every score that can still come: the comeback table.
+        """Return the standing at every score that is still possible: the comeback table.
 
-        Scores that differ only in racks that no longer matter are one entry: in an n-ahead
-        match the lead. Scores at which the match is over are left out.
+        Scores that differ only in racks that no longer matter share one entry: in an n-ahead match,
+        the lead. Scores at which the match is over are left out.
         """
         states = self._values.from_(self._state)
         return sorted(
@@ -107,7 +107,7 @@ def live_odds(
     set_score: Score | None = None,
     form: float = 0.0,
 ) -> LiveOdds:
-    """Return the odds of a match under way, after each of the racks played so far.
+    """Return the odds of a match in progress, after each of the racks played so far.
 
     Parameters
     ----------
@@ -115,11 +115,11 @@ def live_odds(
         a race or an n-ahead match, of racks or of sets, with plain numbers as probabilities.
         The course starts at its start score; its first breaker breaks the first rack.
     winners
-        who won each rack since then, 1 or 2.
+        who has won each rack since then, 1 or 2.
     set_score
-        in a match of sets of racks, the score of the set under way at the start of the course;
-        None: the set's own start score. If the match has its own break format for sets, the first
-        breaker is assumed to have broken first in that set too.
+        in a match of sets of racks, the score of the current set at the start of the course; None:
+        the set's own start score. If the match has its own break format for sets, the first breaker
+        is assumed to have broken first in that set too.
     form
         standard deviation of a game's log-odds from match to match, for races of racks in which the
         break does not matter. Each rack played shows something of today's form.
@@ -133,8 +133,8 @@ def live_odds(
 
     Notes
     -----
-    Source: problems P5.5 and P5.6, whose table W(p; m, n) has every score on the way through
-    a race; P5.8, P5.24 and P5.27 for the other matches.
+    Source: problems P5.5 and P5.6, whose table W(p; m, n) has every score in the course of a race;
+    P5.8, P5.24 and P5.27 for the other matches.
 
     >>> from evenbreak.games import Race, Rack
     >>> live = live_odds(Race(3, 2, Rack(0.5)), [1, 2])
@@ -189,7 +189,7 @@ class _Values:
         self.mean = chain.solve(reward=lambda _: 1.0)
 
     def standing(self, state: Any) -> Standing:
-        """Return where the match stands in a state, without `racks_p90`."""
+        """Return the standing of the match in a state, without `racks_p90`."""
         row = self.moves.get(state)
         after = None if row is None else [self._chance(1, target) for target, _ in row]
         breaks = self.match.break_matters and row is not None
@@ -207,7 +207,7 @@ class _Values:
         return min(1.0, float(self.win[player].get(state, 0.0)))  # rounding may bring a sum above 1
 
     def from_(self, state: Any) -> Iterator[Any]:
-        """Yield the states that can be reached from `state` and at which the match goes on."""
+        """Yield the states reachable from `state` in which the match continues."""
         queue = [state]
         seen = set()
         for here in queue:
@@ -218,16 +218,16 @@ class _Values:
 
 
 def order_is_free(match: Match) -> bool:
-    """Return whether what a score shows about form does not depend on how it came about."""
+    """Return whether the score shows the same about form regardless of how it came about."""
     plain = isinstance(match, Race) and match.win_by == 1 and isinstance(match.rack, Rack)
     return plain and not match.break_matters
 
 
 def _moves_in_form(match: Match, form: float) -> RackMoves:
-    """Return the moves of a race where the racks played show how well both play today.
+    """Return the moves of a race in which the racks played show how well both are playing today.
 
-    The next rack has the chance that it has on average over the days on which the score may have
-    come about. With these chances the scores are a Markov chain like that of any other race.
+    The chance in the next rack is its average over the days on which the score may have come about.
+    With these chances the scores are a Markov chain like that of any other race.
     """
     from evenbreak.matches.form import form_of, given_score, on_days
 
@@ -274,7 +274,7 @@ def _state_at(match: Match, set_score: Score | None) -> Any:
 
 
 def _scores_of(match: Match, state: Any) -> tuple[Score, ...]:
-    """Return the scores in a state, that of the match first."""
+    """Return the scores in a state, starting with the match score."""
     own = (state[0], state[1])
     rack = unit_of(match)
     if isinstance(rack, Rack) or match.winner(state) is not None:
@@ -283,7 +283,7 @@ def _scores_of(match: Match, state: Any) -> tuple[Score, ...]:
 
 
 def _counted(match: Match, scores: tuple[Score, ...], winner: int) -> tuple[Score, ...]:
-    """Return the scores after a rack, including the racks that a state leaves out."""
+    """Return the scores after a rack, including racks that a state leaves out."""
     (a, b), *inside = scores
     rack = unit_of(match)
     if not isinstance(rack, Rack):

@@ -1,13 +1,14 @@
-"""How long a match takes in minutes, and when those of a table or of a whole evening end.
+"""How long a match takes in minutes, and when the matches on a table or of an evening end.
 
 The minutes of a match are a mixture of lognormals over its number of games. For several matches,
-times are put on a grid of steps h so that the mean is kept: what lies between two points goes to
-both of them in proportion. With L(x) the mean of a time cut off at x, the point x receives
+times are put on a grid with steps h so that the mean is preserved: probability between two points
+is divided between them in proportion. With L(x) the mean of a time cut off at x, the point x
+receives
 
     (2 L(x) - L(x - h) - L(x + h)) / h.
 
-What is at the points up to x has then ended half a step after x. Sums are convolutions, done by
-the fast Fourier transform.
+The probability at the points up to x has then ended half a step after x. Sums are convolutions,
+done by the fast Fourier transform.
 """
 
 from __future__ import annotations
@@ -39,9 +40,9 @@ class MatchMinutes:
     Parameters
     ----------
     probability
-        P(the match takes the games that belong to `means`), shape `(*parameters, k)`.
+        P(the match takes the number of games that belongs to `means`), shape `(*parameters, k)`.
     means
-        the mean minutes of a match with these games, shape (k,).
+        the mean minutes of a match with this number of games, shape (k,).
     log_sd
         the standard deviation of the logarithm of the minutes around them.
     """
@@ -66,7 +67,7 @@ class MatchMinutes:
         return plain(np.sqrt(np.maximum(square - self.mean**2, 0.0)))
 
     def cdf(self, minutes: ArrayLike) -> Any:
-        """Return P(the match takes at most so many minutes)."""
+        """Return P(the match takes at most this many minutes)."""
         ended = ended_by(np.asarray(minutes, dtype=float)[..., np.newaxis], self.means, self.log_sd)
         return plain((self.probability * ended).sum(axis=-1))
 
@@ -86,7 +87,7 @@ class MatchMinutes:
 
 
 def match_minutes(games: ArrayLike, probability: ArrayLike, pace: Pace) -> MatchMinutes:
-    """Return the distribution of a match's minutes on an evening whose pace is not known.
+    """Return the distribution of a match's minutes if the pace of the evening is not known.
 
     Parameters
     ----------
@@ -107,7 +108,7 @@ def match_minutes(games: ArrayLike, probability: ArrayLike, pace: Pace) -> Match
 
 
 def ended_by(minutes: ArrayLike, mean: ArrayLike, log_sd: float) -> Floats:
-    """Return P(a lognormal time with this mean is over by then)."""
+    """Return P(a lognormal time with this mean is over by the given time)."""
     z = np.log(np.maximum(minutes, _LEAST / 2.0)) - np.log(np.maximum(mean, _LEAST))
     spread = max(log_sd, _LEAST)
     ended: Floats = ndtr((z + spread**2 / 2.0) / spread)
@@ -122,7 +123,7 @@ def mean_up_to(minutes: ArrayLike, mean: ArrayLike, log_sd: float) -> Floats:
 
 
 def between(low: Any, high: Any, reached: Callable[[Any], Any]) -> Any:
-    """Return where a condition that holds from some point on starts to hold, by halving."""
+    """Return, by bisection, where a condition that holds from some point on starts to hold."""
     for _ in range(_HALVINGS):
         middle = (low + high) / 2.0
         holds = reached(middle)
@@ -136,7 +137,7 @@ _TAIL = 5.0  # standard deviations of a logarithm beyond which a time is not fol
 
 
 class End(NamedTuple):
-    """When something ends: P(by minutes[k]) = ended[k], with its mean and standard deviation."""
+    """Distribution of a finish time: P(by minutes[k]) = ended[k], with its mean and sd."""
 
     minutes: Floats
     ended: Floats
@@ -145,7 +146,7 @@ class End(NamedTuple):
 
 
 def one_after_another(lengths: Sequence[Floats], pace: Pace, turnover: Turnover) -> End:
-    """Return when matches on one table end, with the turnovers between them, at the usual pace.
+    """Return when the matches on one table end, with turnovers in between, at the usual pace.
 
     Lengths are P(the match takes k games), k = 0, 1, ..., for each match.
 
@@ -178,7 +179,7 @@ def one_after_another(lengths: Sequence[Floats], pace: Pace, turnover: Turnover)
 
 
 def all_at_once(lengths: Sequence[Floats], pace: Pace) -> End:
-    """Return when the last of some matches ends that all start at once.
+    """Return when the last of several matches that all start together ends.
 
     >>> all_at_once([np.array([0.0, 0.5, 0.5])] * 2, Pace(0, 8, 0, 0)).mean.__round__(1)
     14.0
@@ -207,13 +208,13 @@ def _by_games(lengths: Sequence[Floats], pace: Pace) -> tuple[Floats, Floats]:
 
 
 def _grid(longest: float, sd: float) -> tuple[float, int]:
-    """Return the step and the number of points of a grid that reaches so far."""
+    """Return the step and the number of points of a grid that reaches this far."""
     step = max(sd / _STEPS_PER_SD, longest / _MOST_STEPS, 1e-9)
     return step, int(longest / step) + 3
 
 
 def _on_grid(step: float, points: int, mean: float, log_sd: float) -> Floats:
-    """Return the chance of each point of the grid, for a lognormal time with this mean."""
+    """Return the probability at each grid point of a lognormal time with this mean."""
     cut = mean_up_to(step * np.arange(-1, points + 1), mean, log_sd)
     cut[:2] = -step, 0.0  # nothing is cut off below 0
     chance: Floats = np.maximum(2.0 * cut[1:-1] - cut[:-2] - cut[2:], 0.0) / step

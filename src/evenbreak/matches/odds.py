@@ -1,4 +1,4 @@
-"""The odds of one match in plain numbers, calculated without numpy if it is a race."""
+"""Odds of a single match in plain numbers; races are calculated without numpy."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class MatchOdds(NamedTuple):
-    """The odds of one match, from its start score and first breaker on.
+    """Odds of a match, from its start score and first breaker on.
 
     Parameters
     ----------
@@ -29,8 +29,8 @@ class MatchOdds(NamedTuple):
     p_never_ends
         P(the match goes on forever).
     mean_games, sd_games
-        mean and standard deviation of the number of racks still to be played, in all sets;
-        None if the match may never end, or the number is too large for a float.
+        mean and standard deviation of the number of racks left, in all sets; None if the match may
+        never end, or if the number is too large for a float.
     games_p50, games_p90
         the smallest number of racks within which the match ends with probability .5, .9;
         None if it never does, or if it takes more than 100,000 racks and has more than 1,000
@@ -56,17 +56,17 @@ class MatchOdds(NamedTuple):
 
 
 def match_odds(match: Match, *, via: Way | None = None, form: float = 0.0) -> MatchOdds:
-    """Return the odds of `match`: who wins, how long it takes, how close it gets.
+    """Return the odds of `match`: who wins, how long it takes, and how close it is.
 
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks, of sets or of a game of your own, with plain
-        numbers as probabilities. For other games see `game_odds`.
+        a race or an n-ahead match, of racks, sets or custom games, with plain numbers as
+        probabilities. For other games see `game_odds`.
     via
-        for the chances (see `win_probability`). By 'elimination', mean and standard deviation of
-        the length come from the same chain; no eigenvector of eigenvalue 1 gives a length, so with
-        'eigen' they come from the kernel, as the quantiles always do.
+        the method for the chances (see `win_probability`). By 'elimination', mean and standard
+        deviation of the length come from the same chain; no eigenvector of eigenvalue 1 gives a
+        length, so with 'eigen' they come from the kernel, as the quantiles always do.
     form
         standard deviation of a game's log-odds from match to match; see `final_scores`.
 
@@ -97,7 +97,7 @@ def match_odds(match: Match, *, via: Way | None = None, form: float = 0.0) -> Ma
 
 
 def mixed_odds(match: Match, weights: Floats | list[float]) -> MatchOdds:
-    """Return the odds of a match whose chances are drawn from arrays, by weights that sum to 1.
+    """Return the odds of a match whose chances are drawn from arrays, with weights that sum to 1.
 
     The lengths are mixed, and mean, standard deviation and quantiles are those of the mixture.
 
@@ -143,7 +143,7 @@ def mixed_odds(match: Match, weights: Floats | list[float]) -> MatchOdds:
 
 
 def _mean(values: Sequence[float | None], weights: Floats) -> float | None:
-    """Return the weighted mean, None if a value is."""
+    """Return the weighted mean, or None if any value is None."""
     if any(value is None for value in values):
         return None
     import numpy as np

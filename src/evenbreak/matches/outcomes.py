@@ -1,17 +1,18 @@
-"""The outcomes of a match, from those of its racks or sets, and the chance of a shutout.
+"""Outcomes of a match, from the outcomes of its racks or sets, and the chance of a shutout.
 
 The outcome of a unit (a rack or a set) is (winner, next breaker), with its probability and the
 mean and standard deviation of the number of racks it takes, given who breaks first in it. The
 score after each unit is a small Markov chain; absorption in it gives the outcomes of the match
-in the same form, so a match can be a unit of a longer match. Floats and arrays of one shape are
-treated alike.
+in the same form, so a match can be a unit of a longer match. Floats and arrays of the same shape
+are treated alike.
 
-A mean may be as long as 1e300 racks, whose square is too large for a float, so squares are
-taken in units of the longest mean.
+A mean may be as large as 1e300 racks, whose square is too large for a float, so squares are in
+units of the largest mean.
 
 The chain of the scores is solved by elimination of states. Only positive numbers are added,
 multiplied and divided (see `evenbreak.chains.elimination`), so every answer keeps its relative
-accuracy however long play goes on. All its values may be floats, arrays of one shape, or fractions.
+accuracy no matter how long play continues. All values may be floats, arrays of one shape, or
+fractions.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
 
 
 class Outcome(NamedTuple):
-    """The probability of one outcome; mean and standard deviation of its racks, given it."""
+    """Probability of one outcome, with the mean and standard deviation of its racks, given it."""
 
     chance: Any
     mean: Any
@@ -58,7 +59,7 @@ class Outcomes:
 
     @property
     def length(self) -> Outcome:
-        """P(the match ends), and mean and standard deviation of its racks if it does."""
+        """P(the match ends), with the mean and standard deviation of its racks if it does."""
         return _mixture(list(self.by_result.values()))
 
 
@@ -101,7 +102,7 @@ def _unit(match: Match, breaker: int, *, lengths: bool) -> Outcomes:
 
 
 def _mixture(parts: list[Outcome]) -> Outcome:
-    """Return the outcome that any of these happens, by the law of total variance."""
+    """Return the outcome that any of these occurs, by the law of total variance."""
     if len(parts) == 1:
         return parts[0]
     chance = sum((part.chance for part in parts), 0.0)
@@ -116,7 +117,7 @@ def _square(sd: Any, surprise: Any, unit: Any) -> Any:
 
 
 def _unit_of_length(lengths: Iterable[Any]) -> Any:
-    """Return the greatest of some lengths, at least 1; elementwise for arrays."""
+    """Return the largest of some lengths, at least 1; elementwise for arrays."""
     return reduce(_greater, lengths, 1.0)
 
 
@@ -156,7 +157,7 @@ def _absorb(match: Match, score: Score, breaker: int, *, lengths: bool) -> Outco
 
 
 def _in_closed_form(match: Ahead, start: _State) -> Outcomes | None:
-    """Return the chances in an n-ahead match; None if its units do not allow for a closed form."""
+    """Return the chances in an n-ahead match; None if its units have no closed form."""
     a, b, breaker = start
     rack, after = match.rack, {1: (1, 1)}
     if isinstance(rack, Rack):
@@ -191,7 +192,7 @@ def score_arcs(
 ) -> dict[_State, dict[_State | _Result, _Of]]:
     """Return the arcs from each (a, b, breaker) to the next one, or to (winner, next breaker).
 
-    An arc carries what `units` has for its unit and result. All scores with the same result are
+    An arc carries the entry in `units` for its unit and result. All scores with the same result are
     one final state, which keeps eliminated rows short.
     """
     arcs: dict[_State, dict[_State | _Result, _Of]] = {}
@@ -218,9 +219,9 @@ def _with_length(
 ) -> Outcome:
     """Return the outcome whose probability from each state is `reach`, with its length.
 
-    Every reward is weighted with the probability that this outcome follows, so the sums are
-    those of the chain given the outcome. The variance adds up squared surprises (how far each
-    unit moves the mean), so it is accurate even if it is tiny.
+    Every reward is weighted by the probability that this outcome follows, so the sums are
+    conditional on the outcome. The variance adds up squared surprises (how far each unit moves the
+    mean), so it is accurate even if it is tiny.
     """
 
     def mean_reward(state: Any) -> Any:
@@ -248,7 +249,7 @@ def _with_length(
 
 
 NEVER = "never"
-"""The final state that stands for play that never ends."""
+"""The final state that represents play that never ends."""
 
 
 def ratio(x: Any, y: Any) -> Any:
@@ -298,7 +299,7 @@ class ScoreChain:
         """Return the expected total of rewards from each state on, final ones included.
 
         `final` rewards are paid once, 0 where not listed; `NEVER` means play that does not end.
-        `reward` is that of each visit to a state that is not final.
+        `reward` is paid on each visit to a state that is not final.
         """
         final = final or {}
         own = [0 if reward is None else reward(state) for state in self._place]
@@ -309,7 +310,7 @@ class ScoreChain:
 
 
 def _endless(rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> dict[Hashable, Any]:
-    """Return 1 for each state from which play cannot end; arrays where that differs by entry."""
+    """Return 1 for each state from which play cannot end; an array if this differs by entry."""
     before = defaultdict[Hashable, list[tuple[Hashable, Any]]](list)
     for state, row in rows.items():
         for target, chance in row.items():
@@ -329,7 +330,7 @@ def _endless(rows: Mapping[Hashable, Mapping[Hashable, Any]]) -> dict[Hashable, 
 
 
 def _truth(answer: Any) -> Any:
-    """Return True or False for what is so everywhere or nowhere; else the array."""
+    """Return a single True or False if all entries agree; else the array."""
     if isinstance(answer, bool):
         return answer
     return True if answer.all() else answer if answer.any() else False
@@ -346,15 +347,15 @@ def shutout_probability(
 def shutout_probability(match: Match, score: Score | None = None, *, player: int = 1) -> Any:
     """Return P(`player` wins and the other player scores nothing from the start score on).
 
-    It is a product of probabilities, accurate even if it is tiny. None for n-ahead matches,
-    which are about the lead and not the score. In a match of sets it is about sets.
+    It is a product of probabilities, accurate even if it is tiny. None for n-ahead matches, which
+    depend on the lead, not the score. In a match of sets, it counts sets.
 
     Parameters
     ----------
     match
         a race, of racks or of sets; p1 and p2 may be arrays.
     score
-        the score now (see `win_probability`); None: the match's own start score.
+        the current score (see `win_probability`); None: the match's own start score.
     player
         1 or 2.
 

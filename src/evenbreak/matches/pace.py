@@ -1,14 +1,14 @@
-"""How fast matches are played: minutes a match and a game, their spread, the time in between.
+"""How fast matches are played: minutes per match and per game, their spread, the time in between.
 
 A match of k games takes
 
     (overhead + per_game k) N A minutes,
 
-where N, the luck of the match, and A, the pace of the evening, are lognormal with mean 1. N is
-new in each match; all matches of an evening share A.
+where N, the match's random variation, and A, the pace of the evening, are lognormal with mean 1. N
+is new in each match; all matches of an evening share A.
 
-Source: 74,755 timed matches in the tournaments of one city, 2017 to 2025. The paces were fitted
-to those before 2023 and tested on the rest.
+Source: 74,755 timed matches from one city's tournaments, 2017 to 2025. The paces were fitted to
+those before 2023 and tested on the rest.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ class Pace:
     Parameters
     ----------
     overhead
-        minutes of a match besides its games: warming up, the lag, the first rack.
+        minutes per match in addition to its games: warm-up, the lag, the first rack.
     per_game
-        minutes of a game on average.
+        mean minutes per game.
     match_sd
         how much matches with the same number of games vary: the standard deviation of the
         logarithm of their minutes.
     evening_sd
-        how much whole evenings vary: that of the logarithm of an evening's pace.
+        how much whole evenings vary: the standard deviation of the logarithm of an evening's pace.
     discipline
-        the game that is played, if this is its usual pace.
+        the game, if this is its usual pace.
 
     Raises
     ------
@@ -63,13 +63,13 @@ class Pace:
             number(getattr(self, name), name, low=0.0)
 
     def mean_minutes(self, games: FloatOrArray) -> FloatOrArray:
-        """Return the mean time of matches with these numbers of games; none for no games."""
+        """Return the mean times of matches with these numbers of games; 0 for no games."""
         games = np.asarray(games)
         return plain(np.where(games > 0, self.overhead + self.per_game * games, 0.0))
 
     @property
     def log_sd(self) -> float:
-        """How much a match varies if the pace of its evening is not known."""
+        """How much a match varies if the pace of the evening is not known."""
         return math.hypot(self.match_sd, self.evening_sd)
 
     def draw(self, games: ArrayLike, rng: np.random.Generator) -> Floats:
@@ -94,7 +94,7 @@ def pace_of(discipline: str) -> Pace:
     Raises
     ------
     InputError
-        if there is none of this name.
+        if there is no discipline with this name.
     """
     if discipline not in PACES:
         raise InputError(
@@ -106,9 +106,9 @@ def pace_of(discipline: str) -> Pace:
 
 
 def own_pace(minutes_per_game: float) -> Pace:
-    """Return the pace of matches that take so many minutes per game on average, all included.
+    """Return the pace of matches with these mean minutes per game, everything included.
 
-    They vary like matches of the three disciplines, on average.
+    They vary as much as the average of the three disciplines.
 
     >>> own_pace(8).mean_minutes([5, 9]).tolist()
     [40.0, 72.0]

@@ -1,4 +1,4 @@
-"""The probabilities inside a match, plain numbers or arrays, and how a game of your own ends.
+"""The probabilities in a match, plain numbers or arrays, and the endings of a custom game.
 
 Numpy is loaded only for arrays, because the scalar kernels use this module too.
 """
@@ -26,7 +26,7 @@ AnyMatch = TypeVar("AnyMatch", bound=Match)
 
 
 def checked_match(match: AnyMatch) -> AnyMatch:
-    """Return `match` if it is a race or an n-ahead match, with a `Rack` for a game of your own.
+    """Return `match` if it is a race or an n-ahead match, with a `Rack` for a custom game.
 
     >>> checked_match(Rack(0.5))  # doctest: +ELLIPSIS
     Traceback (most recent call last):
@@ -95,11 +95,11 @@ def in_shape(value: Any, shape: tuple[int, ...]) -> Any:
 
 
 _CERTAIN = 1e-9
-"""How far from 1 the chance may be that player 1 or 2 wins a rack."""
+"""Tolerance for the chance that player 1 or player 2 wins a rack, which should be 1."""
 
 
 class Ends(NamedTuple):
-    """The chain of a game, and its final states by winner; None stands for no winner."""
+    """A game's chain, and its final states by winner; None stands for no winner."""
 
     chain: Chain
     by_winner: dict[int | None, list[Hashable]]
@@ -119,10 +119,10 @@ class Ends(NamedTuple):
 def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) -> Ends:
     """Return how a game ends: in which states, and who has won in each of them.
 
-    A directed graph has a `probability` on its arcs and a `winner` on final nodes. An InputError if
-    it is not a game; a GameError if a winner is not the number of a player, someone has won in a
-    state that has moves, or a probability is not one; a ChainError if the probabilities of a state
-    do not sum to 1, or the start is unknown.
+    A directed graph has a `probability` on its arcs and a `winner` on final nodes. Raises
+    InputError if it is not a game; GameError if a winner is not the number of a player, someone has
+    won in a state that has moves, or a probability is not valid; and ChainError if the
+    probabilities of a state do not sum to 1, or the start is unknown.
 
     >>> from evenbreak.games import OneBall
     >>> ends_of_game(OneBall(0.5, 0.5)).by_winner
@@ -153,7 +153,7 @@ def ends_of_game(game: Game | nx.DiGraph[Any], start: Hashable | None = None) ->
 def rack_of_game(game: Game) -> Rack[float]:
     """Return the rack that each player wins with the same chance as the game.
 
-    A GameError if the game has other players, or may end without a winner or not at all.
+    Raises GameError if the game has other players, or may end without a winner or not at all.
 
     >>> from evenbreak.games import OneBall
     >>> rack_of_game(OneBall(0.5, 0.0))
@@ -183,7 +183,7 @@ def _absorbing(chain: Chain) -> list[Hashable]:
 def _check_over(
     chain: Chain, final: list[Hashable], winner_in: Callable[[Any], int | None]
 ) -> None:
-    """Refuse a winner in a state in which the game goes on: their win would not count."""
+    """Raise an error for a winner in a state in which the game continues: it would not count."""
     over = set(final)
     for state in chain.states:
         if state not in over and (winner := winner_in(state)) is not None:

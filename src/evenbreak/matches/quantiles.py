@@ -1,8 +1,8 @@
 """Quantiles of a distribution on whole numbers, exact where probabilities tie with the level.
 
-P(length <= k) is often exactly the level asked for (an even race 2:2 lasts two racks with
+P(length <= k) is often exactly the requested level (an even race 2:2 lasts two racks with
 probability 1/2), and sums of floats miss it by the last digit. So the level counts as reached
-within a relative 1e-12.
+within a relative tolerance of 1e-12.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ TIE = 1e-12
 def quantile_of(probability: Sequence[float], q: float) -> int:
     """Return the first position whose cumulative probability reaches `q`.
 
-    An InputError if q is not a probability.
+    Raises InputError if q is not a probability.
 
     >>> quantile_of([0.5, 0.3, 0.2], 0.5), quantile_of([0.5, 0.3, 0.2], 0.9)
     (0, 2)

@@ -1,7 +1,8 @@
-"""The odds of a race in plain numbers, without numpy.
+"""Odds of a race in plain numbers, without numpy.
 
-After k racks the score is i : k - i, so the probabilities of the scores are a list over i. The
-next rack moves what is at i to i + 1 or leaves it; what leaves the list has won the race.
+After k racks the score is i : k - i, so the probabilities of the scores are a list over i. The next
+rack moves probability from i to i + 1 or leaves it at i; probability that leaves the list has won
+the race.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ class RaceOdds(NamedTuple):
 
     @property
     def p_win_2(self) -> float:
-        """P(player 2 wins the race); a sum of its own, so it is accurate even if it is tiny."""
+        """P(player 2 wins the race), a separate sum, so that it is accurate even if tiny."""
         return _total(self.win_2)
 
     @property
@@ -90,13 +91,14 @@ def race_odds(
     m, n
         the games that player 1 and player 2 need.
     rack
-        one rack, or P(player 1 wins a rack) where the break does not matter.
+        one rack, or P(player 1 wins a rack) if the break does not matter.
     breaks
         who breaks next; needed with Rack(p1, p2).
     first_breaker
         who breaks the first rack, 1 or 2.
     score
-        the games that each has at the start. A player who has all the games they need has won.
+        the games that each player has at the start. A player who has all the games they need has
+        won.
 
     Raises
     ------
@@ -151,7 +153,7 @@ def race_odds(
 
 
 def _total(chances: Sequence[float]) -> float:
-    """Return the sum of the probabilities of exclusive events, which rounding may take above 1."""
+    """Return the sum of the probabilities of disjoint events, capped at 1 against rounding."""
     return min(1.0, math.fsum(chances))
 
 

@@ -2,10 +2,10 @@
 
 P(the match is still going on after k + 1 racks), given the state now, is the mean of P(it is
 still going on after k racks) over the states that the next rack leads to. Short matches are
-calculated in plain Python, longer ones with a sparse matrix. For very long ones the matrix of a
-rack is squared again and again, so 2^j racks cost j products. After every product each row is
-scaled so that it sums to 1 together with the probability of having ended; otherwise rounding
-errors would add up and the match would seem to end.
+calculated in plain Python, longer ones with a sparse matrix. For very long ones, the matrix of a
+rack is squared repeatedly, so 2^j racks cost j products. After every product each row is scaled so
+that it sums to 1 together with the probability of having ended; otherwise rounding errors would add
+up and the match would seem to end.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ Moves = Mapping[Hashable, Sequence[tuple[Hashable, float]]]
 _Arcs = list[list[tuple[int, float]]]
 
 _PATIENCE = 100_000
-"""More additions than this take longer in plain Python than with scipy, loading included."""
+"""Number of additions above which plain Python is slower than scipy, loading included."""
 _LONGEST = 100_000
-"""The most racks that are played one by one, in a match with many states."""
+"""The most racks that are played one by one in a match with many states."""
 _MOST_STATES = 1_000
-"""With more states than this, dense products take longer than playing rack by rack."""
+"""Number of states above which dense products take longer than playing rack by rack."""
 _MOST_DOUBLINGS = 1_100
-"""Within 2^1100 racks even an event as unlikely as the smallest float has happened."""
+"""Within 2^1100 racks, even an event as unlikely as the smallest float has happened."""
 
 
 def racks_within(
@@ -93,7 +93,7 @@ def _still_going_on(arcs: _Arcs) -> Iterator[Any]:
 def _by_doubling(
     arcs: _Arcs, moves: Moves, levels: Sequence[tuple[int, float]]
 ) -> list[int | None]:
-    """Return the smallest number of racks for each (place of a state, probability)."""
+    """Return the smallest number of racks for each (position of a state, probability)."""
     import numpy as np
 
     stay = np.zeros((len(arcs), len(arcs)))
@@ -115,7 +115,7 @@ def _by_doubling(
 
 
 def _least_racks(powers: list[Any], density: Any, q: float) -> int:
-    """Return the smallest number of racks within which the match has ended with probability q."""
+    """Return the smallest number of racks within which the match ends with probability q."""
     racks, ended = 0, 0.0
     for j in range(len(powers) - 1, -1, -1):
         stay, end = powers[j]
@@ -131,7 +131,7 @@ RackMoves = dict[Any, tuple[tuple[Any, Any], tuple[Any, Any]]]
 def rack_moves(match: Match, start: Any = None) -> RackMoves:
     """Return the next state and its chance for each winner of the next rack, by state.
 
-    The entry for player 1 comes first. Both are listed, even with a chance of 0, as people win
+    The entry for player 1 comes first. Both are listed, even with a chance of 0, since people win
     racks in which a model gives them no chance. States that are not listed are final.
 
     >>> from evenbreak.games import Race
@@ -155,7 +155,7 @@ def rack_moves(match: Match, start: Any = None) -> RackMoves:
 
 
 def breaker_in(match: Match, state: Any) -> int:
-    """Return who breaks the next rack in a state; 1 where the break does not matter.
+    """Return who breaks the next rack in a state; 1 if the break does not matter.
 
     >>> from evenbreak.games import Race, winner_breaks
     >>> breaker_in(Race(2, 1, Rack(0.6, 0.5), breaks=winner_breaks), (1, 0, 2))

@@ -24,13 +24,13 @@ _MOST_SETS = 10_000
 @array_values
 @dataclass(frozen=True, eq=False)
 class FinalScores(Generic[ChanceT]):
-    """The distribution of the final score of a match.
+    """Distribution of a match's final score.
 
     Parameters
     ----------
     probability
-        P(the match ends a:b) by (a, b): racks, or sets for a match of sets. The wins of
-        player 1 come first, then those of player 2, each with the shortest matches first.
+        P(the match ends a:b) by (a, b): racks, or sets for a match of sets. Player 1's wins come
+        first, then player 2's, both from the shortest matches up.
     p_never_ends
         P(the match goes on forever).
     tail_mass
@@ -64,14 +64,14 @@ def final_scores(
         a race or an n-ahead match, of racks or of sets; p1 and p2 may be arrays, and
         each probability is then an array of their shape.
     score
-        the score now (see `win_probability`); None: the match's own start score.
+        the current score (see `win_probability`); None: the match's own start score.
     tail
         probability that may be left out if there is no longest length.
     form
         day-to-day form: standard deviation of a game's log-odds from match to match. A player in
-        form wins more of all games of the match, so there are more clear scores and fewer close
-        ones; the chance of the first game stays what it is. The games of `score` count as played
-        and show the day's form; where games are given on the wire, use a shorter race instead.
+        form wins more games throughout the match, so there are more lopsided scores and fewer close
+        ones; the chance in the first game is unchanged. The games of `score` count as played and
+        show the day's form; where games are given on the wire, use a shorter race instead.
 
     Raises
     ------
@@ -137,8 +137,8 @@ def hill_hill_probability(match: Match[Any], score: Score | None = None) -> Floa
 def hill_hill_probability(match: Match, score: Score | None = None) -> Any:
     """Return P(the last possible rack decides): the race m:n comes to m - 1 : n - 1.
 
-    None for n-ahead matches and races won by 2 or more, which have no last possible rack. In
-    a match of sets it is about the last possible set. Parameters and errors are those of
+    None for n-ahead matches and races won by 2 or more, which have no last possible rack. In a
+    match of sets, it refers to the last possible set. Parameters and errors are those of
     `final_scores`; 0 if the match is over at the start.
 
     >>> from evenbreak.games import Race, Rack
@@ -173,7 +173,7 @@ def _final(match: Match, player: int, k: int) -> Score:
 
 
 def _by_sets(match: Match, never: Any, tail: float | None) -> tuple[dict[Score, Any], int]:
-    """Return the final scores of a match of sets, and up to how many sets they are listed.
+    """Return the final scores of a match of sets, and the largest number of sets listed.
 
     If `tail` is None, the match is followed up to its longest possible length.
     """

@@ -1,17 +1,17 @@
-"""14.1 straight pool: both shoot until they miss, and the first to reach their points wins.
+"""Straight pool (14.1): each player shoots until a miss; the first to reach their points wins.
 
-A player who needs N points gets there in their own inning T, whatever the other does. If they
-make the first shot of an inning with chance alpha p and each of the others with p, the chances
+A player who needs N points gets there in their own inning T, independent of the other player. If
+they make the first shot of an inning with chance alpha p and each of the others with p, the chances
 of T = 1, 2, ... are the coefficients of
 
     alpha p^N (1 - a z)^(N - 1) / (1 - b z)^N,    a = 1 - alpha, b = 1 - alpha p,
 
-and the ratios r_j of each to the one before obey, from r_0 = N alpha (1 - p) + a on,
+and the ratios r_j of successive chances, starting with r_0 = N alpha (1 - p) + a, satisfy
 
     (j + 1) r_j = (a + b) j + N alpha (1 - p) + a - a b j / r_(j - 1).
 
-They decrease toward b. What is subtracted is at most a j, and the sum is larger by b j and
-more, so every chance keeps nearly all its digits, without safety play (a = 0) and with it.
+They decrease toward b. The subtracted term is at most a j, and the sum exceeds it by at least b j,
+so every chance keeps nearly all its digits, with or without safety play (a = 0).
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ from evenbreak.matches.quantiles import quantile_of
 from evenbreak.stats.counts import exact
 
 LONGEST = 10_000
-"""The most innings, on average, that a player may need here."""
+"""The most innings, on average, that a player may need in this module."""
 
 _TAIL = 60.0
-"""Innings are cut off once less than exp(-60) of the largest probability is still to come."""
+"""Innings are cut off once the remaining probability is below exp(-60) of the largest."""
 
 
 @dataclass(frozen=True)
 class StraightPool:
-    """A match of 14.1 straight pool; the player who needs fewer points has a spot, or is ahead.
+    """Match of 14.1 straight pool; the player who needs fewer points has a spot, or is ahead.
 
     The players take turns, and each turn, an inning, ends with the first miss. Fouls and the
     points they cost are left out; a safety counts as a miss.
@@ -50,13 +50,13 @@ class StraightPool:
     points_1, points_2
         the points that player 1 and player 2 need, 1 or more.
     p1, p2
-        P(the player makes a shot), the same for every shot but the first of an inning. A
-        float means the decimal that it prints as.
+        P(the player makes a shot), the same for every shot but the first of an inning. A float
+        stands for the decimal that it prints.
     safety_1, safety_2
         P(player 1, 2 makes the first shot of an inning) is safety_1 p1, safety_2 p2: below 1
         if the opponent leaves a hard shot.
     first
-        who has the first inning, 1 or 2.
+        who shoots first, 1 or 2.
 
     Raises
     ------
@@ -95,8 +95,7 @@ class StraightPoolOdds:
     p_never_ends
         P(no one ever wins): 1 if neither player can make the first shot, else 0.
     mean_innings, sd_innings
-        mean and standard deviation of the innings that the winner has had at the end; None
-        if the match never ends.
+        mean and standard deviation of the winner's number of innings; None if the match never ends.
     innings_p50, innings_p90
         the smallest number of innings within which it ends with probability .5, .9; None if
         it never ends.
@@ -112,12 +111,12 @@ class StraightPoolOdds:
 
 
 def straight_pool_odds(match: StraightPool) -> StraightPoolOdds:
-    """Return who wins a match of straight pool, and in how many innings.
+    """Return who wins a straight-pool match, and in how many innings.
 
     Raises
     ------
     InputError
-        if a player would take more than 10,000 innings on average, but would get there.
+        if a player can reach their points, but would take more than 10,000 innings on average.
 
     Notes
     -----
@@ -222,11 +221,11 @@ def _refuse_endless(number: int, points: int, p: Fraction, safety: Fraction) -> 
 
 
 _EVEN = (0.4, 0.6)
-"""A match in which a player wins with a chance from .4 to .6 is called even."""
+"""Range of player 1's chance, .4 to .6, within which a match is called even."""
 
 
 class EvenPoints(NamedTuple):
-    """The points of player 2 that make a match nearest to even.
+    """Points for player 2 that make a match as even as possible.
 
     `p_win_1` is P(player 1 wins the match) with them.
     """
@@ -238,8 +237,8 @@ class EvenPoints(NamedTuple):
     def is_even(self) -> bool:
         """Whether each player wins with probability 0.4 or more.
 
-        If not, no other number of points makes the match even either: the points are too few,
-        or one player is far better.
+        If not, no number of points makes the match even: the points are too few, or one player is
+        far better.
 
         >>> even_points(100, 0.9, 0.85).is_even, even_points(1, 0.9, 0.8).is_even
         (True, False)
@@ -248,7 +247,7 @@ class EvenPoints(NamedTuple):
 
 
 class Spot(NamedTuple):
-    """How many points the weaker player should need, if the stronger still needs as many as now.
+    """How many points the weaker player should need if the stronger player's points stay the same.
 
     Parameters
     ----------
@@ -257,7 +256,7 @@ class Spot(NamedTuple):
     points
         how many points they should need; None if no number of points makes the match even.
     p_win_1
-        P(player 1 wins the match) with these points; None if there are none.
+        P(player 1 wins the match) with these points; None if `points` is None.
     """
 
     weaker: int
@@ -266,9 +265,9 @@ class Spot(NamedTuple):
 
 
 def even_spot(match: StraightPool) -> Spot:
-    """Return the points of the weaker player that bring a match nearest to even.
+    """Return the weaker player's points that make a match as even as possible.
 
-    The stronger player is the one who makes more balls an inning; player 1 if both make as many.
+    The stronger player is the one who makes more balls per inning, or player 1 if they are equal.
 
     Raises
     ------
@@ -320,8 +319,8 @@ def even_points(
     Returns
     -------
     EvenPoints
-        the nearest to even from 1 to `most`, or to the most that can be calculated where
-        that is less; the fewest points where several are equally near.
+        the points closest to even from 1 to `most`, or to the most that can be calculated if that
+        is less; the fewest of several equally close ones.
 
     Raises
     ------
@@ -359,7 +358,7 @@ def _balls_an_inning(p: float | Fraction, safety: float | Fraction) -> Fraction 
 
 
 def _most_points(p: Fraction, safety: Fraction) -> int:
-    """Return the most points that take no more than the most innings, on average."""
+    """Return the most points that take at most the largest number of innings, on average."""
     if p == 1 or p * safety == 0:
         return sys.maxsize
     return max(1, math.floor((LONGEST * safety * p - p) / (1 - p)))

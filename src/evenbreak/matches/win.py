@@ -62,25 +62,24 @@ def win_probability(
     Parameters
     ----------
     match
-        a race or an n-ahead match, of racks, of sets or of a game of your own, or any other
-        game (see `evenbreak.game`). The probabilities of its innermost rack may be arrays; p1
-        and p2 are broadcast together.
+        a race or an n-ahead match, of racks, sets or custom games, or any other game (see
+        `evenbreak.game`). The probabilities of its innermost rack may be arrays; p1 and p2 are
+        broadcast together.
     score
-        the score now, in racks (in sets for a match of sets); the match's first breaker
-        breaks the next rack. None: the match's own start score. For any other game, the
-        state now.
+        the current score, in racks (in sets for a match of sets); the match's first breaker breaks
+        the next rack. None: the match's own start score. For any other game, the current state.
     player
-        1 or 2, or any player of a game of your own. Each player's chance is calculated by
-        itself, never as 1 minus the others', so all are accurate even if tiny. They add up to
-        1 minus P(the match never ends).
+        1 or 2, or any player in a custom game. Each player's chance is calculated separately, never
+        as 1 minus the others', so all are accurate even if tiny. They add up to 1 minus P(the match
+        never ends).
     exact
-        whether to calculate in fractions. A chance of the rack given as a `Fraction` is used
-        unchanged, a float as the decimal that it prints: 0.6 is 3/5.
+        whether to calculate in fractions. A rack's chance given as a `Fraction` is used unchanged;
+        a float is used as the decimal that it prints: 0.6 is 3/5.
     via
-        the way to a chance in plain numbers. 'kernel': the fast closed form or recursion of this
-        package. 'elimination', 'eigen': the stochastic limit of the game's graph, by elimination or
-        by eigenvectors (see `evenbreak.chains.limit_of`); the three agree to 1e-12. None: the
-        kernel, or elimination for a game of your own, which has none.
+        the method of calculating a chance in plain numbers. 'kernel': the fast closed form or
+        recursion of this package. 'elimination', 'eigen': the stochastic limit of the game's graph,
+        by elimination or by eigenvectors (see `evenbreak.chains.limit_of`); the three agree to
+        1e-12. None: the kernel, or elimination for a custom game, which has no kernel.
 
     Returns
     -------
@@ -91,13 +90,13 @@ def win_probability(
     Raises
     ------
     InputError
-        if the score cannot be reached, `match` is not a game, `player` is not one, an exact
-        answer is asked for arrays, or there is no such way.
+        if the score cannot be reached, `match` is not a game, `player` is not one, an exact answer
+        is requested for arrays, or `via` is unknown.
     AccuracyError
         by eigenvectors, if the error may be above 1e-12.
     GameError, ChainError
-        as `game_odds` does, for a game of your own; also, with `exact`, if the moves from a
-        state of it do not sum to exactly 1.
+        as `game_odds` does, for a custom game; also, with `exact`, if the moves from a state of it
+        do not sum to exactly 1.
 
     Notes
     -----
@@ -166,7 +165,7 @@ def race_win_probability(p: ArrayLike, m: ArrayLike, n: ArrayLike) -> Any:
     Parameters
     ----------
     p
-        P(player 1 wins a game), whoever breaks.
+        P(player 1 wins a game), regardless of who breaks.
     m, n
         the games that player 1 and player 2 need: whole numbers, 0 for a player who has
         already won; not both 0. The three are broadcast together.

@@ -1,12 +1,12 @@
-"""The chance of winning as a formula, with sympy, and as polynomials in p and q = 1 - p.
+"""Chance of winning as a formula (with sympy), and as polynomials in p and q = 1 - p.
 
 The formula needs sympy, which the extra `symbolic` installs.
 
-Where the break does not matter, a form of degree N is the list of coefficients c[k] of p^k q^(N-k),
-whole numbers. Every match has two forms without negative coefficients, F1 and F2, and W(p) = F1 /
-(F1 + F2). For a race they are sums over its scores, for an n-ahead match those of the gambler's
-ruin, and a match of sets has the forms of the set in place of p and q. Questions about W become
-questions about the signs of whole numbers.
+If the break does not matter, a form of degree N is the list of integer coefficients c[k] of p^k
+q^(N-k). Every match has two forms without negative coefficients, F1 and F2, and W(p) = F1 / (F1 +
+F2). For a race, they are sums over its scores; for an n-ahead match, they are those of the
+gambler's ruin; and a match of sets has the forms of the set in place of p and q. Questions about W
+become questions about the signs of integers.
 """
 
 from __future__ import annotations
@@ -62,8 +62,8 @@ def win_formula(played: Match | OneBall | MatchFormat | str, *, player: int = 1)
     Notes
     -----
     Source: problems P5.5 and P5.6 (races), P5.8 (sets), P5.20 (one-ball), P5.24 (break
-    formats), P5.27 (n-ahead). A formula from another score or with breaks is solved for; that
-    takes time for long matches.
+    formats), P5.27 (n-ahead). A formula from another score or with breaks has to be solved for,
+    which takes time for long matches.
 
     >>> win_formula("3:2")
     p**4 + 4*p**3*q
@@ -97,7 +97,7 @@ def _breaks_of(played: MatchFormat) -> str | None:
 
 
 def _format_of(match: Match) -> MatchFormat | None:
-    """Return the format of a match from 0:0 in which the break does not matter, else None."""
+    """Return the format of a match from 0:0 in which the break does not matter, or None."""
     if match.break_matters or match.score != (0, 0):
         return None
     unit = unit_of(match)
@@ -123,8 +123,8 @@ def _of_forms(played: MatchFormat, player: int) -> Any:
 def _polynomial(match: Match, player: int) -> Any:
     """Return the formula of a match with a longest length, from its last racks back.
 
-    With x the breaker's chance and f the formulas after the rack, f = f_lost + x (f_won - f_lost),
-    all in whole numbers.
+    If x is the breaker's chance and f_won and f_lost are the formulas after the rack, then f =
+    f_lost + x (f_won - f_lost), all in integers.
     """
     import sympy
 
@@ -145,7 +145,7 @@ def _polynomial(match: Match, player: int) -> Any:
 
 
 def _quotient(match: Match, player: int) -> Any:
-    """Return the formula of a match that may go on forever, from its diagram."""
+    """Return the formula of a match that may never end, from its diagram."""
     import sympy
 
     symbols = sympy.symbols(_symbols_of(match), seq=True)
@@ -221,7 +221,7 @@ def product(first: Form, second: Form) -> Form:
 
 
 def value_at(form: Sequence[int], p: int, q: int) -> int:
-    """Return the value of a form, exactly.
+    """Evaluate a form exactly.
 
     >>> value_at([1, 2, 0], 1, 3)
     15
@@ -237,7 +237,7 @@ def _ahead(m: int, n: int) -> WinForms:
 
 
 def _win_by(m: int, n: int, by: int) -> WinForms:
-    """Return the forms of a race win-by-K: ways to reach a score, times what follows it."""
+    """Return the forms of a win-by-K race: the ways to reach a score, times what follows."""
     race = Race(m, n, Rack(0.5), win_by=by)
     over = [1] * (2 * by)
     ways = {(0, 0): 1}
@@ -267,7 +267,7 @@ def _win_by(m: int, n: int, by: int) -> WinForms:
 
 
 def _composed(outer: Form, inside: WinForms) -> Form:
-    """Return a form with the forms of a set in place of p and q."""
+    """Return a form with a set's forms in place of p and q."""
     won, lost = inside
     result, power = [0], [1]
     for place, coefficient in enumerate(reversed(outer)):

@@ -1,4 +1,4 @@
-"""The physics of the table: ball, cloth and cue, and how they meet (sections 1 to 4).
+"""The physics of the table: ball, cloth and cue, and their contacts (sections 1 to 4).
 
 All quantities are in SI units and radians (`units` converts from inches and ounces). Frames are
 right-handed: x ahead, y to the left, z up. In the frame of the shot, x' points where the cue ball

@@ -1,11 +1,12 @@
 """A shot that allows for throw: aimed so that the object ball goes to a point or a pocket (P4.6).
 
-The throw depends on the spin with which the cue ball arrives, the spin on how far the cue ball
-travels, and that on where it is aimed. So the cut is found for the shot as a whole.
+The throw depends on the spin with which the cue ball arrives, the spin depends on how far the cue
+ball travels, and the distance depends on where it is aimed. So the cut is found for the shot as a
+whole.
 
 At a pocket the aim is the middle of its mouth, or one side of it if a cushion is in the way. A ball
-at a cushion cannot be sent at the middle of the mouth of a corner pocket, since the cue ball would
-have to be inside the cushion; along the cushion it drops all the same.
+on a cushion cannot be sent to the middle of the mouth of a corner pocket, since the cue ball would
+have to be inside the cushion; but if it rolls along the cushion, it still drops.
 """
 
 from __future__ import annotations
@@ -29,13 +30,13 @@ from evenbreak.physics.strike import Strike
 from evenbreak.physics.throw import throw_angle
 
 _THINNEST = 0.5 * math.pi - 1e-9
-"""Just short of a right angle, at which nothing is hit."""
+"""Just under a right angle, at which nothing is hit."""
 
 
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class AimedShot:
-    """A shot that sends the object ball to a target, with and without allowing for throw.
+    """Shot that sends the object ball to a target, with and without allowing for throw.
 
     Parameters
     ----------
@@ -67,7 +68,7 @@ class AimedShot:
 
     @property
     def offset(self) -> float:
-        """How far beside the target the line of centers points, in meters; signed as `turn`."""
+        """How far beside the target the line of centers points, in meters, signed as `turn`."""
         return self.distance * math.tan(self.turn)
 
     @property
@@ -97,7 +98,7 @@ def aimed_shot(
     strike, cloth, table, mu, friction
         as for `shot`.
     cue_ball, object_ball, target
-        where they are on the table: x and y in meters.
+        positions on the table: x and y in meters.
 
     Raises
     ------
@@ -163,7 +164,7 @@ def aimed_shot(
 
 
 def _state_after(strike: Strike, cloth: Cloth, travel: float) -> State | None:
-    """Return the cue ball after it has traveled this far; None if it stops before."""
+    """Return the cue ball after it has traveled this far, or None if it stops before that."""
     slide = Slide(strike.ball, cloth, np.zeros(2), strike.velocity, strike.spin)
     time = time_to(slide, np.array([1.0, 0.0]), travel)
     if time >= (1.0 - 1e-9) * float(slide.stop_time):
@@ -196,7 +197,7 @@ def _between(first: Floats, second: Floats) -> float:
 
 
 _STEPS = 8
-"""The number of points of the mouth to try on each side of its middle."""
+"""The number of points in the mouth to try on each side of its middle."""
 
 
 def pocketed_shot(

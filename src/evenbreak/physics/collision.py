@@ -1,4 +1,4 @@
-"""The hit of a cue ball on a ball at rest (section 4, P4.1 to P4.12).
+"""Collision of a cue ball with a ball at rest (section 4, P4.1 to P4.12).
 
 The balls are equal, the hit is elastic along the line of centers, and friction acts across it as
 described in `throw`. With x along the line of centers, y to its left, and the cue ball moving at
@@ -28,7 +28,7 @@ from evenbreak.physics.units import GRAVITY, numbers, positive
 
 
 class Jump(NamedTuple):
-    """A ball's short flight: its time in seconds, its height and distance in meters.
+    """A ball's short flight: its time in seconds, and its height and distance in meters.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class Jump(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Collision:
-    """The result of a hit: floats, or arrays for several hits.
+    """Result of a hit: floats, or arrays for several hits.
 
     Vectors have their components last, in the frame of the shot: x' in the direction of the cue
     ball before the hit, y' to the left, z up.
@@ -57,8 +57,8 @@ class Collision:
     mu
         the coefficient of friction between the balls in this hit.
     ahead, sideways, upward
-        the velocity that the object ball gets, in m/s: V_bx along the line of centers, V_by to
-        its left, and V_bz, which is below 0 if the table takes it up.
+        the velocity that the object ball gets, in m/s: V_bx along the line of centers, V_by to its
+        left, and V_bz, which is below 0 if the table absorbs it.
     """
 
     ball: Ball
@@ -120,7 +120,7 @@ class Collision:
 
     @property
     def delta_elastic(self) -> Any:
-        """Twice the energy that goes into spin, over M, from horizontal friction alone (P4.11).
+        """Twice the energy that goes into spin over M, from horizontal friction alone (P4.11).
 
         In m^2/s^2; above 0 if both balls then spin the same way, below 0 if not (P4.1).
         """
@@ -221,12 +221,13 @@ def collide(
     speed
         V_0, the speed of the cue ball, in m/s.
     mu
-        coefficient of friction between the balls; `SlipFriction()` for one that falls with the
-        speed of the slip.
+        coefficient of friction between the balls; `SlipFriction()` for a coefficient that falls
+        with the slip speed.
     friction
-        'limited': it stops when the slip stops; 'shepard': the text's law, without that limit.
+        'limited': friction stops when the slip stops; 'shepard': the text's law, without that
+        limit.
     ball
-        both balls; by default a pool ball.
+        both balls; default: a pool ball.
 
     Raises
     ------

@@ -23,12 +23,12 @@ from evenbreak.physics.units import LEAST, numbers, positive
 
 
 class EnergyShares(NamedTuple):
-    """The energies of the two balls, over the energy M V_0^2 / 2 of the cue ball before the hit.
+    """Energies of the two balls, relative to the cue ball's energy M V_0^2 / 2 before the hit.
 
     Parameters
     ----------
     object_ball, cue_ball
-        shares, 0 or more; their sum is above 1 if the cue ball's spin brings energy of its own.
+        shares, 0 or more; their sum is above 1 if the cue ball's spin contributes energy.
     """
 
     object_ball: Any

@@ -1,11 +1,11 @@
-"""Friction: how to measure it, how it slows a sliding block, and what it is between two balls.
+"""Friction: how to measure it, how it slows a sliding block, and its value between two balls.
 
-Section 1 of the source text takes a number for two balls, which its throw test measures (P1.6).
-Measured at several speeds, the friction falls as the balls slip faster on each other:
+Section 1 of the source text uses a constant for two balls, which its throw test measures (P1.6). In
+measurements at several speeds, the friction falls as the balls slip faster on each other:
 
     mu(v) = a + b exp(-c v)
 
-A hit keeps the friction of the slip with which it starts.
+During a hit, the friction is that of the initial slip.
 """
 
 from __future__ import annotations
@@ -235,7 +235,7 @@ def tip_friction_of(offset: FloatOrArray) -> FloatOrArray:
 
 
 def _block(speed: Any, friction: Any, gravity: Any, **third: Any) -> tuple[Floats, Floats, Floats]:
-    """Return a block's speed, its deceleration and a third number, all checked."""
+    """Return a block's speed, its deceleration and a third number, after checking all of them."""
     block = {
         "speed": numbers(speed, "speed", low=0.0),
         "friction": positive(friction, "friction"),
@@ -260,7 +260,7 @@ class SlipFriction:
     fast
         a, the coefficient at a very fast slip.
     more
-        b, by how much it is higher at a very slow slip.
+        b, how much higher it is at a very slow slip.
     decay
         c, how quickly it falls, in seconds per meter.
 
@@ -294,14 +294,14 @@ class SlipFriction:
         return self.fast + self.more
 
     def at(self, slip: Any) -> Any:
-        """Return the coefficient for a speed of the slip in m/s."""
+        """Return the coefficient for a slip speed in m/s."""
         slip = numbers(slip, "slip", low=0.0, high=np.inf)
         with np.errstate(over="ignore"):
             return plain(self.fast + self.more * np.exp(-self.decay * slip))
 
 
 def checked_friction(mu: Any, speed: Any) -> tuple[Floats | SlipFriction, Floats]:
-    """Return friction and speed of a hit, checked; friction that needs a speed must have one."""
+    """Return the friction and speed of a hit, checked; speed-dependent friction needs a speed."""
     if speed is None:
         if isinstance(mu, SlipFriction):
             raise InputError("mu depends on how fast the balls slip. Give the cue ball's speed.")
@@ -318,7 +318,7 @@ def one_friction(mu: Any) -> float | SlipFriction:
 def friction_of_slip(
     mu: Floats | SlipFriction, speed: Floats, left: Floats, up: Floats
 ) -> Floats | float:
-    """Return the coefficient for a slip to the left and up that is given over the speed."""
+    """Return the coefficient for a slip to the left and up that is given relative to the speed."""
     if not isinstance(mu, SlipFriction):
         return mu
     return np.asarray(mu.at(speed * np.hypot(left, up)))

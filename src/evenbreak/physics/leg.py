@@ -1,11 +1,11 @@
 """The path of one ball, from its start until it stops, hits something or drops into a pocket.
 
-It slides and then rolls, as described in `slide`; here the path has an end and a clock.
+It slides and then rolls, as described in `slide`; here, the path also has an end and a clock.
 
 A pocket is a straight mouth between the noses of two cushions, across the corner or along the side,
-that a ball fits through or not. A corner of the table is (0, 0); x runs along it from the head
-cushion to the foot cushion, and y to the left of that. The source text has no pockets; the mouths
-here are 4 1/2 inches at the corners and 5 inches at the sides, the tightest in common use.
+which a ball either fits through or doesn't. A corner of the table is (0, 0); x runs along it from
+the head cushion to the foot cushion, and y to the left of that. The source text has no pockets; the
+mouths here are 4 1/2 inches at the corners and 5 inches at the sides, the tightest in common use.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ _SLACK = 1e-9
 """A nanometer: how far rounding may push a ball into a cushion along which it rolls."""
 
 _INSTANT = 1e-12
-"""Shorter slides, in seconds, are rounding errors: the ball is in natural roll from the start."""
+"""Slides shorter than this, in seconds, are rounding errors: the ball rolls from the start."""
 
 
 class State(NamedTuple):
-    """A ball at a time in seconds: position in meters, velocity in m/s, spin in rad/s."""
+    """State of a ball at a time in seconds: position in meters, velocity in m/s, spin in rad/s."""
 
     time: float
     position: Floats
@@ -77,9 +77,9 @@ class Leg:
     name
         'cue ball' or 'object ball'.
     slide
-        the ball from the start of the path, as on an endless table.
+        the ball's motion from the start of the path, as on an endless table.
     begin, end
-        seconds on the clock of the shot.
+        seconds on the shot's clock.
     ending
         'rest', 'hit' (the cue ball meets the object ball), 'cushion' or 'pocket'.
     pocket
@@ -99,14 +99,14 @@ class Leg:
         return min(self.begin + float(self.slide.slide_time), self.end)
 
     def state(self, time: float) -> State:
-        """Return the ball at a time of the shot; beyond the path, its state at the nearer end."""
+        """Return the ball at a time in the shot; beyond the path, its state at the nearer end."""
         now = min(max(time, self.begin), self.end)
         since = now - self.begin
         slide = self.slide
         return State(now, slide.at(since), slide.velocity_at(since), slide.spin_at(since))
 
     def energy(self, time: float) -> Energy:
-        """Return the ball's kinetic energy at a time of the shot, in joules.
+        """Return the ball's kinetic energy at a time in the shot, in joules.
 
         Sidespin counts even after the ball has stopped, since in this model it does not wear off.
         """

@@ -103,12 +103,12 @@ class Cloth:
 
     @property
     def slide_deceleration(self) -> float:
-        """How fast a ball loses speed while it slides, in m/s^2."""
+        """A sliding ball's deceleration, in m/s^2."""
         return self.mu_slide * self.gravity
 
     @property
     def roll_deceleration(self) -> float:
-        """How fast a ball loses speed while it rolls, in m/s^2."""
+        """A rolling ball's deceleration, in m/s^2."""
         return self.mu_roll * self.gravity
 
     @property
@@ -180,7 +180,7 @@ def _positive(thing: object, name: str, wanted: str) -> None:
 
 
 class BallSet(NamedTuple):
-    """The balls of a game, according to its rules.
+    """Balls for a game, according to its rules.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Where the tip meets the ball, and the spin that this gives (section 3, P3.4 to P3.11).
+"""Where the tip meets the ball, and the resulting spin (section 3, P3.4 to P3.11).
 
 Seen from behind the cue ball, a contact point is (y, z): y to the left and z above the cloth,
 both in units of the ball's radius R, so the center is (0, 1). An offset from the center is b / R,
@@ -28,17 +28,17 @@ In exercise 3.1 a stripe struck there, with the cue in its plane, seems to stand
 
 
 MOST_ENGLISH_OFFSET = 0.5
-"""The offset to the side, over R, of 100 % english: beyond it the tip usually slips."""
+"""The offset to the side, over R, of 100% english: beyond it, the tip usually slips."""
 
 TIPS_OF_MOST_ENGLISH = 1.4
-"""By how many widths of a tip the cue is then to the side of the ball's center.
+"""How many tip widths the cue is then to the side of the ball's center.
 
 D. G. Alciatore ("Dr. Dave"), frequently asked questions on english, billiards.colostate.edu. It is
 that of a usual tip; thin or flat tips give less english by the tip.
 """
 
 SQUIRTS = {"regular": 2.5, "low": 1.8}
-"""Degrees by which the cue ball starts off the line of a level cue at 100 % english, by the shaft.
+"""Squirt in degrees from the line of a level cue at 100% english, by type of shaft.
 
 Alciatore's figures for a usual and for a common low-deflection shaft. R. Shepard (2001, "Everything
 you always wanted to know about cue ball squirt") has 0.5 to 2.3 degrees, and robots 1.3 to 2.3.
@@ -90,7 +90,7 @@ def offset_for(spin: FloatOrArray) -> FloatOrArray:
 
 
 def tips_of_side(side: FloatOrArray) -> FloatOrArray:
-    """Return by how many tips of english a cue that is level gives a sidespin J.
+    """Return how many tips of english give a sidespin J with a level cue.
 
     Parameters
     ----------
@@ -104,14 +104,14 @@ def tips_of_side(side: FloatOrArray) -> FloatOrArray:
 
 
 def squirt_angle(side: FloatOrArray, most: FloatOrArray = SQUIRTS["regular"]) -> FloatOrArray:
-    """Return by how many degrees the cue ball starts off the line of the cue, away from the side.
+    """Return the squirt: degrees that the cue ball starts off the cue's line, away from the side.
 
     Parameters
     ----------
     side
-        J_z just after the hit; the same beyond 100 % english as at it.
+        J_z just after the hit; beyond 100% english, the result is the same as at 100%.
     most
-        the degrees at 100 % english, as in `SQUIRTS`.
+        the degrees at 100% english, as in `SQUIRTS`.
 
     >>> squirt_angle(0.5), squirt_angle(-1.25, 1.8)
     (1.0, -1.8)
@@ -192,7 +192,7 @@ def largest_roll_side(offset: FloatOrArray) -> FloatOrArray:
 
 
 def effective_contact(contact: ContactPoint, speed: Any, time: Any, cloth: Cloth) -> ContactPoint:
-    """Return where a ball at rest would have to be struck to move as this one does now (P3.9).
+    """Return where to strike a ball at rest for it to move as this one does now (P3.9).
 
     While the ball slides, this point moves along a straight line through (0, 0), outwards from
     a low point and inwards from a high one, until natural roll starts at z = 7/5.
@@ -234,7 +234,7 @@ def contact_for_later(later: ContactPoint, z: Any) -> ContactPoint:
     Parameters
     ----------
     later
-        the point as which the hit should later count.
+        the contact point that the hit should be equivalent to later.
     z
         the height above the cloth at which it hits, over R, above 0 to 2.
 

@@ -3,8 +3,8 @@
 The cue ball goes straight, since a level cue gives it no spin about its direction of travel. It
 slides and rolls until it touches the object ball and enters the hit with the spin that is left;
 then both balls slide, the cue ball on a parabola, and roll until they stop. The path of a ball ends
-at the first cushion or pocket: the model has no rebounds. A ball that friction makes hop stays on
-the cloth here, and the energy of the hop counts as lost at the hit.
+at the first cushion or pocket: the model has no rebounds. If friction makes a ball hop, it stays on
+the cloth in this model, and the energy of the hop counts as lost in the hit.
 
 On the table (0, 0) is a corner, x runs along the table and y to the left of that.
 """
@@ -36,7 +36,7 @@ _ROUNDING = 1e-12
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class Shot:
-    """A shot from the tip until both balls stop or reach a cushion or a pocket.
+    """Shot from the tip until both balls stop or reach a cushion or a pocket.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Shot:
     object_position
         where the object ball is at first, in meters; shape (2,).
     mu, friction
-        the friction between the balls, and its law.
+        the friction between the balls, and the law of friction.
     approach
         the cue ball's path until the hit, or until it ends without one.
     collision
@@ -173,11 +173,11 @@ def shot(
         the cut angle in radians, above 0 to the right and below 0 to the left, less than a
         right angle either way.
     distance
-        between the centers of the two balls at first, in meters.
+        between the centers of the two balls at the start, in meters.
     cloth, table
-        by default a cloth of speed 100 and a nine-foot table.
+        default: a cloth with speed 100 and a nine-foot table.
     cue_ball
-        where its center is, in meters; by default on the middle of the head string.
+        the position of its center, in meters; default: the middle of the head string.
     direction
         of the shot, in radians from x, which runs along the table.
     mu, friction

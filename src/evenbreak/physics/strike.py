@@ -1,4 +1,4 @@
-"""What the tip gives the cue ball, on or off center (section 3), and the best cue to break with.
+"""Effect of the tip on the cue ball, on or off center (section 3), and the best break cue.
 
 The cue is level and moves freely while the tip touches the ball, and the hit loses no energy.
 With b the distance of the tip from the center in units of R, the ball gets

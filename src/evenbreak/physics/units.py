@@ -1,4 +1,4 @@
-"""The units that players use, in SI units, and checks of numbers in them.
+"""Players' units in SI units, and checks of numbers in them.
 
 Multiply to convert to SI, divide to convert back: `9 * INCH` is in meters, `length / INCH` in
 inches.
@@ -37,10 +37,10 @@ GRAVITY = 386.0 * INCH
 
 
 LARGEST = 1e50
-"""The largest number accepted, so that products of a few of them still fit into a float."""
+"""The largest number accepted, so that products of a few numbers still fit into a float."""
 
 LEAST = 1.0 / LARGEST
-"""The smallest number accepted where 0 is not."""
+"""The smallest number accepted if 0 is not."""
 
 
 def numbers(value: Any, name: str, *, low: float = -LARGEST, high: float = LARGEST) -> Floats:

@@ -1,4 +1,4 @@
-"""The picture of an answer, for every question that has one."""
+"""The plot of an answer, for every question that has one."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ Picture = Callable[[Any, "Answer"], "Axes | Figure"]
 
 
 def picture_of(command: str, asked: Any, answer: Answer) -> Axes | Figure:
-    """Return the picture of an answer to a command's question."""
+    """Return the plot of the answer to a command's question."""
     return _PICTURES[command](asked, answer)
 
 

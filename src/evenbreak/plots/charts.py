@@ -1,4 +1,4 @@
-"""The plot of an audit: the stronger player's chance over the rating difference."""
+"""The plot of an audit: the stronger player's chance by rating difference."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -9,18 +9,18 @@ from evenbreak.plots.picture import LINES, in_our_look, new_axes
 
 _STEPS = 25  # of the curve over one band
 _NARROW = 0.05
-"""A race is written upright if its band takes up a smaller share of the width."""
+"""A race is written vertically if its band takes up less than this share of the width."""
 
 
 @in_our_look
 def draw_chart(
     report: ChartAudit, beside: ChartAudit | None = None, *, ax: Axes | None = None
 ) -> Axes:
-    """Draw the stronger player's chance over the rating difference, race by race.
+    """Draw the stronger player's chance by rating difference, race by race.
 
-    The curve rises within each band and drops where the next race starts; it is broken where no row
-    gives a race. The last race is drawn for as many points as the widest band before it. A chart
-    `beside` it on another scale is converted to the points of the first.
+    The curve rises within each band and drops where the next race starts; it has a gap where no row
+    gives a race. The last race is drawn for as many points as the widest band before it. A second
+    chart, `beside`, is converted to the first chart's points if it is on another scale.
     """
     points = report.scale.points_per_doubling
     axes = new_axes(
@@ -49,7 +49,7 @@ def draw_chart(
 
 
 def _draw(axes: Axes, report: ChartAudit, factor: float, line: int) -> None:
-    """Draw the saw-tooth of one chart, its points times `factor`."""
+    """Draw one chart's saw-tooth curve, its points multiplied by `factor`."""
     differences, wins = [], []
     before = None
     for row in report.rows:
@@ -67,12 +67,12 @@ def _draw(axes: Axes, report: ChartAudit, factor: float, line: int) -> None:
 
 
 def _label(name: str) -> str:
-    """Return a name that matplotlib does not take for a formula, nor for a hidden label."""
+    """Return a name that matplotlib does not treat as a formula or a hidden label."""
     return "chart " + name.replace("$", r"\$")
 
 
 def _ends(report: ChartAudit, row: AuditRow) -> tuple[float, float]:
-    """Return where a row's tooth starts and ends: halfway to the whole points outside it."""
+    """Return where a row's tooth starts and ends: halfway to the next whole points outside it."""
     first = row.difference_from - 0.5 if row.difference_from else 0.0
     if row.difference_to is not None:
         return first, row.difference_to + 0.5
@@ -88,7 +88,7 @@ def _ends(report: ChartAudit, row: AuditRow) -> tuple[float, float]:
 
 
 def _name_races(axes: Axes, report: ChartAudit) -> bool:
-    """Write each race of a chart above its tooth; return whether upright, to save room."""
+    """Write each of a chart's races above its tooth; return whether vertically, to save room."""
     ends = [_ends(report, row) for row in report.rows]
     upright = min(last - first for first, last in ends) < _NARROW * max(last for _, last in ends)
     for (first, last), row in zip(ends, report.rows, strict=True):

@@ -23,13 +23,13 @@ TENTHS = tuple(tenth / 10 for tenth in range(1, 10))
 """The levels 0.1, 0.2, ..., 0.9 of a probability."""
 
 _POINTS = 201
-"""Of the grid along each side."""
+"""Number of grid points along each side."""
 _INSIDE = 1e-6
-"""The distance of the grid from the edges: at a corner a limit may depend on the direction."""
+"""Distance of the grid from the edges: at a corner, a limit may depend on the direction."""
 _CLEAR = 0.06
-"""The distance of a label from the edge and from other lines; half of it is still enough."""
+"""Distance of a label from the edge and from other lines; half of it is still enough."""
 _OFF_A_MARK = 0.11
-"""The distance of a label from a point that is marked."""
+"""Distance of a label from a marked point."""
 _NOISE = 12
 """Digits kept, so that a line along which two formulas agree is straight."""
 
@@ -46,10 +46,10 @@ def contour_axes(
 ) -> QuadContourSet:
     """Draw the contour lines of a function of two probabilities, each labeled with its level.
 
-    Negative levels are dashed, the `main` one is thick. All lines are black, so the figure reads
-    the same in black and white. The axes become a square of side 1; `function` takes two arrays p1
-    and p2 of the same shape, in (0, 1), never exactly 0 or 1, and returns one of that shape; labels
-    keep away from the `marked` points.
+    Negative levels are dashed, and the `main` level is thick. All lines are black, so the figure
+    looks the same in black and white. The axes become a square of side 1; `function` takes two
+    arrays p1 and p2 of the same shape, in (0, 1), never exactly 0 or 1, and returns one of that
+    shape; labels keep away from the `marked` points.
 
     Source: the style of Figs. 5.3 and 5.6.
     """
@@ -76,7 +76,7 @@ def contour_axes(
 def _label_places(
     lines: QuadContourSet, marked: Sequence[tuple[float, float]]
 ) -> list[tuple[float, float]]:
-    """Return a point on every line: off edges and marks, clear of others, near the center."""
+    """Return a point on every line: away from edges and marks, clear of others, near the center."""
     pieces = [piece for level in lines.allsegs for piece in level if len(piece) > 1]
     places = []
     for here, piece in enumerate(pieces):
@@ -117,7 +117,7 @@ _DIFFERENCES = (-0.3, -0.2, -0.1, -0.05, 0, 0.05, 0.1, 0.2, 0.3)
 def share_panels(
     *, x: str, y: str, first_breaker: int = 1, marked: Sequence[tuple[float, float]] = ()
 ) -> tuple[Picture, list[Axes]]:
-    """Draw player 1's long-run share of racks over (p1, p2) in four panels without titles.
+    """Draw player 1's long-run share of racks by (p1, p2) in four panels without titles.
 
     The panels are winner, loser and alternate breaks, and winner minus loser breaks;
     `first_breaker` is 1 or 2, as in `evenbreak.practice.long_run_share`.
@@ -149,10 +149,10 @@ def _shares(first_breaker: int) -> list[Callable[[Any, Any], Any]]:
 
 @in_our_look
 def breaks_figure(rack: Rack, *, first_breaker: int = 1) -> Picture:
-    """Draw player 1's long-run share of racks over (p1, p2), with the two players as a dot.
+    """Draw player 1's long-run share of racks by (p1, p2), with the two players as a dot.
 
-    Four panels: winner, loser and alternate breaks, and winner minus loser breaks. Player 1 is
-    called A, player 2 B.
+    There are four panels: winner, loser and alternate breaks, and winner minus loser breaks. Player
+    1 is called A, player 2 B.
 
     Parameters
     ----------
@@ -201,7 +201,7 @@ _TITLES = {
 def draw_shots(
     shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", ax: Axes | None = None
 ) -> Axes:
-    """Draw P(player 1 wins the one-ball game) over (p1, p2), with each shot as a dot.
+    """Draw P(player 1 wins the one-ball game) by (p1, p2), with each shot as a dot.
 
     Below the thick line player 1, called "you", is the favorite.
 
@@ -213,7 +213,7 @@ def draw_shots(
     Raises
     ------
     InputError
-        if there is no such look-ahead.
+        if `look_ahead` is unknown.
 
     Notes
     -----

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _MOST_STATES = 150
 _MARGIN = 0.12
 _KNOWN_FILLS = 3
-"""Of a terminal node: nobody has won, player 1, player 2; a legend names any more."""
+"""Fills of a terminal node: no winner, player 1, player 2; a legend names any others."""
 
 
 @in_our_look
@@ -44,12 +44,12 @@ def draw(
     """Draw a game's diagram: states as circles, each arc with its probability.
 
     An arrow from outside marks the start. A terminal node is a double circle, light if player 1
-    has won and dark if player 2 has; further players have colors, which a legend names. The
-    text of an arc is its `label` if it has one (`"$p_1$"` is set as mathematics), else its
-    `probability` to three significant digits. The text of a state is what the game's method
-    `label(state)` returns if it has one, or the `label` of the node, else the state itself. In
-    your own graph the start is the node whose `kind` is "start", or the first node if no node
-    has a `kind`; a node of the kind "words" is text without a circle, such as dots or a heading.
+    has won and dark if player 2 has; further players have colors, which a legend names. An arc's
+    text is its `label` if it has one (`"$p_1$"` is set as mathematics), else its `probability` to
+    three significant digits. A state's text is what the game's method `label(state)` returns if it
+    has one, or the node's `label`, else the state itself. In a custom graph, the start is the node
+    whose `kind` is "start", or the first node if no node has a `kind`; a node with the kind "words"
+    is text without a circle, such as dots or a heading.
 
     Parameters
     ----------
@@ -57,21 +57,21 @@ def draw(
         a game, or a directed graph whose arcs have a `probability` or a `label`. A node whose
         only arc leads to itself is drawn as terminal.
     layout
-        a place (x, y) for every state, neighbors about 1 apart; None: find one.
+        a position (x, y) for every state, with neighbors about 1 apart; None: find one.
     ax
         the axes to draw on; None: those of a new figure.
 
     Returns
     -------
     matplotlib.axes.Axes
-        a notebook shows their figure, about 1.25 inches for each unit of the layout, and
+        the axes; a notebook shows their figure, about 1.25 inches for each unit of the layout, and
         `image_bytes` turns it into a file.
 
     Raises
     ------
     InputError
-        if there are no states or more than 150, `layout` leaves out a state or has a place that
-        is not two numbers, or `ax` is not axes.
+        if there are no states or more than 150, `layout` leaves out a state or has a position that
+        is not two numbers, or `ax` is not an axes object.
 
     Notes
     -----
@@ -136,7 +136,7 @@ def draw(
 
 
 def _inches_in(ax: Axes, places: Positions) -> float:
-    """Return about how long a unit can be for all places to fit into the axes given."""
+    """Return about how large a unit can be for all positions to fit into the given axes."""
     box = ax.get_window_extent()
     spans = (max(ends) - min(ends) + 1.5 for ends in zip(*places.values(), strict=True))
     sides = zip((box.width, box.height), spans, strict=True)
@@ -144,7 +144,7 @@ def _inches_in(ax: Axes, places: Positions) -> float:
 
 
 def _start_of(graph: nx.DiGraph[Any]) -> Any:
-    """Return the start, or None if the kinds of the nodes do not say."""
+    """Return the start, or None if the nodes' kinds do not tell."""
     kinds = [graph.nodes[state].get("kind") for state in graph]
     if not any(kinds):
         return next(iter(graph))

@@ -1,4 +1,4 @@
-"""Pictures of a ladder: how far off ratings are, how fast they settle, what a step costs."""
+"""Plots of a ladder: how far off ratings are, how fast they settle, what a step costs."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -14,7 +14,7 @@ from evenbreak.plots.picture import LINES, Picture, in_our_look, new_axes, unit_
 from evenbreak.stats.summary import Distribution
 
 _SHOWN = 1e-3
-"""Errors rarer than this share of the most frequent one are beyond the edge of the picture."""
+"""Errors rarer than this share of the most frequent one are beyond the edge of the plot."""
 
 _LETTER = 8.5
 """Font size of a system's name."""
@@ -28,9 +28,9 @@ _Box = tuple[float, float, float, float]
 class SystemPoint(NamedTuple):
     """A system as a point: the spread of rating errors, and how long newcomers take to settle.
 
-    `sd` is in percent of a doubling of the odds, in the long run; `matches` is the mean number
-    until a rating a doubling too low settles. `unbeaten`: no other step size is both more accurate
-    and faster; None: not a step size, drawn for comparison.
+    `sd` is the long-run spread in percent of a doubling of the odds; `matches` is the mean number
+    of matches until a rating that is a doubling too low settles. `unbeaten` is whether no other
+    step size is both more accurate and faster; None: not a step size, drawn for comparison.
     """
 
     name: str
@@ -50,9 +50,9 @@ def ladder_figure(
 ) -> Picture:
     """Draw the distribution of the rating error, and below it how fast newcomers settle.
 
-    The normal distribution with the same mean and standard deviation is drawn for comparison, and
-    `natural`, that against correctly rated opponents. Errors from -within to within points are
-    shaded.
+    The normal distribution with the same mean and standard deviation is drawn for comparison, as is
+    `natural`, the distribution against correctly rated opponents. Errors from -within to within
+    points are shaded.
     """
     size, roomy = (5.4, 4.4 if curve is None else 7.8), ConstrainedLayoutEngine(h_pad=0.1)
     figure = Picture(figsize=size, layout=roomy)
@@ -147,7 +147,7 @@ def _draw_settling(axes: Axes, curve: Settling) -> None:
 
 @in_our_look
 def draw_systems(points: Iterable[SystemPoint], *, chart: str = "", ax: Axes | None = None) -> Axes:
-    """Draw the spread of rating errors over how long newcomers take, for several systems.
+    """Draw the spread of rating errors against the time newcomers take, for several systems.
 
     The step sizes that no other step beats in both are filled and joined.
     """
@@ -203,9 +203,9 @@ def draw_systems(points: Iterable[SystemPoint], *, chart: str = "", ax: Axes | N
 def _free_offsets(
     listed: Sequence[SystemPoint], right: float, top: float
 ) -> list[tuple[float, float]]:
-    """Return the offset of each name from its mark, in points, so that few cover anything.
+    """Return the offset of each name from its mark, in points, so that few overlap anything.
 
-    One name after the other takes the first free place, or the freest one.
+    Each name in turn takes the first free position, or the one with the least overlap.
     """
     wide, high = _PANEL
     marks = [(point.matches / right * wide, point.sd / top * high) for point in listed]
@@ -233,7 +233,7 @@ def _free_offsets(
 
 
 def _overlap(box: _Box, placed: _Box) -> float:
-    """Return the area that two boxes share; a box is its center, width and height.
+    """Return the overlap area of two boxes, each given as center, width and height.
 
     >>> _overlap((0, 0, 4, 2), (3, 1, 4, 2))
     1.0

@@ -1,4 +1,4 @@
-"""Pictures of seasons, simulated and played: ratings, standings, sandbagging, calibration."""
+"""Plots of simulated and real seasons: ratings, standings, sandbagging, calibration."""
 
 import math
 from collections.abc import Sequence
@@ -15,12 +15,12 @@ from evenbreak.ratings.validation.calibration import CalibrationBin
 from evenbreak.ratings.validation.validate import Validation
 
 MOST_PLAYERS = 40
-"""How many players of the standings are drawn: the first half and the last half of them."""
+"""How many players in the standings are drawn: half from the top and half from the bottom."""
 
 
 @in_our_look
 def draw_errors(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
-    """Draw how far off the ratings of `weeks_frame` are, week by week."""
+    """Draw the errors of the ratings in `weeks_frame`, week by week."""
     axes = new_axes(
         "week",
         "rating minus true skill (points)",
@@ -53,7 +53,7 @@ def draw_errors(weeks: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
 def draw_gaps(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
     """Draw how often the stronger player wins, by skill gap, from `fairness_frame`.
 
-    The bars are two standard errors of the simulation, up and down.
+    The bars are two standard errors of the simulation in each direction.
     """
     rows = fairness[fairness["group"] == "gap"]
     axes = new_axes(
@@ -86,9 +86,9 @@ def draw_gaps(fairness: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
 
 @in_our_look
 def draw_standings(standings: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
-    """Draw how many matches each player wins: the mean, and the range of 8 seasons in 10.
+    """Draw how many matches each player wins: the mean, and the range in 8 seasons out of 10.
 
-    Of more than 40 players in `standings_frame` the first 20 and the last 20 are drawn.
+    If `standings_frame` has more than 40 players, the first 20 and the last 20 are drawn.
     """
     rows, many, half = standings, len(standings), MOST_PLAYERS // 2
     title = "Matches won in a season"
@@ -137,7 +137,7 @@ def draw_even(deciles: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
 
 @in_our_look
 def draw_errors_compared(nights: pd.DataFrame, *, ax: Axes | None = None) -> Axes:
-    """Draw how far off ratings are night by night (`nights_frame`), one line per system."""
+    """Draw the errors of ratings night by night (`nights_frame`), with one line per system."""
     axes = new_axes(
         "night",
         "typical rating error (doublings of odds)",
@@ -152,7 +152,7 @@ def draw_errors_compared(nights: pd.DataFrame, *, ax: Axes | None = None) -> Axe
 
 
 def _lines(axes: Axes, frame: pd.DataFrame, x: str, y: str, *, markers: bool = True) -> None:
-    """Draw a line for each system; the bars are 90% intervals."""
+    """Draw a line for each system, with bars for 90% intervals."""
     for place, (name, rows) in enumerate(frame.groupby("system", sort=False)):
         line = LINES[place % len(LINES)]._asdict()
         bars = 1.645 * rows[f"{y}_se"].to_numpy(float)
@@ -166,7 +166,7 @@ def _lines(axes: Axes, frame: pd.DataFrame, x: str, y: str, *, markers: bool = T
 
 
 MOST_NAMED = 6
-"""How many players of a league are named; the others are thin lines."""
+"""How many players in a league are named; the others are thin lines."""
 
 
 @in_our_look
@@ -228,17 +228,17 @@ def _curve(watched: Watched) -> tuple[range, list[float]]:
 
 
 _ENOUGH = 20
-"""Fewer games or matches than this say next to nothing about a chance, and are not drawn."""
+"""A chance from fewer games or matches than this is too uncertain to draw."""
 
 
 @in_our_look
 def draw_calibration(validation: Validation, *, ax: Axes | None = None) -> Axes:
-    """Draw how often favorites won against the chance that they had been given.
+    """Draw how often favorites won against their predicted chance.
 
-    Points on the diagonal are right; below it the chances were too extreme. The bars are
-    95% intervals.
+    Points on the diagonal are right; below it, the chances were too extreme. The bars are 95%
+    intervals.
 
-    It is drawn on the axes `ax`, or else in a new figure.
+    The plot is drawn on the axes `ax`, or else in a new figure.
 
     >>> from evenbreak.ratings import Results, validate
     >>> season = Results.from_names(["Ann"] * 3, ["Bo"] * 3, [7, 7, 3], [2, 4, 7],

@@ -1,4 +1,4 @@
-"""Pictures of matches: the chance to win by p and format, and how it moved in a match so far."""
+"""Plots of matches: the chance of winning by p and format, and its course in a match so far."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
@@ -37,10 +37,10 @@ def draw_formats(
     names: tuple[str, str] = ("A", "B"),
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw player 1's chance in a match against that in a game, a curve per format, at most seven.
+    """Draw player 1's chance in a match against p1, one curve per format, at most seven.
 
-    `line` is what stays fixed as p1 varies, as options of `evenbreak.matches.crossings`; each
-    crossing is a dot, and the players' own p1 a vertical line.
+    `line` holds what stays fixed as p1 varies, as options of `evenbreak.matches.crossings`; each
+    crossing is a dot, and the players' own p1 is a vertical line.
     """
     fixed = {name: line.get(name) for name in ("p2", "break_odds")}
     matters = any(value is not None for value in fixed.values())
@@ -85,17 +85,17 @@ def draw_formats(
 
 
 _MOST_SCORES = 24
-"""The most scores that fit below the picture; of more, only every second, third, ... is written."""
+"""The most scores that fit below the plot; of more, only every second, third, ... is shown."""
 
 _LABEL_SHARE, _LABEL_HEIGHT, _GAP = 0.09, 0.06, 0.05
-"""Shares of the picture: the width and height of a label, and its distance from the line."""
+"""Fractions of the plot: a label's width and height, and its distance from the line."""
 
 
 @in_our_look
 def course_figure(
     odds: LiveOdds, *, title: str = "", names: tuple[str, str] = ("A", "B")
 ) -> Picture:
-    """Return a figure of a match so far, with at least one rack.
+    """Return a figure of a match so far, which must have at least one rack.
 
     The upper panel is player 1's chance of winning the match after each rack: a filled dot is a
     rack that player 1 won, an open dot a rack that player 2 won, and the rack that changed most is

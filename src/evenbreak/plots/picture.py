@@ -1,6 +1,6 @@
-"""Figures as pictures: one look, the same bytes for everyone, and what a notebook shows.
+"""Figures as image files: one style, the same bytes for everyone, and what a notebook shows.
 
-The look is readable in black and white and for the color-blind.
+The style is readable in black and white and for the color-blind.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _LOOK: Any = {
 
 @contextmanager
 def our_look() -> Iterator[None]:
-    """Set the reader's own matplotlib settings aside, so that everyone gets the same picture.
+    """Set the user's own matplotlib settings aside, so that everyone gets the same image.
 
     >>> import matplotlib as mpl
     >>> with mpl.rc_context({"font.size": 30}), our_look():
@@ -49,7 +49,7 @@ def our_look() -> Iterator[None]:
 
 
 def in_our_look(draw: Callable[Asked, Drawn]) -> Callable[Asked, Drawn]:
-    """Let a function that draws a new figure do so in our look; axes given as `ax` keep theirs.
+    """Make a function that draws a new figure use our style; axes given as `ax` keep theirs.
 
     >>> from evenbreak.plots.picture import new_axes
     >>> import matplotlib as mpl
@@ -73,7 +73,7 @@ def in_our_look(draw: Callable[Asked, Drawn]) -> Callable[Asked, Drawn]:
 
 
 class _Shown:
-    """What a notebook shows by itself, whether or not pyplot has been imported."""
+    """Base of objects that a notebook displays, whether or not pyplot has been imported."""
 
     def _repr_png_(self) -> bytes:
         return image_bytes(self, "png")  # type: ignore[arg-type]  # a figure or axes
@@ -83,15 +83,15 @@ class _Shown:
 
 
 class Picture(_Shown, Figure):
-    """A figure of several plots, which a notebook shows."""
+    """A figure with several plots, which a notebook displays."""
 
 
 class Plot(_Shown, Axes):
-    """The axes of a new figure with a single plot: a notebook shows the figure."""
+    """The axes of a new figure with a single plot: a notebook displays the figure."""
 
 
 def image_bytes(figure: Figure | Axes, kind: Literal["png", "svg"] = "svg") -> bytes:
-    """Return a figure, or the one that some axes are in, as the bytes of a PNG or SVG file.
+    """Return a figure, or the figure of some axes, as the bytes of a PNG or SVG file.
 
     They are always the same bytes.
 
@@ -116,7 +116,7 @@ def image_bytes(figure: Figure | Axes, kind: Literal["png", "svg"] = "svg") -> b
 
 
 def image_files(figures: Mapping[str, Figure | Axes]) -> dict[str, bytes]:
-    """Return figures as files, by their names: each as a PNG and as an SVG."""
+    """Return figures as files, by name: each as a PNG and as an SVG."""
     return {
         f"{name}.{kind}": image_bytes(figure, kind)
         for name, figure in figures.items()
@@ -150,7 +150,7 @@ LINES = (
 _LABEL = 10
 """The font size of a curve's name, and of a title of several lines."""
 _LETTERS_AN_INCH = 11.5
-"""How many letters of that size fit into an inch, at least."""
+"""The minimum number of letters of that size that fit into an inch."""
 _BESIDE = {
     "left": ((-6, 0), "right", "center"),
     "right": ((6, -1), "left", "center"),
@@ -168,9 +168,9 @@ def new_axes(
     counts: str = "",
     ax: Axes | None = None,
 ) -> Axes:
-    """Return labeled axes, of a new figure (size in inches) unless `ax` is given.
+    """Return labeled axes, in a new figure (size in inches) unless `ax` is given.
 
-    `counts`, "x", "y" or "xy", are axes of counts, with ticks at whole numbers only.
+    `counts`, "x", "y" or "xy", are axes for counts, with ticks only at whole numbers.
 
     >>> axes = new_axes("level", "probability")
     >>> axes.get_xlabel()
@@ -188,12 +188,12 @@ def new_axes(
 
 
 def new_plot(size: tuple[float, float]) -> Axes:
-    """Return the axes of a new figure of that size, in inches."""
+    """Return the axes of a new figure with the given size in inches."""
     return Figure(figsize=size, layout="constrained").add_subplot(axes_class=Plot)
 
 
 def legend_below(axes: Axes, ax: Axes | None) -> None:
-    """Write the legend below the axes of a new figure, or inside the axes given.
+    """Write the legend below the axes in a new figure, or inside given axes.
 
     >>> axes = new_axes("p", "W")
     >>> _ = axes.plot([0, 1], label="3:3")
@@ -208,13 +208,13 @@ def legend_below(axes: Axes, ax: Axes | None) -> None:
 
 
 def figure_of(axes: Axes) -> Figure:
-    """Return the whole figure that axes are in."""
+    """Return the figure that axes are in."""
     figure: Any = axes.get_figure(root=True)
     return figure  # type: ignore[no-any-return]
 
 
 def write_title(figure: Figure, text: str) -> None:
-    """Write what is drawn above all panels of a figure, in lines that fit its width.
+    """Write a heading above all panels of a figure, in lines that fit its width.
 
     >>> axes = new_axes("p", "W")
     >>> write_title(figure_of(axes), "Race 7:5, score 2-3")
@@ -227,7 +227,7 @@ def write_title(figure: Figure, text: str) -> None:
 
 
 def unit_axis(axes: Axes, *which: str) -> None:
-    """Let the axes given, "x" or "y", run from 0 to 1, with a tick at every tenth.
+    """Make the given axes, "x" or "y", run from 0 to 1, with a tick at every tenth.
 
     >>> axes = new_axes("p", "W")
     >>> unit_axis(axes, "x", "y")
@@ -269,7 +269,7 @@ def label_beside(
 def note(
     axes: Axes, text: str, place: tuple[float, float], beside: tuple[float, float], **style: Any
 ) -> Text:
-    """Write a text next to a place, in the units of the axes, by so many points of the page.
+    """Write a label next to a position in axes units, offset by the given points of the page.
 
     >>> axes = new_axes("p", "W")
     >>> note(axes, "even", (0.5, 0.5), (6, 0), ha="left").get_text()
@@ -279,7 +279,7 @@ def note(
 
 
 def take_names_as_they_are(axes: Axes) -> None:
-    """Show labels and legend without reading a $ in a player's name as mathematics."""
+    """Show labels and legend without treating a $ in a player's name as mathematics."""
     legend = axes.get_legend()
     for text in (axes.xaxis.label, axes.yaxis.label, *(legend.get_texts() if legend else ())):
         text.set_parse_math(False)
@@ -313,7 +313,7 @@ def _rounded(number: re.Match[str]) -> str:
 
 
 def mark_points(axes: Axes, points: Iterable[tuple[float, float, str]]) -> None:
-    """Mark points of the unit square by dots, each with its name on the side that has room.
+    """Mark points in the unit square with dots, each with its name on the side that has room.
 
     Points in the same place share a dot and a label. A point whose name is "" has no label.
 

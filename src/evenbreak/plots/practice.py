@@ -27,7 +27,7 @@ STEP = 0.08
 """The distance between equal scores, where the lists are 1 apart."""
 
 WIDEST = 0.3
-"""The largest distance of a score from the middle of its list."""
+"""The largest distance between a score and the middle of its list."""
 
 
 @in_our_look
@@ -39,7 +39,7 @@ def draw_scores(
     new: float | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw the scores of a file over date or order, their mean and trend, with their uncertainty.
+    """Draw a file's scores by date or order, with their mean and trend and its uncertainty.
 
     `new` is one more score, drawn after the others.
     """
@@ -117,7 +117,7 @@ def draw_practice_shots(
 
 
 def _draw_trend(axes: Axes, when: NDArray[Any], line: TrendLine) -> None:
-    """Draw the line of a trend, and the band in which the true one lies."""
+    """Draw a trend line, and the band that contains the true line."""
     order = np.argsort(when, kind="stable")
     dates, (at, low, high) = when[order], (column[order] for column in line)
     style = LINES[2]
@@ -138,7 +138,7 @@ def draw_two_lists(
 ) -> Axes:
     r"""Draw two lists of scores side by side, each with its mean and interval.
 
-    It is drawn on the axes `ax`, or else in a new figure.
+    The plot is drawn on the axes `ax`, or else in a new figure.
 
     >>> import numpy as np
     >>> axes = draw_two_lists(
@@ -164,7 +164,7 @@ def draw_two_lists(
 def _strip(
     axes: Axes, place: int, scores: NDArray[np.float64], interval: MeanInterval | None
 ) -> None:
-    """Draw one list, with equal scores next to one another and the mean to their right."""
+    """Draw one list, with equal scores side by side and the mean to their right."""
     line = LINES[place]
     values = scores.tolist()
     counts, seen = Counter(values), Counter[float]()
@@ -188,10 +188,10 @@ _SHOWN = (0.001, 0.995)
 
 _COLORS = ("#CC79A7", "#009E73", "#E69F00")
 _HATCHES = ("////", "\\\\\\\\", "....")
-"""The shading of the spans of scores that were asked for."""
+"""The shading of the requested spans of scores."""
 
 _POINTS = 150
-"""The most points that a curve is drawn through."""
+"""The most points used to draw a curve."""
 
 
 @in_our_look
@@ -204,7 +204,8 @@ def draw_score(
 ) -> Axes:
     """Draw the probability of each score, with its mean, median and mode.
 
-    `asked` spans, which are shaded, have a name, the fewest balls, and the most or None.
+    `asked` spans, which are shaded, have a name, the smallest number of balls, and the largest or
+    None.
     """
     low, high = (law.quantile(q) for q in _SHOWN)
     scores = np.arange(low, high + 1)
@@ -238,8 +239,8 @@ def draw_score(
 def draw_spot(match: StraightPool, *, ax: Axes | None = None) -> Axes:
     """Draw A's chance in straight pool against the weaker player's points; A is player 1.
 
-    The match as it is now is a dot on the curve. If any number of points makes it even (see
-    `even_spot`), a dashed line marks the one nearest to even.
+    The current match is a dot on the curve. If any number of points makes it even (see
+    `even_spot`), a dashed line marks the one closest to even.
     """
     weaker, even, _ = even_spot(match)
     name = f"points_{weaker}"
@@ -277,7 +278,7 @@ def draw_spot(match: StraightPool, *, ax: Axes | None = None) -> Axes:
 _LEVEL = "level"
 _FRACTION = "share of the attempts"
 _TICKS = 20
-"""Up to this many levels, each one has its own tick."""
+"""Number of levels up to which each has its own tick."""
 
 
 @in_our_look
@@ -299,7 +300,7 @@ def draw_drill(statistics: DrillStatistics, *, ax: Axes | None = None) -> Axes:
 
 @in_our_look
 def draw_log(analysis: LogAnalysis, *, ax: Axes | None = None) -> Axes:
-    """Draw the levels of a log next to those of the long run with its success rates.
+    """Draw a log's levels next to their long-run distribution with its success rates.
 
     Source: exercise 5.1.
     """
@@ -337,7 +338,7 @@ def draw_log(analysis: LogAnalysis, *, ax: Axes | None = None) -> Axes:
 
 
 def _mark_mean(axes: Axes, mean: float, label: str, color: str, *, above: float = 0.06) -> float:
-    """Draw a triangle above the highest bar, in the color of the bars it belongs to."""
+    """Draw a triangle above the highest bar, in the bars' color."""
     height = (1.0 + above) * max(
         bar.get_height() for bar in axes.patches if isinstance(bar, Rectangle)
     )

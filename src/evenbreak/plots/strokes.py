@@ -1,4 +1,4 @@
-"""A game diagram's strokes: circles, arcs, loops, clear labels, and where the nodes go."""
+"""Drawing of a game diagram: circles, arcs, loops, labels, and node positions."""
 
 from __future__ import annotations
 
@@ -18,24 +18,24 @@ if TYPE_CHECKING:
 Point: TypeAlias = tuple[float, float]
 
 _RADIUS = 0.27
-"""Of a circle, in units of the distance between neighbors."""
+"""Radius of a circle, in units of the distance between neighbors."""
 _RING = 0.82
 """The inner circle of a terminal node, as a fraction of the outer one."""
 INCHES = 1.25
-"""The length of a unit, with labels of up to eight characters."""
+"""The length of a unit, for labels of up to eight characters."""
 FONT = 11.0
 _HEAD = "-|>,head_length=5,head_width=2.5"
 _BENDS = (0.0, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6)
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7)
-"""Where along an arc its label may go, best place first."""
+"""Positions along an arc for its label, best first."""
 _FILL = {None: ("white", "black"), 1: ("0.85", "black"), 2: ("0.35", "white")}
 """Fill and text color of a terminal node by winner; they differ in black and white too."""
 _GOLDEN = 0.381966
-"""Steps of this part of the color circle never come back to a color that is taken."""
+"""Steps around the color circle that never return to a color already used."""
 
 
 def is_terminal(graph: nx.DiGraph[Any], state: Any) -> bool:
-    """Return whether no arc leads from `state` to another one."""
+    """Return whether no arc leads from `state` to another state."""
     return all(target == state for target in graph.successors(state))
 
 
@@ -47,7 +47,7 @@ def is_words(graph: nx.DiGraph[Any], state: Any) -> bool:
 def fills(graph: nx.DiGraph[Any]) -> dict[Any, tuple[Any, str]]:
     """Return the fill and text color of a terminal node for each winner, and for none.
 
-    Grays for players 1 and 2, a color of its own for every further winner.
+    Players 1 and 2 are gray; every other winner has its own color.
 
     >>> import networkx as nx
     >>> graph = nx.DiGraph()
@@ -73,7 +73,7 @@ def _arc_label(arc: Mapping[str, Any]) -> str:
 
 
 def longest_line(text: str) -> int:
-    """Return how many characters the longest line shows; mathematical markup takes no room."""
+    """Return how many characters the longest line shows; math markup takes no room."""
     return max(len(re.sub(r"\\[a-z]+|[${}_^\\]", "", line)) for line in text.split("\n"))
 
 
@@ -130,7 +130,7 @@ class Pen:
                 self.circle(state, label)
 
     def bend(self, source: Any, target: Any) -> float:
-        """Return a curvature that keeps clear of other circles and of the opposite arc."""
+        """Return a curvature that stays clear of other circles and of the opposite arc."""
         a, b = self.places[source], self.places[target]
         opposite = self.graph.has_edge(target, source)
         others = [self.places[s] for s in self.graph if s not in (source, target)]
@@ -201,7 +201,7 @@ class Pen:
     def beside(
         self, points: Sequence[Point], side: Point, label: str, own: tuple[Any, Any]
     ) -> None:
-        """Write a label next to the first point of its own arc at which it covers nothing else."""
+        """Write a label at the first position along its own arc where it covers nothing else."""
         font = self.font - 1
         wide = 0.3 * font * longest_line(label) / self.points_per_unit
         high = 0.6 * font / self.points_per_unit
@@ -245,7 +245,7 @@ class Pen:
         return next((angle for angle in choices if gap(angle) > spare), max(choices, key=gap))
 
     def arrow_into(self, start: Any) -> None:
-        """Mark the start by an arrow from outside."""
+        """Mark the start with an arrow from outside."""
         x, y = self.places[start]
         angle = self.free_angle(
             start, (pi, pi / 2, -pi / 2, 3 * pi / 4, -3 * pi / 4, 0.0), spare=0.7
@@ -261,7 +261,7 @@ class Pen:
         )
 
     def circle(self, state: Any, label: str) -> None:
-        """Draw a state; a terminal one is a double circle, filled by winner."""
+        """Draw a state; a terminal state is a double circle, filled by winner."""
         center = self.places[state]
         fill, ink = "white", "black"
         if is_terminal(self.graph, state):
@@ -286,7 +286,7 @@ class Pen:
         self.axes.text(x, y, label, fontsize=font, ha="center", va="center", zorder=4)
 
     def legend(self, width: float) -> None:
-        """Name the colors of the winners below the diagram, which is `width` inches wide."""
+        """List the winners' colors below the diagram, which is `width` inches wide."""
         from matplotlib.lines import Line2D
 
         won = {node.get("winner") for node in self.graph.nodes.values()} - {None}
@@ -314,19 +314,19 @@ class Pen:
 
 
 Positions: TypeAlias = Mapping[Any, tuple[float, float]]
-"""The place (x, y) of each state, in units of the distance between neighbors."""
+"""The position (x, y) of each state, in units of the distance between neighbors."""
 
 _SWEEPS = 8
 
 
 def positions_of(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, float]]:
-    """Return a place for every node, in units of the distance between neighbors.
+    """Return a position for every node, in units of the distance between neighbors.
 
     A graph that is a path, ignoring self-loops and directions (one-ball, n-ahead, drills), is on a
-    line, with player 1's wins to the right. A graph whose states are scores (a, b), each of which
-    an arc changes by 1 at most, is on a grid: racks played to the right, player 1's lead upwards.
-    Any other graph is layered by the distance from `start`, with terminal nodes, which have no arc
-    to another node, on the outer rows: player 1's wins above, the others below.
+    line, with player 1's wins to the right. A graph whose states are scores (a, b) that every arc
+    changes by at most 1 is on a grid: racks played to the right, player 1's lead upwards. Any other
+    graph is layered by the distance from `start`, with terminal nodes, which have no arc to another
+    node, on the outer rows: player 1's wins above, the others below.
     """
     return _on_a_line(graph, start) or _on_the_lattice(graph) or _in_layers(graph, start)
 
@@ -400,7 +400,7 @@ def _in_layers(graph: nx.DiGraph[Any], start: Any) -> dict[Any, tuple[float, flo
 
 
 def _ordered(graph: nx.DiGraph[Any], layers: list[list[Any]]) -> dict[Any, float]:
-    """Return each node's height; sorting layers by the mean of their neighbors untangles arcs."""
+    """Return each node's height; sorting layers by their neighbors' mean untangles arcs."""
     rows: dict[Any, float] = {}
     for _ in range(_SWEEPS):
         for nodes in layers:

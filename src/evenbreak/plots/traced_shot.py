@@ -1,4 +1,4 @@
-"""A traced shot drawn from above on its table, with the hit enlarged, in inches."""
+"""Draw a traced shot from above on its table, with the hit enlarged, in inches."""
 
 from typing import Any
 
@@ -30,11 +30,11 @@ _ALIGNED: dict[str, dict[int, Any]] = {
     "x": {-1: "right", 0: "center", 1: "left"},
     "y": {-1: "top", 0: "center", 1: "bottom"},
 }
-"""How a word is aligned at a point: away from what is on its other side."""
+"""How text is aligned at a point: away from what is on its other side."""
 _WORD = 7.0
-"""Closer to a cushion than this, a word might run onto the rail; in inches."""
+"""Distance from a cushion, in inches, below which text might run onto the rail."""
 _NEAR = 5.6
-"""How much is shown on each side of the hit in the enlargement, in inches."""
+"""How much is shown on each side of the hit in the enlarged view, in inches."""
 
 
 @in_our_look
@@ -42,9 +42,9 @@ def shot_on_table(traced: Shot | AimedShot) -> Picture:
     """Draw a shot from above, to scale: where both balls go, and how they meet.
 
     A line is solid where a ball slides and dashed where it rolls. The ghost ball is where the
-    cue ball is at the hit; the line of centers goes on through the object ball, and the tangent
-    line is at a right angle to it. For an aimed shot a cross marks the target, and a second
-    ghost ball shows the aim without allowing for throw.
+    cue ball is at the hit; the line of centers continues through the object ball, and the tangent
+    line is at a right angle to it. For an aimed shot a cross marks the target, and a second ghost
+    ball shows the aim without allowing for throw.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def _draw_shot(axes: Axes, shot: Shot, aimed: AimedShot | None) -> None:
 
 
 def _draw_end(axes: Axes, leg: Leg, table: PoolTable) -> None:
-    """Draw a ball where its path ends, with a word on how."""
+    """Draw a ball where its path ends, with a label for the ending."""
     at = leg.state(leg.end).position / INCH
     color = _CUE if leg.name == "cue ball" else _OBJECT
     radius = leg.slide.ball.radius / INCH
@@ -185,7 +185,7 @@ _HOLE = 2.5
 
 
 def bare_axes(figure: Figure, place: tuple[float, float, float, float]) -> Axes:
-    """Return axes without ticks, with equal scales; place is left, bottom, width, height."""
+    """Return axes without ticks, with equal scales; `place` is left, bottom, width, height."""
     axes = figure.add_axes(place)
     axes.set_axis_off()
     axes.set_aspect("equal")
@@ -193,7 +193,7 @@ def bare_axes(figure: Figure, place: tuple[float, float, float, float]) -> Axes:
 
 
 def draw_table(axes: Axes, table: PoolTable) -> None:
-    """Draw a table: x runs along it from the head cushion, y upwards.
+    """Draw a table: x runs along it from the head cushion, y upward.
 
     >>> from matplotlib.figure import Figure
     >>> axes = bare_axes(Figure(), (0.0, 0.0, 1.0, 1.0))

@@ -1,8 +1,7 @@
-"""The value of a break format in the long run: racks won, stakes, and swings.
+"""Long-run value of a break format: racks won, stakes, and swings.
 
-There are two states: who breaks. Let r_i be P(player 1 wins | i breaks), so r_1 = p1 and
-r_2 = 1 - p2, and let a and b be the probabilities that the break passes from 1 to 2 and back.
-Then
+There are two states, given by who breaks. Let r_i be P(player 1 wins | i breaks), so r_1 = p1 and
+r_2 = 1 - p2, and let a and b be the probabilities that the break passes from 1 to 2 and back. Then
 
     player 1 breaks the fraction  b / (a + b)  of the racks,
     wins the fraction             W = (b r_1 + a r_2) / (a + b),
@@ -50,11 +49,11 @@ def long_run_share(
     breaks
         any break format (see `evenbreak.games.breaks`).
     first_breaker
-        of the first rack, 1 or 2. It matters only if the break never passes on: with p1 = p2 = 1
-        and winner breaks, for example, the first breaker wins every rack.
+        who breaks the first rack, 1 or 2. It matters only if the break never passes on: with p1 =
+        p2 = 1 and winner breaks, for example, the first breaker wins every rack.
     via
-        the formula ('kernel', or None), or the stochastic limit of a `Series` by 'elimination' or
-        'eigen' (see `evenbreak.chains.limit_of`), for plain numbers.
+        the method: the formula ('kernel', or None), or the stochastic limit of a `Series` by
+        'elimination' or 'eigen' (see `evenbreak.chains.limit_of`), for plain numbers.
 
     Returns
     -------
@@ -103,7 +102,7 @@ def long_run_sd(
 ) -> FloatOrArray:
     """Return the standard deviation of the racks that player 1 wins, per square root of racks.
 
-    Over a large number N of racks player 1 wins N W of them on average (see `long_run_share`),
+    Over a large number N of racks, player 1 wins N W of them on average (see `long_run_share`),
     with a standard deviation of sqrt(N) times this. If equal players gain from the break, it is
     larger for winner breaks than for alternate breaks, because wins come in streaks, and smaller
     for loser breaks.
@@ -147,10 +146,10 @@ def long_run_sd(
 
 
 def first_break_worth(p1: FloatOrArray, p2: FloatOrArray, breaks: BreakFormat) -> FloatOrArray:
-    """Return the extra racks that player 1 wins in all by breaking first instead of second.
+    """Return the total extra racks that player 1 wins by breaking first instead of second.
 
-    This head start stays the same however long the session is; it is infinite if the break
-    never passes on. In alternate breaks it is the mean over even and odd numbers of racks.
+    This head start is the same no matter how long the session is; it is infinite if the break never
+    changes hands. For alternate breaks, it is the mean over even and odd numbers of racks.
 
     Parameters
     ----------
@@ -175,7 +174,7 @@ def first_break_worth(p1: FloatOrArray, p2: FloatOrArray, breaks: BreakFormat) -
 
 
 class BreakFormatValue(NamedTuple):
-    """The value of a break format to player 1 in the long run, given the stakes of a rack."""
+    """Long-run value of a break format to player 1, given the stakes of a rack."""
 
     name: str
     """The format's name in `BREAK_FORMATS`."""
@@ -186,11 +185,11 @@ class BreakFormatValue(NamedTuple):
     sd_points: float
     """The standard deviation of player 1's points over N racks, divided by sqrt(N), for large N."""
     fair_ratio: float
-    """The points for a rack won, per point for a rack lost, that make it even: (1 - W) / W."""
+    """The points for winning a rack, per point for losing one, that make it even: (1 - W) / W."""
     memory: float
     """The second eigenvalue: the share of the first break's effect left after each rack."""
     first_break: float
-    """How many more racks player 1 wins in all by breaking first, see `first_break_worth`."""
+    """How many more racks player 1 wins in total by breaking first; see `first_break_worth`."""
 
 
 def compare_break_formats(
@@ -201,7 +200,7 @@ def compare_break_formats(
     first_breaker: int = 1,
     via: Way | None = None,
 ) -> tuple[BreakFormatValue, ...]:
-    """Return the value of each break format, the best for player 1 first.
+    """Return the value of each break format, with the best for player 1 first.
 
     Parameters
     ----------
@@ -210,9 +209,9 @@ def compare_break_formats(
     win, lose
         the points that player 1 gains for each rack won, and loses for each rack lost.
     first_breaker
-        of the first rack; in formats where one player always breaks, that player does.
+        who breaks the first rack; in formats where one player always breaks, that player does.
     via
-        the way to the share of racks won, and so to the points, as for `long_run_share`.
+        the method for the share of racks won, and so for the points, as in `long_run_share`.
 
     Returns
     -------
@@ -277,7 +276,7 @@ def _value(
 
 
 class Breakers(NamedTuple):
-    """The two states of endless play (who breaks the rack), for arrays of probabilities.
+    """The two states of endless play (who breaks), for arrays of probabilities.
 
     >>> from evenbreak.games import winner_breaks
     >>> breakers = Breakers.of(0.75, 0.5, winner_breaks)
@@ -293,7 +292,7 @@ class Breakers(NamedTuple):
 
     @classmethod
     def of(cls, p1: Any, p2: Any, breaks: BreakFormat) -> Breakers:
-        """Return the states for two probabilities and a break format; all are checked."""
+        """Return the states for two probabilities and a break format, after checking them."""
         rack = Rack(p1, p2)
         checked_format(breaks)
         if p2 is None:
@@ -331,13 +330,13 @@ class Breakers(NamedTuple):
         return first * self.win[0] + second * self.win[1]
 
     def lost(self, first_breaker: int) -> Any:
-        """Return the fraction of the racks that player 1 loses, accurate even if it is tiny."""
+        """Return the fraction of the racks that player 1 loses, accurate even if tiny."""
         first, second = self.broken(first_breaker)
         return first * self.lose[0] + second * self.lose[1]
 
     @property
     def first_break(self) -> Any:
-        """(r_1 - r_2) / (a + b): infinite if the break never passes on."""
+        """(r_1 - r_2) / (a + b): infinite if the break never changes hands."""
         edge, changes = self.win[0] - self.win[1], self.changes
         stays = changes == 0.0
         endless = np.where(edge == 0.0, 0.0, np.copysign(math.inf, edge))

@@ -1,4 +1,4 @@
-"""A log of a progressive drill: the level of every attempt, and whether it succeeded."""
+"""Log of a progressive drill: the level of every attempt, and whether it succeeded."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ MOST_LEVELS = 100
 """The most levels that a drill with a log may have."""
 
 AFTER_START, AFTER_MISS, AFTER_SUCCESS = range(3)
-"""What preceded an attempt; the middle index of `DrillLog.outcomes`."""
+"""The preceding event of an attempt: the middle index of `DrillLog.outcomes`."""
 
 
 @array_values
 @dataclass(frozen=True, eq=False)
 class DrillLog:
-    """The attempts of a progressive drill, in the order in which they were made.
+    """The attempts in a progressive drill, in order.
 
-    The rule of the drill: a success leads one level up (the last level repeats), a miss one
-    level down (the first level repeats). A session may start at any level.
+    A success leads one level up (the last level repeats), and a miss leads one level down (the
+    first level repeats). A session may start at any level.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class DrillLog:
         shape (attempts,): any label for the session of each attempt; a change of label
         starts a new session. None if everything is one session.
     levels
-        how many levels the drill has, at most 100; None takes the highest one in the log.
+        how many levels the drill has, at most 100; None: the highest one in the log.
 
     Raises
     ------
@@ -105,7 +105,7 @@ class DrillLog:
 
     @cached_property
     def jumps(self) -> Ints:
-        """The positions of attempts that break the rule of the drill within their session."""
+        """The positions of attempts that break the drill's rule within their session."""
         step = self.success[:-1] * 2 - 1
         by_rule = np.clip(self.level[:-1] + step, 1, self._top)
         return np.flatnonzero((self.level[1:] != by_rule) & ~self._new_session[1:]) + 1

@@ -1,9 +1,9 @@
 """Progressive drills: where a player settles, and which level is worth practicing.
 
-The levels of a drill are in a line, so between two levels that communicate as many attempts go
-up as come down, law[i] p[i] = law[i + 1] q[i + 1], and the long-run distribution is a product of
-quotients. The gain of a level follows from the climbs D[i] = h[i + 1] - h[i], where h[i] is the
-total lead over the long-run mean, summed over all time, of a player who is now at level i:
+The levels of a drill are in a line, so between two levels that communicate, as many attempts go up
+as down, law[i] p[i] = law[i + 1] q[i + 1], and the long-run distribution is a product of quotients.
+The gain of a level follows from the climbs D[i] = h[i + 1] - h[i], where h[i] is the total lead
+over the long-run mean, summed over all time, for a player who is now at level i:
 
     q[i] D[i - 1] - p[i] D[i] = i - mean,    D[0] = D[n] = 0,
     d mean / d p[i] = law[i] (D[i - 1] + D[i]).
@@ -29,7 +29,7 @@ from evenbreak.stats.summary import Distribution
 
 @dataclass(frozen=True)
 class DrillStatistics:
-    """The long run of a drill that starts at level 1.
+    """Long-run behavior of a drill that starts at level 1.
 
     Parameters
     ----------
@@ -39,14 +39,14 @@ class DrillStatistics:
     gain
         for each level, the derivative of the mean level with respect to the chance of
         success there: raising it by 0.01 lifts the mean by about 0.01 times the gain.
-        One-sided where the chance is 0 or 1; inf where the mean jumps; 0 where the level is
-        not visited in the long run.
+        It is one-sided if the chance is 0 or 1, inf if the mean jumps, and 0 if the level is not
+        visited in the long run.
     lift
-        for each level, by how much the mean level rises if the chance of success there is
-        0.05 higher (or 1, if it is above 0.95 already).
+        for each level, the rise in the mean level if the chance of success there is 0.05 higher (or
+        1, if it is already above 0.95).
     period
-        1 where the distribution is also that of a single late attempt; 2 where odd-numbered
-        and even-numbered attempts differ forever and it is the average of both.
+        1 if the distribution also holds for a single late attempt; 2 if odd-numbered and
+        even-numbered attempts differ forever, and it is their average.
     """
 
     drill: Drill
@@ -69,8 +69,8 @@ def drill_statistics(drill: Drill, *, via: Way | None = None) -> DrillStatistics
     drill
         P(success | an attempt at level i) for each level; the player starts at level 1.
     via
-        the closed form for levels in a line ('kernel', or None), 'elimination' or 'eigen' (see
-        `evenbreak.chains.limit_of`).
+        the method: the closed form for levels in a line ('kernel', or None), 'elimination' or
+        'eigen' (see `evenbreak.chains.limit_of`).
 
     Raises
     ------
@@ -104,11 +104,11 @@ def drill_statistics(drill: Drill, *, via: Way | None = None) -> DrillStatistics
 
 
 MORE = 0.05
-"""The rise in a chance by which levels are compared: five more successes in 100."""
+"""The increase in a chance by which levels are compared: five more successes in 100."""
 
 
 def chances_seen(attempts: Ints, successes: Ints) -> Floats:
-    """Return the success rate at each level, with a convention for levels that were not tried.
+    """Return the success rate at each level, with a convention for untried levels.
 
     Untried levels below all those tried count as always succeeding: a player who starts at level 4
     and never falls below 3 would not get stuck at level 1. All others count as never succeeding.
@@ -123,7 +123,7 @@ def chances_seen(attempts: Ints, successes: Ints) -> Floats:
 
 
 def level_laws(success: Floats) -> Floats:
-    """Return the stochastic limits of drills that start at level 1: the share of each level.
+    """Return the limits of drills that start at level 1: the long-run share of each level.
 
     `success` is P(success | an attempt at level i), shape (..., n), one drill per row.
     """
@@ -148,8 +148,8 @@ def level_laws(success: Floats) -> Floats:
 def level_gains(success: Floats, law: Floats) -> Floats:
     """Return the derivative of the mean level with respect to the chance at each level.
 
-    At a chance of 0 or 1 it is one-sided. It is inf where the mean jumps (level i never succeeds
-    and level i + 1 always does), and 0 at levels not visited in the long run. Shapes as in
+    At a chance of 0 or 1 it is one-sided. It is inf if the mean jumps (level i never succeeds and
+    level i + 1 always does), and 0 at levels not visited in the long run. Shapes are as in
     `level_laws`.
 
     >>> success = np.array([0.5, 0.5])
@@ -174,10 +174,10 @@ def level_gains(success: Floats, law: Floats) -> Floats:
 
 
 def level_lifts(success: Floats) -> Floats:
-    """Return by how much the mean level rises with five more successes in 100 at each level.
+    """Return how much the mean level rises with five more successes in 100 at each level.
 
-    Each entry is the rise if only the chance at that level is 0.05 higher (or 1, if it is above
-    0.95 already); so a level that always succeeds has none. Shape as in `level_laws`.
+    Each entry is the rise if only the chance at that level is 0.05 higher (or 1, if it is already
+    above 0.95), so it is 0 for a level that always succeeds. The shape is as in `level_laws`.
 
     >>> level_lifts(np.array([1.0, 0.5])).round(6)
     array([0.      , 0.022989])

@@ -1,4 +1,4 @@
-"""The analysis of a drill log: chances, where they lead, what to practice, what stands out."""
+"""Analyze a drill log: chances, their long-run effect, what to practice, what stands out."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ class LevelReport(NamedTuple):
     Parameters
     ----------
     level, attempts, successes
-        the level, and its attempts and successes in the log.
+        the level, and the attempts and successes at it in the log.
     p, p_low, p_high
-        P(success | an attempt at this level): the fraction observed (None without attempts)
-        and its 95% interval (Wilson).
+        P(success | an attempt at this level): the observed fraction (None without attempts) and its
+        95% interval (Wilson).
     p_model
-        the chance at this level by the fitted model p^(level - 1); None without a model.
+        the chance at this level from the fitted model p^(level - 1); None without a model.
     visited
         the fraction of all attempts that were at this level.
     expected
@@ -47,12 +47,11 @@ class LevelReport(NamedTuple):
     gain
         the derivative of the long-run mean level with respect to p; see `DrillStatistics`.
     lift, lift_low, lift_high
-        by how much the long-run mean level rises if the chance at this level is 0.05 higher
-        (or 1, if it is above 0.95 already): the median over chances that fit the log, and
-        the 95% interval.
+        the rise in the long-run mean level if the chance at this level is 0.05 higher (or 1, if it
+        is already above 0.95): the median over chances that fit the log, and the 95% interval.
     p_best
-        the probability that this level has the greatest lift, above 0, of all levels with a
-        miss. Levels without a miss or without attempts are not candidates for practice.
+        the probability that this level has the greatest positive lift of all levels with a miss.
+        Levels without a miss or without attempts are not candidates for practice.
     """
 
     level: int
@@ -74,15 +73,15 @@ class LevelReport(NamedTuple):
 
 @dataclass(frozen=True)
 class LogAnalysis:
-    """The analysis of a drill log.
+    """Analysis of a drill log.
 
     Parameters
     ----------
     visited
-        the distribution of the level over the attempts of the log, exact.
+        the exact distribution of the level over the attempts in the log.
     implied
-        the distribution of the level in the long run, with the chances observed, starting at
-        level 1.
+        the distribution of the level in the long run, with the observed chances, starting at level
+        1.
     mean_low, mean_high
         the 95% interval of the long-run mean level.
     difference
@@ -90,8 +89,8 @@ class LogAnalysis:
         the fraction of attempts that would have to be at another level.
     memory
         test of whether a chance depends on the attempt before: the success rate after a
-        success minus that after a miss, at the same level. None where no level was attempted
-        after both.
+        success minus that after a miss, at the same level. None if no level was attempted after
+        both.
     model
         the model p_i = p^(i - 1) fitted to the log; None without attempts above level 1.
     model_test
@@ -114,7 +113,7 @@ class LogAnalysis:
 
     @property
     def practice_next(self) -> LevelReport | None:
-        """The level with the greatest `p_best`; None where no level with a miss has a lift."""
+        """The level with the greatest `p_best`; None if no level with a miss has a lift."""
         best = max(self.levels, key=lambda report: report.p_best)
         return best if best.p_best else None
 
@@ -133,18 +132,18 @@ class LogAnalysis:
 def analyze_log(
     log: DrillLog, *, rng: np.random.Generator | int, replicas: int = 1999
 ) -> LogAnalysis:
-    """Return what a drill log shows, and with what certainty.
+    """Return what a drill log shows, and how certain it is.
 
-    Statements about the long run assume that the chances stay as they are, and that untried
-    levels always succeed if they are below all those tried, and never succeed otherwise.
+    Statements about the long run assume that the chances stay the same, and that untried levels
+    always succeed if they are below all those tried, and never succeed otherwise.
 
     Parameters
     ----------
     rng
         a generator or a seed.
     replicas
-        simulated logs for each test, and draws of chances for the intervals of the lifts and of the
-        mean.
+        number of simulated logs for each test, and of draws of chances for the intervals of the
+        lifts and the mean.
 
     Raises
     ------
@@ -153,10 +152,10 @@ def analyze_log(
 
     Notes
     -----
-    Source: exercise 5.1. For the intervals of the lifts and of the mean, chances are drawn from
-    their posterior distributions under Jeffreys' prior, Beta(successes + 1/2, misses + 1/2), so
-    a level with three attempts counts as little as it should. Intervals of p: Wilson 1927. The
-    memory test uses the weights of Mantel & Haenszel 1959.
+    Source: exercise 5.1. For the intervals of the lifts and the mean, chances are drawn from their
+    posterior distributions under Jeffreys' prior, Beta(successes + 1/2, misses + 1/2), so a level
+    with three attempts counts as little as it should. Intervals of p: Wilson 1927. The memory test
+    uses the weights of Mantel & Haenszel 1959.
 
     >>> from evenbreak.practice import DrillLog
     >>> evening = [(1, 1), (2, 1), (3, 0), (2, 0), (1, 1), (2, 0), (1, 0), (1, 1)]

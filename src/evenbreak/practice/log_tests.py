@@ -1,14 +1,14 @@
-"""Does anything stand out in a drill log? Tests against simulated logs.
+"""Tests of a drill log against simulated logs, to see what stands out.
 
 Each test simulates the log many times, with the same starts and lengths, and counts how often
-chance alone gives a figure as extreme as that of the log. A formula would mislead: the
+chance alone gives a figure as extreme as that of the log. A formula would be misleading: the
 fractions of attempts at each level and the chances estimated from the same log almost have to
 agree, since a session that keeps to the rule crosses between two levels upwards as often as
-downwards, give or take once. And in short sessions even chances without memory seem, on
-average, to have one (Miller & Sanjurjo 2018).
+downwards, give or take once. And in short sessions, even chances without memory seem, on average,
+to have a memory (Miller & Sanjurjo 2018).
 
-One of the models tested has a single shot chance p for a whole drill: level i takes i - 1 good
-shots. With s_i successes and f_i misses at level i, and p_i = p^(i - 1),
+One of the models tested has a single shot chance p for a whole drill: level i takes i - 1
+successful shots. With s_i successes and f_i misses at level i, and p_i = p^(i - 1),
 
     log L(p) = sum over i >= 2 of  s_i (i - 1) log p + f_i log(1 - p^(i - 1)).
 
@@ -33,7 +33,7 @@ from evenbreak.stats.confidence import open_share
 
 
 class PlayedAgainTest(NamedTuple):
-    """A figure of a log, and the same figure of simulated logs.
+    """A statistic of a log, compared with the same statistic in simulated logs.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class PlayedAgainTest(NamedTuple):
     p_value
         the probability that chance alone gives a figure at least as extreme.
     p_error
-        its standard error, as the number of simulated logs is finite.
+        the standard error of the p-value, as the number of simulated logs is finite.
     """
 
     seen: float
@@ -52,12 +52,12 @@ class PlayedAgainTest(NamedTuple):
 
 
 def difference_test(log: DrillLog, played: Ints) -> PlayedAgainTest:
-    """Test the levels visited against the long run of the chances observed.
+    """Test the visited levels against the long run of the observed chances.
 
-    The figure is half the sum of the absolute differences of the two distributions. It is large
-    where sessions are short, so it must be compared with `by_chance`; a figure that chance does not
-    reach comes from how sessions start and end. `played` is what `play_again` simulated with the
-    chances observed.
+    The statistic is half the sum of the absolute differences between the two distributions. It is
+    large if sessions are short, so it must be compared with `by_chance`; a value that chance does
+    not reach comes from how sessions start and end. `played` holds the logs simulated by
+    `play_again` with the observed chances.
     """
     return _larger(_distance(log.outcomes), _distance(played))
 
@@ -65,8 +65,8 @@ def difference_test(log: DrillLog, played: Ints) -> PlayedAgainTest:
 def memory_test(log: DrillLog, played: Ints) -> PlayedAgainTest | None:
     """Test whether success is as likely after a success as after a miss, at the same level.
 
-    The figure is the difference of the two success rates, with the levels weighted as by Mantel and
-    Haenszel; the test is two-sided about its mean by chance. None where no level was attempted
+    The statistic is the difference between the two success rates, with levels weighted as in Mantel
+    and Haenszel; the test is two-sided around its mean by chance. None if no level was attempted
     after both.
     """
     seen, by_chance = float(_memory(log.outcomes)), _memory(played)
@@ -79,9 +79,9 @@ def memory_test(log: DrillLog, played: Ints) -> PlayedAgainTest | None:
 
 
 def _error_about_mean(seen: float, by_chance: Floats) -> float:
-    """Return the standard error of P(as far from the mean as seen), whose mean is estimated too.
+    """Return the standard error of P(at least as far from the mean), whose mean is estimated.
 
-    The delta method: each simulated log moves the share by itself, and by moving the mean.
+    It uses the delta method: each simulated log changes the share directly, and through the mean.
     """
     mean, off = float(by_chance.mean()), float(by_chance.std()) / np.sqrt(len(by_chance))
 
@@ -97,11 +97,11 @@ def _error_about_mean(seen: float, by_chance: Floats) -> float:
 def model_test(
     log: DrillLog, p: float, *, replicas: int, rng: np.random.Generator
 ) -> PlayedAgainTest | None:
-    """Test the model p_i = p^(i - 1), p fitted, against a separate chance for each level.
+    """Test the model p_i = p^(i - 1), with fitted p, against a separate chance for each level.
 
-    The figure is the deviance, twice the logarithm of the likelihood ratio. Logs are simulated with
-    the model's chances, except at level 1, which the fit ignores: there with the chance observed.
-    None unless two levels above the first were attempted.
+    The statistic is the deviance, twice the logarithm of the likelihood ratio. Logs are simulated
+    with the model's chances, except at level 1, which the fit ignores: there, with the observed
+    chance. None unless two levels above the first were attempted.
     """
     if np.count_nonzero(log.attempts[1:]) < 2:
         return None
@@ -114,7 +114,7 @@ def model_test(
 
 
 def _distance(outcomes: Ints) -> Floats:
-    """Return half the sum of the absolute differences of visited and implied, for each log."""
+    """Return half the sum of absolute differences between visited and implied, for each log."""
     attempts = outcomes.sum((-1, -2))
     p = chances_seen(attempts, outcomes[..., 1].sum(-1))
     visited = attempts / attempts.sum(-1, keepdims=True)
@@ -124,8 +124,7 @@ def _distance(outcomes: Ints) -> Floats:
 def _memory(outcomes: Ints) -> Floats:
     """Return how much higher the success rate was after a success than after a miss.
 
-    The levels are weighted as by Mantel and Haenszel; NaN where no level was attempted after
-    both.
+    Levels are weighted as in Mantel and Haenszel; NaN if no level was attempted after both.
     """
     after = outcomes[..., [AFTER_MISS, AFTER_SUCCESS], :]
     attempts = after.sum(-1)
@@ -136,7 +135,7 @@ def _memory(outcomes: Ints) -> Floats:
 
 
 def _larger(seen: float | Floats, by_chance: Floats) -> PlayedAgainTest:
-    """Return how often chance gives as large a figure; the log itself counts as one case."""
+    """Return how often chance gives as large a value; the log itself counts as one case."""
     as_large = int(np.count_nonzero(by_chance >= float(seen) * (1.0 - 1e-12)))
     p_value = (1 + as_large) / (1 + len(by_chance))
     error = float(np.sqrt(p_value * (1.0 - p_value) / len(by_chance)))
@@ -144,11 +143,11 @@ def _larger(seen: float | Floats, by_chance: Floats) -> PlayedAgainTest:
 
 
 _AT_ONCE = 500_000
-"""The most stretches simulated side by side, so that memory stays small."""
+"""The most stretches simulated in parallel, so that memory use stays small."""
 
 
 def play_again(log: DrillLog, success: Floats, *, replicas: int, rng: np.random.Generator) -> Ints:
-    """Return the outcomes of simulated logs that have the starts and lengths of a log.
+    """Return the outcomes of simulated logs with the same starts and lengths as a log.
 
     Each stretch of the log, from one start to the next, is simulated from its first level for the
     same number of attempts, each independent of those before it, given its level. `success` is
@@ -174,7 +173,7 @@ def _played(
     replicas: int,
     rng: np.random.Generator,
 ) -> Ints:
-    """Simulate all stretches of all replicas side by side, the longest first."""
+    """Simulate all stretches of all replicas in parallel, longest first."""
     n = len(success)
     counts = np.zeros(replicas * n * 6, dtype=np.int64)
     level = np.tile(first, (replicas, 1))
@@ -196,7 +195,7 @@ _HALVINGS = 60
 
 
 class ProgressiveFit(NamedTuple):
-    """The p of the model p_i = p^(i - 1) that fits a log best.
+    """Best-fitting p of the model p_i = p^(i - 1) for a log.
 
     Parameters
     ----------
@@ -208,8 +207,8 @@ class ProgressiveFit(NamedTuple):
     attempts
         the attempts above level 1, from which p is estimated.
     level_1_attempts, level_1_misses
-        what was left out: by the model level 1 never fails, so each of these misses
-        contradicts it.
+        the attempts and misses that were left out: in the model, level 1 never fails, so each of
+        these misses contradicts it.
     """
 
     p: float
@@ -222,7 +221,7 @@ class ProgressiveFit(NamedTuple):
 
 
 def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFit:
-    """Return the p of the model p_i = p^(i - 1) that fits a log best.
+    """Return the best-fitting p of the model p_i = p^(i - 1) for a log.
 
     Raises
     ------
@@ -264,7 +263,7 @@ def fit_progressive(log: DrillLog, *, confidence: float = 0.95) -> ProgressiveFi
 
 
 def likeliest_p(successes: Ints, failures: Ints) -> FloatOrArray:
-    """Return the maximum-likelihood p of each of many logs, of shape (..., levels).
+    """Return the maximum-likelihood p for each of many logs of shape (..., levels).
 
     Level 1 is ignored; NaN where there is no attempt above it.
 
@@ -287,9 +286,9 @@ def likeliest_p(successes: Ints, failures: Ints) -> FloatOrArray:
 
 
 def deviance(successes: Ints, failures: Ints) -> FloatOrArray:
-    """Return twice the log-likelihood that the model loses against a free chance for each level.
+    """Return twice the log-likelihood that the model loses to a free chance for each level.
 
-    Shapes are as in `likeliest_p`. It is 0 where the model fits as well as free chances.
+    Shapes are as in `likeliest_p`. It is 0 if the model fits as well as free chances.
 
     >>> deviance(np.array([[9, 3, 9], [9, 3, 0]]), np.array([[0, 1, 7], [0, 1, 4]])).round(2)
     array([0.  , 3.29])
@@ -309,7 +308,7 @@ def _log_likelihood(p: float | Floats, successes: Ints, failures: Ints) -> Float
 
 
 def _edge(end: float, p: float, least: float, successes: Ints, failures: Ints) -> float:
-    """Return where between `end` and p the log-likelihood falls to `least`."""
+    """Return the point between `end` and p at which the log-likelihood falls to `least`."""
     from scipy.optimize import brentq
 
     def above(q: float) -> float:

@@ -1,4 +1,4 @@
-"""Which shot to take in the one-ball game, given how often it goes in and what a miss leaves.
+"""Which shot to take in the one-ball game, given its chance of success and what a miss leaves.
 
 Player 1 shoots first and makes the ball with probability p1; after a miss player 2 makes it
 with p2. With q = 1 - p, P(player 1 wins) is
@@ -29,10 +29,10 @@ from evenbreak.game import Game
 from evenbreak.games.one_ball import OneBall, OneBallLookAhead
 
 LOOK_AHEADS = ("infinite", "two shots")
-"""What is assumed after the first two shots: the same two for ever, or an even game."""
+"""What is assumed after the first two shots: the same two forever, or an even game."""
 
 CHOICE_LOOK_AHEADS = (*LOOK_AHEADS, "all shots")
-"""The same for a `ShotChoice`: or its later shots in turn, and an even game after them."""
+"""The options for a `ShotChoice`, which also include its later shots in turn, then an even game."""
 
 
 def one_ball_win(
@@ -45,26 +45,26 @@ def one_ball_win(
     p1
         P(player 1 makes the ball | player 1 shoots).
     p2
-        P(player 2 makes the ball | player 2 shoots after player 1's miss); it depends on the
-        player and on how easy a shot is left. p1 and p2 are broadcast together.
+        P(player 2 makes the ball | player 2 shoots after player 1's miss); it depends on the player
+        and on how easy the shot left is. p1 and p2 are broadcast together.
     look_ahead
         "infinite": the first two shots are repeated until one is made; "two shots": after two
         misses each player wins with probability 1/2.
     via
-        the formula ('kernel', or None), or the stochastic limit of the game's graph by
+        the method: the formula ('kernel', or None), or the stochastic limit of the game's graph by
         'elimination' or 'eigen' (see `evenbreak.chains.limit_of`), for plain numbers.
 
     Returns
     -------
     float or numpy.ndarray
-        a float for plain numbers. With infinite look-ahead and p1 = p2 = 0 it is 0, as no one ever
-        wins; nearby it takes any value between 0 and 1.
+        a float for plain numbers. With infinite look-ahead and p1 = p2 = 0, it is 0, as no one ever
+        wins; near that point it takes any value between 0 and 1.
 
     Raises
     ------
     InputError
-        if p1 or p2 is not a probability, their shapes do not broadcast, or there is no such
-        look-ahead or way.
+        if p1 or p2 is not a probability, their shapes do not broadcast, or `look_ahead` or `via` is
+        unknown.
 
     Notes
     -----
@@ -96,7 +96,7 @@ def _win_by_limit(game: Game, via: Way) -> float:
 
 
 def look_ahead_win(game: OneBallLookAhead, *, via: Way | None = None) -> float:
-    """Return P(player 1 wins), given the chances of the next n shots and what follows them.
+    """Return P(player 1 wins), given the chances of the next n shots and the chance after them.
 
     Notes
     -----
@@ -118,7 +118,7 @@ def critical_p2(p1: FloatOrArray) -> FloatOrArray:
     """Return the p2 above which player 2 is the favorite, p1 / (1 - p1); elementwise.
 
     The curve is the same for both look-aheads. For p1 > 1/2 it is above 1 (infinity for
-    p1 = 1): no p2 is high enough, so player 1 is the favorite whatever a miss leaves.
+    p1 = 1): no p2 is high enough, so player 1 is the favorite no matter what a miss leaves.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def critical_p2(p1: FloatOrArray) -> FloatOrArray:
 
 
 def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> float | None:
-    """Return the p2 with which a shot wins the game with chance `win`, given its p1.
+    """Return the p2 for which a shot wins the game with chance `win`, given its p1.
 
     None if there is no such p2, or every p2 gives that chance. For win = 1/2 it is
     `critical_p2`, if that is not above 1.
@@ -147,7 +147,7 @@ def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> flo
     Raises
     ------
     InputError
-        if p1 or win is not a probability, or there is no such look-ahead.
+        if p1 or win is not a probability, or `look_ahead` is unknown.
 
     Notes
     -----
@@ -163,7 +163,7 @@ def break_even_p2(p1: float, win: float, *, look_ahead: str = "infinite") -> flo
 
 
 def _break_even(p1: float, win: float, *, after: float | None) -> float | None:
-    """Return the p2 with which a shot wins with chance `win`.
+    """Return the p2 for which a shot wins with chance `win`.
 
     `after` is the chance after two misses; None if the two shots are then repeated.
     """
@@ -182,7 +182,7 @@ def _break_even(p1: float, win: float, *, after: float | None) -> float | None:
 
 @dataclass(frozen=True)
 class ShotChoice:
-    """A shot that player 1 may choose: how often it goes in, and what a miss leaves.
+    """A shot that player 1 may choose: its chance of success, and what a miss leaves.
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ class ShotChoice:
 
     @property
     def region(self) -> str:
-        """The kind of shot, by the quarter of Fig. 5.3 it lies in.
+        """The kind of shot, by its quarter of Fig. 5.3.
 
         "two-way shot": often made, leaves little; "must-make": often made, leaves much;
         "safety": seldom made, leaves little; "sell-out": seldom made, leaves much.
@@ -228,7 +228,7 @@ class ShotChoice:
         return "sell-out" if self.p2 >= 0.5 else "safety"
 
     def win(self, look_ahead: str = "infinite", *, via: Way | None = None) -> float:
-        """Return P(player 1 wins the game | player 1 takes this shot), see `one_ball_win`.
+        """Return P(player 1 wins the game | player 1 takes this shot); see `one_ball_win`.
 
         With "all shots", the shots of `later` follow, and the game is even after the last.
         """
@@ -238,7 +238,7 @@ class ShotChoice:
         return float(one_ball_win(self.p1, self.p2, look_ahead=look_ahead, via=via))
 
     def break_even_p2(self, win: float, look_ahead: str = "infinite") -> float | None:
-        """Return the p2 with which this shot wins with chance `win`, as `break_even_p2` does."""
+        """Return the p2 for which this shot wins with chance `win`, as `break_even_p2` does."""
         one_of(look_ahead, "look_ahead", CHOICE_LOOK_AHEADS)
         if look_ahead != "all shots":
             return break_even_p2(self.p1, win, look_ahead=look_ahead)
@@ -253,16 +253,16 @@ class RankedShot(NamedTuple):
     win: float
     """P(player 1 wins the game | player 1 takes this shot)."""
     behind: float
-    """How much less it wins than the best shot."""
+    """How much smaller its chance is than the best shot's."""
     turning_p2: float | None
-    """The p2 at which it would be exactly as good as the best of the other shots: below it this
-    shot is the best. None if there is no such p2, or no other shot."""
+    """The p2 at which it would be exactly as good as the best other shot. Below it, this shot is
+    the best. None if there is no such p2, or no other shot."""
 
 
 def compare_shots(
     shots: Iterable[ShotChoice], *, look_ahead: str = "infinite", via: Way | None = None
 ) -> tuple[RankedShot, ...]:
-    """Return the shots by the chance of winning the game with each, the best first.
+    """Return the shots sorted by the chance of winning the game, best first.
 
     Shots that are equally good (within 1e-12) keep their order.
 
@@ -271,15 +271,15 @@ def compare_shots(
     shots
         at least one.
     look_ahead
-        as for `ShotChoice.win`. With infinite look-ahead the best shot is also the best for a
-        player who may choose again after every miss, as the chances stay the same.
+        as for `ShotChoice.win`. With infinite look-ahead, the best shot is also the best for a
+        player who may choose again after every miss, since the chances stay the same.
     via
-        the way to the chances of winning, as for `one_ball_win`.
+        the method for the chances of winning, as in `one_ball_win`.
 
     Raises
     ------
     InputError
-        if there is no shot, or no such look-ahead or way.
+        if there is no shot, or `look_ahead` or `via` is unknown.
 
     Notes
     -----

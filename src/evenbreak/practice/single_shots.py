@@ -1,18 +1,19 @@
-"""A log of single shots: which to practice next, and whether the player got better.
+"""Log of single shots: which to practice next, and whether the player improved.
 
-The chances of a player's shots are alike, so each says something about the others: shot i is made
-with chance p_i, drawn from a beta distribution with mean m and weight w (in tries), both estimated
-from all shots. Their likelihood is that of beta-binomial counts,
+A player's chances on different shots are similar, so each says something about the others: shot i
+is made with chance p_i, drawn from a beta distribution with mean m and weight w (in tries), both
+estimated from all shots. Their likelihood is that of beta-binomial counts,
 
     product over i of B(k_i + m w, n_i - k_i + (1 - m) w) / B(m w, (1 - m) w),
 
-averaged here over a grid with a flat prior for m and the density 1/(1 + w)^2 for w. A shot that was
-tried seldom is drawn toward the mean, one that was tried often hardly.
+averaged here over a grid with a flat prior for m and the density 1/(1 + w)^2 for w. A shot with few
+tries is drawn toward the mean; a shot with many tries hardly is.
 
-Whether the player got better is asked of the earlier and the later half of the tries. Given how
-often each shot was made in all, what it was made in the later half is hypergeometric if nothing has
-changed; the sum over the shots has the convolution of these laws, which a common odds ratio r tilts
-by r^s. From that come an exact p-value and an exact interval of r (Gart 1970).
+To see whether the player improved, the earlier and the later half of the tries are compared. Given
+how often each shot was made in total, the number made in the later half is hypergeometric if
+nothing has changed; the sum over the shots is distributed as the convolution of these
+distributions, which a common odds ratio r tilts by r^s. This gives an exact p-value and an exact
+interval of r (Gart 1970).
 """
 
 from __future__ import annotations
@@ -39,18 +40,18 @@ _FARTHEST = 30.0  # of the logarithm of an odds ratio
 @array_values
 @dataclass(frozen=True, eq=False)
 class ShotLog:
-    """How often shots were made, a row for each shot of each day.
+    """How often shots were made, with a row for each shot on each day.
 
     Parameters
     ----------
     names
-        of the shots, each once.
+        the names of the shots, each once.
     shot
         shape (rows,): the position of the shot in `names`.
     made, tried
         shape (rows,): how often it was made, and tried.
     day
-        shape (rows,): when; None where not every row has a date.
+        shape (rows,): the date; None if any row has no date.
 
     Raises
     ------
@@ -76,7 +77,7 @@ class ShotLog:
         object.__setattr__(self, "shot", np.asarray(self.shot, dtype=np.int64))
 
     def by_shot(self, rows: Any = slice(None)) -> tuple[Ints, Ints]:
-        """Return how often each shot was made and tried, in some of the rows."""
+        """Return how often each shot was made and tried in the given rows."""
         many = len(self.names)
         made, tried = (
             np.bincount(self.shot[rows], values[rows], many).astype(np.int64)
@@ -93,7 +94,7 @@ class ShotReport(NamedTuple):
     name, made, tried
         the shot, and its balls made and tries.
     low, high
-        the exact interval of its chance by these tries alone (Clopper & Pearson 1934).
+        the exact interval of its chance from these tries alone (Clopper & Pearson 1934).
     chance
         its chance, drawn toward those of the other shots.
     p_weakest
@@ -113,7 +114,7 @@ class ShotReport(NamedTuple):
 
 
 class Change(NamedTuple):
-    """The earlier and the later half of the tries.
+    """Comparison of the earlier and the later half of the tries.
 
     Parameters
     ----------
@@ -122,7 +123,7 @@ class Change(NamedTuple):
     ratio, low, high
         the factor on the odds of making a shot, and its exact interval.
     p_value
-        chance of a change at least as large, up or down, if nothing has changed.
+        the chance of a change at least this large, up or down, if nothing has changed.
     """
 
     before: float
@@ -135,14 +136,14 @@ class Change(NamedTuple):
 
 @dataclass(frozen=True)
 class ShotAnalysis:
-    """The analysis of a log of single shots.
+    """Analysis of a log of single shots.
 
     Parameters
     ----------
     since
         the first day of the later half; None without two days.
     change
-        of all shots that are in both halves; None if there is none.
+        the change over all shots that are in both halves; None if there are none.
     """
 
     shots: tuple[ShotReport, ...]
@@ -151,7 +152,7 @@ class ShotAnalysis:
 
 
 def share_intervals(made: Ints, tried: Ints, confidence: float) -> tuple[Floats, Floats]:
-    """Return the ends of the exact (Clopper-Pearson) interval of each share made."""
+    """Return the ends of the exact (Clopper-Pearson) interval for each share of shots made."""
     from scipy.special import betainccinv, betaincinv
 
     tail, missed = (1.0 - confidence) / 2.0, tried - made
@@ -167,7 +168,7 @@ def analyze_shots(log: ShotLog, *, confidence: float = 0.95, seed: int = 0) -> S
     confidence
         of the intervals.
     seed
-        of the chances that are drawn to see which shot is the weakest.
+        for the chances that are drawn to see which shot is the weakest.
 
     >>> log = ShotLog(("cut", "bank"), [0, 1], [40, 4], [60, 20])
     >>> [(one.name, round(one.chance, 2), one.p_weakest > 0.99) for one in analyze_shots(log).shots]
@@ -191,7 +192,7 @@ def analyze_shots(log: ShotLog, *, confidence: float = 0.95, seed: int = 0) -> S
 
 
 def _shrunk(made: Ints, tried: Ints, rng: np.random.Generator) -> tuple[Floats, Floats]:
-    """Return the chance of each shot given all of them, and how likely it is the lowest."""
+    """Return the chance of each shot given all shots, and the chance that it is the lowest."""
     from scipy.special import betaln
 
     mean, weight = (grid.ravel() for grid in np.meshgrid(_MEANS, _WEIGHTS))
@@ -209,7 +210,7 @@ def _shrunk(made: Ints, tried: Ints, rng: np.random.Generator) -> tuple[Floats, 
 
 
 def _second_half(log: ShotLog) -> Any:
-    """Return the day with which the later half of the tries starts; None without two days."""
+    """Return the day on which the later half of the tries starts; None without two days."""
     if log.day is None:
         return None
     days, place = np.unique(log.day, return_inverse=True)
@@ -220,7 +221,7 @@ def _second_half(log: ShotLog) -> Any:
 
 
 def change_of(halves: Sequence[tuple[Any, Any]], confidence: float = 0.95) -> Change | None:
-    """Return whether shots were made more often in the later of two halves.
+    """Return the change in how often shots were made between two halves.
 
     Parameters
     ----------
@@ -260,9 +261,9 @@ def change_of(halves: Sequence[tuple[Any, Any]], confidence: float = 0.95) -> Ch
 
 
 def _odds_ratio(law: Floats, place: int, confidence: float) -> tuple[float, float, float, float]:
-    """Return the odds ratio of an exact law of counts, its interval, and the p-value of 1.
+    """Return the odds ratio for an exact count distribution, its interval, and the p-value of 1.
 
-    `law[place]` is the chance of the count that was seen, if the ratio is 1.
+    `law[place]` is the chance of the observed count if the ratio is 1.
     """
     with np.errstate(divide="ignore"):
         logs = np.log(law)

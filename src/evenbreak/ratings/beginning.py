@@ -1,4 +1,4 @@
-"""Where players are expected to be before any result of a file.
+"""What is expected of players before a file's first result.
 
 The skill of player i, in natural log-odds, has the prior
 
@@ -9,15 +9,15 @@ skills. A row of Z says which levels a player belongs to. Integrating b out woul
 of one team correlated; kept as unknowns, levels are only further nodes of the graph of play.
 
 Earlier results may be known too. A rating r with the standard error s, made with a prior N(m, σ²),
-says about the skill θ what results with the information
+says the same about the skill θ as results with the information
 
     J = 1/s² - 1/σ²    and    Jx = r/s² - m/σ²
 
-would: a likelihood proportional to exp(-J θ²/2 + Jx θ). That is what is carried over, so that the
-new season may have another prior, and so that old results fade with a half-life like any others.
-A rating that was not made from results has no such prior: J = 1/s². Of a list that states games and
-no errors, n games say J = n/4 (a game between equals says p (1 - p)); what such a list is off by
-besides is the same for all its ratings, b², so that J = 1/(b² + 4/n).
+: a likelihood proportional to exp(-J θ²/2 + Jx θ). That is what is carried over, so that the new
+season may have another prior, and so that old results fade with a half-life like any others. A
+rating that was not made from results has no such prior: J = 1/s². Of a list that states games and
+no errors, n games say J = n/4 (a game between equals says p (1 - p)); the variance of such a list's
+other errors, b², is the same for all its ratings, so that J = 1/(b² + 4/n).
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
 
 class Known(NamedTuple):
-    """What is known of a file's players beforehand: information J and pull Jx, in log-odds."""
+    """What is known about a file's players beforehand: information J and pull Jx, in log-odds."""
 
     information: Floats
     pull: Floats
@@ -48,7 +48,7 @@ class Known(NamedTuple):
 @array_values
 @dataclass(frozen=True, eq=False, init=False)
 class Beginning:
-    """Ratings that players bring along.
+    """Ratings that players bring with them.
 
     Parameters
     ----------
@@ -57,17 +57,18 @@ class Beginning:
     rating
         points.
     standard_error
-        the uncertainty of each rating, in points. That of a difference is taken to be the root of
-        the sum of two squares, so use quasi-standard errors where there are any. NaN where not
-        known: then the games and `Levels.brought_sd` say it.
+        the uncertainty of each rating, in points. The uncertainty of a difference is computed as
+        the root of the sum of two squares, so use quasi-standard errors where there are any. NaN
+        where it is unknown; it then follows from the games and `Levels.brought_sd`.
     prior_sd, prior_mean
-        the prior with which they were made, in points: its standard deviation, NaN or None for
-        ratings that were not made from results, and its means.
+        the standard deviation and the means of the prior used to make the ratings, in points; a
+        standard deviation of NaN or None means that they were not made from results.
     games
-        the games behind each rating, 0 where they are not known; None: 0. They say how far off it
-        may be where no standard error does, and what newcomers lack.
+        the number of games behind each rating, 0 where it is unknown; None: all 0. It gives the
+        uncertainty of ratings without a standard error, and how much of a newcomer each player
+        still is.
     as_of
-        the day of the ratings; None: the day before the first result.
+        the date of the ratings; None: the day before the first result.
 
     Raises
     ------
@@ -129,16 +130,16 @@ class Beginning:
         object.__setattr__(self, "as_of", None if as_of is None else day_of(as_of))
 
     def center(self, players: Sequence[str]) -> float:
-        """Return the mean of the ratings that some players bring along, in points.
+        """Return the mean of the ratings that some players bring with them, in points.
 
-        About it the new ratings are centered; without any such player it is the scale's center.
+        The new ratings are centered on it; if no player brings a rating, it is the scale's center.
         """
         here = set(players)
         brought = [r for name, r in zip(self.players, self.rating, strict=True) if name in here]
         return float(np.mean(brought)) if brought else self.scale.center
 
     def anchor(self, players: Sequence[str], scale: Scale, *, brought: bool) -> float | None:
-        """Return the `center` where the ratings count and are of this scale, else None.
+        """Return the `center` if the ratings count and are on this scale, else None.
 
         `brought` says whether ratings without a standard error count.
         """
@@ -147,24 +148,24 @@ class Beginning:
 
     @property
     def by_games(self) -> Bools:
-        """Which ratings state games, but not their uncertainty."""
+        """Which ratings have a number of games but no stated uncertainty."""
         return np.asarray(np.isnan(self.standard_error) & (self.games > 0.0))
 
     @property
     def unknown_error(self) -> bool:
-        """Whether some rating has no stated uncertainty."""
+        """Whether any rating has no stated uncertainty."""
         return bool(np.isnan(self.standard_error).any())
 
     def known(self, players: Sequence[str], *, brought_sd: float = 0.0) -> Known:
-        """Return what is known about some players, who are looked up by name.
+        """Return what is known about the given players, looked up by name.
 
         Parameters
         ----------
         players
             the names. Their skills are counted from `center`.
         brought_sd
-            how far off ratings without a standard error are, besides what their games leave open,
-            in natural log-odds; 0: they are not used.
+            the error of ratings without a standard error, in natural log-odds, in addition to what
+            follows from their number of games; 0: such ratings are not used.
 
         >>> old = Beginning(["Ann"], [95], games=[200])
         >>> old.known(["Ann"], brought_sd=0.1).information.round(1)
@@ -191,17 +192,16 @@ class Beginning:
         )
 
     def kept(self, half_life: float | None, results: Results, day: np.datetime64 | None) -> float:
-        """Return the part of their weight that the ratings still have on a day.
+        """Return the fraction of their weight that the ratings still have on a given day.
 
         Parameters
         ----------
         half_life
             in days; None: results always count in full.
         results
-            the new results, before the first of which the ratings are taken to be, if they
-            have no day.
+            the new results; ratings without a date are taken to be from just before the first one.
         day
-            the day; None: that of the last of the results.
+            the day; None: the day of the last result.
         """
         if half_life is None or results.date is None:
             return 1.0
@@ -213,7 +213,7 @@ class Beginning:
         return float(np.exp2(-max(age, 0.0) / half_life))
 
     def games_of(self, players: Sequence[str]) -> Floats:
-        """Return the games behind each of some players, 0 for those who are not known."""
+        """Return the number of games behind each given player's rating, 0 for unknown players."""
         return self._of(players, self.games)
 
     def _of(self, players: Sequence[str], values: Floats) -> Floats:
@@ -224,11 +224,11 @@ class Beginning:
 
 @dataclass(frozen=True, eq=False)
 class PriorMeans:
-    """The mean of each player's prior, and the levels that players share, in natural log-odds.
+    """Prior mean of each player, and the levels that players share, in natural log-odds.
 
     `design` is each player's share of each level, shape (players, levels); `level_sd` is the
-    standard deviation of a level's own prior, about 0. `known` is what earlier results say of the
-    skills, `follow` what the means gain by the skills of others (see `at`).
+    standard deviation of a level's own prior, about 0. `known` is the evidence about the skills
+    from earlier results, and `follow` is what other players' skills add to the means (see `at`).
     """
 
     mean: Floats
@@ -240,7 +240,7 @@ class PriorMeans:
 
     @classmethod
     def none(cls, players: int) -> PriorMeans:
-        """Return the prior of a league about which nothing is known: all means 0."""
+        """Return the prior for a league about which nothing is known: all means are 0."""
         return cls(np.zeros(players), np.zeros((players, 0)), np.zeros(0))
 
     @property
@@ -249,7 +249,7 @@ class PriorMeans:
         return np.asarray(self.level_sd**-2.0)
 
     def centered(self, among: Floats) -> PriorMeans:
-        """Return the same prior, shifted so that the means average 0 over some players, by weight.
+        """Return the same prior, shifted so that some players' means have a weighted average of 0.
 
         If all weights are 0, nothing changes.
 
@@ -274,13 +274,13 @@ class PriorMeans:
         )
 
     def at(self, skill: Floats) -> PriorMeans:
-        """Return the same prior where the players that others follow have some skills."""
+        """Return the same prior, given the skills of the players whom others follow."""
         if self.follow is None:
             return self
         return replace(self, mean=self.mean + self.follow(skill), follow=None)
 
     def faded(self, keep: float) -> PriorMeans:
-        """Return the same prior, with earlier results reduced to a part of their weight."""
+        """Return the same prior, with earlier results reduced to a fraction of their weight."""
         if self.known is None or keep == 1.0:
             return self
         return replace(self, known=Known(*(keep * figure for figure in self.known)))
@@ -295,7 +295,7 @@ class PriorMeans:
         return np.asarray(self.mean + self.design @ level)
 
     def log_density(self, skill: Floats, level: Floats, precision: float) -> float:
-        """Return ln of the prior density of skills and levels, but for a constant.
+        """Return the log of the prior density of skills and levels, up to a constant.
 
         `precision` is 1/σ².
         """
@@ -306,7 +306,7 @@ class PriorMeans:
         return prior + float((self.known.pull - 0.5 * self.known.information * skill) @ skill)
 
     def slopes(self, skill: Floats, level: Floats, precision: float) -> tuple[Floats, Floats]:
-        """Return the gradient of minus the log density, in the skills and in the levels."""
+        """Return the gradient of the negative log density in the skills and in the levels."""
         pull = precision * (skill - self.expected(level))
         of_level = self.precision * level - self.design.T @ pull
         if self.known is not None:
@@ -315,18 +315,19 @@ class PriorMeans:
 
 
 STILL = 1e-3
-"""By how much two ways to the same skills may differ where means follow: 1/7 of a Fargo point."""
+"""Tolerance between two routes to the same skills where means follow: 1/7 of a Fargo point."""
 
 MOST_MOVES = 40
-"""How often means move with the skills at most."""
+"""How many times the means are updated from the skills at most."""
 
 
 class MovingMeans:
-    """Means that follow the skills while the mode is searched for, until they are still.
+    """Means that follow the skills while the mode is searched for, until they no longer move.
 
-    The means move the mode, and the mode the means, by less each time: by about the part of the
-    skills of known players that still comes from their prior. They stay once what is left to move,
-    if moves go on to shrink as the last one did, or by half, is half of `STILL` at most.
+    The means move the mode, and the mode moves the means, by less each time: by about the fraction
+    of known players' skills that still comes from their prior. The means are left alone once the
+    remaining movement is at most half of `STILL`, assuming that moves keep shrinking by half or as
+    the last one did.
     """
 
     def __init__(self, means: PriorMeans) -> None:

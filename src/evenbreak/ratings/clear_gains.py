@@ -1,9 +1,9 @@
-"""When one way of rating clearly predicts better than another: by stretches, and by players.
+"""Whether one rating method clearly predicts better than another, by stretches and by players.
 
-Predictions are made before the results, so the product of the ratios of what two ways predicted
-reaches 20, if the first way is right, with a chance of at most 1/20 (Ville 1939; Shafer 2021). That
-also holds for the mean of the scores of several ways. But what a level gains may come from a few
-players, whose matches go well or badly together; so it must also be more than luck with players.
+Predictions are made before the results, so if the first method is right, the product of the two
+methods' likelihood ratios reaches 20 with probability at most 1/20 (Ville 1939; Shafer 2021). The
+same is true of the mean of several methods' scores. But a level's gain may come from a few players,
+whose matches go well or badly together, so the gain must also be more than luck with the players.
 """
 
 from __future__ import annotations
@@ -19,25 +19,25 @@ from evenbreak.ratings.estimates import SURE, Estimate, ratio_over, samples
 from evenbreak.ratings.stretches import StretchLosses
 
 FEWEST_STRETCHES = 10
-"""Stretches from which ways can be compared."""
+"""Stretches needed to compare methods."""
 
 EVIDENCE = 20.0
-"""The betting score from which a gain is clear, if the bootstrap does not speak against it."""
+"""Betting score at which a gain is clear, if the bootstrap doesn't contradict it."""
 
 SEED = 1
-"""Of the bootstrap, so that the same file always has the same answer."""
+"""Seed of the bootstrap, so that the same file always gives the same answer."""
 
 LIKELY = 1.282
-"""How many standard errors a gain is above 0 with 90% confidence."""
+"""How many standard errors above 0 a gain must be for 90% confidence."""
 
 FEWEST_PLAYERS = 4
 """How many players a gain must rest on."""
 
 
 def gains_over(of_ways: StretchLosses) -> tuple[Estimate, ...]:
-    """Return how much log-loss a game each way but the first saves over the first.
+    """Return the log-loss per game that each later method saves over the first.
 
-    All ways predict the same stretches, so the intervals are those of the differences, the
+    All methods predict the same stretches, so the intervals are for the differences, with the
     stretches resampled.
     """
     stretches = np.arange(len(of_ways.losses))
@@ -49,11 +49,12 @@ def gains_over(of_ways: StretchLosses) -> tuple[Estimate, ...]:
 
 
 def is_clear(of_ways: StretchLosses) -> bool:
-    """Return whether some way but the first clearly predicts better than the first.
+    """Return whether any later method clearly predicts better than the first.
 
-    Either the gain of one is above 0 with 99% confidence, stretches being resampled; or the mean
-    betting score of all is at least 20, and the best gain is above 0 with 90% confidence. The
-    second finds what mostly helps early in a season, as long as little is known from results.
+    Either one gain is above 0 with 99% confidence, with the stretches resampled; or the mean
+    betting score of all methods is at least 20 and the best gain is above 0 with 90% confidence.
+    The second criterion catches methods that help mainly early in a season, when results still say
+    little.
 
     >>> from evenbreak.ratings.players_behind import PlayersBehind
     >>> nobody = PlayersBehind(*np.zeros((2, 0), dtype=int))
@@ -73,10 +74,11 @@ def is_clear(of_ways: StretchLosses) -> bool:
 
 
 def by_enough_players(of_ways: StretchLosses, way: int) -> tuple[bool, int]:
-    """Return whether a way's gain over the first is more than luck with players, and their number.
+    """Return whether a method's gain over the first is more than luck with players, and a count.
 
-    The gain must be above 0 with 90% confidence, players being resampled, and remain without the
-    matches of any three. The number is how few there are without whom there is none.
+    The gain must be above 0 with 90% confidence, with the players resampled, and remain when the
+    matches of any three players are left out. The count is the smallest number of players without
+    whose matches no gain is left.
     """
     gain = of_ways.of_match[:, 0] - of_ways.of_match[:, way]
     players = of_ways.players.behind(gain)

@@ -1,4 +1,4 @@
-"""Many linear systems with one sparse matrix, by conjugate gradients."""
+"""Solve many linear systems with the same sparse matrix by conjugate gradients."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ AT_ONCE = 32
 
 
 def solve_columns(matrix: Any, diagonal: Floats, right: Floats, accuracy: float) -> Floats:
-    """Return the solution of each column, the matrix scaled to a unit diagonal.
+    """Return the solution for each column, with the matrix scaled to a unit diagonal.
 
-    What is left over of each column is at most `accuracy` times it.
+    The norm of each residual is at most `accuracy` times the norm of its column.
     """
     columns = right[:, None] if right.ndim == 1 else right
     scale = 1.0 / np.sqrt(diagonal)
@@ -39,8 +39,8 @@ def solve_columns(matrix: Any, diagonal: Floats, right: Floats, accuracy: float)
 def solve_unit(matrix: Any, right: Floats, accuracy: float) -> Floats:
     """Return the solution for each column; the matrix has a unit diagonal.
 
-    An AccuracyError if ten steps per unknown are too few, as rounding makes the matrix nearly
-    singular.
+    Raises AccuracyError if ten steps per unknown are too few because rounding makes the matrix
+    nearly singular.
     """
     residual, direction = right.copy(), right.copy()
     solution = np.zeros_like(residual)
@@ -62,13 +62,13 @@ def solve_unit(matrix: Any, right: Floats, accuracy: float) -> Floats:
 
 
 def energies(matrix: Any, right: Any, accuracy: float) -> Floats:
-    """Return xᵀ A⁻¹ x for each column x, A (or a product with it) symmetric, positive definite.
+    """Return xᵀ A⁻¹ x for each column x; A (or a product with it) is symmetric positive definite.
 
-    Each step of conjugate gradients adds to it what lies in one more direction (Hestenes & Stiefel
-    1952), so that neither the solution nor all of its digits are needed. What the further steps of
-    a column would add is estimated from the last two, which are about as far apart as the next. A
-    column is done when a step adds no more than `accuracy` of the sum, and the square of the
-    residual is no more than that part of that of x.
+    Each step of conjugate gradients adds the contribution of one more direction (Hestenes & Stiefel
+    1952), so neither the solution nor full precision is needed. What further steps would add is
+    estimated from the last two steps. A column is done when a step adds no more than the fraction
+    `accuracy` of the sum, and the squared residual is no more than the same fraction of the square
+    of x.
 
     >>> energies(np.diag([2.0, 4.0]), np.array([[1.0, 0.0], [1.0, 1.0]]), 1e-9).round(6)
     array([0.75, 0.25])
@@ -101,16 +101,16 @@ def energies(matrix: Any, right: Any, accuracy: float) -> Floats:
 
 
 def _rest(last: Floats, gain: Floats) -> Floats:
-    """Return what further steps would add to a sum if each adds the same part of the one before."""
+    """Return what further steps would add to a sum if each adds the same fraction of the last."""
     part = np.minimum(_ratio(gain, last), 0.75)
     return np.asarray(gain * part / (1.0 - part))
 
 
 def _ratio(top: Any, bottom: Any) -> Any:
-    """Return 0 where nothing is left to be divided."""
+    """Return the ratio, or 0 where there is nothing left to divide."""
     return np.divide(top, bottom, out=np.zeros_like(top), where=bottom > 0)
 
 
 def _products(left: Floats, right: Floats) -> Floats:
-    """Return the product of each column of one with that of the other."""
+    """Return the column-by-column inner products of two matrices."""
     return np.asarray(np.einsum("ij,ij->j", left, right))

@@ -1,4 +1,4 @@
-"""How uncertain ratings are together: the inverse of the curvature at the mode.
+"""Joint uncertainty of the ratings: the inverse of the curvature at the mode.
 
 The Hessian of the negative log-posterior is a weighted Laplacian of who met who plus τ
 on the diagonal, and, where a break advantage is estimated too, one more row and column b
@@ -35,14 +35,14 @@ from evenbreak.ratings.inverse_diagonal import inverse_diagonal
 from evenbreak.ratings.sampled_diagonal import InverseDiagonal
 
 _DENSE_UP_TO = 2000
-"""Players up to which the Hessian is factorized once; with more, each answer is iterated."""
+"""Players up to which the Hessian is factorized once; beyond that, each answer is iterated."""
 
 _SOLVED_UP_TO = 100
-"""Unknowns up to which a Newton step is solved exactly, which is faster than to iterate."""
+"""Unknowns up to which a Newton step is solved exactly, which is then faster than iterating."""
 
 
 class Pattern:
-    """The entries of a symmetric matrix: sorted pairs (low, high) that met, and the diagonal."""
+    """Entries of a symmetric matrix: the sorted pairs (low, high) who met, and the diagonal."""
 
     def __init__(self, size: int, low: Places, high: Places) -> None:
         starts = np.searchsorted(low, np.arange(size + 1))
@@ -103,20 +103,20 @@ class Curvature:
 
     @cached_property
     def _across(self) -> Floats:
-        """The second derivatives in a rating and a level: shape (size, levels)."""
+        """The mixed second derivatives in ratings and levels: shape (size, levels)."""
         design = np.zeros((self.size, 0)) if self.means is None else self.means.design
         return np.asarray(-self.precision * design)
 
     @cached_property
     def _levels(self) -> Floats:
-        """The second derivatives in two levels."""
+        """The second derivatives in pairs of levels."""
         if self.means is None:
             return np.zeros((0, 0))
         return np.asarray(np.diag(self.means.precision) - self.means.design.T @ self._across)
 
     @cached_property
     def with_levels(self) -> tuple[sparse.csr_array, Floats]:
-        """The block of the ratings and the levels, sparse, and its diagonal."""
+        """The sparse block of the ratings and levels, and its diagonal."""
         matrix = self._rows
         if not len(self._levels):
             return matrix, self._diagonal
@@ -130,7 +130,7 @@ class Curvature:
 
     @cached_property
     def _border(self) -> Floats | None:
-        """The border, with the levels: they have nothing to do with the break advantage."""
+        """The border, extended to the levels, which don't interact with the break advantage."""
         if self.border is None:
             return None
         return np.append(self.border, np.zeros(len(self._levels)))
@@ -141,14 +141,14 @@ class Curvature:
 
     @cached_property
     def border_variance(self) -> float | None:
-        """The variance of the break advantage, or None where it is not estimated."""
+        """The variance of the break advantage, or None if it was not estimated."""
         if self._border is None or self.corner is None or self._with_border is None:
             return None
         return 1.0 / (self.corner - float(self._border @ self._with_border))
 
     @cached_property
     def _with_levels(self) -> Floats:
-        """The covariance of every rating and level with each level, the advantage known."""
+        """Covariance of every rating and level with each level, given the break advantage."""
         levels = len(self._levels)
         if self.size + levels <= _DENSE_UP_TO:
             return np.asarray(
@@ -178,13 +178,13 @@ class Curvature:
 
     @cached_property
     def given_levels(self) -> InverseDiagonal:
-        """The variance of each rating, were the levels and the advantage known; nearly, or not."""
+        """Variance of each rating given the levels and the advantage, exact or approximate."""
         even = self.means is None or self.means.known is None
         return inverse_diagonal(self.matrix, self.precision if even else None)
 
     @cached_property
     def _shared(self) -> Floats:
-        """The F for which FFᵀ is what levels and advantage add to the covariance of the ratings."""
+        """The F for which FFᵀ is what levels and advantage add to the ratings' covariance."""
         if self._with_border is None or self.border_variance is None:
             return self.by_levels
         by_border = self._with_border[: self.size] * np.sqrt(self.border_variance)
@@ -195,9 +195,9 @@ class Curvature:
         return np.asarray(self.given_levels.value + (self._shared**2).sum(1))
 
     def with_means(self, group: Ints) -> Floats:
-        """Return the covariance of each rating with the mean of its group, all in one solution.
+        """Return the covariance of each rating with the mean of its group, all in one solve.
 
-        No players of two groups have met.
+        No players from different groups may have met.
         """
         share = 1.0 / np.bincount(group)[group]
         alone = self._solve(np.append(share, np.zeros(len(self._levels))))[: self.size]
@@ -206,7 +206,7 @@ class Curvature:
         return np.asarray(alone + sum(self._shared.T * np.reshape(means, self._shared.T.shape)))
 
     def times(self, contrast: Floats) -> Floats:
-        """Return the covariance of each rating with a weighted sum of them.
+        """Return the covariance of each rating with a weighted sum of the ratings.
 
         The variance of the sum itself is `contrast @ times(contrast)`.
         """
@@ -217,13 +217,13 @@ class Curvature:
         return product
 
     def drawn(self, differences: DrawnDifferences) -> Floats:
-        """Return the variance of each difference, nearly; the break advantage taken as known."""
+        """Return the approximate variance of each difference, given the break advantage."""
         return differences.variances(*self.with_levels, self.weight, self.precision, self.means)
 
     def difference_variances(self, first: Places, second: Places) -> Floats:
-        """Return the variance of the difference of the ratings of each pair, all at once.
+        """Return the variance of the rating difference of each pair, all at once.
 
-        For up to 2,000 players the whole covariance is formed; for more, they are drawn.
+        For up to 2,000 players the full covariance is formed; for more, the variances are sampled.
         """
         if len(self._levels) + self.size > _DENSE_UP_TO:
             drawn = self.drawn(DrawnDifferences(self.size, self.low, self.high, first, second))
@@ -253,7 +253,7 @@ class Curvature:
         return whole
 
     def newton_step(self, gradient: Floats, slope: float, accuracy: float) -> tuple[Floats, float]:
-        """Return Newton's step in ratings and levels, and in the break advantage.
+        """Return the Newton step in ratings and levels, and in the break advantage.
 
         `gradient` and `slope` are the first derivatives in these, `accuracy` is the relative
         residual.
@@ -290,7 +290,7 @@ class Curvature:
 
 
 def with_levels(matrix: sparse.csr_array, across: Floats, levels: Floats) -> LinearOperator:
-    """Return a sparse matrix with some dense rows and columns more, as what it does to columns."""
+    """Return a sparse matrix bordered by a few dense rows and columns, as a linear map."""
     size = len(across)
 
     def times(v: Floats) -> Floats:
@@ -307,10 +307,10 @@ def sums_by_player(
     for_low: Floats,
     for_high: Floats | None = None,
 ) -> Floats:
-    """Return for each player the sum over their pairs, right to about one rounding.
+    """Return the sum over each player's pairs, accurate to about one rounding.
 
-    A plain sum over 20,000 opponents moves in jumps: each term is rounded the same way. Without
-    `for_high`, both players of a pair get the same.
+    A plain sum over 20,000 opponents would accumulate error, because each term is rounded the same
+    way. Without `for_high`, both players of a pair get the same term.
 
     >>> sums_by_player(3, np.array([0, 0]), np.array([1, 2]), np.array([1.0, 10.0]))
     array([11., 1., 10.])
@@ -335,7 +335,7 @@ class PairCounts:
 
     @property
     def graph(self) -> sparse.csr_array:
-        """Who met who: shape (players, players), upper triangular."""
+        """Who met whom: shape (players, players), upper triangular."""
         return self.games
 
     def curvature(
@@ -346,7 +346,7 @@ class PairCounts:
         break_precision: float | None,  # noqa: ARG002
         means: PriorMeans | None = None,
     ) -> Curvature:
-        """Return the Hessian of the negative log-posterior; the break does not matter here."""
+        """Return the Hessian of the negative log-posterior, ignoring the break."""
         difference = skill[self.low] - skill[self.high]
         weight = self.games.data * expit(difference) * expit(-difference)
         return Curvature(len(skill), self.low, self.high, weight, precision, means=means)
@@ -355,7 +355,7 @@ class PairCounts:
 def count_pairs(
     players: int, player_a: Ints, player_b: Ints, score_a: Ints, score_b: Ints
 ) -> PairCounts:
-    """Return the games won and lost, and the games of each pair, in some matches.
+    """Return the games won and lost and the games of each pair in the given matches.
 
     >>> counts = count_pairs(3, np.array([0, 2]), np.array([1, 0]), np.array([7, 5]),
     ...                      np.array([4, 7]))

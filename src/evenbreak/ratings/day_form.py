@@ -1,11 +1,11 @@
-"""Day-to-day form: how much the chances of a game vary from match to match about the ratings.
+"""Day-to-day form: how much the chance of winning a game varies around the ratings between matches.
 
-In match i the log-odds of every game are c + e, where e, the same in all games of the match, is
-normal. Its variance is v more than that of the ratings' difference, and c is such that the chance
-of a game is as the ratings say (see `evenbreak.matches.form`). v is estimated by maximum
-likelihood, with e and the uncertainty of the ratings integrated out; its standard error is the
-sandwich's. Where v is established, ratings are fitted with it (see
-`evenbreak.ratings.form_weights`), and v is estimated once more from these.
+In match i the log-odds of every game are c + e, where e is normal and the same in all games of the
+match. The variance of e is v more than that of the rating difference, and c is set so that the
+chance of winning a game is the one that the ratings give (see `evenbreak.matches.form`). v is
+estimated by maximum likelihood, with e and the uncertainty of the ratings integrated out; its
+standard error is a sandwich estimate. If v is established, ratings are fitted with it (see
+`evenbreak.ratings.form_weights`), and v is estimated once more from the new ratings.
 """
 
 from __future__ import annotations
@@ -34,22 +34,22 @@ NODES = 15
 """Nodes of the Gauss-Hermite rule."""
 
 LARGEST = 4.0
-"""The largest variance that is looked for."""
+"""The largest variance considered."""
 
 LONGEST = 50
 """Matches with more games are left out."""
 
 FEWEST_DAYS = 20
-"""Dates from which the matches of a date may depend on each other."""
+"""Dates needed before matches on the same date are allowed to depend on each other."""
 
 FEWEST = 100
-"""Matches from which the variance is estimated."""
+"""Matches needed to estimate the variance."""
 
 MOST = 20_000
-"""Matches that are looked at: of more a random sample, which shows v to within 0.01."""
+"""Most matches used; from more, a random sample, which is enough to find v to within 0.01."""
 
 SEED = 1
-"""Of the sample, so that the same results always have the same answer."""
+"""Seed of the sample, so that the same results always give the same answer."""
 
 _STEP = 1e-3
 
@@ -57,10 +57,10 @@ _STEP = 1e-3
 def form_variance(
     difference: Floats, sd: Floats, won: Floats, lost: Floats, cluster: NDArray[np.int64]
 ) -> Estimate:
-    """Return the variance of form that makes the scores of some matches most likely.
+    """Return the form variance that makes the scores of some matches most likely.
 
-    `difference` and `sd` are the log-odds of a game and their error by ratings that don't know the
-    match; matches of one cluster may depend on each other.
+    `difference` and `sd` are the log-odds of a game and their standard error, from ratings that
+    don't use the match; matches of one cluster may depend on each other.
     """
     points, weights = normal_nodes(NODES)
 
@@ -82,27 +82,27 @@ def form_variance(
 
 
 def log_odds_of(difference: Floats, sd: Floats, v: float) -> Floats:
-    """Return the mean log-odds of a game with form, for which its chance stays as it is."""
+    """Return the mean log-odds of a game with form for which its chance stays the same."""
     return center_of_form(difference, sd, math.sqrt(v))
 
 
 def day_form(results: Results, ratings: Ratings) -> DayForm | None:
-    """Return the day-to-day form in the results that a league was rated by.
+    """Return the day-to-day form in the results that a league's ratings were fitted to.
 
-    Each match is compared with the ratings that all other matches give. Scores that can hardly be
-    games are left out, of the ratings too: counted as games they make their players' ratings wrong
-    and seem sure.
+    Each match is compared with the ratings from all other matches. Scores that can hardly be games
+    are left out, from the ratings too: counted as games, they would make their players' ratings
+    both wrong and overconfident.
 
     Parameters
     ----------
     results, ratings
-        the results, and what `fit` made of them.
+        the results, and the ratings that `fit` returned for them.
 
     Returns
     -------
     DayForm or None
-        None with fewer than 100 matches of two games or more whose scores are known, or where the
-        break matters.
+        None if fewer than 100 matches of two games or more have known scores, or if the break
+        matters.
 
     Notes
     -----
@@ -143,7 +143,7 @@ def day_form(results: Results, ratings: Ratings) -> DayForm | None:
 
 
 def with_form(results: Results, ratings: Ratings) -> Ratings:
-    """Return ratings that allow for day-to-day form, where it is established.
+    """Return ratings that allow for day-to-day form, if form is established.
 
     >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5])
     >>> with_form(season, fit(season)).form is None
@@ -175,7 +175,7 @@ def _alike(ratings: Ratings, results: Results, form: float, near: Ratings | None
 
 
 def _clusters(results: Results) -> NDArray[np.int64]:
-    """Return a number for the matches of each date, and for each match if there are few dates."""
+    """Return a cluster number for each match: one per date, or one per match if dates are few."""
     if results.date is None or np.isnat(results.date).any():
         return np.arange(len(results))
     days, cluster = np.unique(results.date, return_inverse=True)

@@ -1,4 +1,4 @@
-"""How much an older match still counts: a weight that halves every so many days."""
+"""Weight of older matches: it halves every fixed number of days."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from evenbreak.ratings.results import Results
 
 
 def day_of(value: Any) -> np.datetime64:
-    """Return a day: a date, a `numpy.datetime64`, or text such as '2026-01-31'.
+    """Return the day of a date, a `numpy.datetime64`, or a string such as '2026-01-31'.
 
-    Anything else is an InputError.
+    Anything else raises InputError.
 
     >>> day_of("2026-01-31")
     np.datetime64('2026-01-31')
@@ -33,14 +33,14 @@ def day_of(value: Any) -> np.datetime64:
 
 
 def last_day(results: Results) -> np.datetime64 | None:
-    """Return the day of the last match, None if no match has a date."""
+    """Return the day of the last match, or None if no match has a date."""
     if results.date is None or np.isnat(results.date).all():
         return None
     return np.datetime64(results.date[~np.isnat(results.date)].max())
 
 
 def until(results: Results, as_of: np.datetime64) -> Bools:
-    """Return which matches were played by the end of a day; an InputError if one has no date."""
+    """Return which matches were played by the end of a day; InputError if any has no date."""
     date = _dated(results)
     return np.asarray(date <= as_of)
 
@@ -49,8 +49,8 @@ def match_weights(results: Results, half_life: float, as_of: np.datetime64 | Non
     """Return the weight of each match: 1 on the day `as_of`, 1/2 `half_life` days before.
 
     A game of weight w enters the likelihood with the power w, so it counts as w games. Without
-    `as_of` the last date counts; a later match has the weight 1. An InputError if half_life is not
-    above 0, or a match has no date.
+    `as_of`, age is counted back from the last date; a match after `as_of` has the weight 1. Raises
+    InputError if half_life is not above 0 or a match has no date.
     """
     days = positive(half_life, "half_life", wanted="a number of days above 0")
     date = _dated(results)

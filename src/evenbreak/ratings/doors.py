@@ -1,4 +1,4 @@
-"""The door of every function that takes `Results`."""
+"""Argument check shared by all functions that take `Results`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from evenbreak.errors import InputError
 
 
 def check_results(results: object) -> None:
-    """Refuse what is not `Results`.
+    """Raise an error unless the argument is a `Results`.
 
     >>> check_results("season.csv")
     Traceback (most recent call last):

@@ -1,4 +1,4 @@
-"""Scores that can hardly be games won: they say nothing about how games within a match go."""
+"""Scores that can hardly be games won, so they say nothing about the games within a match."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from evenbreak.arrays import Bools, Ints
 from evenbreak.ratings.results import Results
 
 FEWEST_MATCHES = 20
-"""Matches from which a file shows how long its matches are."""
+"""Matches needed to tell how long a file's matches are."""
 
 
 HIGH = 25
-"""A score below this is never doubted: few races are longer."""
+"""Scores below this are never doubted: few races are longer."""
 
 
 TIMES = 2.5
-"""How many times what 95% of the winners need a score must be to be doubted."""
+"""A score is doubted above this multiple of what 95% of the winners need."""
 
 
 def doubtful_scores(results: Results) -> Bools:
     """Return which scores are so much higher than the others that they can hardly be games won.
 
-    A score is compared with all others, but where its race is stated, it is not doubted.
+    A score is compared with all others, except that a score with a stated race is never doubted.
 
     >>> from evenbreak.ratings import Results
     >>> season = Results.from_names(["Ann"] * 30, ["Bo"] * 30, [7] * 29 + [67], [5] * 29 + [45])
@@ -38,5 +38,5 @@ def doubtful_scores(results: Results) -> Bools:
 
 
 def usual_score(score: Ints) -> float:
-    """Return what 95% of the winners need at most."""
+    """Return the most that 95% of the winners need."""
     return float(np.quantile(score, 0.95, method="inverted_cdf"))

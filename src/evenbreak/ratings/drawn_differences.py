@@ -1,17 +1,18 @@
-"""How uncertain the differences of many pairs of players are, in a league of any size, nearly.
+"""Approximate uncertainty of many pairs' skill differences, in a league of any size.
 
-Let x be what players' skills, and the levels that they share, are less their mode: normal, with the
-precision H, the Hessian of the negative log-posterior. Given everyone else, the players i and j of
-a match have the precision Q = H_{ij,ij}. With c = (1, -1), the law of total variance gives
+Let x be the deviation of players' skills, and of the levels that they share, from the mode. It is
+normal, with the precision H, the Hessian of the negative log-posterior. Given everyone else, the
+players i and j of a match have the precision Q = H_{ij,ij}. With c = (1, -1), the law of total
+variance gives
 
     var(xi - xj) = cᵀQ⁻¹c + var(m),    m = E(xi - xj | all others) = xi - xj - cᵀQ⁻¹(Hx)_{ij}.
 
-The first term is exact, and most of it. The second, from what is not known of the others, is the
-mean of m² over a few draws of x (Rao-Blackwellization: Sidén, Lindgren, Bolin & Villani 2018). H is
-a sum of squares, one for each pair that met and one for each prior; those of independent signs,
-weighted by their roots, sum to an Hx of the covariance H (Papandreou & Yuille 2010). All draws are
-solved for at once by conjugate gradients. In a federation of clubs 32 draws leave a variance with a
-standard error of 2.6%.
+The first term is exact, and it is most of the variance. The second, which comes from uncertainty
+about the other players, is the mean of m² over a few draws of x (Rao-Blackwellization: Sidén,
+Lindgren, Bolin & Villani 2018). H is a sum of squares, one for each pair that met and one for each
+prior; those of independent signs, weighted by their roots, sum to an Hx of the covariance H
+(Papandreou & Yuille 2010). All draws are solved for at once by conjugate gradients. In a federation
+of clubs 32 draws leave a variance with a standard error of 2.6%.
 """
 
 from __future__ import annotations
@@ -27,14 +28,14 @@ from evenbreak.ratings.beginning import PriorMeans
 from evenbreak.ratings.conjugate_gradients import AT_ONCE, solve_columns
 
 SEED = 1
-"""Of the draws, so that the same league always has the same answer."""
+"""Seed of the draws, so that the same league always gives the same answer."""
 
 
 class DrawnDifferences:
-    """Differences of skill, with signs drawn once for all ways to rate.
+    """Skill differences, with random signs drawn once for all rating methods.
 
-    With K `draws`, a variance is off by √(2/K) of its second term; `accuracy` is the relative
-    residual of each draw.
+    With K `draws`, a variance has a standard error of √(2/K) of its second term; `accuracy` is the
+    relative residual of each draw.
     """
 
     def __init__(
@@ -89,7 +90,7 @@ class DrawnDifferences:
     def _drawn(self, weight: Floats, precision: float, means: PriorMeans | None) -> Any:
         """Return draws with the covariance H: shape (players and levels, draws).
 
-        Half of a float's usual memory is enough, and so is half the time.
+        Single precision is enough, and takes half the memory and time.
         """
         root = np.sqrt(weight, dtype=np.float32)[:, None]
         prior: Any = self._of_players * np.float32(np.sqrt(precision))

@@ -1,4 +1,4 @@
-"""Figures with 95% intervals: from a standard error, by Wilson, or by a bootstrap over clusters."""
+"""Estimates with 95% intervals: from a standard error, by Wilson, or by a cluster bootstrap."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from scipy.special import expit, ndtr, ndtri
 from evenbreak.arrays import Floats, Ints
 
 CONFIDENCE = 0.95
-"""How often intervals cover the truth."""
+"""Coverage of the intervals."""
 
 
 SURE = 2.576
-"""How many standard errors a figure is above what it is compared with at 99% confidence."""
+"""How many standard errors above its reference a figure is at 99% confidence."""
 
 REPLICAS = 2_000
-"""Samples of a bootstrap."""
+"""Number of bootstrap samples."""
 
 
 _Z = float(ndtri(0.5 + CONFIDENCE / 2))
@@ -28,9 +28,9 @@ _DENSITY = math.exp(-(_Z**2) / 2.0) / math.sqrt(2.0 * math.pi)
 
 
 END_ERROR = math.sqrt((1.0 - CONFIDENCE**2) / (4.0 * REPLICAS)) / (2.0 * _Z * _DENSITY)
-"""The standard error of an end of an interval for want of more samples, as a share of its length.
+"""Sampling error of an interval's endpoints, as a fraction of the interval's length.
 
-That of the quantile of a normal distribution, from so many draws of it.
+It is the standard error of a normal distribution's quantile, from `REPLICAS` draws.
 """
 
 
@@ -43,11 +43,11 @@ class Estimate(NamedTuple):
 
     @property
     def standard_error(self) -> float:
-        """The standard error, by the length of the interval."""
+        """The standard error, from the length of the interval."""
         return (self.high - self.low) / (2.0 * _Z)
 
     def errors_above(self, what: float = 0.0) -> float:
-        """Return by how many standard errors the middle of the interval is above something.
+        """Return how many standard errors the middle of the interval is above a value.
 
         >>> Estimate(0.3, -0.1, 0.5).errors_above(0.2), Estimate(0.3, 0.3, 0.3).errors_above()
         (0.0, inf)
@@ -58,7 +58,7 @@ class Estimate(NamedTuple):
 
 
 def with_error(value: float, error: float) -> Estimate:
-    """Return a figure with the 95% interval from its standard error."""
+    """Return an estimate with the 95% interval from its standard error."""
     return Estimate(value, value - _Z * error, value + _Z * error)
 
 
@@ -67,19 +67,19 @@ def bootstrap_ratio(
 ) -> Estimate:
     """Return sum(above) / sum(below) with its percentile interval, resampling clusters.
 
-    Matches of a cluster, numbered from 0, are drawn together.
+    Matches in the same cluster are drawn together; clusters are numbered from 0.
     """
     many = int(cluster.max()) + 1
     return ratio_over(above, below, cluster, samples(many, rng))
 
 
 def samples(clusters: int, rng: np.random.Generator) -> Ints:
-    """Return how often each of some clusters is in each sample, shape (`REPLICAS`, clusters)."""
+    """Return how often each cluster is in each sample: shape (`REPLICAS`, clusters)."""
     return rng.multinomial(clusters, np.full(clusters, 1.0 / clusters), size=REPLICAS)
 
 
 def ratio_over(above: Floats, below: Floats, cluster: Ints, drawn_clusters: Ints) -> Estimate:
-    """Return the same as `bootstrap_ratio`, over samples that have been drawn already."""
+    """Return the same as `bootstrap_ratio`, from samples that have already been drawn."""
     many = drawn_clusters.shape[1]
     sums = np.column_stack([np.bincount(cluster, part, many) for part in (above, below)])
     drawn = drawn_clusters @ sums
@@ -92,15 +92,15 @@ def ratio_over(above: Floats, below: Floats, cluster: Ints, drawn_clusters: Ints
 def logistic_coefficient(
     x: Floats, won: Floats, games: Floats, cluster: Ints, *, offset: Floats | float = 0.0
 ) -> Estimate | None:
-    """Return b where P(win) = 1 / (1 + exp(-(offset + b x))) fits best, with its interval.
+    """Return the b for which P(win) = 1 / (1 + exp(-(offset + b x))) fits best, with its interval.
 
-    With x the predicted log-odds, b is the calibration slope: 1 is right, below 1 the predictions
-    were too extreme. With x = 1 or -1, b is an advantage in log-odds. Rows are matches or games;
-    those of one cluster may depend on each other. None where they do not determine b: x is 0
-    throughout, or one side won everything.
+    If x is the predicted log-odds, b is the calibration slope: 1 is right; below 1, the predictions
+    were too extreme. If x is 1 or -1, b is an advantage in log-odds. Rows are matches or games;
+    those of one cluster may depend on each other. None if they do not determine b, because x is
+    always 0 or one side won everything.
 
     Cox (1958), "Two further applications of a model for binary regression"; Liang & Zeger (1986)
-    for the standard error, the sandwich's.
+    for the sandwich standard error.
     """
     b = 0.0
     for _ in range(100):
@@ -127,7 +127,7 @@ def logistic_coefficient(
 
 
 def two_sided(z: float) -> float:
-    """Return the chance that a standard normal variable is as far from 0 as z.
+    """Return the chance that a standard normal variable is at least as far from 0 as z.
 
     >>> round(two_sided(-1.96), 3)
     0.05
@@ -136,7 +136,7 @@ def two_sided(z: float) -> float:
 
 
 def wilson(share: float, n: float) -> tuple[float, float]:
-    """Return Wilson's 95% interval for a chance, given the share of n trials that succeeded.
+    """Return Wilson's 95% interval for a probability, given the share of successes in n trials.
 
     >>> [round(end, 3) for end in wilson(0.5, 10)]
     [0.237, 0.763]

@@ -1,10 +1,10 @@
-"""How strong the field was on each player's first evening, by those who were already known.
+"""Strength of the field on each player's first evening, judged by the players already known.
 
-Whoever comes to a strong tournament for the first time is likely to be stronger than whoever comes
-to a beginners' evening. An event is what has one event and one division, as far as the file tells
-two or more apart; what names neither is one event a date. Its field are the players who had played
-on an earlier date, on each evening of the event so far; its strength is the mean of their skills,
-drawn toward the others' as far as it is made of few.
+A newcomer to a strong tournament is likely to be stronger than a newcomer to a beginners' evening.
+Matches with the same event and the same division belong together, if the file names two or more of
+either; all other matches of a date count as one event. The event's field is the players on each of
+its evenings so far who had played on an earlier date; its strength is the mean of their skills,
+drawn toward the mean of the others if the field is small.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from evenbreak.arrays import Bools, Floats, Ints
 from evenbreak.ratings.results import Results
 
 DRAWN = 1.0
-"""How many players of middle strength are added to each field."""
+"""How many players of average strength are added to each field."""
 
 _BEFORE, _NEVER = np.datetime64("0000-01-01", "D"), np.datetime64("9999-12-31", "D")
 
 
 class FirstEvenings:
-    """The fields of the evenings on which players were first seen.
+    """Fields on the evenings when players were first seen.
 
-    Matches at 0-0 from the last day of play on are still to be played; others at 0-0, forfeits, and
-    matches without a date say nothing. `known` players are known before any of them.
+    Matches at 0-0 on or after the last day of play are upcoming; other 0-0 matches, forfeits and
+    matches without a date are ignored. `known` players are known before the first match.
     """
 
     def __init__(self, results: Results, known: Bools | None = None) -> None:
@@ -66,14 +66,14 @@ class FirstEvenings:
         self._size = size[self._first]
 
     def see(self, rows: Any) -> None:
-        """Say how far the season has gone: to the last date of some matches, all of them known."""
+        """Move the season on to the last date of the given matches, all of them known."""
         self._last = np.fmax.reduce(self._row_date[rows], initial=self._last)
 
     def strength(self, skill: Floats) -> Floats:
-        """Return by how much the field on each player's first evening was above the mean of such.
+        """Return how far each player's first field was above the mean of such fields.
 
-        The mean is over all newcomers so far. It is 0 for those who were there from the start, and
-        for those who met no one known.
+        The mean is over all newcomers so far. The result is 0 for players who were there from the
+        start, and for those who met no known player.
         """
         above = np.zeros(len(skill))
         here = slice(int(np.searchsorted(self._date[self._first], self._last, side="right")))
@@ -85,11 +85,11 @@ class FirstEvenings:
         return above
 
     def __bool__(self) -> bool:
-        """Return whether newcomers came to two fields at least."""
+        """Return whether newcomers came to at least two different fields."""
         return len(np.unique(self._first)) > 1
 
     def _so_far(self, of_evening: NDArray[Any]) -> Floats:
-        """Return the sum over all evenings of an event up to each."""
+        """Return the cumulative sum over an event's evenings."""
         sums = np.append(0.0, np.cumsum(of_evening[self._by_event]))
         found = np.empty(len(of_evening))
         found[self._by_event] = sums[1:] - sums[self._begins]
@@ -97,7 +97,7 @@ class FirstEvenings:
 
 
 def _rows_with_a_day(results: Results) -> Ints:
-    """Return the matches that say who was where on which day."""
+    """Return the matches that show who was where on which day."""
     if results.date is None:
         return np.zeros(0, dtype=np.int64)
     dated = ~np.isnat(results.date)
@@ -110,7 +110,7 @@ def _rows_with_a_day(results: Results) -> Ints:
 def _evenings(
     results: Results, rows: Ints, date: NDArray[np.datetime64]
 ) -> tuple[Ints, NDArray[np.datetime64], Ints]:
-    """Return the evening of each match, and of each evening its date and its event.
+    """Return the evening of each match, and the date and event of each evening.
 
     Evenings are numbered in the order of their dates.
     """

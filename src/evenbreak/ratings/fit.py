@@ -30,20 +30,20 @@ from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 PRIOR_SD = math.log(2.0)
 """Default standard deviation of the prior, in natural log-odds: one doubling of the odds.
 
-That is 30 points in the NPL and 100 on the Fargo scale. The NPL's own range, from beginners
-at 20 to professionals at 130, is four of them wide. A season of snooker professionals, who are
-closer to each other, is predicted best with 0.36 (see `evenbreak.ratings.prior`); there ln 2
-costs 0.0024 of log-loss a frame. The prior weighs as much as eight games against an equal opponent,
-so after a few matches the results dominate.
+That is 30 points in the NPL and 100 on the Fargo scale. The NPL's own range, from beginners at 20
+to professionals at 130, is four such standard deviations. The professional snooker season, whose
+players are closer to each other, is predicted best with 0.36 (see `evenbreak.ratings.prior`); ln 2
+costs 0.0024 more log-loss per frame there. The prior weighs as much as eight games against an equal
+opponent, so after a few matches the results dominate.
 """
 
 # Beyond these either the data or the prior is lost in the rounding of the other.
 NARROWEST, WIDEST = 1e-3, 100.0
 
 BREAK_SD = math.log(2.0)
-"""Standard deviation of the prior of the break advantage, about 0, in natural log-odds.
+"""Standard deviation of the break advantage's prior, centered at 0, in natural log-odds.
 
-Wide compared with real advantages; it keeps the estimate finite where every breaker won.
+It is wide compared with real advantages, and keeps the estimate finite if every breaker won.
 """
 
 
@@ -61,13 +61,13 @@ def fit(
     form: float = 0.0,
     near: Ratings | None = None,
 ) -> Ratings:
-    """Return the ratings that are most likely a posteriori, given the games of `results`.
+    """Return the maximum a posteriori ratings, given the games in `results`.
 
-    Every game counts alike: a match is so many games won and lost, whatever the race, unless
-    players vary from match to match (see `evenbreak.ratings.form_weights`). A match known by its
-    winner alone counts by its race (see `race_slopes`). Forfeits and 0-0 are left out, and the
-    answer says how many there were. The prior keeps the rating of a player who won (or lost)
-    every game finite.
+    Every game counts alike: a match is a number of games won and lost, whatever the race, unless
+    players vary from match to match (see `evenbreak.ratings.form_weights`). A match known only by
+    its winner counts according to its race (see `race_slopes`). Forfeits and 0-0 matches are left
+    out and counted in the answer. The prior keeps the rating of a player who won (or lost) every
+    game finite.
 
     Parameters
     ----------
@@ -77,27 +77,26 @@ def fit(
         'npl', 'fargo', 'elo', points that double the odds, or a `Scale`.
     anchor
         the prior mean in points; or the ratings of named players: their component is
-        shifted so that on average they have these ratings. None is the scale's center,
-        which also holds for components without a named player, or, if players bring ratings
-        of this scale along, the mean of those.
+        shifted so that on average they have these ratings. None: the mean of the ratings that
+        players bring with them on this scale, or the scale's center if they bring none. It also
+        applies to components without a named player.
     half_life
         days after which a match counts half; None: age does not matter.
     as_of
         the day to rate for: later matches are left out, and the age of a match is counted
-        back from this day. None is the last date of the results.
+        back from this day. None: the last date in the results.
     break_advantage
-        by how many points the breaker of a rack plays better; 'fit' to estimate it from
-        the racks whose breaker is known (see `count_broken`); None: the break
-        does not matter.
+        how many points better the breaker of a rack plays; 'fit' to estimate it from the racks
+        whose breaker is known (see `count_broken`); None: the break does not matter.
     levels
         how far newcomers are behind, how much teams and divisions differ, and the ratings that
-        players bring along; None: every player's prior has the same mean.
+        players bring with them; None: every player's prior has the same mean.
     provisional
-        ratings from fewer games than this have no place in lists; None: see `established_from`.
+        ratings from fewer games than this are not ranked in lists; None: see `established_from`.
     form
         how much players vary from match to match: the standard deviation of a game's log-odds.
     near
-        ratings of the same results, at which the weights with form are calculated; None: those
+        ratings for the same results, used to calculate the weights with form; None: the ratings
         without form.
 
     Raises
@@ -107,7 +106,7 @@ def fit(
         an unknown player, half_life is not above 0, a date is missing where dates are needed, a
         score is negative, or the two players of a match are the same (see `find_problems`).
     AccuracyError
-        if the mode is not found to rounding.
+        if the mode is not found to within rounding.
 
     Notes
     -----
@@ -226,20 +225,20 @@ def fit(
 
 
 def checked_prior(prior_sd: Any) -> float:
-    """Return the standard deviation of a prior if it is within the limits, in log-odds."""
+    """Return a prior's standard deviation in log-odds, if it is within the limits."""
     wanted = f"a number from {NARROWEST:g} to {WIDEST:g}, in log-odds"
     return number(prior_sd, "prior_sd", low=NARROWEST, high=WIDEST, wanted=wanted)
 
 
 def known_advantage(value: Any, scale: Scale) -> float | None:
-    """Return the break advantage in log-odds; None where it is estimated."""
+    """Return the break advantage in log-odds, or None if it is to be estimated."""
     if value == "fit":
         return None
     return scale.log_odds(number(value, "break_advantage", wanted="points, 'fit' or None"))
 
 
 def _anchors(anchor: Any, scale: Scale, players: tuple[str, ...]) -> tuple[float, dict[str, float]]:
-    """Return the mean of the prior in points, and the ratings of named players."""
+    """Return the prior mean in points, and the ratings of named players."""
     if not isinstance(anchor, Mapping):
         if anchor is None:
             return scale.center, {}
@@ -262,7 +261,7 @@ def _shifted(
     players: tuple[str, ...],
     component: Ints,
 ) -> Floats:
-    """Return the ratings, each component shifted so that its named players fit on average."""
+    """Return the ratings, with each component shifted so that its named players fit on average."""
     if not named:
         return rating
     place = {name: k for k, name in enumerate(players)}
@@ -277,7 +276,7 @@ def _shifted(
 def weights_of(
     scored: Results, won_only: Results, half_life: float | None, day: np.datetime64 | None
 ) -> tuple[Floats, Floats]:
-    """Return the weight of each match; ages are counted from the last match of all."""
+    """Return the weight of each match; ages are counted back from the very last match."""
     if half_life is None:
         return np.ones(len(scored)), np.ones(len(won_only))
     if day is None:
@@ -289,7 +288,7 @@ def weights_of(
 
 
 def _races(won_only: Results) -> tuple[Ints, Ints]:
-    """Return how many matches known by their winner alone each player won and lost."""
+    """Return the matches known only by their winner that each player won and lost."""
     players = len(won_only.players)
     a_won = np.zeros(0, bool) if won_only.winner is None else won_only.winner == 1
     winner = np.where(a_won, won_only.player_a, won_only.player_b)
@@ -300,7 +299,7 @@ def _races(won_only: Results) -> tuple[Ints, Ints]:
 def _games_behind(
     pairs: PairCounts, won_only: Results, beginning: Beginning | None, means: PriorMeans | None
 ) -> Floats:
-    """Return the games that each rating rests on, those behind ratings that count included."""
+    """Return the games that each rating rests on, including those behind earlier ratings."""
     behind = (pairs.won + pairs.lost).astype(float)
     worth = games_of_winner(*won_only.races)
     for players in (won_only.player_a, won_only.player_b):
@@ -324,9 +323,9 @@ def _refuse_nonsense(scored: Results, won_only: Results) -> None:
 
 
 def _components(graph: sparse.csr_array, information: Floats | None) -> Ints:
-    """Return the component of each player, numbered from 1, the largest first.
+    """Return each player's component, numbered from 1 in order of decreasing size.
 
-    Players about whom something is `known` are linked by the ratings that they bring along.
+    Players about whom something is `known` are linked by the ratings that they bring with them.
     """
     linked = np.flatnonzero(information) if information is not None else np.zeros(0, dtype=np.int64)
     if len(linked) > 1:

@@ -1,4 +1,4 @@
-"""Ratings as a fit returns them, with their uncertainty."""
+"""Fitted ratings, with their uncertainty."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Group(NamedTuple):
-    """The level of a team or division relative to the average one, before its players' results.
+    """Level of a team or division relative to the average one, before its players' results.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ class DayForm:
 
     @property
     def used(self) -> float:
-        """The standard deviation rounded as in lists of ratings; 0 where it is not established."""
+        """The standard deviation, rounded as in lists of ratings; 0 if it is not established."""
         return round(self.sd, 4) if self.established else 0.0
 
 
@@ -86,11 +86,11 @@ class Ratings:
         points on `scale`; an average player of a component is at `anchor`, unless
         `named` says otherwise.
     games, won, lost
-        games played, won and lost by each player, without forfeits, each counted once
-        whatever its age.
+        games played, won and lost by each player, without forfeits, each counted once regardless of
+        age.
     component
-        players who are connected through opponents share a number, from 1 for the
-        largest component; ratings from different components cannot be compared.
+        the number of each player's component, from 1 for the largest; players connected through
+        opponents share a component, and ratings from different components cannot be compared.
     scale, anchor, prior_sd
         the scale, the prior's mean in points, and its standard deviation in natural log-odds.
     iterations, gradient
@@ -101,24 +101,25 @@ class Ratings:
     named
         players whose ratings anchor their components, and these.
     half_life, as_of, later
-        days after which a match counts half, or None; the day rated for, or None; rows after it.
+        days after which a match counts half, or None; the day rated for, or None; number of rows
+        after that day.
     break_advantage
-        by how many points the breaker of a rack plays better; None where it does not matter.
+        how many points better the breaker of a rack plays; None if the break does not matter.
     break_games, levels
-        the games, by weight, whose breaker is known, if the break matters; how much newcomers,
-        teams and divisions differ beforehand.
+        the weighted number of games whose breaker is known, if the break matters; how much
+        newcomers, teams and divisions differ beforehand.
     weight
-        how many games, and matches known by their winner alone, there are, by their age.
+        the number of games, and of matches known only by their winner, weighted by age.
     match_form
         how much players vary from match to match, as far as it is taken into account: the standard
-        deviation of a game's log-odds. Then what a match says is less than its games would.
+        deviation of a game's log-odds. With form, a match says less than its games alone would.
     form
-        how that was estimated, if it was (see `day_form`).
+        the estimate of form, if it was estimated (see `day_form`).
     games_behind
         the games that each rating rests on: those played, what matches known by their winner alone
         are worth in games, and those behind a rating that was brought along.
     least_games
-        from how many of them a player has a place in lists; None: `established_from` says.
+        how many of these games a player needs to be ranked in lists; None: see `established_from`.
     """
 
     players: tuple[str, ...]
@@ -164,20 +165,20 @@ class Ratings:
 
     @property
     def established_from(self) -> int:
-        """The games from which a player has a place in lists."""
+        """The games needed to be ranked in lists."""
         known = self.least_games
         return established_from(self.games_behind) if known is None else known
 
     @cached_property
     def provisional(self) -> Bools:
-        """Which ratings rest on too few games for a place in lists."""
+        """Which ratings rest on too few games to be ranked in lists."""
         return is_provisional(self.games_behind, self.established_from)
 
     def strongest_first(self, players: Iterable[int] | None = None) -> list[int]:
-        """Return players in the order of a list, as positions in `players`.
+        """Return players in list order, as positions in `players`.
 
-        Those who have a place come first, then those whose ratings are provisional; each the
-        strongest first, then by name. `players` are those to be listed; None: all.
+        Ranked players come first, then those whose ratings are provisional, both from strongest to
+        weakest and then by name. `players` are the players to list; None: all.
         """
         # Rounded in log-odds, so that neither the scale nor the last bits decide.
         strength = np.round(self.scale.log_odds(self.rating - self.anchor), 9)
@@ -190,9 +191,9 @@ class Ratings:
 
         Its columns are those of ratings.csv: player; rating, standard_error and quasi_error in
         points of the scale; games, won and lost in the matches that were used; races_won and
-        races_lost, if of some matches only the winner is known; component, the same for players who
-        are linked by a chain of opponents, so that they can be compared; provisional; match_form,
-        if it is not 0; and scale: its name, or the points that double the odds.
+        races_lost, if only the winner of some matches is known; component, which is the same for
+        players linked by a chain of opponents, who can be compared; provisional; match_form, if it
+        is not 0; and scale: its name, or the points that double the odds.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [50], [70]), scale="fargo")
@@ -218,7 +219,7 @@ class Ratings:
 
     @property
     def idle(self) -> Bools:
-        """Which players have no result that counts: theirs is the prior's rating."""
+        """Which players have no result that counts, so that their rating is the prior's."""
         return np.asarray(self.games + self.races_won + self.races_lost == 0)
 
     @cached_property
@@ -226,11 +227,11 @@ class Ratings:
         """The posterior standard deviation of each rating, in points.
 
         Laplace's approximation: the square root of the diagonal of the inverse Hessian,
-        given the model and the prior. Where a component is anchored at named players it is
-        that of the difference from their mean. Exact to rounding for up to 2,000 players,
-        and for more who play in divisions; for more who all play each other within 0.1%,
-        as a rule within 1e-5. For more than 5,000 in clubs that meet they are sampled, with the
-        `error_of_errors`.
+        given the model and the prior. If a component is anchored to named players, it is the
+        standard deviation of the difference from their mean. It is exact to rounding for up to
+        2,000 players, and for more if they play in divisions; for more players who all play each
+        other, it is within 0.1%, usually within 1e-5. For more than 5,000 players in clubs that
+        meet, it is sampled, with the error `error_of_errors`.
         """
         variance = self._variance.copy()
         for members, level in self._levels():
@@ -241,9 +242,9 @@ class Ratings:
 
     @property
     def error_of_errors(self) -> float:
-        """The relative error of the least certain of the standard errors.
+        """Relative error of the least certain standard error.
 
-        0 where they are not sampled (see `evenbreak.ratings.sampled_diagonal`).
+        It is 0 if the standard errors are not sampled (see `evenbreak.ratings.sampled_diagonal`).
         """
         return self._curvature.given_levels.relative_error / 2.0
 
@@ -253,19 +254,19 @@ class Ratings:
 
         The standard error of the difference of two ratings of one component is close to the
         root of the sum of the squares of these two, as if the ratings were independent. Use
-        them where a list has one error for each player; `difference_error` is exact. They do
-        not depend on where a component is anchored. For a player alone in a component it is
-        the prior's standard deviation.
+        quasi-standard errors where a list has room for one error per player; `difference_error` is
+        exact. They do not depend on where a component is anchored. For a player alone in a
+        component, the quasi-standard error is the prior's standard deviation.
 
         Notes
         -----
         After Firth & de Menezes (2004), "Quasi-variances", Biometrika 91, who fit them to all
-        differences. Here they follow directly: with m the mean rating of a component of n players,
+        differences. Here they follow directly. With m the mean rating of a component of n players,
 
             q = var(θ - m) n / (n - 1).
 
         The mean of q₁ + q₂ over the pairs of a component is then exactly the mean variance of
-        their differences. For n = 2 that of the only pair is exact too.
+        their differences. For n = 2, the variance of the only pair is exact.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [70], [50]), scale="fargo")
@@ -293,20 +294,20 @@ class Ratings:
 
     @property
     def newcomer_share(self) -> float:
-        """The part of `levels.newcomers` by which a newcomer is below the average player."""
+        """The fraction of `levels.newcomers` by which a newcomer is below the average player."""
         games = (self.games + self.races_won + self.races_lost)[~self.idle]
         return float((1.0 - newness(games)).mean()) if len(games) else 0.0
 
     @property
     def newcomer(self) -> float:
-        """How far below the average of those who have played a newcomer starts, in points."""
+        """How many points below the average experienced player a newcomer starts."""
         return self.scale.points(self.levels.newcomers) * self.newcomer_share
 
     @cached_property
     def groups(self) -> tuple[Group, ...]:
         """The level of each team and division that `levels` counts, relative to the average one.
 
-        Within a kind of group the strongest comes first.
+        Teams and divisions are each sorted from strongest to weakest.
         """
         if not self.prior_means.names:
             return ()
@@ -324,16 +325,15 @@ class Ratings:
 
     @property
     def break_error(self) -> float | None:
-        """The standard error of the break advantage in points, None if it was not estimated."""
+        """The standard error of the break advantage in points, or None if it was not estimated."""
         variance = self._curvature.border_variance
         return None if variance is None else math.sqrt(variance) * self.scale.points_per_log_odds
 
     def difference_error(self, player: str, opponent: str) -> float:
-        """Return the standard error of the difference of two ratings, in points.
+        """Return the standard error of the difference between two ratings, in points.
 
-        It takes their covariance into account, so it is smaller than the two standard
-        errors suggest: what is uncertain for both, such as the level of the whole league,
-        cancels.
+        It takes their covariance into account, so it is smaller than the two standard errors
+        suggest: uncertainty that both share, such as the level of the whole league, cancels.
 
         Raises
         ------
@@ -342,8 +342,8 @@ class Ratings:
 
         Notes
         -----
-        The variance is (e₁ - e₂)ᵀ H⁻¹ (e₁ - e₂): for up to 2,000 players H is factorized
-        once; for more, each pair is one linear system, solved by conjugate gradients.
+        The variance is (e₁ - e₂)ᵀ H⁻¹ (e₁ - e₂): for up to 2,000 players, H is factorized once; for
+        more, each pair is one linear system, solved by conjugate gradients.
 
         >>> from evenbreak.ratings import Results, fit
         >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [70], [50]), scale="fargo")
@@ -358,16 +358,16 @@ class Ratings:
         return math.sqrt(variance) * self.scale.points_per_log_odds
 
     def difference_variances(self, first: Ints, second: Ints) -> Floats:
-        """Return the variances of differences, in squared log-odds, by places in `players`."""
+        """Return the variances of differences, in squared log-odds, by positions in `players`."""
         return np.maximum(self._curvature.difference_variances(first, second), 0.0)
 
     def covariance(self, players: Sequence[str]) -> Floats:
-        """Return the covariance matrix of some players' ratings, in squared points.
+        """Return the covariance matrix of the given players' ratings, in squared points.
 
         Parameters
         ----------
         players
-            names; the matrix has a row and a column for each, in their order.
+            names; the matrix has a row and a column for each, in this order.
 
         Raises
         ------
@@ -396,7 +396,7 @@ class Ratings:
 
     @cached_property
     def _variance(self) -> Floats:
-        """The variance of each rating in log-odds, whatever anchors its component."""
+        """The variance of each rating in log-odds, regardless of anchors."""
         return self._curvature.variances()
 
     @cached_property
@@ -407,7 +407,7 @@ class Ratings:
         )
 
     def _levels(self) -> list[tuple[Bools, Floats]]:
-        """Return the players of each anchored component, and each one's share in its level."""
+        """Return the players of each anchored component, and their shares in its level."""
         at = np.array([self._position(name) for name, _ in self.named], dtype=np.int64)
         levels = []
         for number in np.unique(self.component[at]):

@@ -1,18 +1,19 @@
-"""How much less a match says about the ratings because its games share the day-to-day form.
+"""How much less a match says about the ratings because its games share the players' form.
 
 With form of variance v (see `evenbreak.ratings.day_form`), n games of a match that are won with
-the chance p have the variance n p q (1 + (n - 1) v p q), to first order, with q = 1 - p. About
-the difference of two players they say
+the chance p have the variance n p q (1 + (n - 1) v p q), to first order, with q = 1 - p. Their
+information about the difference between two players is
 
     n p q / (1 + (n - 1) v p q),
 
-as much as n games that do not depend on each other, with the weight 1 / (1 + (n - 1) v p q). A
-single game says as much as without form, as its chance is kept. With v = 0.12 a race to 7 counts
+as much as that of n independent games with the weight 1 / (1 + (n - 1) v p q). A single game says
+as much as it does without form, because its chance is unchanged. With v = 0.12 a race to 7 counts
 as about nine games of twelve.
 
-The weight also takes away a bias. Where the favorite has a bad day, a race takes more games, so
-over all games favorites win less often than over all matches. In races to 7 with v = 0.12 that
-takes 2 to 3% from every difference; with the weight less than 0.2% is left.
+The weight also removes a bias. When the favorite has a bad day, a race takes more games, so
+favorites win a smaller fraction of all games than they would in matches of equal length. In races
+to 7 with v = 0.12, this bias shrinks every difference by 2 to 3%; with the weight, less than 0.2%
+of bias is left.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from evenbreak.ratings.results import Results
 
 
 def games_weight(difference: ArrayLike, games: ArrayLike, form: float) -> Floats:
-    """Return the weight of matches whose games are known, played at some log-odds of a game.
+    """Return the weight of matches whose games are known, at given log-odds of a game.
 
     `form` is √v, the standard deviation of a game's log-odds.
 
@@ -42,9 +43,9 @@ def games_weight(difference: ArrayLike, games: ArrayLike, form: float) -> Floats
 def form_weights(
     scored: Results, won_only: Results, skill: Floats, form: float
 ) -> tuple[Floats, Floats]:
-    """Return the weights of matches with games in them, and of those known by their winner alone.
+    """Return the weights of matches whose games are known, and of those known only by their winner.
 
-    The latter have the information of that instead of n p q. Skills are in log-odds; `form` is √v,
+    For the latter, the information in the win replaces n p q. Skills are in log-odds; `form` is √v,
     the standard deviation of a game's log-odds.
     """
     apart, raced = (skill[part.player_a] - skill[part.player_b] for part in (scored, won_only))

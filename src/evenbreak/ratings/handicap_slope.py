@@ -1,13 +1,13 @@
-"""How much stronger players are for each unit by which their league puts them ahead.
+"""How much stronger players are per unit of difference in their league's handicaps.
 
-A unit is a class, a rating, or the difference that a race takes back: in match i the games are won
-with the log-odds k x + e, where x is what the league says and e, the same in all games of the
-match, is normal with mean 0 and variance v: players differ from what their league says, and from
-day to day. k and v are estimated by maximum likelihood. When a race stops depends on its games
-alone, so races of any kind may be mixed. Matches that share a player are not independent, so the
-standard error is the sandwich's for pairs: products of slopes are summed over all pairs of matches
-with a player in common (Aronow, Samii & Assenova 2015, "Cluster-robust variance estimation for
-dyadic data").
+A unit is a class, a rating point, or the difference that a race makes up for. In match i, games are
+won with the log-odds k x + e, where x is the league's figure and e is normal with mean 0 and
+variance v and the same in all games of the match: players differ from their league's figures, and
+from day to day. k and v are estimated by maximum likelihood. The end of a race depends only on its
+games, so races of any kind may be mixed. Matches that share a player are not independent, so the
+standard error is the dyadic sandwich estimate: products of slopes are summed over all pairs of
+matches with a player in common (Aronow, Samii & Assenova 2015, "Cluster-robust variance estimation
+for dyadic data").
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ _BOX = [(-50.0, 50.0), (0.0, 3.0)]
 
 
 def handicap_slope(results: Results, x: Floats) -> Estimate | None:
-    """Return k with its 95% interval; None where the matches do not determine it.
+    """Return k with its 95% interval; None if the matches do not determine it.
 
-    x is by how much a is supposed to be stronger than b in each match with games.
+    x is how much stronger a is supposed to be than b in each match with games.
 
     >>> season = Results.from_names(["Ann"] * 4, ["Bo", "Cy"] * 2, [7, 5, 7, 6], [5, 7, 4, 7])
     >>> round(handicap_slope(season, np.ones(4)).value, 3)
@@ -71,10 +71,11 @@ def handicap_slope(results: Results, x: Floats) -> Estimate | None:
 
 
 def race_share(results: Results) -> Estimate | None:
-    """Return by how much players differ for each unit that their races take back.
+    """Return how much players differ per unit of difference that their races make up for.
 
-    1 where races are even, above 1 where they take back too little. This is also what a start says
-    about its players before their games. None where no race is uneven, or results do not tell.
+    It is 1 if races are fair, and above 1 if they make up for too little. It is also what a head
+    start says about its players before their games. None if no race is uneven or the results don't
+    show it.
 
     >>> season = Results.from_names(["Ann"] * 4, ["Bo", "Cy"] * 2, [7, 5, 7, 6], [4, 5, 4, 5],
     ...     race_a=[7] * 4, race_b=[5] * 4)
@@ -88,7 +89,7 @@ def race_share(results: Results) -> Estimate | None:
 
 
 def _bend(model: _Model, many: Ints, at: Floats, k: int) -> Floats:
-    """Return a column of minus the second derivatives of the log-likelihood."""
+    """Return a column of the negative Hessian of the log-likelihood."""
     step = np.zeros(2)
     step[k] = _STEP
     below = np.maximum(at - step, [low for low, _ in _BOX])
@@ -97,7 +98,7 @@ def _bend(model: _Model, many: Ints, at: Floats, k: int) -> Floats:
 
 
 class _Model:
-    """The log-likelihood of matches: what is said of them, and the games won and lost."""
+    """Log-likelihood of matches, given the league's figures and the games won and lost."""
 
     def __init__(self, x: Floats, won: Floats, lost: Floats) -> None:
         self._x, self._won, self._lost = (column[:, None] for column in (x, won, lost))
@@ -105,7 +106,7 @@ class _Model:
         self._points, self._weights = points, np.log(weights)
 
     def at(self, k_and_sd: Floats) -> tuple[Floats, Floats]:
-        """Return the log-likelihood of each match, and its slopes in k and in √v."""
+        """Return the log-likelihood of each match, and its derivatives in k and in √v."""
         k, sd = k_and_sd
         d = k * self._x + sd * self._points
         log = self._won * log_expit(d) + self._lost * log_expit(-d) + self._weights
@@ -115,9 +116,9 @@ class _Model:
 
 
 def _spreads(results: Results, slopes: Floats) -> tuple[Floats, Floats]:
-    """Return the covariance of the summed slopes, matches varying together that share a player.
+    """Return the covariance of the summed slopes, where matches that share a player are correlated.
 
-    The second lets only matches of the same two players vary together.
+    In the second version, only matches of the same two players are correlated.
     """
     a, b = results.player_a, results.player_b
     both = np.minimum(a, b) * len(results.players) + np.maximum(a, b)

@@ -1,13 +1,13 @@
-"""Chances averaged over what is not known about a difference of skill.
+"""Chances averaged over the uncertainty in a skill difference.
 
-Ratings say that the difference d of two players is normal, with the mean m and the variance v. What
-they say about a match is then not the chance at m but the average over all d: of the chance of a
+According to the ratings, the difference d between two players is normal with mean m and variance v.
+The prediction for a match is then not the chance at m but the average over all d of the chance of a
 game, of the match, or of its whole score,
 
     P(score) = ∫ P(score | d) N(d; m, v) dd.
 
-The last is the chance of each game given the days before and the games before it in the match,
-multiplied. So it counts who wins the games as well as how far off the difference may be.
+The last is the product of the chances of each game, given the days before and the earlier games of
+the match. So it scores both who wins the games and how uncertain the difference is.
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ from evenbreak.ratings.who_broke import BreakWinsTerms, count_broken
 NODES = 31
 """Nodes of the Gauss-Hermite rule that integrates over a difference of skill.
 
-The chance of a score is right to 1e-4 of itself where the variance is up to 1 (in log-odds), as
-that of all but the least known players is, and to 3e-3 for one of 2 and a long even match.
+The chance of a score has a relative error of 1e-4 for variances up to 1 (in log-odds), which covers
+all but the least known players, and 3e-3 for a variance of 2 in a long even match.
 """
 
 _AT_ONCE = 500_000
-"""Numbers in the arrays of several ways that are worked out together."""
+"""Array elements allowed when several rating methods are evaluated together."""
 
 
 @cache
 def normal_nodes(many: int = NODES) -> tuple[Floats, Floats]:
-    """Return the nodes of a rule that averages over a standard normal, and their weights.
+    """Return the nodes and weights of a rule that averages over a standard normal.
 
     >>> points, weights = normal_nodes()
     >>> float(weights.sum().round(12)), float((weights @ points**2).round(12))
@@ -50,10 +50,10 @@ def normal_nodes(many: int = NODES) -> tuple[Floats, Floats]:
 
 @dataclass(frozen=True, eq=False)
 class Scores:
-    """The scores of matches, to be predicted: those with known games first, then by winner alone.
+    """Match scores to predict: those with known games first, then those with only a winner.
 
-    `broke` is 0 for unknown, 1 for a, -1 for b, only the first where it doesn't matter; `won` and
-    `lost` have shape (len(broke), matches with games). `pattern` is each match's row in
+    `broke` is 0 for unknown, 1 for a, -1 for b, or only the first if the break doesn't matter;
+    `won` and `lost` have shape (len(broke), matches with games). `pattern` is each match's row in
     `own_breaks`, or -1, where only the score shows who broke (see `evenbreak.ratings.who_broke`).
     """
 
@@ -70,7 +70,7 @@ class Scores:
 
     @classmethod
     def of(cls, scored: Results, won_only: Results, *, breaks: bool) -> Scores:
-        """Return the scores of matches with games in them, and of those known by their winner.
+        """Return the scores of matches with known games, and of those known only by their winner.
 
         `breaks` says whether it matters who broke.
         """
@@ -88,15 +88,15 @@ class Scores:
 
     @property
     def predicted(self) -> float:
-        """How many games there are, and matches known by their winner alone."""
+        """The number of games, and of matches known only by their winner."""
         return float(self.won.sum() + self.lost.sum()) + len(self.a_won)
 
     def log_chances(self, mean: Floats, variance: Floats, advantage: Floats) -> Floats:
-        """Return ln P(score | how the players differ), in nats, for several ways to rate.
+        """Return ln P(score | skill difference), in nats, for several rating methods.
 
-        It is of the games in some order, given how many there were. `mean` and `variance` are of
-        a's skill less b's, in natural log-odds, and the result, shape (ways, matches); the
-        advantage of the break, taken as known, has shape (ways,).
+        It is the probability of one order of the games, given their number. `mean` and `variance`
+        describe a's skill minus b's, in natural log-odds, and have the shape (ways, matches), as
+        the result does; the break advantage, taken as known, has shape (ways,).
         """
         several = max(1, _AT_ONCE // (NODES * max(mean.shape[1], 1)))
         parts = [slice(k, k + several) for k in range(0, len(mean), several)]

@@ -1,7 +1,8 @@
 """The diagonal of the inverse of a sparse symmetric positive definite matrix.
 
-Selected inversion finds it exactly: eliminate block by block, then come back. With the pivots of a
-block first, H = [F11 F21ᵀ; F21 F22], G = F21 F11⁻¹ and the Schur complement S = F22 - G F21ᵀ,
+Selected inversion finds it exactly by eliminating block by block and then working back. With the
+pivots of a block first, H = [F11 F21ᵀ; F21 F22], G = F21 F11⁻¹ and the Schur complement S = F22 - G
+F21ᵀ,
 
     H⁻¹ = [F11⁻¹ + Gᵀ S⁻¹ G    -Gᵀ S⁻¹;   -S⁻¹ G    S⁻¹]
 
@@ -9,14 +10,14 @@ and of S⁻¹ only the entries that the block touches are needed (Takahashi, Fag
 1973; Erisman & Tinney 1975). The blocks are the dense fronts of the multifrontal method
 (Duff & Reid 1983). A small matrix is inverted whole.
 
-Where no elimination order keeps a league's Hessian sparse, the diagonal is found nearly. All rows
+Where no elimination order keeps a league's Hessian sparse, the diagonal is approximated. All rows
 of H sum to τ, so 1/τ is the eigenvalue of H⁻¹ for the constant vector and, with a weak prior, its
-largest by far. It is put aside exactly: with u the vector of ones,
+largest by far. This eigenvalue is separated exactly: with u the vector of ones,
 
     diag H⁻¹ = diag (H + αuuᵀ)⁻¹ + α / (τ² + ατn)
 
-and, scaled to a unit diagonal by S, what is left is I - W with the spectral radius ρ of W
-small in a league where everyone may meet everyone. Eliminating all others but i,
+and, scaled to a unit diagonal by S, I - W remains, where W has a small spectral radius ρ in a
+league where everyone may meet everyone. Eliminating all others but i,
 
     ((I - W)⁻¹)ᵢᵢ = 1 / (1 - Σⱼₖ Wᵢⱼ Cⱼₖ Wₖᵢ),
 
@@ -25,8 +26,8 @@ the sum is known within that factor of Σⱼ Wᵢⱼ², which is small where pla
 games. Within those bounds C is taken as its diagonal, and that as the answer sought: the
 cavity approximation, exact but for cycles of opponents (Thouless, Anderson & Palmer 1977).
 
-Where neither does, as in a federation of clubs, small matrices are inverted whole, and larger ones
-by blocks and draws (see `evenbreak.ratings.sampled_diagonal`).
+If neither method works, as in a federation of clubs, small matrices are inverted whole, and larger
+ones by blocks and draws (see `evenbreak.ratings.sampled_diagonal`).
 """
 
 from __future__ import annotations
@@ -51,13 +52,14 @@ _NOTHING = np.zeros((0, 0))
 def inverse_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> InverseDiagonal:
     """Return the diagonal of the inverse of a diagonally dominant M-matrix, shape (n, n).
 
-    It is symmetric, positive on the diagonal, nowhere positive off it; `row_sum` is what every row
-    sums to, above zero; None if they differ. The n values have a relative error near rounding. For
-    a matrix of 2,000 rows or more that fills in they come from the cavity approximation (see the
-    module) where that is within 0.2% at worst, 1e-5 as a rule. Failing that, for up to 5,000 rows
-    they come from single precision where the condition number is below 1000: within a few 1e-6 as a
-    rule, and 1e-4 at worst. For more than 5,000 rows they are sampled, with the error stated. An
-    AccuracyError if the matrix is not positive definite in floating point.
+    It is symmetric, positive on the diagonal, nowhere positive off it; `row_sum` is the sum of
+    every row, above zero; None if the sums differ. The n values have a relative error near
+    rounding. For a matrix of 2,000 rows or more that fills in, they come from the cavity
+    approximation (see the module) if its error is at most 0.2%; it is usually 1e-5. Failing that,
+    for up to 5,000 rows they are computed in single precision if the condition number is below
+    1000; the error is usually a few 1e-6, and 1e-4 at worst. For more than 5,000 rows they are
+    sampled, with the error stated. Raises AccuracyError if the matrix is not positive definite in
+    floating point.
 
     >>> path = sparse.csc_array([[2.0, -1.0, 0.0], [-1.0, 3.0, -1.0], [0.0, -1.0, 2.0]])
     >>> inverse_diagonal(path, 1.0).value
@@ -109,7 +111,7 @@ def _eliminate(matrix: sparse.csc_array, fronts: list[Front]) -> tuple[list[Floa
 
 
 def _come_back(fronts: list[Front], roots: list[Floats], links: list[Floats]) -> Floats:
-    """Return the diagonal of the inverse, parents before children."""
+    """Return the diagonal of the inverse, working from parents to children."""
     diagonal = np.zeros(sum(len(front.pivots) for front in fronts))
     position = np.zeros(len(diagonal), dtype=np.intp)
     outer_parts: dict[int, Floats] = {}
@@ -134,8 +136,8 @@ def _come_back(fronts: list[Front], roots: list[Floats], links: list[Floats]) ->
 def _without_traces(block: Floats) -> Floats:
     """Return the block, overwritten, with zeros for entries too small to matter.
 
-    Along a chain of players they fade by a factor each; below the smallest normal float arithmetic
-    is a hundred times slower.
+    Entries shrink by a factor with each player along a chain, and arithmetic on subnormal floats is
+    a hundred times slower.
     """
     block[np.abs(block) < _TRACE] = 0.0
     return block
@@ -158,14 +160,14 @@ def _sums(x: Floats, y: Floats) -> Floats:
 
 
 _LARGE = 2000
-"""Rows from which it is worth while to look for fronts, and to accept an approximate answer."""
+"""Rows needed to make looking for fronts, or an approximate answer, worthwhile."""
 
 _DENSE_UP_TO = 5000
 """Rows up to which a matrix is inverted whole."""
 
 _WELL_MIXED = 0.002
-"""How far from certain an answer by cavities may be. As ρ² is at least the sum of any row of
-squares, no such sum is then above .015, and every round comes 60 times nearer."""
+"""Largest error bound accepted for a cavity answer. As ρ² is at least the sum of any row of
+squares, no such sum is then above .015, and every round reduces the error 60-fold."""
 _ROUNDS = 6
 
 
@@ -195,7 +197,7 @@ class _Leveled:
 
 
 def _by_cavities(league: _Leveled) -> Floats | None:
-    """Return the diagonal of (I - W)⁻¹, or None if it is not known within 0.2%."""
+    """Return the diagonal of (I - W)⁻¹, or None if it is not known to within 0.2%."""
     r, pull = league.r, league.pull
     rr, size = r * r, len(r)
     squares = pull.multiply(pull) - 2.0 * (sparse.diags_array(r) @ pull @ sparse.diags_array(r))
@@ -246,18 +248,18 @@ def _in_double_precision(matrix: sparse.csc_array) -> Floats:
 
 
 def _square_sums(lower: NDArray[Any]) -> Floats:
-    """Return the sum of the squares of every column of a lower triangle."""
+    """Return the sum of squares of each column of a lower triangle."""
     columns = (lower[k:, k] for k in range(len(lower)))
     return np.array([column @ column for column in columns], dtype=np.float64)
 
 
 _PADDING, _PADDING_PER_ROW = 64, 20
-"""Explicit zeros that a front accepts before its rows get a front of their own."""
+"""Explicit zeros that a front accepts before its rows are split off into another front."""
 
 
 @dataclass(eq=False)
 class Front:
-    """Columns that are eliminated together, and the later rows that they touch.
+    """Columns eliminated together, and the later rows that they touch.
 
     `children` are the positions, in the list of fronts, of those whose Schur complement
     this front takes up; they come before it.
@@ -269,7 +271,7 @@ class Front:
 
 
 def fronts_of(matrix: sparse.csc_array) -> list[Front]:
-    """Return the fronts of a symmetric matrix, children before parents; none if it fills in.
+    """Return the fronts of a symmetric matrix, children before parents, or none if it fills in.
 
     >>> path = sparse.csc_array([[2.0, -1.0, 0.0], [-1.0, 3.0, -1.0], [0.0, -1.0, 2.0]])
     >>> fronts_of(path)
@@ -280,17 +282,18 @@ def fronts_of(matrix: sparse.csc_array) -> list[Front]:
 
 
 _MOST_LINKS = 10_000_000
-"""Links that eliminating makes or meets again, from which on a matrix counts as filling in.
+"""Links made or met again during elimination above which a matrix counts as filling in.
 
-That many take about a second to find, and fronts of that many at most a few seconds to eliminate.
+Finding that many takes about a second, and eliminating fronts of that many takes at most a few
+seconds.
 """
 
 
 def _minimum_degree(matrix: sparse.csc_array) -> Places | None:
-    """Return the columns in an order of elimination, or None where no good one is found in time.
+    """Return the columns in elimination order, or None if no good order is found in time.
 
-    Whoever has the fewest neighbors left comes next, and with them all who have just the same
-    neighbors. That links all these neighbors with each other.
+    The column with the fewest remaining neighbors is next, along with all columns that have exactly
+    the same neighbors. Eliminating them links all these neighbors to each other.
     """
     size = matrix.shape[0]
     indices, starts = matrix.indices, matrix.indptr.tolist()
@@ -333,7 +336,7 @@ def _minimum_degree(matrix: sparse.csc_array) -> Places | None:
 
 
 def _gather(matrix: sparse.csc_array, order: Places) -> list[Front]:
-    """Return the fronts for an order, in the names of the matrix."""
+    """Return the fronts for an order, in the matrix's own numbering."""
     size = len(order)
     rank = np.empty(size, dtype=np.intp)
     rank[order] = np.arange(size)

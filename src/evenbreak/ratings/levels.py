@@ -1,13 +1,13 @@
-"""What a file knows about players before their results: newcomers, teams, divisions, handicaps.
+"""What a file says about players before their results: newcomers, teams, divisions, handicaps.
 
-Whoever has played little tends to be weaker than those who have played much; players of one
-team or division tend to be alike; and the races of a handicap league say how strong the league
-takes its players to be. `Levels` says how much each of these counts; `Knowledge` gathers, match by
-match, what a file says about each player, and makes the means of their priors of it.
+Inexperienced players tend to be weaker than experienced ones, players of the same team or division
+tend to be alike, and a handicap league's races show how strong the league believes its players to
+be. `Levels` says how much each of these counts; `Knowledge` gathers, match by match, what a file
+says about each player, and turns it into the means of their priors.
 
 A race m:n is even where the first player wins a game with the chance p for which W(p; m, n) = 1/2;
-the difference of strength that it implies is ln p/(1 - p). The players' strengths by their races
-(`StatedStrength`) are those whose differences come nearest to the implied ones, by least squares
+the implied difference in strength is ln p/(1 - p). The players' strengths according to their races
+(`StatedStrength`) are those whose differences come closest to the implied ones, by least squares
 over all matches so far. Leagues follow their players from season to season, so a race counts half
 once both have had `RECENT` more.
 """
@@ -35,16 +35,16 @@ SETTLED = 50.0
 """Games after which half of a newcomer's disadvantage is gone."""
 
 OPENING = 28.0
-"""Days within which everybody belongs to those who were there from the start."""
+"""Days within which everyone counts as having been there from the start."""
 
 BROUGHT_SD = math.log(2.0) / 2.0
-"""How far off a rating that players bring along is taken to be, if nothing says it."""
+"""Assumed error of a rating that players bring with them, if nothing states it."""
 
 BESIDES_GAMES = 0.05
-"""How far off it is taken to be if its games say it: that much more, for what they do not know."""
+"""Extra error of a rating that players bring with them, if only its games are stated."""
 
 GROUPS = {"team": ("team_a", "team_b"), "division": ("division", "division")}
-"""The columns that hold the group of player a and of player b."""
+"""The columns that name the groups of player a and player b."""
 
 
 @dataclass(frozen=True)
@@ -54,22 +54,22 @@ class Levels:
     Parameters
     ----------
     newcomers
-        how far below an experienced player a player without a game is expected to be. Of this the
-        part 1 / (1 + games / 50) is left after some games.
+        how far below an experienced player someone who has never played is expected to be. The
+        fraction 1 / (1 + games / 50) of this is left after some games.
     joined
-        how far below the first players someone who joins after the first four weeks is expected to
-        be; it does not shrink with games.
+        how far below the original players someone who joins after the first four weeks is expected
+        to be; it does not shrink with games.
     race
-        the difference between players for each unit that their stated races take back: 1 where the
-        races are right (see `evenbreak.ratings.handicap_slope`).
+        the difference between players per unit of difference that their stated races make up for: 1
+        if the races are fair (see `evenbreak.ratings.handicap_slope`).
     field
         newcomers' expected share of the strength of the field on their first evening (see
         `evenbreak.ratings.first_evenings`); it does not shrink with games.
     team_sd, division_sd
-        standard deviation between teams, or divisions; 0 where they do not matter.
+        standard deviation between teams, or divisions; 0: they do not matter.
     brought_sd
-        standard deviation of the error of ratings from elsewhere, where these do not state it, in
-        addition to what their games leave open; 0: those ratings are not used.
+        standard deviation of the error of ratings from elsewhere that do not state one, in addition
+        to the uncertainty from their number of games; 0: such ratings are not used.
     beginning
         the ratings from elsewhere; None: there are none.
 
@@ -106,10 +106,11 @@ SIZES = tuple(each.name for each in fields(Levels) if each.name != "beginning")
 
 
 def begun(beginning: Beginning | None) -> Levels:
-    """Return what is known where nothing is estimated: the ratings that players bring along.
+    """Return what is known if nothing is estimated: the ratings that players bring with them.
 
-    Those that do not state their uncertainty are taken to be off by half of what doubles
-    the odds, or, if all of them state games, by what these leave open.
+    Ratings without a stated uncertainty are assumed to be off by half of the difference that
+    doubles the odds or, if all of them state games, by the uncertainty that follows from those
+    games.
     """
     if beginning is None or not beginning.unknown_error:
         return Levels(beginning=beginning)
@@ -118,13 +119,13 @@ def begun(beginning: Beginning | None) -> Levels:
 
 
 def first_evenings(results: Results, levels: Levels) -> FirstEvenings:
-    """Return the first evenings of those who bring no games along."""
+    """Return the first evenings of players who bring no games with them."""
     old = levels.beginning
     return FirstEvenings(results, None if old is None else old.games_of(results.players) > 0.0)
 
 
 def joined_late(results: Results) -> Floats:
-    """Return 1 for each player whose first match is later than in the first four weeks, else 0.
+    """Return 1 for each player whose first match is after the first four weeks, else 0.
 
     >>> season = Results.from_names(
     ...     ["Ann", "Cy"], ["Bo", "Ann"], [7, 7], [5, 5], date=["2026-01-01", "2026-02-05"]
@@ -144,7 +145,7 @@ def joined_late(results: Results) -> Floats:
 
 
 def newness(games: Floats | Ints) -> Floats:
-    """Return what part of a newcomer's disadvantage is left after some games.
+    """Return the fraction of a newcomer's disadvantage that is left after some games.
 
     >>> newness(np.array([0, 50, 450]))
     array([1. , 0.5, 0.1])
@@ -153,13 +154,13 @@ def newness(games: Floats | Ints) -> Floats:
 
 
 NEWER = 0.25
-"""The part of a newcomer's disadvantage by which a player is clearly newer than an opponent."""
+"""Fraction of a newcomer's disadvantage by which a player is clearly newer than an opponent."""
 
 
 def met_as_newcomers(results: Results) -> Bools:
-    """Return whether each player was ever clearly newer than an opponent, all matches being dated.
+    """Return whether each player was ever clearly newer than an opponent; all matches are dated.
 
-    Where everyone has played alike, no one was, and nothing can be said about first games.
+    If everyone has played equally much, no one was, and nothing can be said about first games.
 
     >>> season = Results.from_names(
     ...     ["Ann", "Ann"], ["Bo", "Cy"], [50, 5], [40, 7], date=["2026-01-01", "2026-02-05"]
@@ -185,9 +186,9 @@ def met_as_newcomers(results: Results) -> Bools:
 
 
 class Knowledge:
-    """What is known about each player of a league so far; at first, nothing.
+    """What is known about each player in a league so far; at first, nothing.
 
-    `levels` says which of it matters.
+    `levels` determines which of it matters.
     """
 
     def __init__(
@@ -218,7 +219,7 @@ class Knowledge:
         ]
 
     def see(self, rows: Any) -> None:
-        """Take in the races, teams and divisions of matches, known before they are played."""
+        """Add the races, teams and divisions of matches, which are known before play."""
         for of_file in (self._stated, self._evenings):
             if of_file is not None:
                 of_file.see(rows)
@@ -226,14 +227,14 @@ class Knowledge:
             groups.see(rows)
 
     def play(self, rows: Any) -> None:
-        """Take in how many games were played in some matches."""
+        """Add the number of games played in some matches."""
         for players in self._sides:
             self._behind += np.bincount(players[rows], self._games[rows], self._players)
 
     def means(self) -> PriorMeans:
-        """Return the means of the players' priors, 0 on average over those who have played.
+        """Return the players' prior means, which average 0 over those who have played.
 
-        Where the field counts, those of newcomers follow the skills of others.
+        If the field counts, newcomers' means follow the skills of others.
         """
         design = [groups.design for groups in self._groups]
         sds = [
@@ -261,7 +262,7 @@ class Knowledge:
 
 
 class _Groups:
-    """A league's teams or divisions, and how often each player was seen in each one."""
+    """A league's teams or divisions, and how often each player was seen in each."""
 
     def __init__(self, results: Results, kind: str) -> None:
         self.kind = kind
@@ -280,13 +281,13 @@ class _Groups:
 
     @property
     def design(self) -> Floats:
-        """The share of each player's matches in each group, 0 where no group was stated."""
+        """Fraction of each player's matches in each group, 0 where no group was stated."""
         total = self._seen.sum(1, keepdims=True)
         return np.asarray(self._seen / np.maximum(total, 1.0))
 
 
 def known_levels(results: Results, beginning: Beginning | None = None) -> tuple[str, ...]:
-    """Return the fields of `Levels` about which results and a beginning say something."""
+    """Return the fields of `Levels` that the results and a beginning say something about."""
     says = {
         "race": has_handicaps(results),
         "division_sd": has_groups(results, "division"),
@@ -300,16 +301,16 @@ def known_levels(results: Results, beginning: Beginning | None = None) -> tuple[
 
 
 MOST_SHARES = 20_000_000
-"""Players times groups, from which groups are too many to estimate: 200 of 100,000 players."""
+"""Players times groups above which groups are too many to estimate: 200 of 100,000 players."""
 
 
 def has_groups(results: Results, kind: str) -> bool:
-    """Return whether results name two teams, or two divisions, at least, and not too many."""
+    """Return whether results name at least two teams, or two divisions, and not too many."""
     return 1 < _count_groups(results, kind) <= MOST_SHARES // len(results.players)
 
 
 def too_many_groups(results: Results) -> dict[str, int]:
-    """Return how many teams, or divisions, there are where they are too many to be estimated.
+    """Return the number of teams, or divisions, if they are too many to estimate.
 
     >>> too_many_groups(Results.from_names(["Ann"], ["Bo"], [7], [5], team_a=["X"], team_b=["Y"]))
     {}
@@ -327,7 +328,7 @@ def _count_groups(results: Results, kind: str) -> int:
 
 
 def games_of(results: Results) -> Floats:
-    """Return the games of each match; the longer race where only the winner is known."""
+    """Return the number of games in each match; the longer race if only the winner is known."""
     games = (results.score_a + results.score_b).astype(float)
     if results.unscored is not None:
         games = np.where(results.unscored, np.maximum(*results.races), games)
@@ -340,10 +341,9 @@ def means_of(
     stated: StatedStrength | None = None,
     evenings: FirstEvenings | None = None,
 ) -> PriorMeans:
-    """Return the means of the players' priors after all of some results.
+    """Return the players' prior means after all of the given results.
 
-    The parameters are those of `Knowledge`. Matches still to be played, at 0-0, say who is in
-    which team.
+    The parameters are those of `Knowledge`. Upcoming matches, at 0-0, show who is on which team.
 
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [50, 0], [50, 0])
     >>> means_of(season, Levels(newcomers=0.6)).mean.round(3)
@@ -357,17 +357,17 @@ def means_of(
 
 
 RIDGE = 0.01
-"""A weight, in matches, toward 0: it decides between groups that never met."""
+"""Weight toward 0, in matches, that decides between groups that never met."""
 
 RECENT = 5.0
-"""A race counts half after so many more, on later days, of the player who has had fewer since."""
+"""Later matches after which a race counts half, by the player who has had fewer."""
 
 _SOLVED_UP_TO = 100
-"""Players up to which the equations are solved exactly, which is faster than to iterate."""
+"""Players up to which the equations are solved exactly, which is then faster than iterating."""
 
 
 def implied_difference(results: Results) -> Floats:
-    """Return by how much a is stronger than b if the race is even, in log-odds; NaN without one.
+    """Return how much stronger a is than b if the race is fair, in log-odds; NaN without a race.
 
     >>> season = Results.from_names(["A", "A"], ["B", "B"], [7, 5], [2, 5], race_a=[7, 5],
     ...     race_b=[3, 5])
@@ -387,7 +387,7 @@ def has_handicaps(results: Results) -> bool:
 
 
 class StatedStrength:
-    """The strengths of players by the races seen so far."""
+    """Players' strengths according to the races seen so far."""
 
     def __init__(self, results: Results) -> None:
         self._players = len(results.players)
@@ -402,12 +402,12 @@ class StatedStrength:
         self._up_to_date = False
 
     def see(self, rows: Any) -> None:
-        """Take in the races of some matches."""
+        """Add the races of some matches."""
         self._up_to_date &= bool(self._seen[rows].all())
         self._seen[rows] = True
 
     def strength(self) -> Floats:
-        """Return each player's strength in natural log-odds, 0 where no race says anything."""
+        """Return each player's strength in natural log-odds, 0 if no race mentions the player."""
         if self._up_to_date:
             return self._last
         self._up_to_date = True
@@ -427,7 +427,7 @@ class StatedStrength:
         return self._last
 
     def _weights(self, rows: Any) -> Floats:
-        """Return how much each of some races counts; one without a date counts in full."""
+        """Return how much each race counts; one without a date counts in full."""
         matches = int(rows.sum())
         # A number for each player and day, in that order.
         key = np.tile(self._day[rows], 2) + len(self._day) * np.concatenate(

@@ -1,13 +1,13 @@
-"""Results as terms of a likelihood, where they differ in what they say and how much they weigh.
+"""Results as likelihood terms, with different kinds of information and different weights.
 
-Of a match either the games are known, each won with the log-odds
+Either a match's games are known, each won with the log-odds
 
     θi - θj + β,  θi - θj - β  or  θi - θj
 
-as i broke, j broke, or it is not known who did; or only the winner of a race i:j is known,
-which has the likelihood W(p(θi - θj); m, n). β is the break advantage. The logarithm of every
-such term is concave in (θ, β). Where it is known how many racks each player broke, but not who
-won which of them, a term convex in β alone is added (see `evenbreak.ratings.who_broke`).
+depending on whether i broke, j broke, or the breaker is unknown; or only the winner of a race i:j
+is known, which has the likelihood W(p(θi - θj); m, n). β is the break advantage. The logarithm of
+every such term is concave in (θ, β). If it is known how many racks each player broke, but not who
+won which, a term convex in β alone is added (see `evenbreak.ratings.who_broke`).
 
 For such a race, with d the difference in natural log-odds, p = 1 / (1 + exp(-d)) and q = 1 - p, the
 chance is W = I_p(m, n), the regularized incomplete beta function. Then
@@ -40,13 +40,13 @@ from evenbreak.ratings.who_broke import BreakWinsTerms, count_broken
 
 @dataclass(frozen=True, eq=False)
 class LikelihoodTerms:
-    """What was played, as terms of the log-likelihood.
+    """The results as terms of the log-likelihood.
 
     Terms of games have a pair (low, high), who broke (1 the low player, -1 the high one, 0 not
-    known), and the games that the low player won and lost, weighted. Matches known by their winner
-    alone have the winner as `race_side` (1 or -1) and the games that winner and loser needed.
-    `own_breaks` is how many racks players may have won on their own break, where only the score is
-    known; the terms of games hold the middle of each.
+    known), and the games that the low player won and lost, weighted. Matches known only by their
+    winner have the winner as `race_side` (1 or -1) and the games that winner and loser needed.
+    `own_breaks` is the number of racks that players may have won on their own break, if only the
+    score is known; the terms of games hold the middle value.
     """
 
     players: int
@@ -66,7 +66,7 @@ class LikelihoodTerms:
 
     @property
     def graph(self) -> sparse.csr_array:
-        """Who met who: shape (players, players), upper triangular."""
+        """Who met whom: shape (players, players), upper triangular."""
         ones = np.ones(len(self.low))
         shape = (self.players, self.players)
         return sparse.coo_array((ones, (self.low, self.high)), shape=shape).tocsr()
@@ -77,16 +77,16 @@ class LikelihoodTerms:
 
     @property
     def amount(self) -> float:
-        """How many games and races, weighted, there are."""
+        """The weighted numbers of games and races."""
         return float(self.won.sum() + self.lost.sum() + self.race_weight.sum())
 
     @property
     def games_with_breaker(self) -> float:
-        """How many games, weighted, have a known breaker."""
+        """The weighted number of games with a known breaker."""
         return float((self.won + self.lost)[self.broke != 0].sum())
 
     def log_likelihood(self, skill: Floats, advantage: float = 0.0) -> float:
-        """Return ln P(these results | the skills, the races, who broke, the number of games)."""
+        """Return ln P(results | the skills, the races, who broke, the number of games)."""
         difference = skill[self.low] - skill[self.high]
         x = difference[self.pair] + advantage * self.broke
         games = self.won @ np.logaddexp(0.0, -x) + self.lost @ np.logaddexp(0.0, x)
@@ -118,8 +118,8 @@ class LikelihoodTerms:
     ) -> Curvature:
         """Return the Hessian of the negative log-posterior.
 
-        Where `break_precision` is None the break advantage is not estimated; where `means` is
-        None players share no levels.
+        If `break_precision` is None, the break advantage is not estimated; if `means` is None,
+        players share no levels.
         """
         difference = skill[self.low] - skill[self.high]
         x = difference[self.pair] + advantage * self.broke
@@ -147,16 +147,16 @@ class LikelihoodTerms:
         )
 
     def _net(self, pull: Floats) -> Floats:
-        """Return the sum for each player over their pairs, counted negative where they are high."""
+        """Return each player's sum over their pairs, with a negative sign where they are high."""
         return sums_by_player(self.players, self.low, self.high, pull, -pull)
 
 
 def likelihood_terms(
     scored: Results, won_only: Results, weights: tuple[Floats, Floats], *, breaks: bool
 ) -> LikelihoodTerms:
-    """Return results as terms of a likelihood: with games, and with only race and winner.
+    """Return results as likelihood terms: those with games, and those with only race and winner.
 
-    `weights` are those of the matches in both; `breaks`: it matters who broke.
+    `weights` are the weights of the matches in each; `breaks` is whether it matters who broke.
     """
     players = len(scored.players)
     pairs, place = np.unique(
@@ -206,11 +206,11 @@ def _pair_codes(results: Results) -> Ints:
 
 
 _FAR = 1e-200
-"""For smaller chances the logarithm is worked out without W, which would underflow."""
+"""Below this chance, the logarithm is computed without W, which would underflow."""
 
 
 class RaceSlopes(NamedTuple):
-    """log W(p(d); m, n), and its first and second derivative in d, elementwise."""
+    """log W(p(d); m, n) and its first and second derivatives in d, elementwise."""
 
     log_win: Floats
     slope: Floats
@@ -218,12 +218,12 @@ class RaceSlopes(NamedTuple):
 
 
 def race_slopes(difference: ArrayLike, m: ArrayLike, n: ArrayLike) -> RaceSlopes:
-    """Return the logarithm of the chance to win a race, with its derivatives.
+    """Return the log of the chance of winning a race, with its derivatives.
 
     Parameters
     ----------
     difference
-        the winner's skill less the loser's, in natural log-odds of a game.
+        the winner's skill minus the loser's, in natural log-odds of a game.
     m, n
         the games that the winner and the loser of the match needed, 1 or more. The three
         are broadcast together.
@@ -273,5 +273,5 @@ def race_slopes(difference: ArrayLike, m: ArrayLike, n: ArrayLike) -> RaceSlopes
 
 
 def _log_tail(m: Any, n: Any, p: Any) -> Any:
-    """Return log W less the density's logarithm, for a p far below m / (m + n)."""
+    """Return log W minus the log of the density, for a p far below m / (m + n)."""
     return np.log(hyp2f1(m + n, 1.0, m + 1.0, p) / m)

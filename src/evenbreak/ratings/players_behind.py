@@ -1,13 +1,14 @@
-"""How many players a gain in prediction rests on, and its uncertainty because they are few.
+"""How many players a gain in prediction rests on, and how uncertain the gain is as a result.
 
-Matches of one player go well or badly together, so what they gain is no sum of independent parts.
-With u what each match gains, the variance of the sum over all matches is that of two-way clusters
-(Aronow, Samii & Assenova 2015): the covariance of every two matches that have a player in common,
+A player's matches go well or badly together, so their gains are not independent. If u is the gain
+in each match, the variance of the sum over all matches is that of two-way clusters (Aronow, Samii &
+Assenova 2015): the covariance of every two matches that have a player in common,
 
     V = Σ_i (Σ u of player i's matches)² - Σ_ij (Σ u of the matches between i and j)².
 
-Gains are not reduced by their mean, which most players, whom nothing changes, would distort; so V
-is rather too large, and with n players who gain alike the sum is at most √n errors above 0.
+The gains are not centered on their mean, because the many players for whom nothing changes would
+distort it. So V is somewhat too large, and if n players gain equally, the sum is at most √n
+standard errors above 0.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from evenbreak.arrays import Floats, Ints, Places
 
 
 class PlayersBehind(NamedTuple):
-    """The players of some matches."""
+    """The players in some matches."""
 
     player_a: Ints | Places
     player_b: Ints | Places
@@ -43,9 +44,9 @@ class PlayersBehind(NamedTuple):
         return math.sqrt(max(float(together), float((each**2).sum())))
 
     def behind(self, gains: ArrayLike) -> int:
-        """Return how few players there are without whose matches nothing is gained in all.
+        """Return the smallest number of players without whose matches there is no gain overall.
 
-        Players are left out in the order of what their matches gain.
+        Players are left out in order of the gain from their matches.
 
         >>> PlayersBehind(np.array([0, 0, 2]), np.array([1, 2, 3])).behind([3.0, 2.0, -1.0])
         1

@@ -1,26 +1,26 @@
-"""The mode of the posterior of ratings, by a sparse Newton method, by three routes.
+"""The posterior mode of the ratings, found by a sparse Newton method in three variants.
 
 With skills θ in natural log-odds, player i beats j with chance 1 / (1 + exp(θj - θi)). Games are
 independent given the skills, and every skill has the prior N(0, 1/τ).
 
-`find_mode`, where all games count alike. Up to a constant the negative log-posterior is
+`find_mode` is for games that all count alike. Up to a constant the negative log-posterior is
 
     f(θ) = Σ_{i<j} n_ij log(exp θi + exp θj) - Σ_i w_i θi + (τ/2) Σ_i θi²
 
-so win totals w and pair counts n are all that it needs. Its Hessian is the Laplacian of the graph
-of play, weighted by n_ij p_ij p_ji, plus τI: a symmetric M-matrix. It never evaluates f, so it
-does a fraction of the work of the next.
+so it needs only win totals w and pair counts n. Its Hessian is the Laplacian of the graph of play,
+weighted by n_ij p_ij p_ji, plus τI: a symmetric M-matrix. It never evaluates f, so it does a
+fraction of the work of the next variant.
 
-`find_mixed_mode`, where results differ in what they say and how much they weigh. The likelihood is
-that of `evenbreak.ratings.likelihood_terms`. Its logarithm is concave in (θ, β), and those of the
-priors strictly so: there is one mode, and Newton's method finds it with a step that is halved
-until it goes down, or for games alone shortened so that it does. Where the score alone says how
+`find_mixed_mode` is for results that differ in what they say and how much they weigh. The
+likelihood is that of `evenbreak.ratings.likelihood_terms`. Its logarithm is concave in (θ, β), and
+those of the priors strictly so. There is one mode, and Newton's method finds it with a step that is
+halved until f decreases or, for games alone, shortened so that it must. If only the score tells how
 many racks each player broke, the sum is still concave in θ, though not necessarily in β.
 
-`find_modes`, for one season rated in several ways. In a league of a few dozen players a step of
-Newton's method takes longer to call than to calculate, so all ways take each step at once, as
-arrays with one row per way. The levels of teams and divisions are integrated out: with the design Z
-and the levels' variances S, the skills are normal with
+`find_modes` is for one season rated by several methods. In a league of a few dozen players, calling
+a Newton step takes longer than calculating it, so all methods take each step at once, as arrays
+with one row per method. The levels of teams and divisions are integrated out: with the design Z and
+the levels' variances S, the skills are normal with
 
     precision  Q = (σ²I + Z S Zᵀ)⁻¹
 
@@ -46,7 +46,7 @@ from evenbreak.ratings.likelihood_terms import LikelihoodTerms, race_slopes
 
 
 class Mode(NamedTuple):
-    """Where the posterior is highest, the largest entry of its gradient there, and the steps."""
+    """The point where the posterior is highest, the largest gradient entry there, and the steps."""
 
     point: Floats
     gradient: float
@@ -54,11 +54,11 @@ class Mode(NamedTuple):
 
 
 def find_mode(pairs: PairCounts, precision: float) -> Mode:
-    """Return the skills that are most likely a posteriori, in natural log-odds.
+    """Return the maximum a posteriori skills, in natural log-odds.
 
     Each Newton system is solved by conjugate gradients, more exactly as the steps get shorter. τ is
-    the prior precision 1/sd². An AccuracyError if the gradient's largest entry doesn't fall to 1e-8
-    min(1, τ), or to the rounding of the counts if that is more.
+    the prior precision 1/sd². Raises AccuracyError if the gradient's largest entry doesn't fall to
+    1e-8 min(1, τ), or to the rounding of the counts if that is larger.
 
     The model: Bradley & Terry (1952).
     """
@@ -94,9 +94,9 @@ _ROUNDING = 1e-14
 def tolerance(precision: float, most: float, gradient: float = GRADIENT_TOLERANCE) -> float:
     """Return how small the gradient of the negative log-posterior must be, in games.
 
-    H >= τI, τ the prior precision of a skill, so a gradient g leaves the skills within |g|/τ of the
-    mode. `most` are the most games of one player, whose rounding limits the result; `gradient` is
-    enough where τ is 1 or more.
+    H >= τI, where τ is the prior precision of a skill, so a gradient g leaves the skills within
+    |g|/τ of the mode. `most` is the largest number of games by one player, whose rounding limits
+    the result; `gradient` is enough if τ is 1 or more.
     """
     return max(gradient * min(1.0, precision), _ROUNDING * most)
 
@@ -106,9 +106,9 @@ def find_zero(
     gradient_at: Callable[[Floats], tuple[Floats, Callable[[], Floats]]],
     enough: float,
 ) -> Mode:
-    """Return the point at which a gradient is zero, within `enough` in each entry.
+    """Return the point where a gradient is zero, to within `enough` in each entry.
 
-    `gradient_at` returns the gradient at a point, and a function for the step from there. An
+    `gradient_at` returns the gradient at a point, and a function for the step from there. Raises
     AccuracyError after `MOST_STEPS` steps.
 
     >>> find_zero(np.zeros(2), lambda x: (x - 3.0, lambda: 3.0 - x), 1e-9)
@@ -130,7 +130,7 @@ def find_zero(
 
 
 def step_accuracy(gradient: Floats) -> float:
-    """Return how exactly to solve for a Newton step: more exactly as the gradient gets smaller.
+    """Return the tolerance for a Newton step: tighter as the gradient gets smaller.
 
     The error of an inexact step adds to the squared error of the exact one.
 
@@ -141,10 +141,10 @@ def step_accuracy(gradient: Floats) -> float:
 
 
 def damped(step: Floats, low: Places, high: Places) -> Floats:
-    """Return a Newton step, shortened where it would change a skill difference by much.
+    """Return a Newton step, shortened if it would change a skill difference by much.
 
-    Where the skills of opponents change by at most β, log(1 + β)/β of the step always goes down,
-    and so does all of it while β < 1.7. So no search for a step length is needed.
+    If opponents' skills change by at most β, log(1 + β)/β of the step always decreases f, and so
+    does the full step if β < 1.7. So no search for a step length is needed.
 
     Generalized self-concordance: Bach (2010); Sun & Tran-Dinh (2019), Theorem 2.
     """
@@ -153,7 +153,7 @@ def damped(step: Floats, low: Places, high: Places) -> Floats:
 
 
 _FULL_STEP = 1e-6
-"""Newton steps shorter than this are taken whole: the value can no longer measure their gain."""
+"""Newton steps shorter than this are taken in full: the value can no longer measure their gain."""
 
 
 def find_mixed_mode(
@@ -166,12 +166,12 @@ def find_mixed_mode(
     start: Floats | None = None,
     gradient: float = GRADIENT_TOLERANCE,
 ) -> Mode:
-    """Return the skills, levels and break advantage, in this order, most likely a posteriori.
+    """Return the maximum a posteriori skills, levels and break advantage, in this order.
 
-    Precisions, τ for skills, are 1/sd² in log-odds. Without a `break_precision` the advantage is
-    known; otherwise it's where to start, with a prior about 0. `gradient` is the size at which to
-    stop, in games, times τ where that is below 1; an AccuracyError if it isn't reached, nor
-    rounding.
+    Precisions, such as τ for skills, are 1/sd² in log-odds. Without a `break_precision` the
+    advantage is known; otherwise it is the starting value, and the prior is centered at 0.
+    `gradient` is the size at which to stop, in games, multiplied by τ if that is below 1. Raises
+    AccuracyError if neither it nor rounding is reached.
     """
     players = terms.players
     beforehand = PriorMeans.none(players) if means is None else means
@@ -223,15 +223,15 @@ def find_mixed_mode(
 
 
 GRADIENT = 1e-6
-"""How small the gradients have to become, in games, times τ where that is below 1."""
+"""How small the gradients have to become, in games, multiplied by τ if that is below 1."""
 
-"""Steps shorter than this are taken whole: the cost can no longer measure their gain."""
+"""Steps shorter than this are taken in full: the cost can no longer measure their gain."""
 
 
 class WayToRate(NamedTuple):
-    """What the skills of a season depend on, apart from its results.
+    """What the skills in a season depend on, apart from its results.
 
-    As for `find_mixed_mode`; the terms have weights of their own.
+    As in `find_mixed_mode`, except that the terms have their own weights.
     """
 
     terms: LikelihoodTerms
@@ -242,10 +242,10 @@ class WayToRate(NamedTuple):
 
 
 def find_modes(ways: Sequence[WayToRate], start: Floats | None = None) -> tuple[Floats, Floats]:
-    """Return the most likely skills, shape (ways, players), and break advantages, a posteriori.
+    """Return the maximum a posteriori skills, shape (ways, players), and break advantages.
 
-    The terms of all ways are of the same matches and differ only in weights. An AccuracyError if a
-    gradient doesn't get small enough.
+    The terms of all methods come from the same matches and differ only in their weights. Raises
+    AccuracyError if a gradient doesn't get small enough.
     """
     season = _Season(ways)
     skill = season.mean if start is None else np.broadcast_to(start, season.mean.shape)
@@ -279,10 +279,11 @@ def find_modes(ways: Sequence[WayToRate], start: Floats | None = None) -> tuple[
 def difference_variances(
     ways: Sequence[WayToRate], skills: Floats, advantages: Floats, first: Places, second: Places
 ) -> Floats:
-    """Return how far off differences of skill are in several ways: shape (ways, differences).
+    """Return the variances of skill differences by several methods: shape (ways, differences).
 
-    The ways, skills and advantages are those of `find_modes`. The variances are those of the normal
-    distribution that is as curved at the mode (Laplace), the break advantage uncertain too.
+    The methods, skills and advantages are those of `find_modes`. The variances are those of the
+    normal distribution with the same curvature at the mode (Laplace), including the uncertainty of
+    the break advantage.
     """
     _, curvature = _Season(ways).slopes(np.column_stack([skills, advantages]))
     covariance = np.linalg.inv(curvature)[:, :-1, :-1]
@@ -291,7 +292,7 @@ def difference_variances(
 
 
 def _newton_step(gradient: Floats, curvature: Floats) -> Floats:
-    """Return the step of each way; the curvature in the last unknown may be below 0."""
+    """Return each method's step; the curvature in the last unknown may be negative."""
     border, corner = curvature[:, :-1, -1], curvature[:, -1, -1]
     right = np.stack([gradient[:, :-1], border], axis=2)
     plain, bordered = np.moveaxis(np.linalg.solve(curvature[:, :-1, :-1], right), 2, 0)
@@ -303,7 +304,7 @@ def _newton_step(gradient: Floats, curvature: Floats) -> Floats:
 
 
 class _Season:
-    """The negative log-posterior of each way, with its first two derivatives."""
+    """The negative log-posterior of each method, with its first two derivatives."""
 
     def __init__(self, ways: Sequence[WayToRate]) -> None:
         terms = ways[0].terms
@@ -336,7 +337,7 @@ class _Season:
         self._ends = ends
 
     def follow(self, skills: Floats) -> bool:
-        """Return whether means of some way followed its skills."""
+        """Return whether any method's means followed its skills."""
         moved = False
         for row, (moving, skill) in enumerate(zip(self._moving, skills, strict=True)):
             before = moving.now.mean
@@ -347,14 +348,14 @@ class _Season:
         return moved
 
     def _differences(self, point: Floats) -> tuple[Floats, Floats]:
-        """Return the log-odds of each term of games, and of each race for its winner."""
+        """Return the log-odds of each term of games, and of the winner of each race."""
         terms = self._terms
         difference = point[:, terms.low] - point[:, terms.high]
         games = difference[:, terms.pair] + point[:, -1:] * terms.broke
         return games, terms.race_side * difference[:, terms.race_pair]
 
     def cost(self, point: Floats) -> Floats:
-        """Return minus the logarithm of each posterior density, but for a constant."""
+        """Return the negative log of each posterior density, up to a constant."""
         games, races = self._differences(point)
         # ln(1 + exp(x)) is ln(1 + exp(-x)) + x.
         common = (self._won + self._lost) * np.logaddexp(0.0, games) - self._won * games
@@ -394,7 +395,7 @@ class _Season:
         return gradient, curvature
 
     def _pull(self, point: Floats) -> Floats:
-        """Return the gradient of minus the prior's logarithm, in the skills."""
+        """Return the gradient of the prior's negative log in the skills."""
         off = point[:, :-1] - self.mean
         return np.asarray((self._precision @ off[:, :, None])[:, :, 0])
 
@@ -408,10 +409,10 @@ class _Season:
 
 
 def _prior_of(means: PriorMeans, precision: float) -> tuple[Floats, Floats, Floats | None]:
-    """Return mean and precision of the skills' prior, levels integrated out.
+    """Return the mean and precision of the skills' prior, with the levels integrated out.
 
-    What earlier results say is part of it: it is normal in the skills, too. Last is what part of
-    `means.mean` its mean has; None: all.
+    They include the evidence of earlier results, which is also normal in the skills. The last item
+    returned is the fraction of `means.mean` in this mean; None: all of it.
     """
     identity = np.eye(len(means.mean))
     prior = precision * identity

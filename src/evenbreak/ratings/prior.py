@@ -1,13 +1,13 @@
-"""What to assume about players before their results: the prior that predicts later matches best.
+"""Choose the prior for players: the one that predicts later matches best.
 
 Each stretch of a season is predicted from the days before it (see `evenbreak.ratings.stretches`),
 in one search for the width of the prior, for what the file knows about players (see
-`evenbreak.ratings.levels`), and for the half-life of old results. The width under which the actual
-scores were most likely is chosen first, if the results are enough to choose by. Then each of the
-others is added in turn where it clearly predicts better, and the width is chosen again. What is
-known about players leaves less for the width, so each is tried with narrower widths too.
+`evenbreak.ratings.levels`), and for the half-life of old results. The width that makes the actual
+scores most likely is chosen first, if there are enough results. Then each of the others is added in
+turn if it clearly predicts better, and the width is chosen again. Knowledge about players leaves
+less for the width to explain, so each addition is tried with narrower widths too.
 
-`evenbreak.ratings.clear_gains` says when one way of rating clearly predicts better than another.
+`evenbreak.ratings.clear_gains` decides when one method clearly predicts better than another.
 """
 
 from __future__ import annotations
@@ -45,16 +45,16 @@ from evenbreak.ratings.stretches import (
 from evenbreak.workers import Share
 
 WIDTHS = tuple(PRIOR_SD * 2.0 ** (k / 2) for k in range(-6, 6))
-"""The widths tried: from an eighth of a doubling of the odds, in steps of √2."""
+"""The widths tried, from an eighth of the difference that doubles the odds, in steps of √2."""
 
 AS_GOOD = 1.92
-"""What a width may lose in all, in nats, to be as good as the best: half of chi-squared's 95%."""
+"""Total loss, in nats, within which a width is as good as the best: half of chi-squared's 95%."""
 
 VAGUE = 4.0
-"""Where widths this many times apart are as good as the best, the results cannot choose."""
+"""If widths differing by this factor are as good as the best, the results cannot choose."""
 
 FEWEST = 100
-"""Games (or matches known by the winner alone) to predict before a width is chosen by them."""
+"""Games (or matches known only by their winner) to predict before they can choose a width."""
 
 TRIED = {
     "brought_sd": (0.05, 0.1, 0.2, 0.4, 0.8),
@@ -64,29 +64,28 @@ TRIED = {
     "newcomers": (-0.4, -0.2, 0.2, 0.4, 0.6, 0.8, 1.2),
     "field": (0.25, 0.5, 0.75, 1.0, 1.25),
 }
-"""The sizes tried of what `Levels` can hold, in the order in which they are added.
+"""The values tried for the fields of `Levels`, in the order in which they are added.
 
-How much stated races count is not tried: it is estimated by all of them (`race_share`).
+The weight of stated races is not tried: it is estimated from all of them (`race_share`).
 """
 
 OF_NEWCOMERS = ("joined", "newcomers", "field")
-"""Of these, which say much the same, the one that gains most at least (95%) is added first."""
+"""Of these similar fields, the one with the largest gain at the lower 95% bound is added first."""
 
 NARROWER = 3
-"""How many narrower widths each of these is tried with."""
+"""How many narrower widths each field is tried with."""
 
 ENOUGH = 30_000
-"""Matches by which to choose, those of some clubs that meet, where a season has twice as many.
+"""Matches used to choose if a season has twice as many; they come from clubs that meet.
 
-They tell steps of √2 in the width apart, and what anything gains a game to about 0.4e-4 nats.
+They suffice to tell apart widths that differ by √2, and gains per game to about 0.4e-4 nats.
 """
 
 MANY_NEW = 20
-"""Players who joined late, or did not, or met others as newcomers, that are enough, where they are
-not a tenth of all."""
+"""Players who must have joined late, or not, or met others as newcomers, if under a tenth have."""
 
 STEP = 0.05
-"""How far apart sizes are from which the standard error of the best one is taken."""
+"""Distance between sizes used to compute the standard error of the best one."""
 
 Progress = Callable[[int, int], None]
 
@@ -99,22 +98,21 @@ class Evidence(NamedTuple):
     of
         a field of `Levels`, or 'half_life'.
     tried
-        the sizes that were tried; for 'half_life' days.
+        the sizes that were tried; days for 'half_life'.
     gains
-        how much log-loss a game each of them saves, in nats, given what was added before; at the
-        width that suits the best of them.
+        the log-loss per game that each size saves, in nats, given what was added before, at the
+        width that suits the best size.
     used
-        whether it clearly predicts better, and is used.
+        whether the addition clearly predicts better and is therefore used.
     value
         the size that predicts best.
     standard_error
-        None where it is not used, or only a few sizes were compared.
+        None if it is not used, or if only a few sizes were compared.
     players
-        how many players the gain rests on: without the matches of the so many who show it most
-        there is none. Of those who joined late, or did not, no more than are in the smaller group
-        where that is small.
+        how many players the gain rests on: the smallest number without whose matches no gain is
+        left. For late joining, at most the size of the smaller group, if that is small.
     too_few
-        whether it is not used because these are too few.
+        whether it is not used because these players are too few.
     """
 
     of: str
@@ -128,7 +126,7 @@ class Evidence(NamedTuple):
 
     @property
     def gain(self) -> Estimate:
-        """The gain of the best of the sizes tried."""
+        """The gain of the best size tried."""
         return max(self.gains, key=lambda gain: gain.value)
 
 
@@ -138,13 +136,13 @@ class PriorChoice(NamedTuple):
     Attributes
     ----------
     prior_sd
-        that width, in natural log-odds; the one nearest to `PRIOR_SD` where `learned` is false.
+        that width, in natural log-odds; the one nearest to `PRIOR_SD` if `learned` is false.
     tried
         all widths, in rising order.
     log_loss
-        for each of them the mean of -ln P(the score | the days before) a game: each game is
-        predicted from the days before and the games before it in its match. A match of which only
-        the winner is known counts as one.
+        for each width, the mean of -ln P(score | earlier days) per game: each game is predicted
+        from earlier days and the earlier games of its match. A match known only by its winner
+        counts as one game.
     predicted
         how many games and such matches were predicted.
     low, high
@@ -152,15 +150,15 @@ class PriorChoice(NamedTuple):
     learned
         whether the range is narrow enough to choose by, and 100 results were predicted.
     as_it_went
-        the log-loss where each stretch has the width that did best before it.
+        the log-loss if each stretch uses the width that did best before it.
     levels
         what the file knows about players, as far as it clearly helps.
     half_life
         in days; None: old games count in full.
     evidence
-        what each of these gains.
+        the gain from each of these.
     part
-        how many matches it was chosen by, where that was a part of them; None: all.
+        how many matches were used to choose, if not all; None: all.
     """
 
     prior_sd: float
@@ -188,15 +186,15 @@ def best_prior(
     progress: Progress = lambda _done, _all: None,
     share: Share | None = None,
 ) -> PriorChoice:
-    """Return the prior, and the half-life, whose ratings predict later matches best.
+    """Return the prior and half-life whose ratings predict later matches best.
 
     Predictions are averaged over the uncertainty of the ratings. Players who have not played yet
-    are predicted from their prior alone, so the matches of newcomers count too.
-    Where fewer than 100 games are predicted, or widths four times apart predict equally well,
-    there are too few results to choose by, and the width nearest to the default is returned.
+    are predicted from their prior alone, so newcomers' matches count too. If fewer than 100 games
+    are predicted, or widths four times apart predict equally well, there are too few results to
+    choose by, and the width nearest to the default is returned.
 
-    Levels and half-lives are added one after another where they clearly predict better (see
-    `evenbreak.ratings.prior`). Of more than 60,000 matches about 30,000 are used (see
+    Levels and half-lives are added one after another if they clearly predict better (see
+    `evenbreak.ratings.prior`). From more than 60,000 matches, about 30,000 are used (see
     `evenbreak.ratings.season_part`).
 
     Parameters
@@ -208,18 +206,18 @@ def best_prior(
     half_life
         'best' to choose it; else as for `fit`.
     beginning
-        ratings that players bring along; None: there are none.
+        ratings that players bring with them; None: there are none.
     break_advantage, scale
         as for `fit`; the scale only matters for a break advantage in points.
     progress
-        called with how much is done, and of how much.
+        called with the work done so far and the total.
     share
         as for `stretch_losses`.
 
     Raises
     ------
     InputError
-        if a date is missing, all matches are of one day, or a width is not in 0.001 to 100.
+        if a date is missing, all matches are on one day, or a width is not in 0.001 to 100.
 
     Notes
     -----
@@ -294,13 +292,13 @@ def best_prior(
 
 
 def _sizes(known: Sequence[str], races: Estimate | None) -> dict[str, tuple[float, ...]]:
-    """Return the sizes to try of what is known."""
+    """Return the sizes to try for each field."""
     first = {} if races is None or "race" not in known else {"race": (races.value,)}
     return first | {name: TRIED[name] for name in known if name in TRIED}
 
 
 def _with(way: Mapping[str, Any], name: str, value: float) -> dict[str, Any]:
-    """Return a way to rate with one more thing that counts."""
+    """Return a rating method with one more thing that counts."""
     if name == "half_life":
         return {**way, name: value}
     return {**way, "levels": replace(way["levels"], **{name: value})}
@@ -332,7 +330,7 @@ class _Search:
         self._known: dict[tuple[Any, ...], tuple[Floats, Floats]] = {}
 
     def _losses(self, ways: Sequence[Mapping[str, Any]]) -> StretchLosses:
-        """Return what each way loses; two ways differ in width, half-life or levels."""
+        """Return the loss of each method; any two differ in width, half-life or levels."""
         names = [(way["prior_sd"], way["half_life"], way["levels"]) for way in ways]
         new = {name: way for name, way in zip(names, ways, strict=True) if name not in self._known}
         if new:
@@ -355,7 +353,7 @@ class _Search:
         return losses
 
     def width(self, tried: Floats, way: Mapping[str, Any]) -> PriorChoice:
-        """Return the width that predicts best, rating in some way."""
+        """Return the width that predicts best, given the rest of the method."""
         of_width = self._losses([{**way, "prior_sd": width} for width in tried.tolist()])
         total = of_width.losses.sum(0)
         good = tried[total <= total.min() + AS_GOOD]
@@ -377,7 +375,7 @@ class _Search:
     def add(
         self, name: str, sizes: Sequence[float], way: Mapping[str, Any], tried: Floats
     ) -> tuple[Evidence, float]:
-        """Return what it gains to let one more thing count, and the width that suits it."""
+        """Return the gain from letting one more thing count, and the width that suits it."""
         width = float(way["prior_sd"])
 
         def losses(width: float) -> StretchLosses:
@@ -406,7 +404,7 @@ class _Search:
         return found, width
 
     def _narrowed(self, way: Mapping[str, Any], tried: Floats) -> float:
-        """Return the width of a way, or a narrower one, as long as each predicts better."""
+        """Return a method's width, or a narrower one, as long as each predicts better."""
         best = float(way["prior_sd"])
         least = self._losses([way]).means[0]
         narrower = tried[tried < best][: -NARROWER - 1 : -1].tolist()
@@ -428,10 +426,10 @@ class _Search:
     def sharpened(self, coarse: Evidence, way: Mapping[str, Any]) -> Evidence:
         """Return the same with the best size between those tried, and its standard error.
 
-        One step of Newton's method from the best of them; the error is the sandwich's, the larger
-        of two: stretches being independent of each other, or matches without a common player. What
-        is expected of newcomers is drawn toward 0 as far as it is not certain, since it is only
-        used where it looks large.
+        It takes one Newton step from the best of them. The error is the larger of two sandwich
+        estimates: with independent stretches, and with independent matches unless they share a
+        player. The newcomers' disadvantage is shrunk toward 0 according to its uncertainty, since
+        it is used only when it looks large.
         """
         if coarse.of == "race" and coarse.used and self._races is not None:
             return coarse._replace(standard_error=self._races.standard_error)
@@ -462,7 +460,7 @@ def _from_default(widths: Floats) -> Floats:
 
 
 def _as_it_went(of_width: StretchLosses, tried: Floats) -> float:
-    """Return the log-loss where each stretch has the width that did best before it."""
+    """Return the log-loss if each stretch uses the width that did best before it."""
     before = np.cumsum(of_width.losses, axis=0) - of_width.losses
     # Before the first stretch nothing is known: then the width nearest to the default is used.
     before[0] = _from_default(tried)

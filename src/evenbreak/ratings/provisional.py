@@ -1,10 +1,10 @@
-"""Who has a place in a list of ratings: those whose ratings rest on enough games.
+"""Who is ranked in a list of ratings: players whose ratings rest on enough games.
 
-A rating from a handful of games says little, so that among many newcomers one is near the top by
+A rating from a handful of games says little, so among many newcomers, one will be near the top by
 luck. FargoRate calls a rating preliminary below 200 games; so do lists here. In a league that has
-played less, that would leave no one: there the number is a third of what its regulars have, the
-games of the player in the middle when each player counts once for each game. Visitors with a match
-or two, however many, do not change it, and whoever is in the middle always has a place.
+played less, that would leave no one, so the limit there is a third of what its regulars have
+played: the games of the median player when each player counts once per game. Visitors with a match
+or two don't change it, however many there are, and the median player is always ranked.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from numpy.typing import ArrayLike
 from evenbreak.arrays import Bools, Floats
 
 ESTABLISHED = 200
-"""Games from which a rating is established everywhere."""
+"""Games at which a rating is established everywhere."""
 
 SHARE = 3.0
-"""By what the games of a regular are divided in a league that has played less."""
+"""Divisor of a regular's games in a league that has played less."""
 
 
 def established_from(games: ArrayLike) -> int:
-    """Return from how many games a list's rating is established: 200, or fewer in a small one."""
+    """Return how many games establish a rating in this list: 200, or fewer in a small one."""
     played = np.sort(np.asarray(games, dtype=float).clip(0.0))[::-1]
     total = played.cumsum()
     middle = played[np.searchsorted(total, total[-1] / 2.0)] if len(played) else 0.0
@@ -32,10 +32,11 @@ def established_from(games: ArrayLike) -> int:
 
 
 def is_provisional(games: ArrayLike, least: int | None = None) -> Bools:
-    """Return which ratings rest on fewer games than a list asks for.
+    """Return which ratings rest on fewer games than a list requires.
 
-    Games below 0 are not stated: a rating may then rest on none, unless that is so for all, or the
-    list states only new players, by 0. `least` is by default `established_from`.
+    Negative games mean that the number is not stated: such a rating may rest on none, unless this
+    is so for all, or the list marks only new players, with 0. `least` is by default
+    `established_from`.
 
     >>> is_provisional([300, 12, -1]), is_provisional([-1, -1])
     (array([False,  True,  True]), array([False, False]))
@@ -47,10 +48,10 @@ def is_provisional(games: ArrayLike, least: int | None = None) -> Bools:
 
 
 def games_of_winner(race_a: ArrayLike, race_b: ArrayLike) -> Floats:
-    """Return how many games say as much as the winner of a race of which no score is known.
+    """Return how many games say as much as the winner of a race whose score is unknown.
 
-    Where both win alike, a game says p (1 - p) about the log-odds, and the winner of the race
-    [p (1 - p) W'(p)]² / (1/4), with W(p) = 1/2: the quotient is 4 p (1 - p) W'(p)².
+    Between equals, a game has the information p (1 - p) about the log-odds, and the winner of the
+    race [p (1 - p) W'(p)]² / (1/4), with W(p) = 1/2: the quotient is 4 p (1 - p) W'(p)².
 
     >>> games_of_winner([1, 7, 7], [1, 7, 4]).round(1)
     array([1. , 8.6, 6.7])

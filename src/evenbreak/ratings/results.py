@@ -1,8 +1,8 @@
-"""What was played, column by column.
+"""Match results, stored by column.
 
 A `Results` holds one match per row, as arrays. It knows nothing of files: a reader builds a
-`Results`, asks `find_problems` for contradictions in it, and says in which line of the file each of
-them is. Every check is a mask over all rows; a message is made only for the rows that fail it.
+`Results`, asks `find_problems` for contradictions in it, and reports the line of the file for each
+one. Every check is a mask over all rows; a message is made only for the rows that fail it.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ _CODES = {"winner": 3, "first_break": 3, "break_format": len(FORMATS)}
 
 
 class Played(NamedTuple):
-    """The matches that were played, and how many rows were left out: forfeits and 0-0."""
+    """The matches played, and how many rows were left out as forfeits or 0-0."""
 
     results: Results
     forfeits: int
@@ -60,49 +60,49 @@ class Played(NamedTuple):
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class Results:
-    """Matches as columns: one row per match, read-only arrays of one length.
+    """Matches as columns: one row per match, in read-only arrays of equal length.
 
     Parameters
     ----------
     players
         the names, each once.
     player_a, player_b
-        who played: positions in `players`. Which of the two is called a has no
-        meaning; in particular, a is not assumed to break.
+        who played: positions in `players`. It makes no difference which player is called a; in
+        particular, a is not assumed to break.
     score_a, score_b
         games won by each.
     date
         days (`datetime64[D]`, NaT where not stated).
     race_a, race_b
-        the games that each needed to win the match, 0 where not stated. Where they are
-        stated, the player who reached their race won, whoever won more games.
+        the games that each needed to win the match, 0 where not stated. If they are stated, the
+        player who reached their race won, even with fewer games.
     winner, first_break
         the winner of the match and the first breaker: 1 for a, 2 for b, 0 where not stated.
     break_format
         who breaks the next rack: positions in `FORMATS`, 0 where not stated.
     racks
-        who won each rack, in order, as text like 'abba'; '' where not stated.
+        who won each rack, in order, as a string like 'abba'; '' where not stated.
     event
         any text.
     team_a, team_b, division
         the team of each player and the division of the match; '' where not stated.
     level_a, level_b
-        the class, the skill level or the rating by which the league handicaps each player, as
-        text; '' where not stated.
+        the class, the skill level or the rating by which the league handicaps each player, as a
+        string; '' where not stated.
     forfeit
         whether the match was a forfeit; its scores then do not count as games played.
     unscored
         whether only the race and the winner are known; both must then be stated, and
         the scores are 0.
 
-    The optional columns are None where there is no such column.
+    Optional columns that don't exist are None.
 
     Raises
     ------
     InputError
-        if columns differ in length, hold what is not of their type (a score of 2.5, a
-        forfeit marked NaN or 'no'), or a position or code is out of range. Contradictions
-        that a person may have typed are left to `find_problems`.
+        if columns differ in length, hold a value of the wrong type (a score of 2.5, a forfeit
+        marked NaN or 'no'), or a position or code is out of range. Contradictions from typing
+        errors are left to `find_problems`.
 
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 0], [5, 0])
     >>> season.players, season.player_a, len(season)
@@ -146,7 +146,7 @@ class Results:
         self._refuse_unknown()
 
     def _refuse_unknown(self) -> None:
-        """Refuse unscored matches whose race or winner is not stated."""
+        """Raise an error if an unscored match has no stated race or winner."""
         if self.unscored is None:
             return
         for name in ("race_a", "race_b", "winner"):
@@ -184,24 +184,24 @@ class Results:
 
     @classmethod
     def from_frame(cls, frame: pd.DataFrame) -> Results:
-        """Return the results in a DataFrame, one match per row.
+        """Return the results from a DataFrame with one match per row.
 
         Parameters
         ----------
         frame
-            with the columns of a results file: `player_a`, `player_b`, `score_a` and `score_b`, and
-            those of `date`, `race_a`, `race_b`, `winner`, `first_break`, `break_format`, `racks`,
-            `event`, `team_a`, `team_b`, `division`, `level_a`, `level_b` and `forfeit` that are
-            known. `winner` and `first_break` are a, b or a name. A forfeit may leave its scores
-            empty, and so may a match of which the races and the winner are known. Other columns are
-            not used, and names that differ only in case or blanks are one player's; warnings say
-            so.
+            a DataFrame with the columns of a results file: `player_a`, `player_b`, `score_a`,
+            `score_b`, and any known ones of `date`, `race_a`, `race_b`, `winner`, `first_break`,
+            `break_format`, `racks`, `event`, `team_a`, `team_b`, `division`, `level_a`, `level_b`
+            and `forfeit`. `winner` and `first_break` are a, b or a name. The scores may be left
+            empty for a forfeit, and for a match whose races and winner are known. Other columns are
+            ignored, and names that differ only in case or spaces are treated as one player;
+            warnings say so.
 
         Raises
         ------
         DataError
-            with every cell that has no meaning and every contradiction, one per line, which
-            names the row by its label in the index.
+            listing every invalid cell and every contradiction, one per line, with the row's index
+            label.
 
         >>> import pandas as pd
         >>> frame = pd.DataFrame({"player_a": ["Ann", "Bo"], "player_b": ["Bo", "Cy"],
@@ -246,14 +246,14 @@ class Results:
 
     @property
     def counted(self) -> Bools:
-        """Which matches enter ratings: those with games or a known winner, without forfeits."""
+        """Which matches count in ratings: those with games or a known winner, except forfeits."""
         played = (self.score_a > 0) | (self.score_b > 0)
         if self.unscored is not None:
             played = played | self.unscored
         return np.asarray(played & ~self.given_away)
 
     def select(self, rows: NDArray[Any]) -> Results:
-        """Return the rows that a mask or positions pick; `players` stays as it is."""
+        """Return the rows selected by a mask or by positions; `players` is unchanged."""
         columns = {name: getattr(self, name) for name in _TYPES}
         picked: dict[str, Any] = {
             name: None if values is None else values[rows] for name, values in columns.items()
@@ -261,9 +261,9 @@ class Results:
         return Results(self.players, **picked)
 
     def joined(self, later: Results) -> Results:
-        """Return the results with those of `later`, which are between the same players, at the end.
+        """Return these results followed by `later`, which has the same players.
 
-        Columns that only one of them has are filled up with what is not stated.
+        Columns that only one of the two has are filled with "not stated".
 
         >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[7])
         >>> more = season.joined(Results.from_names(["Bo"], ["Ann"], [7], [2]))
@@ -285,7 +285,7 @@ class Results:
         return Results(self.players, **columns)
 
     def unplayed(self) -> Results:
-        """Return the matches as they stood before they were played: at 0-0, without a winner."""
+        """Return the matches as they were before play: at 0-0, without a winner."""
         columns = {name: getattr(self, name) for name in _TYPES}
         for name in ("score_a", "score_b", "winner", "racks", "forfeit", "unscored"):
             if columns[name] is not None:
@@ -293,10 +293,10 @@ class Results:
         return Results(self.players, **columns)
 
     def played(self) -> Played:
-        """Return the matches with games in them, and how many rows were left out.
+        """Return the matches with at least one game, and how many rows were left out.
 
         A forfeit is left out whatever its score; a 0-0 that is not a forfeit counts as
-        empty. For matches known by their winner alone see `won_only`.
+        empty. For matches known only by their winner, see `won_only`.
 
         >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 0], [5, 0])
         >>> season.played()[1:]
@@ -311,14 +311,14 @@ class Results:
         return Played(kept, int(forfeit.sum()), int((empty & ~forfeit).sum()))
 
     def won_only(self) -> Results:
-        """Return the matches known by race and winner alone, without forfeits."""
+        """Return the matches known only by race and winner, without forfeits."""
         if self.unscored is None:
             return self.select(np.zeros(0, dtype=np.int64))
         return self.select(self.unscored & ~self.given_away)
 
 
 def _unstated(name: str, rows: int) -> NDArray[Any]:
-    """Return a column of which nothing is stated."""
+    """Return a column with no value stated."""
     kind = _TYPES[name]
     if name == "date":
         return np.full(rows, "NaT", dtype=kind)
@@ -328,11 +328,11 @@ def _unstated(name: str, rows: int) -> NDArray[Any]:
 # Where the columns contradict each other.
 
 _Finding = tuple[Bools, str, str]
-"""The rows that fail a check, the column to blame, and a message for `_words` to fill in."""
+"""The rows that fail a check, the column at fault, and a message for `_words` to fill in."""
 
 
 class Problem(NamedTuple):
-    """A problem of one cell: the row (from 0), the column, and a remedy in words."""
+    """A problem with one cell: the row (from 0), the column, and a remedy in words."""
 
     row: int
     column: str
@@ -340,12 +340,11 @@ class Problem(NamedTuple):
 
 
 def find_problems(results: Results) -> list[Problem]:
-    """Return every contradiction in the rows, in the order of the rows.
+    """Return every contradiction in the rows, in row order.
 
-    It looks for scores and races below zero, players on both sides of a match, a race given
-    for one player only, scores that do not fit the races, a stated winner who fits neither,
-    and racks that fit none of these. Forfeits and 0-0 rows need not fit their race: they
-    were not played out.
+    It looks for scores and races below zero, players on both sides of a match, a race given for one
+    player only, scores that do not fit the races, a stated winner who fits neither, and racks that
+    fit none of these. Forfeits and 0-0 rows need not fit their race: they were not played out.
 
     >>> from evenbreak.ratings import Results
     >>> season = Results.from_names(["Ann"], ["Bo"], [4], [5], race_a=[7], race_b=[5], winner=[1])
@@ -366,7 +365,7 @@ def find_problems(results: Results) -> list[Problem]:
 
 
 def _words(results: Results, row: int) -> dict[str, Any]:
-    """Return what messages about a row may quote."""
+    """Return the values that messages about a row may quote."""
     scores = int(results.score_a[row]), int(results.score_b[row])
     race = tuple(int(needed[row]) for needed in results.races)
     score = f"{scores[0]}-{scores[1]}"
@@ -388,7 +387,7 @@ _COUNTS = ("score_a", "score_b", "race_a", "race_b")
 
 
 def _cells(results: Results) -> Iterator[_Finding]:
-    """Find what is wrong whatever else the row says."""
+    """Find what is wrong regardless of the rest of the row."""
     for name in _COUNTS:
         values: Ints | None = getattr(results, name)
         if values is not None:
@@ -400,13 +399,13 @@ def _cells(results: Results) -> Iterator[_Finding]:
 
 
 def _finished(results: Results) -> Bools:
-    """Return which rows hold a match played to its end, with scores that are possible."""
+    """Return which rows hold a finished match with possible scores."""
     whole = (results.score_a >= 0) & (results.score_b >= 0)
     return whole & ((results.score_a > 0) | (results.score_b > 0)) & ~results.given_away
 
 
 def _races(results: Results) -> Iterator[_Finding]:
-    """Find races that are stated for one player only, and scores that do not fit them."""
+    """Find races stated for only one player, and scores that do not fit their races."""
     race_a, race_b = results.races
     for missing, stated, lone in (
         ("race_b", "race_a", (race_a > 0) & (race_b == 0)),
@@ -434,7 +433,7 @@ def _races(results: Results) -> Iterator[_Finding]:
 def who_won(results: Results) -> NDArray[np.int8]:
     """Return 1 or 2 where the scores and races determine the winner, else 0.
 
-    With a race that is the player who reached it, without one the player with more games.
+    With a race, that is the player who reached it; without one, the player with more games.
     Forfeits and 0-0 have no winner.
 
     >>> from evenbreak.ratings import Results

@@ -1,7 +1,7 @@
-"""The diagonal of the inverse of a large sparse matrix, nearly, and how nearly.
+"""Approximate diagonal of the inverse of a large sparse matrix, with an error estimate.
 
-The Hessian H of a league is divided into blocks of players who mostly play each other: clubs. With
-θ ~ N(0, H⁻¹), I a block and O all others, the law of total variance gives
+The Hessian H of a league is divided into blocks of players who mostly play each other: clubs. If θ
+~ N(0, H⁻¹), I is a block and O is all others, the law of total variance gives
 
     H⁻¹_II = H_II⁻¹ + cov(m),    m = E(θ_I | θ_O) = -H_II⁻¹ H_IO θ_O,
 
@@ -16,8 +16,8 @@ has the covariance H⁻¹ (Papandreou & Yuille 2010). All draws are solved for t
 gradients, with the blocks as the preconditioner M. Where C are the weights across blocks,
 H ≥ M / (1 + max C/D): so the residual bounds the error of a solution.
 
-Where all of D are equal, to τ, the level of each connected component is put aside exactly: it has
-the variance 1/(τn).
+If all of D equals τ, the level of each connected component is separated exactly: it has the
+variance 1/(τn).
 
 With K draws the sampled part s of a variance v has the relative standard error √(2/K), and v at
 most √(2/K) s/v. Draws are added until that is small enough for everyone; where it takes fewer
@@ -39,23 +39,23 @@ from evenbreak.arrays import Bools, Floats, Ints, Places
 from evenbreak.errors import AccuracyError
 
 ENOUGH = 0.01
-"""The relative standard error of a standard deviation up to which draws are added."""
+"""Draws are added until the relative standard error of a standard deviation is this small."""
 
 FIRST, MOST = 64, 2000
-"""Draws to begin with; and solutions, of draws and of single players, at most."""
+"""Number of draws to start with, and the most solves, for draws and for single players."""
 
 SEED = 1
-"""Of the draws, so that the same league always has the same answer."""
+"""Seed of the draws, so that the same league always gives the same answer."""
 
 BLOCK = 128
-"""The most players of a block."""
+"""The most players in a block."""
 
 _EXACTLY = 1e-2
-"""The error of a solution, in its own energy norm: that of a draw is as many standard deviations
-of each player at most, and that of a single player's variance the square of it, relatively."""
+"""Error of a solution in its own energy norm: the most standard deviations by which a draw is off
+for any player; the square of it is the relative error of a single player's variance."""
 
 _NUMBERS = 16_000_000
-"""Numbers in the largest of the arrays that hold several draws."""
+"""Elements in the largest array that holds several draws."""
 
 _MOST_STEPS = 5_000
 
@@ -63,8 +63,8 @@ _MOST_STEPS = 5_000
 class InverseDiagonal(NamedTuple):
     """The diagonal of an inverse, n values.
 
-    `relative_error` is the standard deviation of the relative error of the least certain; 0 where
-    they aren't sampled.
+    `relative_error` is the standard error of the least certain value, relative to it; 0 if the
+    values aren't sampled.
     """
 
     value: Floats
@@ -74,7 +74,8 @@ class InverseDiagonal(NamedTuple):
 def sampled_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> InverseDiagonal:
     """Return the diagonal of the inverse of a diagonally dominant M-matrix, by blocks and draws.
 
-    As for `evenbreak.ratings.inverse_diagonal`; an AccuracyError if it is singular to rounding.
+    As in `evenbreak.ratings.inverse_diagonal`. Raises AccuracyError if the matrix is singular to
+    within rounding.
 
     >>> path = sparse.csc_array([[2.0, -1.0, 0.0], [-1.0, 3.0, -1.0], [0.0, -1.0, 2.0]])
     >>> sampled_diagonal(path, 1.0).value  # one block: exact
@@ -111,7 +112,7 @@ def sampled_diagonal(matrix: sparse.csc_array, row_sum: float | None) -> Inverse
 
 
 def _division(share: Floats) -> tuple[int, Places]:
-    """Return how many draws to make, and which players to solve for, with the least work."""
+    """Return the number of draws and the players to solve for that take the least work."""
     hardest_first = np.argsort(-share, kind="stable")[:MOST]
     draws = np.ceil(2.0 * (share[hardest_first] / (2.0 * ENOUGH)) ** 2)
     alone = int((np.maximum(draws, FIRST) + np.arange(len(draws))).argmin())
@@ -142,13 +143,13 @@ class _Noise:
 
 @dataclass(frozen=True, eq=False)
 class _Shares:
-    """The mean over each connected component, or nothing where no level is put aside."""
+    """The mean over each connected component, or nothing if no level is separated."""
 
     component: NDArray[Any]
     to_means: sparse.csr_array | None
 
     def apart(self, values: Floats) -> Floats:
-        """Return values less their mean over each component."""
+        """Return values minus their mean over each component."""
         if self.to_means is None:
             return values
         return np.asarray(values - (self.to_means @ values)[self.component])
@@ -157,7 +158,7 @@ class _Shares:
 def _levels(
     matrix: sparse.csc_array, blocks: _Blocks, row_sum: float | None
 ) -> tuple[Floats, _Shares]:
-    """Return what the components' levels add to the variances given the other blocks."""
+    """Return what the components' levels add to the variances, given the other blocks."""
     size = matrix.shape[0]
     if row_sum is None:
         return np.zeros(size), _Shares(np.zeros(size, dtype=np.int64), None)
@@ -171,7 +172,7 @@ def _levels(
 
 
 class _Blocks:
-    """A matrix whose players are divided into numbered blocks."""
+    """Matrix whose players are divided into numbered blocks."""
 
     def __init__(self, matrix: sparse.csc_array, block: Ints) -> None:
         self._matrix = sparse.csr_array(matrix)
@@ -198,7 +199,7 @@ class _Blocks:
         return np.maximum(self._matrix.sum(axis=1), 0.0)
 
     def precondition(self, right: Floats) -> Floats:
-        """Return the solution as if there were nothing across blocks."""
+        """Return the solution of the matrix without its entries across blocks."""
         padded = np.vstack([right, np.zeros((1, right.shape[1]))])
         solution = np.zeros_like(padded)
         for players, _, inverse in self._groups:
@@ -206,12 +207,12 @@ class _Blocks:
         return solution[:-1]
 
     def mean_given_others(self, theta: Floats) -> Floats:
-        """Return what each block's players are on average, given all other blocks."""
+        """Return the mean of each block's players, given all other blocks."""
         return -self.precondition(self.across @ theta)
 
     @cached_property
     def _residual(self) -> float:
-        """The square of the residual, as the preconditioner weighs it, at which to stop."""
+        """The squared residual, weighted by the preconditioner, at which to stop."""
         across = -self.across.sum(axis=1)
         apart = across > 0.0
         most = float((across[apart] / np.maximum(self.row_sums[apart], 1e-300)).max())
@@ -237,16 +238,16 @@ class _Blocks:
 
 
 def not_definite() -> AccuracyError:
-    """Return the error of a Hessian that rounding has made singular."""
+    """Return the error for a Hessian that rounding has made singular."""
     return AccuracyError(
         "the posterior's Hessian is singular to within rounding errors. Give a smaller prior_sd."
     )
 
 
 def _groups_of(block: Ints) -> list[tuple[Places, Bools]]:
-    """Return the players of the blocks of about one size, and which places hold one.
+    """Return the players in blocks of similar size, and which places hold a player.
 
-    The others hold the number of players, and stand for no one.
+    Empty places hold the number of players, which is no one's position.
     """
     order = np.argsort(block, kind="stable")
     size = np.bincount(block)
@@ -281,10 +282,10 @@ _ROUNDS = 64
 
 
 def blocks_of(players: int, low: Ints, high: Ints, weight: Floats) -> NDArray[np.int64]:
-    """Return the number of the block of each player, found by who plays who.
+    """Return each player's block number, found from who plays whom.
 
-    Blocks grow from single players: in each round those two become one that are, for each of them,
-    the closest that are not too large together. How close two blocks are is the mean weight of
+    Blocks grow from single players: in each round, two blocks merge if each is the other's closest
+    among those that would not make it too large. The closeness of two blocks is the mean weight of
     their pairs of players.
 
     >>> low, high = np.array([0, 0, 1, 2, 3, 3, 4]), np.array([1, 2, 2, 3, 4, 5, 5])

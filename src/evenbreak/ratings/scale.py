@@ -1,12 +1,12 @@
-"""What a rating difference means: a scale says how many points double the odds.
+"""Rating scales: how many points double the odds.
 
-A difference of d points on a scale of s points a doubling gives the game probability
-p = 1 / (1 + 2^(-d/s)), so the odds p / (1 - p) are 2^(d/s).
+A difference of d points on a scale with s points per doubling gives the game probability p = 1 / (1
++ 2^(-d/s)), so the odds p / (1 - p) are 2^(d/s).
 
-Where ratings do not say what their scale is, the numbers decide, or the user must. 612 can only be
-a Fargo rating, and 92 only one of the NPL. Where a list fits no single scale, a guess could turn a
-favorite of 59% into one of 76%, so none is made. Nor are ratings read on the scale that a chart or
-a system brings along if they look like those of another.
+If ratings come without a scale, the numbers decide, or the user must: 612 can only be a Fargo
+rating, and 92 only an NPL rating. If a list doesn't fit exactly one scale, no guess is made,
+because a wrong one could turn a 59% favorite into a 76% favorite. Nor are ratings read on a chart's
+or a system's own scale if they look like those of another scale.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ class Scale:
     points_per_doubling
         points, above zero.
     center
-        the rating of an average player, in points: the anchor of ratings where the user
-        gives none. Differences do not depend on it.
+        the rating of an average player, in points: the anchor of ratings if the user gives none.
+        Differences do not depend on it.
 
     Raises
     ------
@@ -77,7 +77,7 @@ class Scale:
 
     @property
     def text(self) -> str:
-        """The scale's name in files, or else its points; `scale_of` reads it.
+        """The scale's name in files, or its points if it has none; `scale_of` reads it.
 
         >>> SCALES["fargo"].text, Scale("of my club", 40.0).text
         ('fargo', '40')
@@ -87,12 +87,12 @@ class Scale:
         return f"{self.points_per_doubling!r}".removesuffix(".0")
 
     def same_points(self, other: Scale) -> bool:
-        """Return whether a difference of ratings means the same on another scale."""
+        """Return whether rating differences mean the same on another scale."""
         return math.isclose(self.points_per_doubling, other.points_per_doubling, rel_tol=1e-6)
 
     @property
     def points_per_log_odds(self) -> float:
-        """Points of difference for each unit of natural log-odds."""
+        """Points per unit of natural log-odds."""
         return self.points_per_doubling / math.log(2.0)
 
     @overload
@@ -100,7 +100,7 @@ class Scale:
     @overload
     def log_odds(self, difference: Many) -> Floats: ...
     def log_odds(self, difference: float | Many) -> float | Floats:
-        """Return the natural log-odds of a game, given a difference in points."""
+        """Return the natural log-odds of winning a game, given a difference in points."""
         return _numbers(difference, "difference") / self.points_per_log_odds
 
     @overload
@@ -108,7 +108,7 @@ class Scale:
     @overload
     def points(self, log_odds: Many) -> Floats: ...
     def points(self, log_odds: float | Many) -> float | Floats:
-        """Return the difference in points that has these natural log-odds."""
+        """Return the difference in points that corresponds to these natural log-odds."""
         return _numbers(log_odds, "log_odds") * self.points_per_log_odds
 
     @overload
@@ -118,8 +118,8 @@ class Scale:
     def win_probability(self, difference: float | Many) -> float | Floats:
         """Return P(player 1 wins a game | rating 1 - rating 2 = difference).
 
-        The chances of both players keep their digits: the loser's is
-        `win_probability(-difference)`, as accurate as the winner's however small it is.
+        Both players' chances have full relative precision: the weaker player's is
+        `win_probability(-difference)`, as accurate as the favorite's, however small it is.
 
         Parameters
         ----------
@@ -149,9 +149,9 @@ class Scale:
     @overload
     def rack(self, difference: Many) -> Rack[Floats]: ...
     def rack(self, difference: float | Many) -> Rack[Any]:
-        """Return one rack between two players, given the difference of their ratings in points.
+        """Return one rack between two players, given their rating difference in points.
 
-        Both chances keep their digits, however small one of them is.
+        Both chances have full relative precision, however small one of them is.
 
         >>> SCALES["npl"].rack(1600.0).chance(2)
         8.811845986046434e-17
@@ -203,14 +203,14 @@ SCALES: dict[str, Scale] = {
     "fargo": Scale("fargo", 100.0, 500.0),
     "elo": Scale("elo", 400.0 * math.log10(2.0), 1500.0),
 }
-"""The scales in use, by name."""
+"""The supported scales, by name."""
 
 NAMES = {"npl": "NPL", "fargo": "Fargo", "elo": "Elo"}
-"""What people call them."""
+"""Other names for the scales."""
 
 
 def scale_of(text_or_number: Any) -> Scale:
-    """Return a scale by its name, or the scale on which so many points double the odds.
+    """Return a scale by its name or by the number of points that double the odds.
 
     Parameters
     ----------
@@ -276,24 +276,25 @@ def _numbers(value: float | Many, name: str) -> float | Floats:
 
 
 DEFAULT_SCALE = "npl"
-"""The scale of ratings that are estimated from results, and of lists without a single rating."""
+"""The scale of ratings estimated from results, and of lists without any rating."""
 
 USUAL = {"npl": (-50.0, 150.0), "fargo": (150.0, 950.0), "elo": (1000.0, 3000.0)}
-"""Where the ratings of a scale lie, from the weakest beginners to the best players."""
+"""Where ratings on a scale lie, from the weakest beginners to the best players."""
 
 
 HIGHEST_LEVEL = 9
-"""Whole numbers from 1 up to this one can be skill levels (APA's reach it at nine-ball)."""
+"""Whole numbers from 1 to this one can be skill levels (APA nine-ball goes up to it)."""
 
 
 def unstated_scale(
     ratings: Iterable[float], names: Sequence[str], remedy: str, source: str = "", levels: str = ""
 ) -> Scale:
-    """Return the only scale that all ratings can be on; without a rating, the default one.
+    """Return the only scale that all ratings can be on; without any rating, the default scale.
 
-    NaN is no rating. An InputError if they fit no scale, or two: it starts with their source, says
-    what they would mean on each, and ends with the remedy. Two or more that all look like skill
-    levels are refused too; that ends with the remedy for `levels`.
+    NaN means no rating. Raises InputError if they fit no scale, or more than one: the message
+    starts with their source, says what they would mean on each scale, and ends with the remedy. Two
+    or more ratings that all look like skill levels are also an error, which ends with the remedy
+    for `levels`.
     """
     rated = [(rating, k) for k, rating in enumerate(ratings) if not math.isnan(rating)]
     if not rated:
@@ -335,11 +336,11 @@ def unstated_scale(
 def refuse_contradicted(
     scale: Scale, ratings: Iterable[float], names: Sequence[str], *, whose: str, remedy: str
 ) -> None:
-    """Refuse ratings that don't look like those of the known scale that would be used.
+    """Raise an error if ratings don't look like those of the known scale that would be used.
 
-    One rating is far off after a typo, so the median decides (NaN is no rating). `whose` is where
+    A typo can put one rating far off, so the median decides (NaN means no rating). `whose` is where
     the scale comes from, such as 'the chart npl_10'. The InputError says what the ratings would
-    mean on this scale and on those that they look like, and ends with the remedy.
+    mean on this scale and on the scales that they fit, and ends with the remedy.
 
     >>> refuse_contradicted(
     ...     SCALES["npl"], [612, 521], ["Ann", "Bo"], whose="the chart npl_10", remedy="Say which."
@@ -384,7 +385,7 @@ def refuse_contradicted(
 
 
 def _readings(gap: float, scales: Iterable[str]) -> Sentence:
-    """Return how often a player this far ahead wins a game, by each of some scales."""
+    """Return how often a player this far ahead wins a game on each of the given scales."""
     shares = [(name, SCALES[name].win_probability(gap)) for name in scales]
     (first, share), *rest = shares
     said = [say("{p:.0%} of the time by {scale} ratings", p=float(share), scale=NAMES[first])]

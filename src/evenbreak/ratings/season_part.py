@@ -1,8 +1,8 @@
-"""A part of a season that is far larger than is needed to choose a prior by: whole clubs that meet.
+"""Part of a very large season, enough to choose a prior: whole clubs that meet.
 
-Matches drawn singly would leave each player with few of them, and the prior would seem to matter
-more than it does. So clubs are drawn, as who plays who shows them, each with all matches within
-it and those with the clubs drawn before it.
+Matches drawn one by one would leave each player with few of them, and the prior would seem to
+matter more than it does. So whole clubs are drawn, recognized by who plays whom, each with all
+matches within it and those against clubs drawn earlier.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from evenbreak.ratings.sampled_diagonal import SEED, blocks_of
 
 
 def connected_part(results: Results, matches: int) -> Results:
-    """Return the matches among some clubs that meet each other: so many that count, or a few more.
+    """Return the matches among some clubs that meet: as many as asked for, or a few more.
 
     A season with fewer is returned as it is. The same season always has the same part.
 
@@ -43,7 +43,7 @@ def _met(size: int, a: Ints, b: Ints) -> tuple[Ints, Ints, Floats]:
 
 
 def _drawn(a: Ints, b: Ints, blocks: int, matches: int) -> np.ndarray:
-    """Return which blocks are drawn: at random, each among those that meet one drawn before it."""
+    """Return which blocks are drawn: at random, each among those that meet an earlier one."""
     met = sparse.csr_array((np.ones(len(a)), (a, b)), shape=(blocks, blocks))
     met = sparse.csr_array(met + met.T)  # within a block every match counts twice
     order = np.random.default_rng(SEED).permutation(blocks)
@@ -65,7 +65,7 @@ def _drawn(a: Ints, b: Ints, blocks: int, matches: int) -> np.ndarray:
 
 
 def _among(results: Results, players: Ints) -> Results:
-    """Return the matches of some players among each other."""
+    """Return the matches that the given players played among themselves."""
     place = np.full(len(results.players), -1)
     place[players] = np.arange(len(players))
     rows = results.select((place[results.player_a] >= 0) & (place[results.player_b] >= 0))

@@ -1,8 +1,8 @@
 """What each rating is made of.
 
-In the normal approximation a skill is the mean of what each source says, weighted by precision:
-1/s² for the rating is that of the prior, plus J of the rating brought along (see
-`evenbreak.ratings.beginning`), plus that of the results, which is what is left.
+In the normal approximation, a skill is the precision-weighted mean of its sources. The precision of
+the rating, 1/s², is the sum of the prior's, the J of the rating that the player brought (see
+`evenbreak.ratings.beginning`), and that of the results, which is the remainder.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from typing import NamedTuple
 from evenbreak.ratings.fitted import Ratings
 
 LEAST = 1e-3
-"""The weight from which a source says something."""
+"""Weight above which a source says something."""
 
 
 class RatingSource(NamedTuple):
     """What one source, 'prior', 'brought' or 'results', says about a player's rating.
 
-    Ratings, in points, are None where it says next to nothing; the weight is its share.
+    The rating, in points, is None if the source says next to nothing; the weight is its share.
     """
 
     source: str
@@ -29,10 +29,10 @@ class RatingSource(NamedTuple):
 
 
 def rating_sources(ratings: Ratings, player: int) -> list[RatingSource]:
-    """Return what a player's rating is made of: the ratings, by weight, have it as their mean.
+    """Return a player's rating as a weighted mean of what its sources say.
 
-    Of a rating that was made from results the part that its own prior had in it is taken out. The
-    ratings are those of `fit` without named players as its anchor.
+    If a rating that the player brought was made from results, the share of its own prior is taken
+    out. The ratings must come from `fit` without named players as anchors.
 
     >>> from evenbreak.ratings import Beginning, Levels, Results, fit
     >>> old = Beginning(["Ann", "Bo"], [95, 65], [10, 10])

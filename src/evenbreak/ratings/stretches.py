@@ -1,14 +1,14 @@
-"""How well ways of rating predict a season: stretch by stretch, from the days before alone.
+"""How well rating methods predict a season, stretch by stretch, from earlier days alone.
 
 The season is divided into stretches of whole days. Each stretch but the first is predicted
 from the ratings of all days before it, and from their uncertainty. Nothing is predicted from
-itself. What counts is the chance of each match's score, averaged over the difference of its players
-(see `evenbreak.ratings.integrated`).
+itself. The criterion is the chance of each match's score, averaged over the difference between its
+players (see `evenbreak.ratings.integrated`).
 
-The skills that matches show in several ways of rating are those of `evenbreak.ratings.fit`. It goes
-through the matches for each way again; here the likelihood is made once for each half-life, what is
-known of players once for each set of levels, and the modes are found together, or each from the one
-before where there are many players.
+The skills by each rating method are those of `evenbreak.ratings.fit`. While `fit` goes through the
+matches again for each method, here the likelihood is built once for each half-life, the knowledge
+about players once for each set of levels, and the modes are found together or, if there are many
+players, each from the previous one.
 """
 
 from __future__ import annotations
@@ -51,18 +51,18 @@ from evenbreak.ratings.scale import DEFAULT_SCALE, scale_of
 from evenbreak.workers import Share
 
 STRETCHES = 30
-"""How many stretches a season is divided into, if it has as many days."""
+"""Number of stretches in a season, if it has as many days."""
 
 KEPT_UP_TO = 5_000
-"""Matches up to which a divided season is kept: it fills about as much memory as 100 of them."""
+"""Matches up to which a divided season is kept: it uses about the memory of 100 of them."""
 
 
 class StretchLosses(NamedTuple):
-    """What was lost in predicting each stretch.
+    """Losses in predicting each stretch.
 
-    `losses`, shape (stretches, ways), is the sum of -ln P(the score | the days before) over
-    matches, and `of_match` the same by match; `predicted` counts games, and matches known by the
-    winner only.
+    `losses`, shape (stretches, ways), is the sum of -ln P(score | earlier days) over matches, and
+    `of_match` is the same by match; `predicted` counts games, and matches known only by their
+    winner.
     """
 
     losses: Floats
@@ -72,7 +72,7 @@ class StretchLosses(NamedTuple):
 
     @property
     def means(self) -> Floats:
-        """The loss a game (or such a match) of each way."""
+        """Each method's loss per game (or per such match)."""
         return np.asarray(self.losses.sum(0) / self.predicted.sum())
 
 
@@ -83,12 +83,12 @@ def stretch_losses(
     progress: Callable[[int, int], None] = lambda _done, _all: None,
     share: Share | None = None,
 ) -> StretchLosses:
-    """Predict each stretch of a season from the days before it, in several ways.
+    """Predict each stretch of a season from the days before it, by several methods.
 
-    Matches are on at least two days; forfeits and 0-0 may lack a date. Ways are options of `fit`,
-    all with a break advantage or none. `share` gives stretches of a large season to other processes
-    (see `evenbreak.workers`), for the same answer. An InputError if a date is missing, all matches
-    are of one day, or an option is out of range.
+    Matches are on at least two days; forfeits and 0-0 may lack a date. Methods are options of
+    `fit`, all with a break advantage or none. `share` gives stretches of a large season to other
+    processes (see `evenbreak.workers`), for the same answer. Raises InputError if a date is
+    missing, all matches are on one day, or an option is out of range.
     """
     return Stretches(results).losses(ways, progress=progress, share=share)
 
@@ -97,7 +97,7 @@ _OfStretch: TypeAlias = tuple[float, Floats, tuple[Places, Places]]
 
 
 class Stretches:
-    """A season to be predicted several times over, stretch by stretch."""
+    """Season to be predicted several times over, stretch by stretch."""
 
     def __init__(self, results: Results) -> None:
         self._played, self._date = _played(results)
@@ -106,7 +106,7 @@ class Stretches:
 
     @property
     def is_small(self) -> bool:
-        """Whether several ways take little longer than one."""
+        """Whether several methods take little longer than one."""
         return len(self._played.players) <= SOLVED_AT_ONCE
 
     def losses(
@@ -116,7 +116,7 @@ class Stretches:
         progress: Callable[[int, int], None] = lambda _done, _all: None,
         share: Share | None = None,
     ) -> StretchLosses:
-        """Predict each stretch in several ways; the parameters are those of `stretch_losses`."""
+        """Predict each stretch by several methods; the parameters are those of `stretch_losses`."""
         losses = np.zeros((len(self._ends), len(ways)))
         predicted = np.zeros(len(self._ends))
         of_match, players = [], []
@@ -137,7 +137,7 @@ class Stretches:
         return StretchLosses(losses, predicted, np.concatenate(of_match), PlayersBehind(*sides))
 
     def one(self, row: int, ways: Sequence[Mapping[str, Any]]) -> _OfStretch:
-        """Return how much a stretch has to predict, what each match loses, and who played it.
+        """Return how much a stretch has to predict, the losses of each match, and its players.
 
         The losses have the shape (matches, ways).
         """
@@ -147,7 +147,7 @@ class Stretches:
         return scores.predicted, -scores.log_chances(*season.differences(ways, *sides)).T, sides
 
     def _prepared(self, row: int, *, breaks: bool) -> tuple[SeasonSoFar, Scores]:
-        """Return the season before a stretch, and the scores in it."""
+        """Return the season before a stretch, and the scores in the stretch."""
         if (row, breaks) in self._ready:
             return self._ready[row, breaks]
         first, last = self._ends[row]
@@ -166,7 +166,7 @@ def _one(asked: tuple[Stretches, Sequence[Mapping[str, Any]]], row: int) -> _OfS
 
 
 def can_be_predicted(results: Results) -> bool:
-    """Return whether all matches that count have a date, and there are two days at least.
+    """Return whether all matches that count have a date, on at least two days.
 
     >>> can_be_predicted(Results.from_names(["A"], ["B"], [7], [5], date=["2026-01-31"]))
     False
@@ -180,10 +180,10 @@ def _undated(played: Results) -> int:
 
 
 def _with_schedule(before: Results, coming: Results) -> Results:
-    """Return matches, and others as they stand before they are played: at 0-0, without a winner.
+    """Return played matches together with others as they are before play: at 0-0, without a winner.
 
-    A league may set a race by the results of the days before, so of the remaining matches only
-    those keep their race of which neither player has played on an earlier day among them.
+    A league may set a race from the results of earlier days, so an upcoming match keeps its race
+    only if neither of its players has played on an earlier upcoming day.
     """
     unplayed = coming.unplayed()
     if coming.date is not None and has_handicaps(coming):
@@ -203,7 +203,7 @@ def _first_days(results: Results, date: NDArray[np.datetime64]) -> Bools:
 
 
 def _played(results: Results) -> tuple[Results, NDArray[np.datetime64]]:
-    """Return the matches that count and their dates, or refuse those without one."""
+    """Return the matches that count and their dates, or raise an error for those without one."""
     played = results.select(results.counted)
     undated = _undated(played)
     if undated:
@@ -232,14 +232,15 @@ def _stretches(date: NDArray[np.datetime64]) -> list[tuple[np.datetime64, np.dat
 
 
 DRAWS, ACCURACY = 16, 0.03
-"""With how many draws, and how exactly, variances are found where there are more players.
+"""Number of draws, and accuracy, used to find variances if there are more players.
 
-In a league of 1,000 players and 10,000 matches they are then off by 2%, at the width that suits it.
+In a league of 1,000 players and 10,000 matches, the variances are then off by 2%, at the width that
+suits it.
 """
 
 
 class Differences(NamedTuple):
-    """How players differ (the first less the second), rated in several ways, in log-odds.
+    """Differences between players (first minus second) by several rating methods, in log-odds.
 
     Shape (ways, differences); the break advantage has shape (ways,).
     """
@@ -250,11 +251,11 @@ class Differences(NamedTuple):
 
 
 SOLVED_AT_ONCE = 80
-"""Players up to which all ways are solved together, which is faster than one after the other."""
+"""Players up to which all methods are solved together, which is then faster than in turn."""
 
 
 MOST_AHEAD = 2.0
-"""How far beyond two ways that have been rated a third one is begun on the line through them."""
+"""How far beyond two solved methods the line through them may be extrapolated for a third."""
 
 
 def _place(
@@ -264,13 +265,13 @@ def _place(
     levels: Levels | None = None,
     **_other: Any,
 ) -> Floats:
-    """Return where a way to rate is, so that the modes of near ones are near each other."""
+    """Return a method's coordinates, which put methods with similar modes near each other."""
     sizes = [getattr(levels or Levels(), name) for name in SIZES]
     return np.array([math.log(prior_sd), 200.0 / half_life if half_life else 0.0, *sizes])
 
 
 class SeasonSoFar:
-    """The matches before some day, to be rated in several ways; forfeits and 0-0 don't count."""
+    """The matches before some day, rated by several methods; forfeits and 0-0 don't count."""
 
     def __init__(self, results: Results) -> None:
         self._results = results
@@ -285,17 +286,17 @@ class SeasonSoFar:
         self._found: list[tuple[Floats, Floats]] = []
 
     def skills(self, ways: Sequence[Mapping[str, Any]]) -> tuple[Floats, Floats]:
-        """Return the skills in each way, and the break advantages, both in natural log-odds.
+        """Return the skills and the break advantages by each method, in natural log-odds.
 
-        The options of a way are those of `fit`: a prior, a half-life, a break advantage with its
-        scale, and levels. All ways have a break advantage, or none.
+        A method's options are those of `fit`: a prior, a half-life, a break advantage with its
+        scale, and levels. All methods have a break advantage, or none.
         """
         return self._modes(ways, [self._asked(**way) for way in ways])
 
     def differences(
         self, ways: Sequence[Mapping[str, Any]], first: Places, second: Places
     ) -> Differences:
-        """Return how some players differ, rated in each way; the ways are those of `skills`."""
+        """Return the differences between pairs of players by each method, as in `skills`."""
         asked = [self._asked(**way) for way in ways]
         skills, advantages = self._modes(ways, asked)
         if self._players <= SOLVED_AT_ONCE:
@@ -312,7 +313,7 @@ class SeasonSoFar:
         first: Places,
         second: Places,
     ) -> Floats:
-        """Return the variance of each difference in each way, nearly."""
+        """Return the approximate variance of each difference by each method."""
         terms = asked[0].terms
         pairs = self._players, terms.low, terms.high
         drawn = DrawnDifferences(*pairs, first, second, draws=DRAWS, accuracy=ACCURACY)
@@ -339,7 +340,7 @@ class SeasonSoFar:
         return found[:, :-1], found[:, -1]
 
     def _start(self, place: Floats) -> Floats | None:
-        """Return skills near the mode of a way: on the line through those of two others, if any."""
+        """Return skills near a mode: on the line through those of two other methods, if any."""
         if not self._found:
             return None
         places, modes = zip(*self._found, strict=True)
@@ -380,7 +381,7 @@ class SeasonSoFar:
         )
 
     def _mode(self, way: WayToRate, start: Floats | None) -> Floats:
-        """Return the skills and the break advantage in one way."""
+        """Return the skills and the break advantage by one method."""
         mode = find_mixed_mode(
             way.terms,
             way.precision,

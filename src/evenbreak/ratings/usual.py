@@ -1,4 +1,4 @@
-"""Ratings as a league is rated unless someone wants it otherwise, with the prior that fits it."""
+"""Rate a league in the usual way, with the prior that fits it."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ def usual_ratings(
         as for `fit`.
     prior
         the standard deviation of skills before any result, in log-odds; 'best': the one that
-        predicts best; None: the same where the dates can show it, else the usual one.
+        predicts best; None: the same if the dates are enough to find it, else the usual one.
     half_life
         in days, or 'best', or None for no decay; 'best' needs a prior that is chosen.
     beginning
-        ratings that players bring along.
+        ratings that players bring with them.
     progress
-        called with how much of the search is done, and of how much.
+        called with the amount of the search done so far and the total.
 
     >>> from evenbreak.ratings.scale import scale_of
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
@@ -87,7 +87,7 @@ def rated_alike(ratings: Ratings, results: Results) -> Callable[[Results], Ratin
     Parameters
     ----------
     ratings, results
-        the ratings, and the matches that they come from.
+        the ratings, and the matches that they were fitted to.
 
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
     >>> again = rated_alike(fit(season, prior_sd=0.4), season)
@@ -125,7 +125,7 @@ def _choice(
     *,
     asked: bool,
 ) -> PriorChoice | None:
-    """Return the prior that predicts best; None where the dates cannot show it and no one asked."""
+    """Return the prior that predicts best; None if the dates don't show it and no one asked."""
     if as_of is not None:
         results = results.select(until(results, day_of(as_of)))
     if not asked and not can_be_predicted(results):

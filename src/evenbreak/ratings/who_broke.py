@@ -1,18 +1,18 @@
-"""Who broke each rack, as far as the results say.
+"""Who broke each rack, as far as the results show it.
 
 `first_break` broke the first rack; who broke the next follows from the break format and,
 for winner and loser breaks, from who won the rack before.
 
-A match known by its score alone says less. In a race whose break format and first breaker are
-known, the score i:j and the winner of the last rack determine how many racks each player broke: a
-broke n of them. It is not known how many of those a won, k. The sequences of racks with the same k
-are equally likely, and there are c(k) of them, so that with the skills' difference d and the break
+A match known only by its score says less. In a race whose break format and first breaker are known,
+the score i:j and the winner of the last rack determine how many racks each player broke: a broke n
+of them. It is not known how many of those a won, k. The sequences of racks with the same k are
+equally likely, and there are c(k) of them, so that with the skills' difference d and the break
 advantage β
 
     P(score) = exp(d i) / ((1 + exp(d + β))^n (1 + exp(d - β))^(i + j - n))
                * Σ_k c(k) exp(β (2k - i)):
 
-the difference is as well known as if every rack were, and only β is known less well.
+the difference is known as well as if every rack were known; only β is known less well.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from evenbreak.ratings.results_frame import FORMATS
 
 
 class BreakWins(NamedTuple):
-    """The racks that a broke, how many of them (k) a may have won, and the logarithm of c(k)."""
+    """The racks that a broke, how many of them (k) a may have won, and the log of c(k)."""
 
     broke_a: int
     won: Floats
@@ -39,7 +39,7 @@ class BreakWins(NamedTuple):
 
 
 class BreakWinsTerms(NamedTuple):
-    """Terms of the likelihood: 2k less its middle value, and log c(k), -inf beyond its end.
+    """Likelihood terms: 2k minus its middle value, and log c(k), -inf beyond its end.
 
     Shape (terms, most values of k).
     """
@@ -82,7 +82,7 @@ def break_wins(form: str, first: int, games: tuple[int, int], last: int) -> Brea
     Players are 1 for a, 2 for b; the form is 'winner', 'loser' or 'alternate'; the winner of the
     last rack won at least one.
 
-    Sequences are counted by their runs: of t racks in r runs there are C(t - 1, r - 1).
+    Sequences are counted by their runs: there are C(t - 1, r - 1) of t racks in r runs.
 
     >>> wins = break_wins("winner", 1, (2, 1), 1)  # aba or baa: a won 1 of 2
     >>> wins.broke_a, wins.won, np.exp(wins.log_count)
@@ -143,8 +143,8 @@ _A, _B = FORMATS.index("a"), FORMATS.index("b")
 class Broken(NamedTuple):
     """Games by who broke, match by match: shape (3, rows), in the order not known, a, b.
 
-    `won` by player a, `lost` by player a. Where the score alone is known, `pattern` says
-    which row of `own_breaks` applies, else -1; won and lost then hold its middle.
+    `won` by player a, `lost` by player a. If only the score is known, `pattern` is the row of
+    `own_breaks` that applies, else -1; won and lost then hold its middle.
     """
 
     won: Floats
@@ -154,13 +154,13 @@ class Broken(NamedTuple):
 
 
 def count_broken(results: Results) -> Broken:
-    """Return how many games of each match a broke, b broke, or an unknown player.
+    """Return how many games in each match were broken by a, by b, or by an unknown player.
 
-    It is known who broke in matches where one player broke throughout (break format a or b); rack
-    by rack where `racks`, the break format and `first_break` are given, for the first rack
-    `first_break` alone; and in number where break format, `first_break` and a race are given that
-    one of the players reached (see `evenbreak.ratings.who_broke`). An InputError if racks do not
-    fit the score.
+    The breaker is known if one player broke throughout (break format a or b), and rack by rack if
+    `racks`, the break format and `first_break` are given; for the first rack, `first_break` is
+    enough. The number of racks that each player broke is known if the break format, `first_break`
+    and a race that one of the players reached are given (see `evenbreak.ratings.who_broke`). Raises
+    InputError if racks do not fit the score.
     """
     rows = len(results)
     won, lost = np.zeros((3, rows)), np.zeros((3, rows))
@@ -195,9 +195,9 @@ def count_broken(results: Results) -> Broken:
 
 
 def breakers(racks: str, form: str, first: int) -> list[int]:
-    """Return who broke each rack, won by a or b: 1 for a, 2 for b, 0 where it is not known.
+    """Return who broke each rack, given who won it: 1 for a, 2 for b, 0 if unknown.
 
-    The form is one of `FORMATS`; who broke first is 1, 2 or 0 likewise.
+    The break format is one of `FORMATS`; the first breaker is also 1, 2 or 0.
 
     >>> breakers("abb", "winner", 2), breakers("abb", "alternate", 1), breakers("abb", "", 1)
     ([2, 1, 2], [1, 2, 1], [1, 0, 0])
@@ -217,7 +217,7 @@ def breakers(racks: str, form: str, first: int) -> list[int]:
 
 
 def _last_winner(results: Results) -> NDArray[np.int8]:
-    """Return who won the last rack: the only one to reach the race; 0 where no race says so."""
+    """Return who won the last rack: the only one to reach the race; 0 if no race tells."""
     race_a, race_b = results.races
     raced = (race_a > 0) & (race_b > 0)
     a = raced & (results.score_a == race_a) & (results.score_b < race_b)
@@ -234,7 +234,7 @@ def _by_score(
     won: Floats,
     lost: Floats,
 ) -> tuple[Ints, BreakWinsTerms]:
-    """Fill in the games of matches known by their score, and return how they may be divided."""
+    """Fill in the games of matches known only by score, and return the ways to divide them."""
     pattern = np.full(len(results), -1)
     keys = np.column_stack([form, first, last, results.score_a, results.score_b])[rows]
     distinct, place = np.unique(keys, axis=0, return_inverse=True)

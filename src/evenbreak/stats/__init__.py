@@ -1,6 +1,6 @@
 """Statistics of scores: games won, runs, innings; intervals, trends and comparisons.
 
-This package knows only numbers: no games, no chains, no files.
+This package deals only with numbers: no games, no chains, no files.
 """
 
 import lazy_loader

@@ -1,11 +1,11 @@
-"""The tails of binomial counts, with their digits down to the smallest float."""
+"""The tails of binomial counts, with full precision down to the smallest float."""
 
 from __future__ import annotations
 
 from typing import Any
 
 _TINY = 1e-285
-"""Below this, powers inside the library's function may be too small for a float's full digits."""
+"""Below this, powers inside the library's function may be too small for full precision."""
 
 _CONVERGED = 1e-17
 
@@ -13,9 +13,9 @@ _CONVERGED = 1e-17
 def beta_tail(a: Any, b: Any, x: Any) -> Any:
     """Return I_x(a, b), the regularized incomplete beta function, elementwise.
 
-    For whole a and b it is the chance of at least a successes in a + b - 1 tries that succeed with
-    chance x each: of winning a games before losing b. Small x keep their digits, so pass 1 - x as a
-    small number instead of taking a result near 1 from 1.
+    For whole numbers a and b, it is the chance of at least a successes in a + b - 1 tries that each
+    succeed with chance x, that is, of winning a games before losing b. A small x keeps its digits,
+    so pass 1 - x as a small number instead of subtracting a result near 1 from 1.
 
     >>> f"{beta_tail(19, 10, 1e-16):.10e}"
     '6.9069000000e-298'

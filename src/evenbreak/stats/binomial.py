@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 
 _NEAR = 1e-9
-"""If a range comes nearer than this to the coverage wanted, the chance of the scores outside it
-decides; if that comes as near, relatively, it is decided in fractions."""
+"""Distance from the wanted coverage below which the chance of the scores outside the range decides;
+if that is relatively just as close, fractions decide."""
 
 
 def score_probability(p: FloatOrArray, m: FloatOrArray, n: FloatOrArray) -> FloatOrArray:
@@ -86,13 +86,13 @@ class ScoreRange(NamedTuple):
 
 @dataclass(frozen=True)
 class GamesWon(CountLaw):
-    """How many of a number of games player 1 wins.
+    """Distribution of the number of games that player 1 wins.
 
     Parameters
     ----------
     p
-        P(player 1 wins a game), the same for every game and independent of the others. A
-        float means the decimal that it prints as; a `fractions.Fraction` is used unchanged.
+        P(player 1 wins a game), the same for every game and independent of the others. A float
+        stands for the decimal that it prints; a `fractions.Fraction` is used unchanged.
 
     Raises
     ------
@@ -101,8 +101,8 @@ class GamesWon(CountLaw):
 
     Notes
     -----
-    Source: problems P5.9 and P5.10. Where there are two modes, the text's formula gives the
-    smaller one; its words, read strictly, give the larger. `modes` has both.
+    Source: problems P5.9 and P5.10. If there are two modes, the text's formula gives the smaller
+    one; its words, read strictly, give the larger one. `modes` has both.
 
     >>> law = GamesWon(120, 0.52)
     >>> law.mean, round(law.sd, 2), law.mode, law.median
@@ -137,7 +137,7 @@ class GamesWon(CountLaw):
 
     @property
     def modes(self) -> tuple[int, ...]:
-        """The most probable scores: one, or two consecutive ones of equal probability."""
+        """The most probable scores: one, or two consecutive scores with equal probability."""
         p = exact(self.p)
         # P(score = n) >= P(score = n - 1) as long as n <= (games + 1) p.
         peak = (self.games + 1) * p
@@ -182,7 +182,7 @@ class GamesWon(CountLaw):
         return _lower_sum(self.games, n, p)
 
     def normal_range(self, coverage: float) -> ScoreRange:
-        """Return the range of scores by the normal distribution of the same mean and sd.
+        """Return a range of scores from the normal distribution with the same mean and sd.
 
         The ends mean -+ z sd, with z = `critical_value(coverage)`, are rounded to the
         nearest score and kept within 0 and `games`.
@@ -220,8 +220,8 @@ class GamesWon(CountLaw):
     def exact_range(self, coverage: float) -> ScoreRange:
         """Return the shortest range of scores that has at least a given probability.
 
-        Where several ranges are equally short, it is the most probable of them, and the
-        lowest of those. Whether a range has the probability is decided without rounding.
+        If several ranges are equally short, it is the most probable one, and the lowest of equally
+        probable ones. Whether a range has the probability is decided without rounding.
 
         Parameters
         ----------
@@ -245,7 +245,7 @@ class GamesWon(CountLaw):
         return ScoreRange(low, high, float(self.between(low, high)))
 
     def _widening(self) -> Iterator[tuple[int, int, float]]:
-        """Yield ranges that start at the mode and take in the more probable neighbor each time.
+        """Yield ranges that start at the mode and grow by the more probable neighbor each time.
 
         The distribution has one peak, so each is the most probable range of its length.
         """
@@ -281,7 +281,7 @@ class GamesWon(CountLaw):
 
 
 def critical_value(coverage: FloatOrArray) -> FloatOrArray:
-    """Return the z with P(-z <= Z <= z) = coverage, for Z standard normal.
+    """Return the z for which P(-z <= Z <= z) = coverage, for a standard normal Z.
 
     Parameters
     ----------
@@ -295,7 +295,7 @@ def critical_value(coverage: FloatOrArray) -> FloatOrArray:
 
     Notes
     -----
-    Source: Table 5.1. `coverage_within` goes the other way.
+    Source: Table 5.1. `coverage_within` is the inverse.
 
     >>> critical_value([0.95, 0.5]).round(4)
     array([1.96  , 0.6745])
@@ -310,7 +310,7 @@ def critical_value(coverage: FloatOrArray) -> FloatOrArray:
 
 
 def coverage_within(z: FloatOrArray) -> FloatOrArray:
-    """Return P(-z <= Z <= z) for Z standard normal: the share within z standard deviations.
+    """Return P(-z <= Z <= z) for a standard normal Z: the share within z standard deviations.
 
     Parameters
     ----------

@@ -1,8 +1,10 @@
-"""Whether scores have changed: two lists of them, before and after.
+"""Compare two lists of scores, before and after, to see whether they have changed.
 
-The answer rests on one test, chosen beforehand: Welch's t test, which compares two means
-without assuming equal spreads. The others are there because they answer other questions or
-are often asked for; no one should pick the most pleasing one afterward.
+The answer is based on one test, chosen beforehand: Welch's t test, which compares two means
+without assuming equal spreads.
+
+The others are included because they answer other questions or are often requested; don't pick the
+most favorable one afterward.
 """
 
 from __future__ import annotations
@@ -30,7 +32,7 @@ class Significance(NamedTuple):
     """A test: its statistic, its degrees of freedom, and its two-sided p-value.
 
     `p_value` is the chance of a statistic at least this extreme if nothing has changed.
-    `freedom` is empty where the test has none.
+    `freedom` is empty if the test has none.
     """
 
     statistic: float
@@ -42,9 +44,9 @@ class Effect(NamedTuple):
     """The size of the difference, whether or not chance explains it.
 
     `g` is Hedges' g: the difference of the means in pooled standard deviations, corrected for
-    the bias of few scores, with its interval from `low` to `high`; all three are None where
-    neither list has a spread. `p_after_higher` is the share of all pairs, one score before
-    and one after, in which the later one is higher; ties count half.
+    the bias of few scores, with its interval from `low` to `high`; all three are None if neither
+    list has any spread. `p_after_higher` is the share of all pairs, one score before and one after,
+    in which the later one is higher; ties count half.
     """
 
     g: float | None
@@ -60,30 +62,30 @@ class Comparison:
     Parameters
     ----------
     difference, low, high
-        mean after minus mean before, and its interval by Welch; low and high are None where
-        neither list has a spread.
+        mean after minus mean before, and its interval by Welch; low and high are None if neither
+        list has any spread.
     welch
         are the two means equal? The test that was chosen; the spreads may differ.
     student
         are the two means equal, if the spreads are?
     anova
-        the same by analysis of variance: F = t squared, with the same p-value.
+        the same test by analysis of variance: F = t squared, with the same p-value.
     variances
         are the two variances equal? F is the variance after over the variance before.
     mann_whitney
-        is a score after as often above a score before as below it? By ranks, for scores of
-        any distribution; approximate where there are `ties`.
+        is a score after as often above a score before as below it? By ranks, for scores with any
+        distribution; approximate where there are `ties`.
     chi_squared
         is one list more often above the median of all scores than the other? Scores equal to
         that median are left out; without Yates' correction.
     counts
-        what chi-squared rests on: (below, above) before, (below, above) after.
+        the counts used by chi-squared: (below, above) before, (below, above) after.
     effect
         the size of the difference.
 
     Notes
     -----
-    A test is None where the lists do not allow it (no spread, all scores the same).
+    A test is None if the lists do not allow it (no spread, all scores the same).
     """
 
     before: Scores
@@ -109,8 +111,8 @@ def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
     Parameters
     ----------
     before, after
-        two finite numbers or more each: independent scores of one drill, with none left out
-        for being bad. For a single score after, see `was_it_luck`.
+        two or more finite numbers each: independent scores in one drill, without leaving out bad
+        ones. For a single score after, see `was_it_luck`.
     confidence
         of the intervals, between 0 and 1.
 
@@ -122,10 +124,10 @@ def compare(before: Any, after: Any, *, confidence: float = 0.95) -> Comparison:
 
     Notes
     -----
-    No test can say what made the change: a new stroke, more practice or another table. The
+    No test can say what caused the change: a new stroke, more practice or a different table. The
     end of P5.19 names these tests. Welch (1947); Mann & Whitney (1947), exact for short lists
-    without ties; Mood's median test; Hedges & Olkin (1985) for g and its interval,
-    g +- z sqrt((m + n)/(m n) + g^2 / (2 (m + n))) for m and n scores.
+    without ties; Mood's median test; Hedges & Olkin (1985) for g and its interval, g +- z sqrt((m +
+    n)/(m n) + g^2 / (2 (m + n))) for m and n scores.
 
     >>> found = compare([50, 44, 46, 52, 47, 51, 49, 45, 48, 50], [53, 49, 52, 54, 50, 51])
     >>> round(found.difference, 2), round(found.low, 2), round(found.high, 2)

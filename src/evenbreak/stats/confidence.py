@@ -1,8 +1,8 @@
-"""What a list of scores says about the true mean, and about one more score.
+"""Inference from a list of scores about the true mean, and about one more score.
 
-Two distributions can answer both questions. The normal distribution takes the spread of the
-scores (their population standard deviation) for the true one; Student's t allows for the
-spread being estimated from the same few scores. With 10 scores the difference matters.
+Two distributions can answer both questions. The normal distribution treats the spread of the scores
+(their population standard deviation) as the true one; Student's t allows for the spread being
+estimated from the same few scores. With 10 scores the difference matters.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from evenbreak.arrays import Floats
 
 LARGEST = 1e9
-"""The largest score allowed, positive or negative; beyond it a typing error is more likely."""
+"""The largest absolute score allowed; beyond it, a typo is more likely."""
 
 SMALLEST_SPREAD = 1e-60
-"""Scores that differ by less count as equal: its fourth power is still a float."""
+"""Scores that differ by less than this count as equal: its fourth power is still a float."""
 
 
 def sd_of_mean(sd: float, n: int, *, population: int | None = None) -> float:
@@ -30,11 +30,10 @@ def sd_of_mean(sd: float, n: int, *, population: int | None = None) -> float:
     Parameters
     ----------
     sd
-        of the values that are drawn from (population standard deviation).
+        the population standard deviation of the values drawn from.
     population
-        how many values there are, if each is drawn at most once (without replacement);
-        None if every draw is from all of them (with replacement, or from so many that it
-        makes no difference).
+        how many values there are, if each is drawn at most once (without replacement); None if
+        every draw is from all of them (with replacement, or from so many that it doesn't matter).
 
     Raises
     ------
@@ -61,7 +60,7 @@ def sd_of_mean(sd: float, n: int, *, population: int | None = None) -> float:
 
 
 class MeanInterval(NamedTuple):
-    """An interval for the true mean of scores, and what it was made from.
+    """Interval for the true mean of scores, and the numbers it is based on.
 
     Over many lists of scores, the share `confidence` of the intervals `low` to `high` contain
     the true mean. `sd` is the sample's (n - 1) for "t" and the population's (n) for "normal";
@@ -86,13 +85,13 @@ def mean_interval(
     Parameters
     ----------
     scores
-        two scores or more that differ, independent and nearly normal, without a trend.
+        two or more scores, not all equal; independent and nearly normal, without a trend.
     confidence
         the share of such intervals that contain the true mean, between 0 and 1.
     method
         "t" allows for the spread being estimated from the same scores, is exact for normal
-        scores and is the better choice; "normal" takes the spread of the scores for the true
-        one, and is too narrow where they are few.
+        scores and is the better choice; "normal" treats the spread of the scores as the true one,
+        and is too narrow if there are few scores.
 
     Raises
     ------
@@ -117,11 +116,11 @@ def mean_interval(
 
 
 class Reading(NamedTuple):
-    """How unusual a score is: how often chance alone gives one like it.
+    """How unusual a score is: how often chance alone gives such a score.
 
     `units` is the distance from the mean in standard deviations. If nothing has changed,
     `as_far` is the probability of a score at least this far from the mean on either side,
-    `as_high` of one at least this high, `as_low` of one at most this low.
+    `as_high` of a score at least this high, and `as_low` of a score at most this low.
     """
 
     units: float
@@ -131,7 +130,7 @@ class Reading(NamedTuple):
 
 
 class Luck(NamedTuple):
-    """How unusual one new score is compared with earlier ones, read in three ways and by its rank.
+    """How unusual a new score is compared with earlier ones, measured in three ways and by rank.
 
     Parameters
     ----------
@@ -144,8 +143,8 @@ class Luck(NamedTuple):
         by Student's t with n - 1 degrees of freedom and the standard deviation
         s sqrt(1 + 1/n) of a new score about an estimated mean: the better choice.
     cautious
-        by the normal distribution, counted not from the mean but from the nearer end of
-        its normal interval; `units` is 0 where the score lies inside it.
+        by the normal distribution, measured not from the mean but from the nearer end of its normal
+        interval; `units` is 0 if the score is inside it.
     as_high_by_rank, as_low_by_rank
         chance that the new one of n + 1 scores ranks at least this high (or this low) among
         them, whatever distribution they come from: 1 / (n + 1) for a score that beats all
@@ -163,12 +162,12 @@ class Luck(NamedTuple):
 
 
 def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
-    """Return the chance that luck alone gives a score like a new one.
+    """Return the chance that luck alone gives a score as unusual as a new one.
 
     Parameters
     ----------
     scores
-        two earlier scores or more that differ, independent and nearly normal.
+        two or more earlier scores, not all equal; independent and nearly normal.
     score
         one new score that was not picked for being good: the best of several new scores is
         high more often than these chances say.
@@ -184,9 +183,9 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
     -----
     P5.19: 53 after ten scores is 1.90 units out by the normal distribution, and 1.51 above the
     upper end of the 80% interval (3.8 / 2.52, both rounded; 1.4981 unrounded).
-    `P(|z| < 1.51)` is .87, so chance gives a score this far out 13% of the time; the text has
-    these two numbers the other way round. A single list of scores can only say how rare such a
-    score is: `compare` answers whether the scores have changed.
+    `P(|z| < 1.51)` is .87, so chance gives a score this far out 13% of the time; the text has these
+    two numbers reversed. A single list of scores can only say how rare such a score is: `compare`
+    answers whether the scores have changed.
 
     >>> luck = was_it_luck([50, 44, 46, 52, 47, 51, 49, 45, 48, 50], 53, confidence=0.8)
     >>> round(luck.normal.units, 2), round(luck.normal.as_far, 3), round(luck.t.as_far, 3)
@@ -215,7 +214,7 @@ def was_it_luck(scores: Any, score: float, *, confidence: float = 0.95) -> Luck:
 
 
 def checked_scores(scores: Any, name: str) -> Floats:
-    """Return scores as an array if there are two or more and all are finite numbers.
+    """Return scores as an array if there are at least two and all are finite numbers.
 
     >>> checked_scores([48], "scores")
     Traceback (most recent call last):
@@ -293,7 +292,7 @@ def _interval(scores: Floats, confidence: float, method: Literal["t", "normal"])
 
 
 def _reading(units: float, freedom: int | None = None) -> Reading:
-    """Read a distance by the normal distribution, or by Student's t with degrees of freedom."""
+    """Evaluate a distance by the normal distribution, or by Student's t with degrees of freedom."""
     from scipy.special import ndtr, stdtr
 
     def below(x: float) -> float:

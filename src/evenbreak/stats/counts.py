@@ -1,8 +1,8 @@
 """Distributions on the whole numbers 0, 1, 2, ...: games won, balls run, points scored.
 
-Probabilities are the decimals that people write: .9 is nine tenths. Ties are real: with p = .5 the
+Probabilities are the decimals that people write: .9 is nine tenths. Ties do occur: with p = .5, the
 chance of a score of 7 or less after 8 innings is exactly one half, and ceil((2 x .9 - 1) / (1 -
-.9)) is 8, but 9 in floats. So wherever floats come near a tie, modes, medians and quantiles are
+.9)) is 8, but 9 in floats. So whenever floats come close to a tie, modes, medians and quantiles are
 decided in rational arithmetic.
 """
 
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 _HALF = Fraction(1, 2)
 
 _NEAR = 1e-9
-"""If a tail comes nearer than this, relatively, to the level wanted, fractions decide."""
+"""Relative distance between a tail and the wanted level below which fractions decide."""
 
 
 class FairLine(NamedTuple):
-    """The line at which a bet on a score is fair, for three kinds of bet.
+    """Lines at which a bet on a score is fair, for three kinds of bet.
 
     `mean`: the bet pays an amount for every point above the line and costs as much for every point
     below it.
@@ -44,7 +44,7 @@ class FairLine(NamedTuple):
 
 
 class CountLaw(ABC):
-    """A probability distribution on 0, 1, 2, ... whose median and quantiles are exact.
+    """Probability distribution on 0, 1, 2, ... whose median and quantiles are exact.
 
     A subclass has `mean`, `sd` and `mode`, the exact sum `exact_cumulative`, and three
     functions of arrays of counts: `_probability`, `_cumulative` and `_at_least`, each with a
@@ -64,7 +64,7 @@ class CountLaw(ABC):
     @property
     @abstractmethod
     def mode(self) -> int:
-        """The most probable count; the smallest one where several are equally probable."""
+        """The most probable count; the smallest one if several are equally probable."""
 
     @abstractmethod
     def exact_cumulative(self, n: int) -> Fraction:
@@ -95,7 +95,7 @@ class CountLaw(ABC):
         return plain(self._at_least(whole_numbers(n, "n")))
 
     def between(self, low: FloatOrArray, high: FloatOrArray) -> FloatOrArray:
-        """Return P(low <= count <= high), both ends included; 0 where high is below low.
+        """Return P(low <= count <= high), both ends included; 0 if high is below low.
 
         A float for numbers, an array for arrays.
 
@@ -114,7 +114,7 @@ class CountLaw(ABC):
         return plain(np.where(high < low, 0.0, np.maximum(inside, 0.0)))
 
     def quantile(self, q: Any) -> int:
-        """Return the smallest count n with P(count <= n) >= q, decided without rounding.
+        """Return the smallest count n for which P(count <= n) >= q, decided without rounding.
 
         Raises
         ------
@@ -139,17 +139,17 @@ class CountLaw(ABC):
 
     @property
     def most(self) -> int | None:
-        """The largest possible count; None where there is none."""
+        """The largest possible count; None if there is none."""
         return None
 
     @property
     def median(self) -> int:
-        """The smallest count n with P(count <= n) >= 1/2."""
+        """The smallest count n for which P(count <= n) >= 1/2."""
         return self.quantile(_HALF)
 
     @property
     def relative_sd(self) -> float | None:
-        """The standard deviation over the mean; None where the mean is 0."""
+        """The standard deviation divided by the mean; None if the mean is 0."""
         return self.sd / self.mean if self.mean else None
 
     @property
@@ -158,7 +158,7 @@ class CountLaw(ABC):
         return FairLine(self.mean, self.median, self.mode)
 
     def _reaches(self, n: int, wanted: Fraction) -> bool:
-        """Return whether P(count <= n) >= wanted; the smaller tail has the better digits."""
+        """Return whether P(count <= n) >= wanted; the smaller tail is more precise."""
         if wanted < _HALF:
             reached, tail = self.cumulative(n), float(wanted)
         else:
@@ -169,13 +169,13 @@ class CountLaw(ABC):
 
 
 def exact(p: Any, name: str = "p") -> Fraction:
-    """Return a probability as the fraction that its decimal means.
+    """Return a probability as the fraction that its decimal stands for.
 
     Parameters
     ----------
     p
         a `Fraction` or an int from 0 to 1 is used unchanged, a float as the shortest decimal that
-        reads back as the same float, so that .9 is 9/10.
+        gives the same float, so that .9 is 9/10.
     name
         the value's name in the error.
 

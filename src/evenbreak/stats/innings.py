@@ -1,10 +1,9 @@
-"""What a player scores in a number of innings.
+"""A player's score in a number of innings.
 
-The score is the sum of as many runs. An inning is blank with chance 1 - alpha p, so the
-number of innings that score is binomial. If k innings score, they bring k balls plus the
-balls made before the k-th miss. Comparing two binomial counts avoids the sum: the score after
-m innings is n or less exactly if, of n shots each missed with chance 1 - p, at least as many
-are missed as innings score.
+The score is the sum of that many runs. An inning is blank with chance 1 - alpha p, so the number of
+innings that score is binomial. If k innings score, they bring k balls plus the balls made before
+the k-th miss. Comparing two binomial counts avoids the sum: the score after m innings is n or less
+exactly if, of n shots each missed with chance 1 - p, at least as many are missed as innings score.
 """
 
 from __future__ import annotations
@@ -25,21 +24,21 @@ from evenbreak.stats.counts import CountLaw, exact
 from evenbreak.stats.runs import checked_shots
 
 _NEAR = 1e-9
-"""Where two chances differ by less than this, relatively, fractions decide."""
+"""Relative difference between two chances below which fractions decide."""
 
 _CELLS = 1_000_000
-"""The most chances held in memory at once."""
+"""The largest number of chances held in memory at once."""
 
 
 @dataclass(frozen=True)
 class InningsScore(CountLaw):
-    """How many balls a player makes in a number of innings.
+    """Distribution of the number of balls that a player makes in a number of innings.
 
     Parameters
     ----------
     p
         P(the player makes a shot), the same for every shot but the first of an inning;
-        below 1. A float means the decimal that it prints as.
+        below 1. A float stands for the decimal that it prints.
     innings
         how many complete innings are played, 1 or more.
     safety
@@ -72,7 +71,7 @@ class InningsScore(CountLaw):
 
     @property
     def mean(self) -> float:
-        """The mean score: the innings times the mean run."""
+        """The mean score: the number of innings times the mean run."""
         p, alpha = exact(self.p), exact(self.safety)
         return float(self.innings * alpha * p / (1 - p))
 
@@ -84,7 +83,7 @@ class InningsScore(CountLaw):
 
     @property
     def mode(self) -> int:
-        """The most probable score; the smallest one where several are equally probable."""
+        """The most probable score; the smallest one if several are equally probable."""
         p, alpha = exact(self.p), exact(self.safety)
         if alpha == 1:
             # P(score = n + 1) / P(score = n) = (n + innings) p / (n + 1)
@@ -98,8 +97,8 @@ class InningsScore(CountLaw):
     def median_estimate(self) -> float:
         """The text's estimate of the median, (2 mean + mode) / 3.
 
-        Without safety play it is good from 4 innings on. With safety play the mode may be 0
-        (blank innings only) and then says nothing about the median.
+        Without safety play, it is good for 4 or more innings. With safety play, the mode may be 0
+        (blank innings only), and then says nothing about the median.
         """
         return (2.0 * self.mean + self.mode) / 3.0
 
@@ -161,7 +160,7 @@ class InningsScore(CountLaw):
         return np.where(np.equal(k, 0), 0.0, np.where(extra <= 0, 1.0, inside))
 
     def _peak(self) -> int:
-        """Return the most probable score from 1 up, where the distribution has a single peak."""
+        """Return the most probable score from 1 up, if the distribution has a single peak."""
         low, high = 0, math.ceil(self.mean) + 1
         while self._rises(high, high + 1):
             low, high = high, 2 * high
@@ -182,7 +181,7 @@ class InningsScore(CountLaw):
 
 
 def _binomial(p: Fraction, made: Any, missed: Any) -> Any:
-    """Return P(p; made, missed), from the smaller of p and 1 - p, which has the better digits."""
+    """Return P(p; made, missed), from the smaller of p and 1 - p, which is more precise."""
     if p <= Fraction(1, 2):
         return score_probability(float(p), made, missed)
     return score_probability(float(1 - p), missed, made)

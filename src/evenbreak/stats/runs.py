@@ -1,9 +1,9 @@
 """How many balls a player runs in one inning, with and without safety play.
 
 Every shot is made with the same chance p, independently of the others, so a run of n balls
-has chance p^n (1 - p). Where the opponent plays safe, the first shot of the inning is
-harder: it is made with chance alpha p, and P(run >= n) = alpha p^n for n >= 1. Fouls and
-their penalty points are ignored.
+has chance p^n (1 - p). If the opponent plays safe, the first shot of the inning is harder: it is
+made with chance alpha p, and P(run >= n) = alpha p^n for n >= 1. Fouls and their penalty points are
+ignored.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from evenbreak.errors import InputError
 from evenbreak.stats.counts import CountLaw, exact
 
 _MOST = 100_000
-"""The largest mean allowed; exact medians beyond it would take minutes."""
+"""The largest mean allowed; exact medians for larger ones would take minutes."""
 
 
 @dataclass(frozen=True)
 class RunLength(CountLaw):
-    """How many balls a player runs in one inning.
+    """Distribution of the number of balls that a player runs in one inning.
 
     Parameters
     ----------
     p
         P(the player makes a shot), the same for every shot but the first of the inning;
-        below 1. A float means the decimal that it prints as.
+        below 1. A float stands for the decimal that it prints.
     safety
         alpha: P(the first shot of the inning is made) = alpha p. 1 is no safety play.
 
@@ -66,14 +66,14 @@ class RunLength(CountLaw):
         Parameters
         ----------
         mean
-            balls an inning, 0 or more, against the safety play that `safety` describes.
+            balls per inning, 0 or more, against the safety play described by `safety`.
         safety
             as above, but not 0.
 
         Raises
         ------
         InputError
-            if no player has such an average.
+            if no player can have this average.
 
         >>> RunLength.of_mean(24)
         RunLength(p=Fraction(24, 25), safety=1)
@@ -119,7 +119,7 @@ class RunLength(CountLaw):
     def median_bound(self) -> float:
         """The bound -(log(2 alpha) / log p + 1) on the median.
 
-        The median is the first whole number not below it, or 0 where it is negative.
+        The median is the smallest whole number not below it, or 0 if it is negative.
         """
         p, safety = exact(self.p), exact(self.safety)
         if safety == 0:
@@ -129,7 +129,7 @@ class RunLength(CountLaw):
 
     @property
     def median_ratio(self) -> float | None:
-        """The median over the mean; None where the mean is 0."""
+        """The median divided by the mean; None if the mean is 0."""
         p, safety = exact(self.p), exact(self.safety)
         return float(self.median * (1 - p) / (safety * p)) if safety * p else None
 
@@ -169,12 +169,12 @@ def median_ratio_limit(safety: Any = 1) -> float:
 
 
 def shot_chance(mean: Any, safety: Any = 1) -> Fraction:
-    """Return the p of a player who averages `mean` balls an inning, mean / (mean + alpha).
+    """Return the p of a player who averages `mean` balls per inning, mean / (mean + alpha).
 
     Parameters
     ----------
     mean
-        balls an inning, 0 or more. A float means the decimal that it prints as.
+        balls per inning, 0 or more. A float stands for the decimal that it prints.
     safety
         alpha, as in `RunLength`, but not 0.
 
@@ -203,7 +203,7 @@ def shot_chance(mean: Any, safety: Any = 1) -> Fraction:
 
 
 def checked_shots(p: Any, safety: Any, innings: int = 1) -> tuple[Fraction, Fraction]:
-    """Return p and safety as fractions, if the mean score of so many innings is not too large.
+    """Return p and safety as fractions, if the mean score in this many innings is not too large.
 
     >>> checked_shots(1, 1)
     Traceback (most recent call last):

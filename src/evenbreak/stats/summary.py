@@ -17,11 +17,10 @@ from evenbreak.stats.counts import exact
 Number = float | Fraction
 
 _EQUAL = 1e-12
-"""Sums of float probabilities count as equal within this, and so do float probabilities,
-relative to the largest."""
+"""Tolerance for float probabilities: absolute for sums, relative to the largest otherwise."""
 
 _SUM = 1e-9
-"""How far from 1 float probabilities may sum."""
+"""Tolerance for the sum of float probabilities, which should be 1."""
 
 
 @dataclass(frozen=True)
@@ -33,16 +32,16 @@ class Distribution:
     values
         finite numbers, each larger than the one before it.
     probability
-        the probability of each; they sum to 1. With fractions the sum is exactly 1, and
-        median, mode and quantiles are exact. Floats sum to 1 within 1e-9; a cumulative float
-        probability within 1e-12 below q counts as having reached q, and float probabilities
-        within 1e-12 of the largest, relatively, count as equally large.
+        the probability of each; they sum to 1. Fractions sum to exactly 1, and make median, mode
+        and quantiles exact. Floats sum to 1 to within 1e-9; a cumulative float probability within
+        1e-12 below q counts as having reached q, and float probabilities within 1e-12 of the
+        largest, relatively, count as equally large.
 
     Raises
     ------
     InputError
-        if there is no value, a value is not a finite number, the values do not increase, or
-        the probabilities are not one for each value, from 0 to 1, with sum 1.
+        if there is no value, a value is not a finite number, the values do not increase, or there
+        is not exactly one probability from 0 to 1 for each value, with sum 1.
 
     Notes
     -----
@@ -67,7 +66,7 @@ class Distribution:
 
     @classmethod
     def of(cls, values: Iterable[Any], weights: Iterable[Any] | None = None) -> Distribution:
-        """Return the distribution of a sample, or of values with weights.
+        """Return the distribution of a sample, or of weighted values.
 
         Parameters
         ----------
@@ -76,7 +75,7 @@ class Distribution:
         weights
             the weight of each value, in the same order; whole numbers are counts. None:
             each value counts once. Counts and Fractions give exact probabilities, other
-            weights give floats. A value of weight 0 is left out.
+            weights give floats. A value with weight 0 is left out.
 
         Raises
         ------
@@ -131,12 +130,12 @@ class Distribution:
 
     @property
     def cumulative(self) -> tuple[Number, ...]:
-        """P(value <= each of `values`); Fractions where the probabilities are."""
+        """P(value <= each of `values`); Fractions if the probabilities are."""
         return tuple(accumulate(self.probability))
 
     @property
     def median(self) -> Number:
-        """The smallest value with P(value <= it) >= 1/2."""
+        """The smallest value for which P(value <= it) >= 1/2."""
         return self.quantile(Fraction(1, 2))
 
     @property
@@ -147,7 +146,7 @@ class Distribution:
 
     @property
     def mode(self) -> Number:
-        """The most probable value; the smallest one where several are equally probable."""
+        """The most probable value; the smallest one if several are equally probable."""
         return self.modes[0]
 
     @property
@@ -159,7 +158,7 @@ class Distribution:
         return tuple(value for value, probability in pairs if probability >= least)
 
     def quantile(self, q: Any) -> Number:
-        """Return the smallest value with P(value <= it) >= q.
+        """Return the smallest value for which P(value <= it) >= q.
 
         q = .9 gives the 90th percentile, q = 0 the smallest possible value, q = 1 the
         largest.
@@ -202,7 +201,7 @@ class Distribution:
 
 @dataclass(frozen=True)
 class Moments:
-    """The number of values, their mean, and their population standard deviation.
+    """Number of values, with their mean and population standard deviation.
 
     Raises
     ------
@@ -239,7 +238,7 @@ class Moments:
 def merge(parts: Iterable[Moments]) -> Moments:
     """Return the number, mean and standard deviation of several sets combined.
 
-    The values themselves are not needed. The variance of the whole is the mean of the parts'
+    The values themselves are not needed. The variance of the combined set is the mean of the parts'
     variances plus the variance of the parts' means, each part weighted by its size.
 
     Raises
@@ -300,7 +299,7 @@ def _plain(value: Any, name: str, low: float, high: float) -> Number:
 
 
 def _weights(weights: Iterable[Any] | None, many: int) -> list[Number]:
-    """Return the weights, as Fractions if all of them are whole numbers or Fractions."""
+    """Return the weights, as Fractions if all are whole numbers or Fractions."""
     if weights is None:
         return [Fraction(1)] * many
     listed = _numbers(weights, "weights", many=many)
@@ -310,7 +309,7 @@ def _weights(weights: Iterable[Any] | None, many: int) -> list[Number]:
 
 
 def _probabilities(probability: Iterable[Any], many: int) -> tuple[Number, ...]:
-    """Return `many` probabilities that sum to 1, all of them Fractions or all floats."""
+    """Return `many` probabilities that sum to 1, either all Fractions or all floats."""
     listed = _numbers(probability, "probability", many=many, high=1.0)
     rational = all(isinstance(p, int | Fraction) for p in listed)
     if sum(listed) != 1 if rational else abs(math.fsum(listed) - 1) > _SUM:

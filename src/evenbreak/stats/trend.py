@@ -1,4 +1,4 @@
-"""Whether scores change over time: the straight line through them."""
+"""Fit a straight line to scores to see whether they change over time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from evenbreak.stats.confidence import checked_scores, open_share, sd_of
 
 
 class Trend(NamedTuple):
-    """The slope of the line through scores, in points per unit of time.
+    """Slope of the line through scores, in points per unit of time.
 
     `low` to `high` is its interval with the given confidence. `p_value` is the chance of a
     slope at least this steep, up or down, if the true slope is 0.
@@ -23,7 +23,7 @@ class Trend(NamedTuple):
 
 
 class TrendLine(NamedTuple):
-    """The line of a trend at some times, and the interval of the true line at each of them."""
+    """The trend line at given times, and the interval of the true line at each of them."""
 
     at: Floats
     low: Floats
@@ -31,7 +31,7 @@ class TrendLine(NamedTuple):
 
 
 def trend_line(times: Any, scores: Any, at: Any, confidence: float = 0.95) -> TrendLine:
-    """Return the line of `trend` at some times, with its interval.
+    """Return the line of `trend` at given times, with its interval.
 
     >>> found = trend_line([0, 1, 2, 3], [50, 52, 51, 53], [0, 1.5])
     >>> [column.round(2).tolist() for column in found]
@@ -55,16 +55,16 @@ def trend(times: Any, scores: Any, confidence: float = 0.95) -> Trend:
     times
         when each score was made, in any unit; not all at the same time.
     scores
-        as many numbers, three or more, that differ. They are assumed to lie about the true
-        line independently and normally, with the same spread.
+        the same number of scores, three or more, not all equal. They are assumed to vary around the
+        true line independently and normally, with the same spread.
     confidence
         of the interval, between 0 and 1.
 
     Raises
     ------
     InputError
-        if there are fewer than three scores, another number of times, or only one distinct
-        time or score.
+        if there are fewer than three scores, a different number of times, or only one distinct time
+        or score.
 
     >>> found = trend([0, 1, 2, 3], [50, 52, 51, 53])
     >>> found.slope, round(found.low, 2), round(found.high, 2)

@@ -1,4 +1,4 @@
-"""Team nights: who to put up, the value of a lineup, and a season's table."""
+"""Team nights: whom to put up, the value of a lineup, and a season's table."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Who to put up now: the value of each pick from a point in the night on."""
+"""Whom to put up now: the value of each pick from a point in the night on."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ class Point:
     Parameters
     ----------
     used_ours, used_theirs
-        who has been put up, in any order, once for each set played (a pair for doubles).
+        who has been put up, in any order, once per set played (a pair for doubles).
     lead
         our lead: sets, games or points, as the night is counted.
     last_won
-        whether we won the last set; needed where the winner or the loser names first.
+        whether we won the last set; needed if the winner or the loser names first.
     named
-        who the team that names first in the next set has named; () if no one yet.
+        whom the team that names first in the next set has named; () if no one yet.
     in_play
-        the distributions of the matches of `used` that are still being played, shape (2, 2 reach +
-        1), as in `TeamNight.laws`. What they bring is not in `lead`.
+        the distributions of the matches in `used` that are still being played, shape
+        (2, 2 reach + 1), as in `TeamNight.laws`. Their result is not yet in `lead`.
     """
 
     used_ours: tuple[str, ...] = ()
@@ -54,12 +54,13 @@ class Option(NamedTuple):
     names
         one player, or the pair of a doubles set.
     worth
-        our value of the night if this pick is made and everything else is played as well as
+        the night's value to us if this pick is made and everything else is played as well as
         possible; see `SolvedNight`.
     answer
-        the other team's best reply, by name; () if there is none left.
+        the other team's best reply, by name; () if none is left.
     mix
-        how often to pick it where both teams name at once; 1 for the best pick otherwise, else 0.
+        how often to pick it if both teams name at once; otherwise, 1 for the best pick and 0 for
+        the others.
     """
 
     names: tuple[str, ...]
@@ -69,18 +70,18 @@ class Option(NamedTuple):
 
 
 class Advice(NamedTuple):
-    """The value of each pick, for the team that names now.
+    """Value of each pick, for the team that names now.
 
     Parameters
     ----------
     worth
-        our value of the night at this point.
+        the night's value to us at this point.
     ours
         whether it is our pick (or both teams').
     blind
         whether both teams name at once.
     options
-        the picks of the team to name, the best for that team first.
+        the picks of the team that names, best for that team first.
     set_number
         the set, counted from 1.
     """
@@ -98,7 +99,7 @@ class Advice(NamedTuple):
 
 
 def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
-    """Return the value of each pick at a point of a night.
+    """Return the value of each pick at a point in a night.
 
     Parameters
     ----------
@@ -108,12 +109,12 @@ def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
     Raises
     ------
     InputError
-        if the night cannot come to this point, or is over.
+        if the night cannot reach this point, or is over.
 
     Notes
     -----
-    With matches in play the pick that is due is chosen for the average over how they may end;
-    they are taken to be over before the nomination after it.
+    With matches in play, the current pick is chosen for the average over their possible results;
+    they are assumed to be over before the next nomination.
 
     >>> from evenbreak.teams import Squad, TeamNight, solved
     >>> law = np.zeros((2, 2, 2, 3))
@@ -147,8 +148,8 @@ def advice(solution: SolvedNight, point: Point | None = None) -> Advice:
 def worth_at(solution: SolvedNight, point: Point) -> float:
     """Return the value of the night at a point, even if no one can be named there.
 
-    That is so once every set has its players, and while the set is being played whose winner or
-    loser names first in the next one. An InputError if the night can't get to this point.
+    This happens once every set has its players, and while a set is in play whose winner or loser
+    names first in the next one. Raises InputError if the night can't reach this point.
 
     >>> from evenbreak.teams import Squad, TeamNight, solved
     >>> law = np.zeros((1, 1, 2, 3))
@@ -230,7 +231,7 @@ def _names(squad: Squad, line_ups: LineUps, k: int, pick: Any) -> tuple[str, ...
 
 
 def _states(night: TeamNight, point: Point) -> tuple[int, int, int]:
-    """Return the set to come, and the states of both squads."""
+    """Return the upcoming set, and the states of both squads."""
     played = [0]
     for size in night.sizes:
         played.append(played[-1] + size)
@@ -286,7 +287,7 @@ def _state(squad: Squad, line_ups: LineUps, k: int, used: Sequence[str]) -> int:
 
 
 def _games(solution: SolvedNight, point: Point, k: int, a: int, b: int) -> tuple[Floats, str]:
-    """Return the value of each pair of picks, NaN where one is not allowed, and who names first."""
+    """Return the value of each pair of picks, NaN if not allowed, and who names first."""
     night = solution.night
     letter = night.order[k]
     if letter in (WINNER, LOSER):
@@ -311,7 +312,7 @@ def _last_won(point: Point, letter: str) -> bool:
 
 
 def leads_of(point: Point, reach: int, k: int) -> tuple[Floats, Ints]:
-    """Return the chances of the leads that the matches in play may bring, of `k` sets named.
+    """Return the chances of the leads that the matches in play may give, with `k` sets named.
 
     A set can change the lead by at most `reach`.
     """
@@ -330,7 +331,7 @@ def leads_of(point: Point, reach: int, k: int) -> tuple[Floats, Ints]:
 
 
 Laws = Callable[[Floats, Floats], Sequence[Floats]]
-"""From the skills of our players and theirs to the laws of all sets."""
+"""A function from our players' skills and theirs to the distributions of all sets."""
 
 
 def best_by_skills(
@@ -343,23 +344,23 @@ def best_by_skills(
     draws: int = 100,
     rng: np.random.Generator,
 ) -> dict[tuple[str, ...], float]:
-    """Return how often each pick would be the best, given the uncertainty of the ratings.
+    """Return how often each pick would be best, given the uncertainty of the ratings.
 
     Parameters
     ----------
     laws
-        from the skills of both squads to the sets' distributions, as `TeamNight` takes them.
+        function from both squads' skills to the sets' distributions, in the form for `TeamNight`.
     ours, theirs
-        ratings with standard errors; one without is treated as exact.
+        ratings with standard errors; a rating without one is treated as exact.
     point
         None: before the first nomination.
     draws
-        of the skills. Each draw is solved as if everyone knew them.
+        number of draws of the skills. Each draw is solved as if everyone knew them.
 
     Returns
     -------
     dict
-        the share of the draws in which a pick is the best for the team that names now.
+        the share of draws in which each pick is best for the team that names now.
 
     >>> from evenbreak.teams import Squad, set_laws
     >>> us = Roster(["Ann", "Bo"], [600, 560], [0, 0])

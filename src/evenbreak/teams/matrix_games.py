@@ -1,8 +1,8 @@
-"""Matrix games: what both sides get where they choose at the same time.
+"""Matrix games: the value when both sides choose at the same time.
 
-Many games of one shape are solved together by the simplex method on arrays. Each solution is its
-own proof: what the two mixtures guarantee brackets the value, and where the bracket is not as
-narrow as rounding allows, the game is solved again by scipy's linear programs.
+Many games with the same shape are solved together by the simplex method on arrays. Each solution
+proves itself: the guarantees of the two mixtures bracket the value, and if the bracket is wider
+than rounding allows, the game is solved again with scipy's linear programming.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _NARROW = 1e-10
 
 
 class MatrixGame(NamedTuple):
-    """The solution of matrix games.
+    """Solution of matrix games.
 
     Parameters
     ----------
@@ -36,18 +36,18 @@ class MatrixGame(NamedTuple):
 
 
 def matrix_game(payoff: ArrayLike) -> MatrixGame:
-    """Return the value of zero-sum games, and how to mix the choices.
+    """Return the value of zero-sum games and the optimal mixtures.
 
     Parameters
     ----------
     payoff
-        what the row player gets, shape (..., rows, columns). The column player pays it.
+        the row player's payoff, paid by the column player; shape (..., rows, columns).
 
     Returns
     -------
     MatrixGame
-        arrays of shapes (...), (..., rows) and (..., columns). What the mixtures guarantee is
-        within 1e-10 of the value times the spread of the payoffs.
+        arrays of shapes (...), (..., rows) and (..., columns). The mixtures' guarantees are within
+        1e-10 of the value, relative to the spread of the payoffs.
 
     Raises
     ------
@@ -79,7 +79,7 @@ def matrix_game(payoff: ArrayLike) -> MatrixGame:
 
 
 def _solved(games: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return value and mixtures of games whose payoffs are from 1 to 2."""
+    """Return the values and mixtures of games whose payoffs are from 1 to 2."""
     count, m, n = games.shape
     rows, columns = np.zeros((count, m)), np.zeros((count, n))
     worst, best = games.min(axis=2), games.max(axis=1)
@@ -101,7 +101,7 @@ def _solved(games: Floats) -> tuple[Floats, Floats, Floats]:
 
 
 def _gap(games: Floats, rows: Floats, columns: Floats) -> Floats:
-    """Return how far apart the guarantees of the two players are."""
+    """Return the gap between the two players' guarantees."""
     gets = np.einsum("gi,gij->gj", rows, games).min(axis=1)
     pays = np.einsum("gij,gj->gi", games, columns).max(axis=1)
     return np.asarray(pays - gets)

@@ -25,9 +25,9 @@ SEALED = "sealed"
 class Meeting:
     """Two squads that meet tonight, and what they play.
 
-    Everyone has a rating; `sizes` are the players per side in each set; `order` is who names first,
-    or `SEALED`. `form` is the standard deviation of a game's log-odds from set to set; with
-    `levels`, chances come from their strengths, not ratings.
+    Everyone has a rating; `sizes` is the number of players per side in each set; `order` is who
+    names first, or `SEALED`. `form` is the standard deviation of a game's log-odds from set to set;
+    with `levels`, chances come from their strengths, not ratings.
     """
 
     ours: Roster
@@ -42,7 +42,7 @@ class Meeting:
     levels: LevelSkills | None = None
 
     def night(self, order: str | None = None) -> TeamNight:
-        """Return the night as a game, in another order if one is given."""
+        """Return the night as a game, with another order if one is given."""
         asked = self.order if order is None else order
         return TeamNight(
             *self.squads,
@@ -52,7 +52,7 @@ class Meeting:
         )
 
     def laws(self, *skills: Floats) -> list[Floats]:
-        """Return what each set can bring, if the players have these skills."""
+        """Return the possible results of each set if the players have these skills."""
         made = {
             size: set_laws(
                 self.ours,
@@ -71,7 +71,7 @@ class Meeting:
 
     @cached_property
     def lengths(self) -> tuple[Floats, ...]:
-        """How many games each set takes, by pick; see `set_lengths`."""
+        """The number of games in each set, by pick; see `set_lengths`."""
         made = {
             size: set_lengths(
                 self.ours,
@@ -95,7 +95,7 @@ class Meeting:
     def law_in_play(
         self, ours: Sequence[str], theirs: Sequence[str], score: tuple[int, int] = (0, 0)
     ) -> Floats:
-        """Return what a set between two picks can bring from a score on; see `law_in_play`."""
+        """Return a set's possible results between two picks from a score; see `law_in_play`."""
         mine, others = _some(self.ours, ours), _some(self.theirs, theirs)
         return law_in_play(
             mine,
@@ -109,7 +109,7 @@ class Meeting:
         )
 
     def mirrored(self) -> Meeting:
-        """Return the same meeting as the other team sees it.
+        """Return the same meeting from the other team's point of view.
 
         >>> from evenbreak.ratings import SCALES, Roster
         >>> us, them = Roster(["Ann"], [600]), Roster(["Cy"], [560])
@@ -127,7 +127,7 @@ class Meeting:
 
     @property
     def uncertain(self) -> bool:
-        """Whether a rating has a standard error."""
+        """Whether any rating has a standard error."""
         return self.levels is None and any(
             np.nan_to_num(side.standard_error).any() for side in (self.ours, self.theirs)
         )

@@ -1,4 +1,4 @@
-"""A team night: two squads, an order of nomination, and what each set can bring."""
+"""A team night: two squads, an order of nomination, and the possible results of each set."""
 
 from __future__ import annotations
 
@@ -25,15 +25,16 @@ class TeamNight:
     Parameters
     ----------
     laws
-        for each set, what it can bring: laws[k][i, j, w, d] is P(our pick i beats (w = 0) or loses
+        the possible results of each set: laws[k][i, j, w, d] is P(our pick i beats (w = 0) or loses
         to (w = 1) their pick j, and the set adds d - reach to our lead), where the last axis has
-        length 2 reach + 1. `set_laws` makes them from ratings. One array stands for every set.
+        length 2 reach + 1. `set_laws` makes them from ratings. A single array stands for every set.
     sets
-        how many sets are played, if one law stands for all.
+        how many sets are played, if one array stands for all.
     order
         who names first, set by set; see `order_of`.
     sizes
-        the players a side in each set: 1, or 2 for doubles; a number stands for every set.
+        the number of players per side in each set: 1, or 2 for doubles; a single number stands for
+        every set.
     tie
         the value of a tied night, between 0 (lost) and 1 (won).
 
@@ -102,7 +103,7 @@ class TeamNight:
             object.__setattr__(self, name, value)
 
     def with_laws(self, laws: Sequence[ArrayLike]) -> TeamNight:
-        """Return the same night with other laws, one for each set."""
+        """Return the same night with other distributions, one for each set."""
         changed = copy(self)
         checked = tuple(_law(law, *old.shape[:2]) for law, old in zip(laws, self.laws, strict=True))
         object.__setattr__(changed, "laws", owned(checked))
@@ -110,16 +111,16 @@ class TeamNight:
 
     @property
     def sets(self) -> int:
-        """How many sets are played."""
+        """The number of sets."""
         return len(self.laws)
 
     @property
     def reach(self) -> int:
-        """The largest change of the lead in one set."""
+        """The largest change in the lead in one set."""
         return max(int(law.shape[3]) for law in self.laws) // 2
 
     def leads_after(self, sets: int) -> set[int]:
-        """Return the leads that so many sets, whichever they are, can give.
+        """Return the possible leads after this many sets, whichever they are.
 
         >>> coin = np.zeros((1, 1, 2, 3))
         >>> coin[:, :, 0, 2] = coin[:, :, 1, 0] = 0.5
@@ -180,11 +181,11 @@ NAMED = {
     "winner": "AW",
     "loser": "AL",
 }
-"""Orders with a name, as patterns; the last letters are repeated (AB) or the last one (AW)."""
+"""Named orders, as patterns; the last letters are repeated (AB), or the last one (AW)."""
 
 
 def order_of(text: str, sets: int, more: Sequence[str] = ()) -> str:
-    """Return who names first in each set, a letter each.
+    """Return who names first in each set, as one letter per set.
 
     Parameters
     ----------
@@ -194,12 +195,13 @@ def order_of(text: str, sets: int, more: Sequence[str] = ()) -> str:
         A: we name first and they answer; B: the other way round; =: both at once, blind; W and L:
         the winner or the loser of the last set names first.
     more
-        further names that the caller understands, for the message.
+        more names that the caller accepts, for the error message.
 
     Raises
     ------
     InputError
-        if the text is not an order, is longer than the night, or asks who won before the first set.
+        if `text` is not an order, is longer than the night, or depends on a winner before the first
+        set.
 
     >>> order_of("alternate", 5), order_of("ABBA", 5), order_of("loser", 3)
     ('ABABA', 'ABBAA', 'ALL')

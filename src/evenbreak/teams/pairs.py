@@ -19,7 +19,7 @@ from evenbreak.ratings.roster import Roster
 from evenbreak.ratings.scale import Scale
 
 SetRace: TypeAlias = Race | LevelChart | PointsChart
-"""What is played in a set: an even race, a race by a chart, or points by a chart of points."""
+"""What is played in a set: an even race, a race from a chart, or points from a chart of points."""
 
 
 @own_arrays
@@ -30,9 +30,9 @@ class Pairs:
     Parameters
     ----------
     points, errors
-        our pick's rating less theirs, and its standard error, in points of the scale.
+        our pick's rating minus theirs, and its standard error, in points of the scale.
     needs_1, needs_2
-        the games (or, by a chart of points, the points) that both need.
+        the games (or points, for a chart of points) that both need.
     """
 
     points: Floats
@@ -55,18 +55,18 @@ def pairs_of(
     Parameters
     ----------
     ours, theirs
-        the squads, with ratings, or with skill levels where `levels` is given; a chart by skill
-        level reads the levels of either.
+        the squads, with ratings, or with skill levels if `levels` is given; a chart by skill level
+        uses the levels in both cases.
     size
         1, or 2 for doubles: a pair is as strong as the mean of the two, and has the mean of their
         levels, rounded up.
     levels
-        how strong skill levels are, if the chances come from those.
+        the strength of skill levels, if the chances come from levels.
 
     Raises
     ------
     InputError
-        if a player has no rating or no level, where it is needed.
+        if a player has no rating or level, and it is needed.
     """
     if isinstance(race, PointsChart):
         needed = [
@@ -88,7 +88,7 @@ def pairs_of(
 
 
 def rating_differences(ours: Roster, theirs: Roster, size: int = 1) -> tuple[Floats, Floats]:
-    """Return the rating difference of every two picks, and its standard error."""
+    """Return the rating difference for every pair of picks, and its standard error."""
     sides = []
     for roster in (ours, theirs):
         _refuse_without(roster, roster.rating, "rating")
@@ -115,7 +115,7 @@ def _levels(roster: Roster, size: int, chart: LevelChart | PointsChart) -> Float
 
 
 def _check_levels(roster: Roster, chart: LevelChart | PointsChart) -> None:
-    """Refuse a player without a level, or with one that a chart does not have."""
+    """Raise an error for a player without a level, or with one that a chart does not have."""
     _refuse_without(roster, roster.level, "level")
     other = ~np.isin(roster.level, chart.levels)
     if other.any():
@@ -132,7 +132,7 @@ def _check_levels(roster: Roster, chart: LevelChart | PointsChart) -> None:
 def _level_differences(
     ours: Roster, theirs: Roster, size: int, levels: LevelSkills
 ) -> tuple[Floats, Floats]:
-    """Return the difference in strength of every two picks by their levels, and its error."""
+    """Return the strength difference for every pair of picks, from their levels, and its error."""
     for roster in (ours, theirs):
         _check_levels(roster, levels.chart)
     of_pairs = ours.level[:, None], theirs.level
@@ -161,6 +161,6 @@ def _refuse_without(roster: Roster, values: Floats, column: str) -> None:
 def by_points(
     chart: PointsChart, needs: tuple[int, int], score: tuple[int, int] = (0, 0)
 ) -> PointsOdds:
-    """Return how a match by a chart of points ends, given the points that both need."""
+    """Return the outcome of a match by a chart of points, given the points that both need."""
     first, second = (chart.levels[chart.points.index(points)] for points in needs)
     return points_odds(chart, first, second, score=score)

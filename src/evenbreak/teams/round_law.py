@@ -1,9 +1,9 @@
 """The total of a round between two teams, and the head start that makes the round even.
 
-Given the players' skills, the matches of a round are independent, so the law of the lead is the
-convolution of theirs. Each match is so many single games, or a race of which every game counts.
-Where everyone meets everyone and ratings have errors, a player's error is the same in all their
-matches: then the law is averaged over drawn skills.
+Given the players' skills, the matches in a round are independent, so the distribution of the lead
+is the convolution of theirs. Each match is a fixed number of single games, or a race in which every
+game counts. If everyone meets everyone and ratings have errors, a player's error is the same in all
+their matches, so the distribution is averaged over drawn skills.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _DRAWS = 512  # of the skills, where everybody meets everybody; they leave an er
 
 
 class Outcome(NamedTuple):
-    """The outcome of a round: P(we win it), P(it is tied), P(they win it)."""
+    """The outcome of a round: P(we win), P(tie), P(they win)."""
 
     win: float
     tie: float
@@ -40,14 +40,14 @@ class Outcome(NamedTuple):
 
     @property
     def unfair(self) -> float:
-        """How far the round is from even: the difference of P(win) and P(lose)."""
+        """How far the round is from even: the difference between P(win) and P(lose)."""
         return abs(self.win - self.lose)
 
 
 @array_values
 @dataclass(frozen=True)
 class RoundLaw:
-    """The law of our lead at the end of a round, in games.
+    """Distribution of our lead at the end of a round, in games.
 
     Parameters
     ----------
@@ -64,11 +64,11 @@ class RoundLaw:
 
     @cached_property
     def mean(self) -> float:
-        """Our lead on average."""
+        """Our mean lead."""
         return float(self.lead @ np.arange(-self.reach, self.reach + 1))
 
     def with_start(self, start: float) -> Outcome:
-        """Return the outcome of the round if we start with so many games (below 0: they do).
+        """Return the outcome of the round if we start with this many games (negative: they do).
 
         A start with half a game leaves no ties.
 
@@ -85,7 +85,7 @@ class RoundLaw:
 
     @cached_property
     def fair_start(self) -> int:
-        """The start in whole games with which the round is nearest to even; the smallest of them.
+        """The start in whole games that makes the round closest to even; the smallest in a tie.
 
         >>> RoundLaw(np.array([0.6, 0.0, 0.3, 0.0, 0.1])).fair_start
         1
@@ -108,29 +108,30 @@ def round_law(
     form: float = 0.0,
     levels: LevelSkills | None = None,
 ) -> RoundLaw:
-    """Return the law of our lead, in games or as they count, at the end of a round.
+    """Return the distribution of our lead, in games or as they count, at the end of a round.
 
     Parameters
     ----------
     ours, theirs
-        the two teams with their ratings. Where they state standard errors, the chances of each
-        match are averaged over the uncertainty of the ratings.
+        the two teams with their ratings. If they state standard errors, the chances of each match
+        are averaged over the uncertainty of the ratings.
     games, race
-        what each match is, one of them: so many single games, or a race of which all games count.
+        the format of each match, exactly one of the two: a number of single games, or a race in
+        which all games count.
     everybody
         whether each of our players meets each of theirs; else the first meets the first, and so on.
     count
-        what is added up of a race.
+        what is added up over a race.
     form
         how much the log-odds of a game vary from match to match (standard deviation).
     levels
-        how strong skill levels are, if the chances come from those.
+        the strength of skill levels, if the chances come from levels.
 
     Raises
     ------
     InputError
-        if a player has no rating, the teams have different sizes but meet one to one, or not just
-        one of `games` and `race` is given.
+        if a player has no rating, the teams have different sizes but meet one to one, or not
+        exactly one of `games` and `race` is given.
 
     >>> law = round_law(Roster(["Ann"], [500]), Roster(["Bo"], [600]), games=2)
     >>> law.lead.round(4), law.fair_start
@@ -180,7 +181,7 @@ def _single_games(
     form: float,
     levels: LevelSkills | None,
 ) -> Floats:
-    """Return the law of the lead after single games: shape (ours, theirs, 2 games + 1)."""
+    """Return the distribution of the lead after single games: shape (ours, theirs, 2 games + 1)."""
     pairs = pairs_of(ours, theirs, 1, scale, levels=levels)
     points, errors = pairs.points, pairs.errors
     if skills is not None:
@@ -195,7 +196,7 @@ def _single_games(
 
 
 def known_starts(law: RoundLaw, *others: int) -> Sequence[int]:
-    """Return the starts worth listing: none, those up to one beyond the fair one, and others."""
+    """Return the starts worth listing: none, up to one beyond the fair one, and others."""
     sign = 1 if law.fair_start >= 0 else -1
     listed = {sign * k for k in range(abs(law.fair_start) + 2)} | set(others)
     return sorted(listed, key=lambda start: sign * start)

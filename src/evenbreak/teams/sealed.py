@@ -1,8 +1,8 @@
-"""Lineups handed in before the night: each captain writes down who plays which set.
+"""Lineups handed in before the night: each captain writes down who plays in which set.
 
-If all sets are alike, an order drawn at random is as good as any: against it every order of the
-other team has the same value, the mean over all pairings. What is left to choose is who plays,
-and that is a matrix game.
+If all sets are alike, a random order is as good as any: against it, every order of the other team
+has the same value, the mean over all pairings. The remaining choice is who plays, and that is a
+matrix game.
 
 Source: Jin, Tang and Chen, arXiv 1602.02063, for teams that play everyone.
 """
@@ -20,7 +20,7 @@ from evenbreak.teams.night import TeamNight
 from evenbreak.teams.squad import Counts, Squad
 
 MOST_PAIRS = 250_000
-"""Pairs of lineups beyond which a night is refused."""
+"""The most pairs of lineups; beyond this, an error is raised."""
 
 
 class SealedLineUp(NamedTuple):
@@ -29,11 +29,11 @@ class SealedLineUp(NamedTuple):
     Parameters
     ----------
     names
-        in the squad's order; twice for two sets.
+        the players' names in the squad's order; twice for two sets.
     worth
-        our value of the night with them against the other team's best mixture.
+        the night's value to us with these players against the other team's best mixture.
     mix
-        probability of handing it in.
+        the probability of handing in this lineup.
     """
 
     names: tuple[str, ...]
@@ -42,14 +42,14 @@ class SealedLineUp(NamedTuple):
 
 
 class SealedNight(NamedTuple):
-    """A night whose lineups are handed in unseen, each in random order.
+    """Solution of a night whose lineups are handed in unseen, each in random order.
 
     Parameters
     ----------
     worth
         the value of the night to us; see `SolvedNight`.
     ours, theirs
-        the lineups of each team, its best first.
+        each team's lineups, best first.
     """
 
     worth: float
@@ -57,7 +57,7 @@ class SealedNight(NamedTuple):
     theirs: tuple[SealedLineUp, ...]
 
     def mirrored(self) -> SealedNight:
-        """Return the same night as the other team sees it."""
+        """Return the same night from the other team's point of view."""
         ours, theirs = (
             tuple(one._replace(worth=1.0 - one.worth) for one in side)
             for side in (self.theirs, self.ours)
@@ -66,17 +66,17 @@ class SealedNight(NamedTuple):
 
 
 def sealed(night: TeamNight) -> SealedNight:
-    """Return the value of a night if both lineups are handed in before it.
+    """Return the value of a night whose lineups are both handed in before it.
 
     Parameters
     ----------
     night
-        its order of nomination does not matter.
+        the night; its order of nomination does not matter.
 
     Raises
     ------
     InputError
-        if the sets are not all alike and for one player a side, or there are too many lineups.
+        if the sets are not all alike with one player per side, or there are too many lineups.
 
     >>> from evenbreak.teams import Squad
     >>> law = np.zeros((2, 2, 2, 3))
@@ -117,10 +117,10 @@ def _players(counts: Counts) -> list[int]:
 
 
 def _mean_over_pairings(night: TeamNight, ours: list[Counts], theirs: list[Counts]) -> Floats:
-    """Return what each lineup is worth against each other one, averaged over all pairings.
+    """Return the value of each of our lineups against each of theirs, averaged over all pairings.
 
-    Our players come one by one, each to one of those of theirs who are left, all equally likely;
-    the law of the lead is kept for each set of those who have played.
+    Our players are paired one by one with a remaining player of theirs, all equally likely; the
+    distribution of the lead is kept for each subset of those who have played.
     """
     sets, reach = night.sets, night.reach
     law = night.laws[0].sum(axis=2)

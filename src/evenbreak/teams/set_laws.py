@@ -1,4 +1,4 @@
-"""What a set can bring, from ratings: who wins it, and what it adds to the lead."""
+"""Possible results of a set, from ratings: who wins it, and its effect on the lead."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ from evenbreak.teams.pairs import Pairs, SetRace, by_points, of_picks, pairs_of
 from evenbreak.words import Parameter
 
 POINTS_OF_A_RACK = 10
-"""The points of a rack by a chart of points such as that of APA 9-ball."""
+"""The points in a rack under a chart of points such as APA 9-ball's."""
 
 
 @dataclass(frozen=True)
 class Points:
-    """The points of a set.
+    """Points for a set.
 
     Parameters
     ----------
     win
         to the winner.
     shutout
-        to a winner whose opponent won no game, on top.
+        additional points to a winner whose opponent won no game.
     hill
-        to a loser who needed one more game.
+        points to a loser who needed one more game.
 
     Notes
     -----
@@ -62,7 +62,7 @@ class Points:
 
 @dataclass(frozen=True)
 class Shares:
-    """The 20 match points that the two players of an APA 9-ball match share; see `loser_share`."""
+    """The 20 match points shared by the two players in an APA 9-ball match; see `loser_share`."""
 
 
 Count: TypeAlias = Literal["sets", "games"] | Points | Shares
@@ -70,11 +70,11 @@ Count: TypeAlias = Literal["sets", "games"] | Points | Shares
 
 
 COUNTS = ("sets", "games", "points")
-"""What may decide a night, by name."""
+"""The options for what decides a night, by name."""
 
 
 def count_by(text: str, race: SetRace) -> Count:
-    """Return what decides a night: 'sets', 'games' or 'points', the match points of what is played.
+    """Return what decides a night: 'sets', 'games' or 'points' (match points).
 
     Raises
     ------
@@ -114,21 +114,21 @@ def set_laws(
     Parameters
     ----------
     ours, theirs
-        with ratings. Where these have standard errors, chances are averaged over them.
+        squads with ratings. If these have standard errors, chances are averaged over them.
     race
-        an even race to so many games, a `Chart`, the `Fairest` of a length, a `LevelChart` or a
-        `PointsChart`.
+        an even race to a number of games, a `Chart`, the `Fairest` race of a length, a `LevelChart`
+        or a `PointsChart`.
     count
         what decides the night.
     size
         1, or 2 for doubles: a pair plays like a player with the mean of the two ratings.
     skills
-        true skills of our players and theirs, where they differ from the ratings.
+        true skills of our players and theirs, if they differ from the ratings.
     form
         standard deviation of a game's log-odds from set to set.
     levels
-        strengths of skill levels, if the chances come from those and not from ratings; the scale is
-        then Fargo's. By a chart of points they always come from the levels.
+        strengths of skill levels, if the chances come from levels, not ratings; the scale is then
+        Fargo's. With a chart of points, they always come from the levels.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def set_laws(
 
     Notes
     -----
-    A race is set by the ratings as they are listed, and won by the skills they may stand for.
+    The race depends on the listed ratings, and the result on the possible true skills.
 
     >>> us, them = Roster(["Ann", "Bo"], [600, 500]), Roster(["Cy", "Di"], [560, 520])
     >>> law = set_laws(us, them, 5)
@@ -182,7 +182,7 @@ def set_lengths(
     Parameters
     ----------
     ours, theirs, race, scale, size, form, levels
-        as for `set_laws`. By a chart of points, ten points are a game.
+        as for `set_laws`. With a chart of points, ten points count as a game.
 
     Returns
     -------
@@ -206,9 +206,9 @@ def set_lengths(
 def _endings(
     pairs: Pairs, race: SetRace, scale: Scale, form: float
 ) -> Iterator[tuple[Ints, Ints, int, int, list[Floats]]]:
-    """Yield the pairs that need the same, and P(they win, or lose, in k games) of each.
+    """Yield the pairs with the same race, and each pair's P(win, or lose, in k games).
 
-    By a chart of points, k is the points of both together.
+    With a chart of points, k is the total points of both.
     """
     points, errors = Gap(pairs.points, pairs.errors, scale, form).normal
     needs = zip(pairs.needs_1.ravel().tolist(), pairs.needs_2.ravel().tolist(), strict=True)
@@ -225,7 +225,7 @@ def _endings(
 def _points_endings(
     chart: PointsChart, needs: tuple[int, int], score: tuple[int, int] = (0, 0)
 ) -> list[Floats]:
-    """Return P(we win, or lose, with k points of both together)."""
+    """Return P(we win, or lose, with a total of k points)."""
     odds = by_points(chart, needs, score)
     ends = []
     for need, law in zip(needs, (odds.lost_2, odds.lost_1), strict=True):
@@ -250,7 +250,7 @@ def law_in_play(
     Parameters
     ----------
     ours, theirs
-        who plays it: one player, or two for doubles, with their ratings.
+        the players, one or two for doubles, with their ratings.
     race, scale, count, form, levels
         as for `set_laws`.
     score
@@ -259,16 +259,16 @@ def law_in_play(
     Returns
     -------
     numpy.ndarray
-        a law for `Point.in_play`, shape (2, 2 reach + 1).
+        a distribution for `Point.in_play`, shape (2, 2 reach + 1).
 
     Raises
     ------
     InputError
-        as `set_laws` does, or if the score cannot be that of a match in play.
+        as `set_laws` does, or if the score is impossible for a match in play.
 
     Notes
     -----
-    Where the ratings have errors, or there is form, the score says something about them (Bayes).
+    If the ratings have errors, or there is form, the score is evidence about them (Bayes).
 
     >>> law = law_in_play(Roster(["Ann"], [600]), Roster(["Cy"], [560]), 5, (3, 4))
     >>> law.sum(axis=1).round(3)
@@ -302,9 +302,9 @@ def law_in_play(
 
 
 def brought(needs: tuple[int, int], score: tuple[int, int], count: Count) -> tuple[int, int]:
-    """Return what a set that has been played brings both teams.
+    """Return what both teams get from a finished set.
 
-    `needs` and `score` are games, or points by a chart of points. An InputError if the score
+    `needs` and `score` are games, or points with a chart of points. Raises InputError if the score
     doesn't end the set.
 
     >>> brought((5, 4), (5, 3), "sets"), brought((5, 4), (5, 3), Points())
@@ -333,7 +333,7 @@ def brought(needs: tuple[int, int], score: tuple[int, int], count: Count) -> tup
 
 
 def _margins(m: int, n: int, who: int, count: Count) -> Iterator[tuple[int, int]]:
-    """Yield each length of a race m:n won by us (0) or by them (1), and what it adds to our lead.
+    """Yield each length of a race m:n won by us (0) or by them (1), and its effect on our lead.
 
     >>> list(_margins(2, 2, 0, "games")), list(_margins(2, 2, 1, Points()))
     ([(2, 2), (3, 1)], [(2, -3), (3, -1)])
@@ -353,7 +353,7 @@ def _reach(pairs: Pairs, count: Count) -> int:
 
 
 def _check_count(count: Count, race: SetRace) -> None:
-    """Refuse what does not count a set of this kind."""
+    """Raise an error for a way of counting that doesn't fit this kind of set."""
     if isinstance(count, Points | Shares):
         if isinstance(count, Shares) != isinstance(race, PointsChart):
             raise InputError("these match points don't match the chart. See `count_by`")

@@ -1,9 +1,9 @@
-"""The value of a team night, and of each point in it, by backward induction.
+"""Value of a team night, and of each point in it, by backward induction.
 
-A point of the night is: the sets played, who of either squad is used up, the lead, and who won the
-last set where the order asks. After the last set the lead says the value of the night. Before
-it, each pair of picks leads on to the points after the set; who names first takes the best of what
-the other team's best answers leave them, and blind picks are a matrix game.
+A point of the night consists of the sets played, the players used up on either squad, the lead, and
+the winner of the last set if the order depends on it. After the last set, the lead determines the
+value of the night. Before that, each pair of picks leads to the points after the set; the team that
+names first maximizes over the other team's best answers, and blind picks are a matrix game.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from evenbreak.teams.night import BOTH, LOSER, OURS, THEIRS, WINNER, TeamNight
 from evenbreak.teams.squad import Squad
 
 MOST_STEPS = 4e9
-"""Multiplications beyond which a night is refused: about half a minute."""
+"""The most multiplications for a night, about half a minute; beyond this, an error is raised."""
 
 _AT_A_TIME = 1 << 22
 
@@ -28,18 +28,19 @@ _AT_A_TIME = 1 << 22
 @array_values
 @dataclass(frozen=True, eq=False)
 class SolvedNight:
-    """A team night with the value of each of its points.
+    """Team night with the value of each of its points.
 
     Parameters
     ----------
     values
         values[k][a, b, w, lead + k reach]: the value of the night to us after k sets, with our
-        squad used up as in state a and theirs as in state b of their `LineUps`. The axis w says who
-        won the last set (0: we did), where the order asks; otherwise it has length 1.
+        squad used up as in state a and theirs as in state b of their `LineUps`. The axis w is the
+        winner of the last set (0: we did), if the order depends on it; otherwise, it has length 1.
 
     Notes
     -----
-    Worth is P(we win the night) plus `tie` times P(it is tied), if both captains do their best.
+    The value is P(we win the night) plus `tie` times P(it is tied), if both captains play
+    optimally.
     """
 
     night: TeamNight
@@ -51,7 +52,7 @@ class SolvedNight:
         return float(self.values[0][0, 0, 0, 0])
 
     def mirrored(self, night: TeamNight) -> SolvedNight:
-        """Return the solution as the other team sees it.
+        """Return the solution from the other team's point of view.
 
         Parameters
         ----------
@@ -63,7 +64,7 @@ class SolvedNight:
 
 
 def solved(night: TeamNight) -> SolvedNight:
-    """Return the value of every point of a night.
+    """Return the value of every point in a night.
 
     Raises
     ------
@@ -88,10 +89,10 @@ def solved(night: TeamNight) -> SolvedNight:
 
 
 def pair_values(night: TeamNight, k: int, after: Floats, i: int, j: int) -> Floats:
-    """Return the value of set k if picks i and j play it, for states that allow them.
+    """Return the value if picks i and j play set k, for states that allow them.
 
-    `after` holds the values after the set, of those states; the last axis of what is returned
-    runs over the leads before it.
+    `after` holds those states' values after the set; the last axis of the result is the lead before
+    it.
     """
     law = night.laws[k][i, j]
     own, leads = law.shape[1] // 2, after.shape[-1] - 2 * night.reach
@@ -104,7 +105,7 @@ def pair_values(night: TeamNight, k: int, after: Floats, i: int, j: int) -> Floa
 
 
 def names_first(letter: str, last_won: bool) -> str:
-    """Return who names first, where the letter may depend on who won the last set."""
+    """Return who names first, if the letter may depend on who won the last set."""
     if letter in (WINNER, LOSER):
         return OURS if last_won == (letter == WINNER) else THEIRS
     return letter
@@ -122,7 +123,7 @@ def _before(night: TeamNight, k: int, after: Floats) -> Floats:
 
 
 def _in_turn(night: TeamNight, k: int, after: Floats, first: str) -> Floats:
-    """Return the values if one team names first and the other answers."""
+    """Return the values if one team names first and the other one answers."""
     mine, others = night.our_line_ups.moves[k], night.their_line_ups.moves[k]
     leads = after.shape[-1] - 2 * night.reach
     shape = len(night.our_line_ups.used[k]), len(night.their_line_ups.used[k]), leads
@@ -165,7 +166,7 @@ def _blind(night: TeamNight, k: int, after: Floats) -> Floats:
 
 
 def _allowed(table: Ints) -> Ints:
-    """Return the picks of each state, the allowed ones first, and as few as all states need."""
+    """Return the picks in each state, allowed ones first, with as few as all states need."""
     most = int((table >= 0).sum(axis=1).max())
     return np.argsort(table < 0, axis=1, kind="stable")[:, :most]
 
@@ -187,7 +188,7 @@ def _games(night: TeamNight, k: int, after: Floats, mine: Ints, others: Ints) ->
 
 
 def steps_of(night: TeamNight) -> float:
-    """Return about how many multiplications it takes to solve a night."""
+    """Return the approximate number of multiplications needed to solve a night."""
     return sum(
         float(mine.size) * others.size * (2 * k * night.reach + 1) * np.count_nonzero(law[0, 0])
         for k, (mine, others, law) in enumerate(
@@ -197,7 +198,7 @@ def steps_of(night: TeamNight) -> float:
 
 
 def refuse_large(night: TeamNight) -> None:
-    """Refuse (InputError) a night that has too many points."""
+    """Raise InputError if a night has too many points."""
     if steps_of(night) > MOST_STEPS:
         raise InputError(
             "squads of {ours} and {theirs} players allow too many lineups of {sets} "
@@ -215,24 +216,24 @@ def league_nights(
     sets: int,
     order: str = "alternate",
 ) -> Floats:
-    """Return each team's chance of winning a night against each other, both captains at their best.
+    """Return each team's chance of winning a night against each other, with optimal captains.
 
     Parameters
     ----------
     squads
-        with the caps that they must keep.
+        the squads, with the caps that they must keep.
     laws
-        laws(i, j) has the possible results of a set of team i against team j, as `set_laws` returns
-        it.
+        laws(i, j) is the possible results of a set between teams i and j, as returned by
+        `set_laws`.
     sets
         per night.
     order
-        of nomination; the team of the row is A.
+        of nomination; the row's team is A.
 
     Returns
     -------
     numpy.ndarray
-        shape (teams, teams): P(the team of the row beats that of the column), a tie counting half;
+        shape (teams, teams): P(the row's team beats the column's team), with a tie counting half;
         NaN on the diagonal.
 
     Raises
@@ -263,7 +264,7 @@ def league_nights(
 
 
 def against_all(nights: Floats) -> Floats:
-    """Return each team's chance over all nights, half of them as A and half as B; shape (teams,).
+    """Return each team's mean chance over all nights, half of them as A and half as B.
 
     >>> against_all(np.array([[np.nan, 0.6], [0.5, np.nan]]))
     array([0.55, 0.45])
@@ -272,9 +273,9 @@ def against_all(nights: Floats) -> Floats:
 
 
 def first_edges(nights: Floats) -> Floats:
-    """Return the value of being A to each team against each other: shape (teams, teams).
+    """Return each team's advantage from being A against each other: shape (teams, teams).
 
-    P(the team of the row wins | it is A) - P(it wins | it is B); NaN on the diagonal.
+    It is P(the row's team wins | it is A) - P(it wins | it is B); NaN on the diagonal.
 
     >>> first_edges(np.array([[np.nan, 0.6], [0.5, np.nan]])).round(12)
     array([[nan, 0.1],

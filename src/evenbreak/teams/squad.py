@@ -18,7 +18,7 @@ MOST_STATES = 20_000
 """The most groups of players used up after a set; more would take minutes."""
 
 Counts = tuple[int, ...]
-"""How often each player of a squad has been put up."""
+"""How often each player on a squad has been put up."""
 
 
 @dataclass(frozen=True)
@@ -28,16 +28,16 @@ class Cap:
     Parameters
     ----------
     weights
-        per set that a player plays, in the order of the squad: a skill level, a rating, or 1 for
-        players of a limited number.
+        the weight of each player per set played, in the order of the squad: a skill level, a
+        rating, or 1 for players of a limited number.
     most
         the largest sum allowed.
     name
-        what is limited, in messages, such as 'the sum of the levels'.
+        the limited quantity, for messages, such as 'the sum of the levels'.
 
     Notes
     -----
-    APA's 23-rule is `Cap(levels, 23)`, and its limit of two players of level 6 or more
+    APA's 23-rule is `Cap(levels, 23)`, and its limit of two players at level 6 or above is
     `Cap([level >= 6 for level in levels], 2)`. BCA Pool League's caps are on the sum of five Fargo
     ratings: 2,750, 3,000 or 3,250.
     """
@@ -85,15 +85,15 @@ def caps_of(
 
 @dataclass(frozen=True)
 class Squad:
-    """The players of a team on a night.
+    """A team's players on a night.
 
     Parameters
     ----------
     names
         each once.
     caps
-        the limits that the whole lineup keeps. No one may be put up who makes it impossible to
-        fill the remaining sets within them.
+        the limits for the whole lineup. A player may not be put up if that makes it impossible to
+        fill the remaining sets within the caps.
     times
         how often a player may be put up.
 
@@ -139,7 +139,7 @@ class Squad:
 
 
 class LineUps(NamedTuple):
-    """All lineups of a squad that keep its caps, set by set.
+    """All lineups of a squad within its caps, set by set.
 
     `picks` are positions, one or a pair, by set; used[k] the possible counts of the players after k
     sets; after[k][state, pick] the state after set k, -1 if not allowed; moves[k][pick] the states
@@ -153,9 +153,9 @@ class LineUps(NamedTuple):
 
 
 def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
-    """Return the lineups of a squad for sets of so many players per side.
+    """Return a squad's lineups for sets with these numbers of players per side.
 
-    An InputError if the squad has too few or too many players, or no lineup keeps its caps.
+    Raises InputError if the squad has too few or too many players, or no lineup keeps its caps.
 
     >>> found = line_ups(Squad(("Ann", "Bo", "Cy"), (Cap((7, 5, 3), 10),)), (1, 1))
     >>> found.used[2]

@@ -1,11 +1,11 @@
-"""The audit of a chart: how fair its races are, and which scale and tilt it was made for.
+"""Audit a chart: how fair its races are, and which scale and tilt it was made for.
 
-A race m:n is even at one game probability only. If s points double the odds, that is a rating
+A race m:n is even at exactly one game probability. If s points double the odds, that is a rating
 difference of s·e points, where e = log2(p / (1 - p)) at W(p; m, n) = 1/2. The cut between two
-neighboring races of a chart lies between the differences at which they are even: with tilt t
-at s·((1 - t)·e_k + t·e_(k-1)). So tilt 0 makes each race even at the start of its band, 1/2 in
-the middle (on either side of a cut the races are about equally unfair, to one player and to the
-other), 1 at the end. The cuts are linear in s and s·t, and least squares gives both.
+neighboring races of a chart lies between the differences at which they are even: with tilt t at
+s·((1 - t)·e_k + t·e_(k-1)). So tilt 0 makes each race even at the start of its band, tilt 1/2 makes
+it even in the middle (the races on either side of a cut are about equally unfair, one to each
+player), and tilt 1 at the end. The cuts are linear in s and s·t, and least squares gives both.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ChartFit:
-    """A scale with the tilt that fits a chart best.
+    """A scale, with the tilt that fits a chart best.
 
     Parameters
     ----------
@@ -54,15 +54,15 @@ class ChartFit:
 
 @dataclass(frozen=True)
 class AuditRow:
-    """One row of a chart: its race, and the chances over its band of differences.
+    """One row of a chart: its race, and the chances across its band of differences.
 
     Parameters
     ----------
     difference_from, difference_to, stronger_needs, weaker_needs
         the row; `difference_to` is None if it has no end.
     p_win_low, p_win_middle, p_win_high
-        P(the stronger player wins the race | the ratings are right) at the first difference
-        of the row, in its middle, and at its last; None where the row is open-ended.
+        P(the stronger player wins the race | the ratings are right) at the row's first difference,
+        in its middle, and at its last; None if the row is open-ended.
     even_difference
         the difference in points at which the race is even.
     even_place
@@ -95,15 +95,15 @@ class ChartAudit:
     Parameters
     ----------
     scale
-        the scale of the ratings, by which the chances are calculated.
+        the scale of the ratings, used to calculate the chances.
     fit
         that scale with the tilt that fits the chart best on it; None for a chart of one row.
     best_fit
-        the scale and the tilt that together fit the chart best; None where its cuts do not
-        determine them.
+        the scale and the tilt that together fit the chart best; None if its cuts do not determine
+        them.
     gaps, overlaps
-        the differences (first, last) in no row, and in more than one row; last is None for
-        an open end.
+        differences (first, last) that are in no row, and in more than one row; last is None for an
+        open end.
     """
 
     name: str
@@ -116,12 +116,12 @@ class ChartAudit:
 
     @property
     def worst(self) -> AuditRow:
-        """The most unfair row, the first of equals."""
+        """The most unfair row; the first one if several are equally unfair."""
         return max(self.rows, key=lambda row: row.unfairness)
 
     @property
     def p_win(self) -> Floats:
-        """P(the stronger player wins) at each difference from 1 on that a row with an end has."""
+        """P(the stronger player wins) at each difference from 1 up, as far as rows have an end."""
         chances = [np.empty(0)]
         for row in self.rows:
             if row.difference_to is not None:
@@ -138,7 +138,7 @@ def audit(chart: Chart | ChartDraft | str, *, scale: Any = None) -> ChartAudit:
     Parameters
     ----------
     scale
-        'npl', 'fargo', 'elo', a `Scale` or the points that double the odds; None for the scale that
+        'npl', 'fargo', 'elo', a `Scale` or the points that double the odds; None: the scale that
         fits the chart best.
 
     Raises
@@ -200,7 +200,7 @@ def _in_order(chart: Chart | ChartDraft) -> list[ChartRow]:
 
 
 def _best_fit(even: Floats, cuts: Floats) -> ChartFit | None:
-    """Return the scale and the tilt whose cuts are nearest, by least squares."""
+    """Return the scale and tilt whose cuts are closest, by least squares."""
     columns = np.column_stack([even[1:], -np.diff(even)])
     (points, tilted), _, rank, _ = np.linalg.lstsq(columns, cuts)
     if rank < 2 or not points > 0.0:
@@ -213,12 +213,12 @@ def _best_fit(even: Floats, cuts: Floats) -> ChartFit | None:
 
 
 def _fitted(fit: ChartFit) -> Scale:
-    """Return the scale of a fit."""
+    """Return the scale from a fit."""
     return Scale(f"{fit.points_per_doubling:.4g} points", fit.points_per_doubling)
 
 
 def _fit_on(points: float, even: Floats, cuts: Floats) -> ChartFit | None:
-    """Return a scale with the tilt whose cuts are nearest."""
+    """Return a scale with the tilt whose cuts are closest."""
     step = points * np.diff(even)
     if not step.any():
         return None
@@ -282,24 +282,23 @@ def _gaps_and_overlaps(rows: Sequence[ChartRow]) -> tuple[Spans, Spans]:
 def win_matrix(
     ratings: Ratings, players: Sequence[str] | None = None, *, race: tuple[int, int] = (1, 1)
 ) -> pd.DataFrame:
-    """Return the chance of every player against every other.
+    """Return every player's chance against every other player.
 
-    Each chance is averaged over the error of the difference of the two ratings, in which any
-    uncertainty that they share cancels.
+    Each chance is averaged over the error of the rating difference, in which any shared uncertainty
+    cancels.
 
     Parameters
     ----------
     players
-        default: everyone who is rated.
+        default: all rated players.
     race
-        the games that the player of the row and the player of the column need; (1, 1) is a
-        single game.
+        the games that the row's player and the column's player need; (1, 1) is a single game.
 
     Returns
     -------
     pandas.DataFrame
-        P(the player of the row wins); NaN on the diagonal, and where no chain of opponents
-        connects the two.
+        P(the row's player wins); NaN on the diagonal, and for players whom no chain of opponents
+        connects.
 
     Raises
     ------

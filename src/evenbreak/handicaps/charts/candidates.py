@@ -1,4 +1,4 @@
-"""All races that a chart may hold, with the chance and length of each at each difference."""
+"""All races that a chart may hold, with their chance and length at each difference."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ _TIE = 1e-12
 _MOST_CELLS = 5_000_000
 _MOST_CELLS_IN_ROWS = 20_000_000
 _HEAVIEST = 1e6
-"""The weight that means 'never, unless no allowed race does better'."""
+"""The weight that means "never, unless no allowed race does better"."""
 
 
 class CostedChart(NamedTuple):
-    """A chart with what its design made as small as possible: the mean cost."""
+    """A chart, and the mean cost that its design minimized."""
 
     cost: float
     chart: Chart
 
 
 class Candidates:
-    """The races within limits, the easiest for the stronger player first.
+    """The races within limits, ordered from the easiest for the stronger player to the hardest.
 
-    The first `evens` of them are even races, the shortest first; each of the others is even at a
-    larger difference than the one before. An InputError if `up_to` is not a whole number from 1 up,
-    or there are too many races to try.
+    The first `evens` of them are even races, from shortest to longest; each later race is even at a
+    larger difference than the one before it. Raises InputError if `up_to` is not a positive whole
+    number, or if there are too many races to try.
     """
 
     def __init__(self, scale: Scale, limits: RaceLimits, up_to: int | None = None) -> None:
@@ -70,7 +70,7 @@ class Candidates:
         return win_grid(self.scale, self.m, self.n, self.points)
 
     def fairest(self, **wishes: Any) -> Chart:
-        """Return the fairest chart of these races, as `design` does; parameters as for `best`."""
+        """Return the fairest chart made of these races, like `design`; parameters as for `best`."""
         return self.best(**wishes).chart
 
     def best(
@@ -81,7 +81,7 @@ class Candidates:
         rows: int | None = None,
         name: str = "design",
     ) -> CostedChart:
-        """Return the fairest chart of these races, and its cost; parameters as for `design`."""
+        """Return the fairest chart of these races and its cost; parameters as for `design`."""
         cost = self._within_limits(
             self._cost(number_probability(target, "target"), number_probability(tilt, "tilt"))
         )
@@ -89,13 +89,13 @@ class Candidates:
         return CostedChart(float(cost[path, np.arange(path.size)].mean()), self._chart(path, name))
 
     def nearest(self, name: str) -> Chart:
-        """Return the chart with the race nearest 1/2 at each difference (`nearest_chart`)."""
+        """Return the chart with the race closest to 1/2 at each difference (`nearest_chart`)."""
         cost = self._cost(0.5, 0.5)
         cost[: self.evens - 1] = np.inf
         return self._chart(self._within_limits(cost).argmin(axis=0), name)
 
     def _row_limit(self, rows: Any) -> int | None:
-        """Return the limit on the rows; None where no chart of these races could exceed it."""
+        """Return the limit on rows, or None if no chart of these races could exceed it."""
         if rows is None:
             return None
         most = whole(rows, "rows", at_least=1)
@@ -126,7 +126,7 @@ class Candidates:
         return cost
 
     def _within_limits(self, cost: Floats) -> Floats:
-        """Return the costs, infinite where a match ends too late in more than 1 of 10 cases."""
+        """Return the costs; infinite where more than 1 match in 10 ends too late."""
         games = self.limits.games_p90
         if games is None:
             return cost
@@ -145,7 +145,7 @@ class Candidates:
         return np.where(short, cost, np.inf)
 
     def _chart(self, path: Ints, name: str) -> Chart:
-        """Return the chart with, at each difference, the race at that place of the list."""
+        """Return the chart whose race at each difference is given by its place in the list."""
         runs = [(place, len(list(run))) for place, run in groupby(path.tolist())]
         rows, start = [], 0
         for place, count in runs:
@@ -164,14 +164,14 @@ class Candidates:
 
 
 class NoChartError(InputError):
-    """No chart keeps the limits."""
+    """No chart satisfies the limits."""
 
 
 def cheapest_path(cost: Floats, evens: int, rows: int | None = None) -> Ints:
-    """Return the path of least total cost, as the place of a race for each difference.
+    """Return the path with the lowest total cost, as the position of a race for each difference.
 
-    It has at most `rows` different races; any number if that is None. A NoChartError if every path
-    has an infinite cost.
+    It has at most `rows` different races, or any number if that is None. Raises NoChartError if
+    every path has an infinite cost.
     """
     races, differences = cost.shape
     best = np.empty((differences, rows or 1, races))  # in that many rows, or fewer
@@ -211,7 +211,7 @@ def cheapest_path(cost: Floats, evens: int, rows: int | None = None) -> Ints:
 
 
 def similar_limits(limits: RaceLimits, spread: Any) -> list[RaceLimits]:
-    """Return limits for each group of races whose longest matches differ by `spread` at most.
+    """Return limits for each group of races whose longest matches differ by at most `spread`.
 
     >>> [alike.games for alike in similar_limits(RaceLimits((5, 9)), 2)]
     [(5, 7), (6, 8), (7, 9)]
@@ -233,7 +233,8 @@ def similar_limits(limits: RaceLimits, spread: Any) -> list[RaceLimits]:
 class SimilarLengths:
     """The races within limits, in groups whose longest matches differ by at most `spread` games.
 
-    Without `up_to` all groups go to where the hardest race of any of them is even.
+    Without `up_to`, all groups go up to the difference at which the hardest race in any group is
+    even.
     """
 
     def __init__(
@@ -244,7 +245,7 @@ class SimilarLengths:
         self.groups = [Candidates(scale, alike, last) for alike in similar_limits(limits, spread)]
 
     def fairest(self, *, name: str = "design", **wishes: Any) -> Chart:
-        """Return the fairest chart that any of the groups makes, as `Candidates.fairest` does."""
+        """Return the fairest chart from any of the groups, as `Candidates.fairest` does."""
         charts, refused = [], []
         for group in self.groups:
             try:

@@ -1,4 +1,4 @@
-"""Charts by rating difference: which race two players of given ratings play."""
+"""Charts by rating difference: which race two players play, given their ratings."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class ChartRow(NamedTuple):
 
 
 class ChartDraft(NamedTuple):
-    """The rows of an unfinished chart, perhaps with gaps and overlaps, for `audit` to find.
+    """Rows of an unfinished chart, perhaps with gaps and overlaps for `audit` to find.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class ChartDraft(NamedTuple):
 
 
 def row_faults(rows: Sequence[ChartRow]) -> Iterator[tuple[int, str]]:
-    """Yield what keeps rows of whole numbers from being a chart: each faulty row, and why.
+    """Yield each faulty row that keeps rows of whole numbers from being a chart, and why.
 
     A chart covers every difference from 0 up exactly once, by rows in increasing order. It
     starts with an even race, and the stronger player never needs fewer games.
@@ -103,7 +103,7 @@ def row_faults(rows: Sequence[ChartRow]) -> Iterator[tuple[int, str]]:
 
 
 def catalog_rows(name: str) -> list[tuple[Any, ...]]:
-    """Return the rows of a chart that comes with the package; None where a cell is empty.
+    """Return the rows of a built-in chart; None for empty cells.
 
     >>> catalog_rows("npl_8")[-1]
     (49, None, 6, 2)
@@ -120,27 +120,27 @@ CHARTS = {
     "npl_12": "National Pool League chart 12",
     "npl_20": "National Pool League chart 20",
 }
-"""The charts that come with the package: the title of each, by name."""
+"""Titles of the built-in charts, by name."""
 
 _WHOLE_POINTS = "whole points (round the two ratings before you subtract them)"
 
 
 @dataclass(frozen=True)
 class Chart:
-    """A chart of races by rating difference, as a league prints it.
+    """Chart of races by rating difference, as printed by a league.
 
     Parameters
     ----------
     rows
         the rows in increasing order, each a `ChartRow` or its four values. The first one
-        starts at 0 with an even race, since neither of two equal players is the stronger;
-        each of the others starts one point after the row before it; the last is open-ended.
+        starts at 0 with an even race, since neither of two equal players is the stronger one; each
+        later row starts one point after the previous row ends; the last is open-ended.
 
     Raises
     ------
     InputError
-        if a row breaks these rules, or the stronger player needs fewer games in it than the
-        weaker; the message says which row.
+        if a row breaks these rules, or the stronger player needs fewer games than the weaker; the
+        message says which row.
 
     Notes
     -----
@@ -169,14 +169,14 @@ class Chart:
         ----------
         difference
             rating of player 1 minus rating of player 2, in whole points; if negative, player 2 is
-            the stronger and the race is reversed.
+            the stronger player, and the race is reversed.
 
         Raises
         ------
         InputError
             if the difference is not a whole number. A chart has no row between 5 and 6, and
-            rounding both ratings is not the same as rounding their difference, so the caller
-            must do what the league does.
+            rounding both ratings is not the same as rounding their difference, so the caller must
+            round as the league does.
 
         >>> chart("npl_10").race(5), chart("npl_10").race(6), chart("npl_10").race(-6)
         ((5, 5), (5, 4), (4, 5))
@@ -228,7 +228,7 @@ def _rows(rows: Iterable[Iterable[Any]]) -> list[ChartRow]:
 
 
 def _checked(row: ChartRow, name: str) -> ChartRow:
-    """Return a row with its numbers as ints, or refuse it."""
+    """Return a row with its numbers as ints, or raise an error."""
     last = row.difference_to
     return ChartRow(
         whole(row.difference_from, f"difference_from in {name}"),
@@ -239,7 +239,7 @@ def _checked(row: ChartRow, name: str) -> ChartRow:
 
 
 def chart(name: str) -> Chart:
-    """Return a chart that comes with the package, by its name in `CHARTS`.
+    """Return a built-in chart by its name in `CHARTS`.
 
     `npl_8`, `npl_10`, `npl_12` and `npl_20` are the National Pool League's charts, from short
     to very long; `fargo_r6_hot` is a chart of races to 6 and more for Fargo ratings (100 points

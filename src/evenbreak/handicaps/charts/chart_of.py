@@ -1,4 +1,4 @@
-"""The door for charts: wherever a function takes a chart, a name of the catalog will do."""
+"""Look up charts by name: every function that takes a chart also takes a catalog name."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from evenbreak.handicaps.charts.level_chart import (
 from evenbreak.ratings.scale import SCALES, Scale
 
 EVERY_CHART = {**CHARTS, **LEVEL_CHARTS, **POINTS_CHARTS}
-"""The charts that come with the package, of all kinds: the title of each, by name."""
+"""Titles of all built-in charts, by name."""
 
 AnyChart = TypeVar("AnyChart", Chart, LevelChart, PointsChart)
 
 
 def scale_of_chart(chart: Chart | LevelChart | PointsChart | None) -> Scale | None:
-    """Return the scale that goes with a chart; None if there is no chart, or its scale is unknown.
+    """Return the scale that goes with a chart; None if there is no chart or its scale is unknown.
 
-    Skill levels have their points on the Fargo scale; a chart of differences has it in its name.
+    Skill levels have points on the Fargo scale; the name of a chart of differences tells its scale.
 
     >>> [scale_of_chart(one).name for one in (chart("npl_10"), level_chart("apa_8ball"))]
     ['npl', 'fargo']
@@ -38,14 +38,14 @@ def scale_of_chart(chart: Chart | LevelChart | PointsChart | None) -> Scale | No
 
 
 def chart_names() -> list[str]:
-    """Return the names of charts of every kind, ours and those of installed packages."""
+    """Return the names of all charts, built-in and from installed packages."""
     from evenbreak.plugins import added
 
     return [*{**EVERY_CHART, **added("chart")}]
 
 
 def catalog_name(text: str) -> str:
-    """Return what a chart of the catalog is called, however its name was typed.
+    """Return the catalog name of a chart, however it was typed.
 
     >>> catalog_name(" NPL-10 "), catalog_name("APA 8-Ball")
     ('npl_10', 'apa_8ball')
@@ -54,12 +54,12 @@ def catalog_name(text: str) -> str:
 
 
 def named_chart(name: str) -> Chart | LevelChart | PointsChart | None:
-    """Return a chart by its name in the catalog or in an installed package; None: no one's.
+    """Return a chart from the catalog or an installed package; None if no chart has this name.
 
     Raises
     ------
     InputError
-        if a package has a chart of this name that breaks a law (`broken_chart_laws`).
+        if a package has a chart of this name that breaks a rule (`broken_chart_laws`).
 
     >>> named_chart("APA 9-ball").points[-1], named_chart("nobody's")
     (75, None)
@@ -75,7 +75,7 @@ def named_chart(name: str) -> Chart | LevelChart | PointsChart | None:
 
 
 def chart_of(chart_or_name: Any) -> Chart:
-    """Return a chart by rating difference: a `Chart` as it is, or one of `CHARTS` by its name.
+    """Return a chart by rating difference: a `Chart` unchanged, or one of `CHARTS` by name.
 
     Raises
     ------
@@ -94,7 +94,7 @@ def chart_of(chart_or_name: Any) -> Chart:
 
 
 def level_chart_of(chart_or_name: Any) -> LevelChart:
-    """Return a chart by skill level: a `LevelChart` as it is, or one of `LEVEL_CHARTS`.
+    """Return a chart by skill level: a `LevelChart` unchanged, or one of `LEVEL_CHARTS` by name.
 
     Raises
     ------
@@ -108,7 +108,7 @@ def level_chart_of(chart_or_name: Any) -> LevelChart:
 
 
 def points_chart_of(chart_or_name: Any) -> PointsChart:
-    """Return a chart of points: a `PointsChart` as it is, or one of `POINTS_CHARTS` by name.
+    """Return a chart of points: a `PointsChart` unchanged, or one of `POINTS_CHARTS` by name.
 
     Raises
     ------
@@ -122,7 +122,7 @@ def points_chart_of(chart_or_name: Any) -> PointsChart:
 
 
 class _Kind(NamedTuple):
-    """A kind of chart: in words, the names of its catalog, and what reads one of them."""
+    """A kind of chart: its name in words, its catalog names, and the function that reads one."""
 
     words: str
     names: Mapping[str, str]
@@ -137,7 +137,7 @@ _KINDS: dict[type, _Kind] = {
 
 
 def _found(wanted: Any, cls: type[AnyChart]) -> AnyChart:
-    """Return a chart of one kind, as it is or by its name, or refuse what is none."""
+    """Return a chart of one kind, unchanged or by its name, or raise an error."""
     if isinstance(wanted, cls):
         return wanted
     kind, named = _KINDS[cls], wanted

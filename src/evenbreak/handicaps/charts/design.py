@@ -2,12 +2,12 @@
 
 All allowed races are ordered by the difference at which they are even, so the hardest for the
 stronger player comes last. A chart is a path through them that never steps back as the
-difference grows. Each whole-point difference costs as much as the race there misses the
+difference grows. The cost at each whole-point difference is the distance of its race from the
 target, so dynamic programming over the differences finds the best path:
 
     best(d, r) = cost(d, r) + min over races r' no harder than r of best(d - 1, r')
 
-For a limit on the number of rows, the best total is kept for each number of rows so far.
+To limit the number of rows, the best total is kept for each number of rows so far.
 """
 
 from __future__ import annotations
@@ -33,29 +33,30 @@ def design(
     spread: int | None = None,
     name: str = "design",
 ) -> Chart:
-    """Return the fairest chart for a scale among all charts within limits.
+    """Return the fairest chart for a scale, among all charts within limits.
 
     Parameters
     ----------
     scale
-        what ratings mean: 'npl', 'fargo', 'elo', a `Scale` or the points that double the odds.
+        the scale of the ratings: 'npl', 'fargo', 'elo', a `Scale` or the points that double the
+        odds.
     limits
         the races that the chart may hold.
     target
         the chance that the stronger player should have.
     tilt
-        where in its band a race should meet the target: 1/2 in the middle, 0 at the start
-        (the stronger player never has a smaller chance, if an allowed race makes that
-        possible), 1 at the end (never a larger one). Each point of chance above the target
-        costs 1 / (2 - 2 tilt), each point below it 1 / (2 tilt); both are 1 at tilt 1/2.
+        where in its band a race should meet the target: 1/2 in the middle, 0 at the start (the
+        stronger player's chance is never smaller, if an allowed race makes that possible), 1 at the
+        end (it is never larger). Each point of chance above the target costs 1 / (2 - 2 tilt), and
+        each point below it costs 1 / (2 tilt); both are 1 at tilt 1/2.
     up_to
-        the last difference that counts; None for the one at which the hardest allowed race
-        is even (W = 1/2). The mean cost over the whole-point differences from 0 to this one is
-        as small as possible.
+        the last difference that counts; None: the difference at which the hardest allowed race is
+        even (W = 1/2). The mean cost over the whole-point differences from 0 to this one is
+        minimized.
     rows
-        the largest number of rows; None for any number.
+        the largest number of rows; None: any number.
     spread
-        how much the longest matches of its races may differ, in games; None for any length
+        how much the longest matches of the chart's races may differ, in games; None: any length
         within the limits. Printed charts have a spread of 2.
 
     Returns
@@ -97,11 +98,11 @@ def races_to_try(
 def nearest_chart(
     scale: Any, limits: RaceLimits, *, up_to: int | None = None, name: str = "nearest"
 ) -> Chart:
-    """Return the chart that has at each difference the race with W nearest 1/2.
+    """Return the chart that has, at each difference, the race with W closest to 1/2.
 
-    Equal players play the longest even race, and the chart has no other even race. Apart from
-    that each difference is treated by itself, so the chart may step back to an easier race as
-    the difference grows. Beyond `up_to` the last race stays.
+    Equal players play the longest even race, and the chart has no other even race. Apart from that,
+    each difference is treated separately, so the chart may step back to an easier race as the
+    difference grows. Beyond `up_to`, the last race is kept.
 
     Parameters
     ----------
@@ -129,18 +130,18 @@ _LONGEST = 999
 def fixed_length_chart(games: Any, scale: Any = DEFAULT_SCALE) -> Chart:
     """Return the chart whose races all last at most a given number of games.
 
-    At each difference it has the race m:n with m + n - 1 = games that is nearest to even. The
-    chart ends with the race in which the weaker player needs one game. For nine games it is
-    named 'fixed_9'.
+    At each difference, it has the race m:n with m + n - 1 = games that is closest to even. The
+    chart ends with the race in which the weaker player needs one game. For nine games, its name is
+    'fixed_9'.
 
     Parameters
     ----------
     games
-        the most games of a match, an odd whole number up to 999. An even number would leave
-        no even race for equal players.
+        the most games in a match, an odd whole number up to 999. An even number would leave no even
+        race for equal players.
     scale
-        what differences mean: 'npl', 'fargo', 'elo', a `Scale`, or the points that double the
-        odds.
+        the scale of the differences: 'npl', 'fargo', 'elo', a `Scale`, or the points that double
+        the odds.
 
     Raises
     ------

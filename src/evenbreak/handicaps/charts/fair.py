@@ -1,8 +1,8 @@
-"""The races that come nearest to the chance that a player should have.
+"""The races closest to the chance that a player should have.
 
-All races up to a given length are solved together. W(m, n), the chance of player 1 if player 1
-needs m games and player 2 needs n, follows from W(m - 1, n) and W(m, n - 1), and from who breaks
-next where the break matters; so all races that can last L games follow from those of L - 1.
+All races up to a given length are solved together. W(m, n), player 1's chance if player 1 needs m
+games and player 2 needs n, follows from W(m - 1, n) and W(m, n - 1), and from who breaks next if
+the break matters; so all races that can last L games follow from those of L - 1.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _TIE = 1e-9
 
 @dataclass(frozen=True)
 class FairRace:
-    """One race with its chance and its length.
+    """One race, with its chance and its length.
 
     Parameters
     ----------
@@ -43,18 +43,18 @@ class FairRace:
 
 
 class _Fixed(NamedTuple):
-    """The games that one of the two players needs in all races."""
+    """The games that one of the two players needs, for all races."""
 
     player: int
     games: int
 
     def m(self, longest: int) -> int:
-        """Return what player 1 needs in the race that can last `longest` games."""
+        """Return what player 1 needs in the race that can last at most `longest` games."""
         return self.games if self.player == 1 else longest + 1 - self.games
 
 
 class Candidate(NamedTuple):
-    """The race m:n, its longest match, and how far its chance is from the target."""
+    """A race m:n, its longest match, and the distance of its chance from the target."""
 
     distance: float
     longest: int
@@ -73,33 +73,32 @@ def fair_races(
     first_breaker: int = 1,
     via: Way | None = None,
 ) -> list[FairRace]:
-    """Return the races in which player 1's chance is nearest to `target`, the nearest first.
+    """Return the races in which player 1's chance is closest to `target`, closest first.
 
     Parameters
     ----------
     rack
-        the chances in a game: a `Rack`, or P(player 1 wins a game) where the break does not
-        matter.
+        the chances in a game: a `Rack`, or P(player 1 wins a game) if the break does not matter.
     games
         (lo, hi): the races m:n whose longest match, m + n - 1 games, has lo to hi games.
     race_to
-        instead: the games that the stronger player needs (player 1, if the two are equal); the
-        weaker player needs at most as many.
+        instead of `games`: the games that the stronger player needs (player 1 if the two are
+        equal); the weaker player needs at most as many.
     top
-        how many races to return at most.
+        the largest number of races to return.
     breaks
         needed with Rack(p1, p2).
     first_breaker
         1 or 2.
     via
-        how `p_win_1` of the returned races is calculated, as for `win_probability`; the default
-        method chooses them.
+        the method that calculates `p_win_1` of the returned races, as for `win_probability`; the
+        default method chooses them.
 
     Returns
     -------
     list of FairRace
-        by distance from the target. Where distances are equal within 1e-9, the race with
-        the shortest longest match comes first, then the one with the smaller `race_1`.
+        sorted by distance from the target. If distances are equal to within 1e-9, the race with the
+        shorter longest match comes first, then the one with the smaller `race_1`.
 
     Raises
     ------
@@ -147,7 +146,7 @@ def fair_races(
 def _by_limit(
     race: FairRace, rack: Rack, breaks: BreakFormat | None, first_breaker: int, via: Way
 ) -> FairRace:
-    """Return the same race with its chance by the limit of its graph."""
+    """Return the same race with its chance from the limit of its graph."""
     from evenbreak.games.race import Race
     from evenbreak.matches.by_limit import odds_by_limit
 
@@ -156,16 +155,16 @@ def _by_limit(
 
 
 def _stronger(rack: Rack) -> int:
-    """Return the stronger player; 1 if they are equal."""
+    """Return the number of the stronger player; 1 if they are equal."""
     # With p2 given, it is the one who wins more often on their own break.
     even = rack.chance(2) if rack.p2 is None else rack.p2
     return 1 if rack.p1 >= even else 2
 
 
 def longest_matches(games: tuple[int, int] | None, race_to: int | None) -> tuple[int, int]:
-    """Return the fewest and the most games of the longest match in the races allowed.
+    """Return the fewest and the most games in the longest match of the allowed races.
 
-    An InputError unless exactly one of the two is given, in range.
+    Raises InputError unless exactly one of the two is given, in range.
 
     >>> longest_matches(None, 7), longest_matches((7, 13), None)
     ((7, 13), (7, 13))
@@ -208,7 +207,7 @@ def _win_rows(
 def _nearest(
     rows: Iterable[list[float]], low: int, fixed: _Fixed | None, target: float, top: int
 ) -> list[Candidate]:
-    """Return at least `top` of the races nearest to the target, in order."""
+    """Return at least `top` of the races closest to the target, in order."""
     distances = [
         (longest, m, abs(row[m - 1] - target))
         for longest, row in enumerate(rows, start=1)
@@ -226,7 +225,7 @@ def _nearest(
 
 
 def shortest_of_ties(candidates: list[Candidate]) -> list[Candidate]:
-    """Return sorted candidates, with the shortest first among those of practically one distance."""
+    """Return sorted candidates, with the shortest first among practically equal distances."""
     ordered: list[Candidate] = []
     tied: list[Candidate] = []
     for candidate in candidates:
@@ -248,7 +247,7 @@ def _describe(
 
 
 def games_range(games: Any) -> tuple[int, int]:
-    """Return the pair (lo, hi) if it holds two whole numbers, the smaller first.
+    """Return the pair (lo, hi) if it holds two whole numbers in increasing order.
 
     >>> games_range((5, 7))
     (5, 7)
@@ -263,7 +262,7 @@ def games_range(games: Any) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class RaceLimits:
-    """Which races a chart may hold.
+    """Limits on the races that a chart may hold.
 
     Parameters
     ----------
@@ -274,8 +273,8 @@ class RaceLimits:
         the fewest games that the stronger and the weaker player may need. The stronger
         player never needs fewer than the weaker.
     games_p90
-        the number of games within which 9 of 10 matches must end, at every difference;
-        None for no such limit.
+        the number of games within which 9 out of 10 matches must end, at every difference; None: no
+        such limit.
 
     Raises
     ------
@@ -314,7 +313,7 @@ class RaceLimits:
 
     @property
     def races(self) -> tuple[tuple[int, int], ...]:
-        """The races (m, n), m for the stronger player, the shortest first."""
+        """The races (m, n), with m for the stronger player, from shortest to longest."""
         low, high = self.games
         return tuple(
             (m, longest + 1 - m)

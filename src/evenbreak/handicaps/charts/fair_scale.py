@@ -1,10 +1,9 @@
-"""How many rating points double the odds in a league, by its results.
+"""How many rating points double the odds in a league, according to its results.
 
-Where results state ratings, the games show the value of a point. Where they state races alone,
-and the races are those of a known chart, each race says in which range the difference of the two
-ratings lay; within it the differences are taken as those of a half-normal distribution, fitted to
-how often each race was played. Matches of the chart's last row, which has no end, are then left
-out.
+If results state ratings, the games show the value of a point. If they state only races, and the
+races come from a known chart, each race shows which range the rating difference was in; within the
+range, the differences are assumed to follow a half-normal distribution, fitted to how often each
+race was played. Matches in the chart's last row, which has no end, are then left out.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ from evenbreak.ratings.scale import SCALES
 from evenbreak.ratings.validation.starts import FEWEST, MOST_CLASSES
 
 FEWEST_STARTS = 7
-"""Starts of different sizes, to either side, from which races show what they assume."""
+"""Start sizes needed on each side for races to show what they assume."""
 
 
 class FairScale(NamedTuple):
@@ -44,9 +43,9 @@ class FairScale(NamedTuple):
     points
         from the results, with their 95% interval.
     assumed
-        from the races.
+        the points that the races assume.
     matches
-        the number of matches that this rests on.
+        the number of matches used.
     games
         the longest possible match of the shortest and of the longest race.
     """
@@ -59,14 +58,14 @@ class FairScale(NamedTuple):
 
 
 class LeagueChart(NamedTuple):
-    """The chart that a league uses, as far as its results show it.
+    """The chart that a league uses, as far as its results show.
 
     Parameters
     ----------
     nearest
-        the nearest chart of the catalog; None if none is near.
+        the closest chart in the catalog; None if none is close.
     scale
-        None if ratings aren't known.
+        None if ratings are unknown.
     """
 
     nearest: PlayedChart | None = None
@@ -74,7 +73,7 @@ class LeagueChart(NamedTuple):
 
 
 def league_chart(results: Results) -> LeagueChart:
-    """Return the chart that a league uses, as far as its results show it.
+    """Return the chart that a league uses, as far as its results show.
 
     >>> season = Results.from_names(["Ann"], ["Bo"], [7], [5], race_a=[7], race_b=[7])
     >>> league_chart(season)
@@ -86,9 +85,9 @@ def league_chart(results: Results) -> LeagueChart:
 
 
 def fair_scale(results: Results, played: PlayedChart | None) -> FairScale | None:
-    """Return what doubles the odds; None without ratings, or with too few unequal races.
+    """Return the points that double the odds; None without ratings or with too few unequal races.
 
-    Ratings are `level_a` and `level_b`, or races are by a chart of the catalog, `played`.
+    Ratings are `level_a` and `level_b`; otherwise, races must be from a catalog chart, `played`.
     """
     season = results.played().results
     race_a, race_b = season.races
@@ -116,12 +115,12 @@ def fair_scale(results: Results, played: PlayedChart | None) -> FairScale | None
 
 
 def _usual(games: Ints, share: float) -> int:
-    """Return the games than which no more than this share of the matches needs fewer."""
+    """Return the number of games that at most this share of the matches stays below."""
     return int(np.quantile(games, share, method="inverted_cdf"))
 
 
 def _differences(season: Results, by_chart: Chart | None) -> Floats | None:
-    """Return by how many points a is rated above b in each match, NaN where that is not known."""
+    """Return how many points a is rated above b in each match, NaN where unknown."""
     level_a, level_b = level_numbers_of(season)
     apart = level_a - level_b
     stated = ~np.isnan(apart)
@@ -132,7 +131,7 @@ def _differences(season: Results, by_chart: Chart | None) -> Floats | None:
 
 
 def _by_race(season: Results, by_chart: Chart) -> Floats:
-    """Return the mean difference of the ratings of each match, given its race."""
+    """Return the expected rating difference in each match, given its race."""
     race_a, race_b = season.races
     pairs = [(row.stronger_needs, row.weaker_needs) for row in by_chart.rows]
     needs = np.maximum(race_a, race_b), np.minimum(race_a, race_b)
@@ -151,7 +150,7 @@ def _by_race(season: Results, by_chart: Chart) -> Floats:
 
 
 def _mean_differences(cuts: Floats, often: Floats) -> Floats:
-    """Return the mean difference in each row of a chart under the half-normal that fits best."""
+    """Return the mean difference in each row of a chart under the best-fitting half-normal."""
     edges = np.append(cuts, np.inf)
 
     def loss(log_sd: float) -> float:
@@ -168,7 +167,7 @@ def _mean_differences(cuts: Floats, often: Floats) -> Floats:
 
 
 def _assumed(season: Results, apart: Floats, by_chart: Chart | None) -> float:
-    """Return the points that double the odds by the chart, or by the races that are played."""
+    """Return the points that double the odds according to the chart or to the races played."""
     scale = None if by_chart is None else SCALES.get(by_chart.name.split("_")[0])
     if scale is not None:
         return scale.points_per_doubling

@@ -1,14 +1,14 @@
-"""The gap between two players whose ratings have errors: chances, lengths and fair races.
+"""Rating gap between two players whose ratings have errors: chances, lengths and fair races.
 
-The difference of two ratings is known only up to an error: it is distributed as N(d, e²), with
-the estimate d and the standard error e. A chance W(p(δ); m, n) is then averaged over the
-possible differences δ,
+The difference between two ratings is known only up to an error: it is distributed as N(d, e²), with
+the estimate d and the standard error e. A chance W(p(δ); m, n) is then averaged over the possible
+differences δ,
 
     E W = ∫ W(p(d + e z); m, n) φ(z) dz,
 
-by Gauss-Hermite quadrature. That pulls chances toward 1/2: W at the estimate itself, the
-plug-in value, is overconfident in the favorite. Day-to-day form (`evenbreak.matches.form`) is one
-more error, which is drawn again for each match.
+by Gauss-Hermite quadrature. That pulls chances toward 1/2: the plug-in value, W at the estimate
+itself, is overconfident about the favorite. Day-to-day form (`evenbreak.matches.form`) is one more
+error, which is drawn again for each match.
 """
 
 from __future__ import annotations
@@ -36,10 +36,10 @@ from evenbreak.matches.win import race_win_probability
 from evenbreak.ratings.scale import DEFAULT_SCALE, Scale, scale_of
 
 MOST_DOUBLINGS = 10.0
-"""The largest standard error allowed, in doublings of the odds."""
+"""The largest standard error allowed, in multiples of the difference that doubles the odds."""
 
 MOST_RACES = 20_000
-"""Races among which the nearest are sought: all of up to 200 games."""
+"""Limit of the search for the closest races: all races of up to 200 games."""
 
 _MOST_NODES = 20_000
 _TIE = 1e-9
@@ -48,7 +48,7 @@ _AT_A_TIME = 1 << 20  # values held in memory at once
 
 @dataclass(frozen=True, eq=False)
 class Gap:
-    """Player 1's rating less player 2's, its uncertainty, and the chances that follow.
+    """Player 1's rating minus player 2's, its uncertainty, and the resulting chances.
 
     Parameters
     ----------
@@ -56,13 +56,13 @@ class Gap:
         rating of player 1 minus rating of player 2, in points; a number, or an array of many pairs.
     error
         the standard error of that difference, in points; 0 treats the ratings as exact. For two
-        independent ratings it is the root of the sum of their squared errors. Broadcast together
-        with `difference`.
+        independent ratings, it is the root of the sum of their squared errors. It is broadcast with
+        `difference`.
     scale
-        what the points mean: a name, points that double the odds, or a `Scale`.
+        the scale of the points: a name, points that double the odds, or a `Scale`.
     form
-        how much the log-odds of a game vary from match to match (standard deviation), whatever
-        the scale. The chance of a single game is the same with any form.
+        how much the log-odds of a game vary from match to match (standard deviation), independent
+        of the scale. Form does not change the chance of a single game.
 
     Raises
     ------
@@ -73,8 +73,8 @@ class Gap:
     Notes
     -----
     The number of nodes grows with the error and with the length of the race, so that the
-    quadrature is off by less than 1e-9, except in races of hundreds of games between players
-    about whom next to nothing is known.
+    quadrature is off by less than 1e-9, except in races of hundreds of games between almost unknown
+    players.
 
     >>> round(Gap(60).win(7, 3), 4), round(Gap(60, error=40).win(7, 3), 4)
     (0.7382, 0.6485)
@@ -104,16 +104,16 @@ class Gap:
             object.__setattr__(self, name, checked)
 
     def __getitem__(self, pairs: Any) -> Gap:
-        """Return the gaps of some of the pairs."""
+        """Return the gaps for some of the pairs."""
         return replace(self, difference=self.difference[pairs], error=self.error[pairs])
 
     def at(self, difference: Any) -> Gap:
-        """Return the gap of pairs with this difference, known as well as this one."""
+        """Return the gap for a pair with this difference and the same uncertainty."""
         return replace(self, difference=difference)
 
     @property
     def taken_as_right(self) -> Gap:
-        """The same, as if there were no error; form stays."""
+        """The same gap without rating error; form is kept."""
         return replace(self, error=0.0)
 
     @property
@@ -125,7 +125,7 @@ class Gap:
     def normal(self) -> tuple[Floats, Floats]:
         """The differences and errors, in points, that combine error and day-to-day form.
 
-        Both are normal, so their variances add up. The chance of a game stays what it is without
+        Both are normal, so their variances add up. The chance of a game is the same as without
         form.
         """
         if self.form == 0.0:
@@ -135,7 +135,7 @@ class Gap:
         return np.asarray(self.scale.points(center)), np.asarray(self.scale.points(around))
 
     def _rule(self, longest: int) -> tuple[Floats, Floats]:
-        """Return nodes and weights that average W of races of so many games over the errors."""
+        """Return nodes and weights that average W over the errors, for races of this many games."""
         _, around = self.normal
         return averaging_rule(float(around.max(initial=0.0)), longest, self.scale)
 
@@ -165,7 +165,7 @@ class Gap:
         return plain(chance)
 
     def length(self, m: int, n: int) -> MatchLength[Any, Any]:
-        """Return the length of the race m:n, a single race for all differences.
+        """Return the length of the race m:n, the same race for all differences.
 
         The chance of each length is averaged over the possible differences; mean, standard
         deviation and quantiles are those of the averaged distribution.
@@ -189,23 +189,23 @@ class Gap:
         return MatchLength(games, total, plain(mean), plain(sd), never, never, bounded=True)
 
     def odds(self, match: Match) -> MatchOdds:
-        """Return the odds of a match, averaged over the uncertainty of one pair's difference.
+        """Return the odds for a match, averaged over the uncertainty in one pair's difference.
 
         Parameters
         ----------
         match
-            the chance in a game comes from the ratings, whatever its rack says.
+            the match; its chance of winning a game is replaced by the chance from the ratings.
 
         Raises
         ------
         InputError
-            if the gap is that of many pairs, or the break matters in the match.
+            if the gap holds many pairs, or the break matters in the match.
 
         Notes
         -----
-        The lengths of all possible differences are mixed, and mean, standard deviation and
-        quantiles are those of the mixture. A score that is already reached does not change the
-        ratings, unless there is form: then it shows how well both play today.
+        The lengths for all possible differences are mixed, and mean, standard deviation and
+        quantiles are those of the mixture. The current score does not change the ratings, unless
+        there is form: then it shows how well both are playing today.
 
         >>> from evenbreak.games import Race, Rack
         >>> round(Gap(60, error=40).odds(Race(7, 3, Rack(0.5))).p_win_1, 4)
@@ -240,10 +240,10 @@ class Gap:
         race_to: int | None = None,
         target: float = 0.5,
     ) -> tuple[Ints, Ints]:
-        """Return (m, n), two arrays: the race nearest to the target for each difference.
+        """Return (m, n), two arrays: the race closest to the target for each difference.
 
-        Among races equal within 1e-9 the shortest is taken, then the one with the smaller m, as
-        in `fair_races`.
+        Among races that are equal to within 1e-9, the shortest is taken, then the one with the
+        smaller m, as in `fair_races`.
 
         Parameters
         ----------
@@ -274,10 +274,10 @@ class Gap:
         return m.reshape(shape), (longest + 1 - m).reshape(shape)
 
     def _fairest_race_to(self, needs: int, target: float) -> tuple[Ints, Ints]:
-        """Return (m, n) where the stronger needs so many games, and the other at most as many.
+        """Return (m, n) where the stronger player needs a given number of games, the other no more.
 
-        The stronger player's chance rises with the games that the other needs, so the nearest to
-        the target is found by bisection.
+        The stronger player's chance rises with the games that the other needs, so the race closest
+        to the target is found by bisection.
         """
         center, around = self.normal
         ahead = center >= 0.0
@@ -303,7 +303,7 @@ class Gap:
         target: float = 0.5,
         top: int = 5,
     ) -> list[FairRace]:
-        """Return the races in which player 1's chance is nearest to `target`, the nearest first.
+        """Return the races in which player 1's chance is closest to `target`, closest first.
 
         The first race is that of `Gap.fair_races`.
 
@@ -315,8 +315,8 @@ class Gap:
         Raises
         ------
         InputError
-            if a parameter is out of range, the gap is that of many pairs, not exactly one of
-            `games` and `race_to` is given, or more than 20,000 races are offered.
+            if a parameter is out of range, the gap holds many pairs, not exactly one of `games` and
+            `race_to` is given, or there are more than 20,000 races to choose from.
 
         >>> for race in Gap(91, 80, "fargo").nearest_races(race_to=7, top=2):
         ...     print(race.race_1, race.race_2, round(race.p_win_1, 3), round(race.mean_games, 2))
@@ -362,7 +362,7 @@ class Gap:
 
 
 def averaging_rule(largest_error: float, longest: int, scale: Scale) -> tuple[Floats, Floats]:
-    """Return nodes and weights that average W over N(0, 1) to 1e-9, unless 20,000 are too few."""
+    """Return nodes and weights that average W over N(0, 1) to 1e-9, using at most 20,000."""
     return normal_rule(scale.log_odds(largest_error), longest, _MOST_NODES)
 
 

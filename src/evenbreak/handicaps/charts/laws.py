@@ -1,4 +1,4 @@
-"""What every chart has to hold to, as one from someone else's package may not."""
+"""The rules that every chart must follow, including charts from other packages."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ AnyChart = Chart | LevelChart | PointsChart
 def broken_chart_laws(chart: AnyChart) -> list[str]:
     """Return the rules that a chart breaks, in sentences; empty if it breaks none.
 
-    Its shape was checked when it was made. Checked here: the race of a pair is the same seen from
-    either side; no race is easier for the stronger player than one at a smaller difference, or for
-    the higher of two levels than against a higher one; and the chart can be sent to other
-    processes.
+    Its shape is checked when it is made. This function checks that a pair's race is the same seen
+    from either side; that no race is easier for the stronger player than one at a smaller
+    difference, or for the higher of two levels than its race against a higher one; and that the
+    chart can be sent to other processes.
 
     >>> from evenbreak.handicaps import Chart, chart
     >>> broken_chart_laws(chart("npl_10"))
@@ -37,7 +37,7 @@ def broken_chart_laws(chart: AnyChart) -> list[str]:
 
 
 def lawful_chart(chart: Any) -> AnyChart:
-    """Return a chart that breaks no law, or refuse it by the first that it breaks."""
+    """Return a chart that breaks no rule, or raise an error for the first rule that it breaks."""
     if not isinstance(chart, Chart | LevelChart | PointsChart):
         raise InputError(
             "it must be a Chart, a LevelChart or a PointsChart; it is a {type}",

@@ -1,8 +1,8 @@
-"""The audit of a chart by skill level: the ratings that it implies for the levels.
+"""Audit a chart by skill level: the ratings that it implies for the levels.
 
 The race between two levels is even at one difference in strength. If the chart were consistent,
-each level would have a rating, and all those differences would be differences of two ratings.
-Least squares finds the ratings that come nearest to that.
+each level would have a rating, and every such difference would be the difference between two
+ratings. Least squares finds the ratings that come closest to that.
 """
 
 from __future__ import annotations
@@ -31,18 +31,18 @@ class LevelCell:
     Parameters
     ----------
     level, opponent_level, needs, opponent_needs
-        the two levels, the higher one first, and each player's games.
+        the two levels, higher one first, and each player's games.
     p_win_low, p_win_middle, p_win_high
-        P(the player of the higher level wins) if the two players are as close as their
-        levels allow, in the middle of their levels, and as far apart as the levels allow.
-        For two players of the same level: P(the stronger wins).
+        P(the higher-level player wins) if the two players are as close as their levels allow, in
+        the middle of their levels, and as far apart as their levels allow. For two players at the
+        same level: P(the stronger player wins).
     even_difference
         the difference in points at which the race is even.
     difference
-        the difference in points between the ratings of the two levels; below `even_difference` the
-        chart favors the lower level, above it the higher.
+        the difference in points between the ratings of the two levels; below `even_difference`, the
+        chart favors the lower level; above it, the higher level.
     unfairness
-        `|p_win_middle - 1/2|`; 0 for two players of the same level.
+        `|p_win_middle - 1/2|`; 0 for two players at the same level.
     monotone
         whether the race is harder for the higher level than the race against the next higher
         opponent, and than the race of the next lower level against the same opponent.
@@ -72,10 +72,10 @@ class LevelAudit:
     levels, ratings
         the skill levels, and the rating in the middle of each in points, 0 for the lowest.
     misfit
-        how far the differences at which the races are even are from the differences of these
-        ratings (root mean square over the pairs of different levels), in points.
+        root mean square distance, in points, between the differences at which the races are even
+        and the differences of these ratings, over the pairs of different levels.
     cells
-        the pairs of levels, the higher one first.
+        the pairs of levels, higher one first.
     """
 
     name: str
@@ -87,15 +87,15 @@ class LevelAudit:
 
     @property
     def worst(self) -> LevelCell:
-        """The most unfair pair of levels, the first of equals."""
+        """The most unfair pair of levels; the first one if several are equally unfair."""
         return max(self.cells, key=lambda cell: cell.unfairness)
 
 
 def audit_levels(chart: LevelChart | str, *, scale: Any = DEFAULT_SCALE) -> LevelAudit:
     """Return the fairness of a chart by skill level, and the ratings that fit it best.
 
-    Each level is assumed to reach halfway to its neighbors; the lowest and the highest extend as
-    far outwards as inwards.
+    Each level is assumed to extend halfway to its neighbors; the lowest and highest levels extend
+    as far outward as inward.
 
     Parameters
     ----------
@@ -175,15 +175,16 @@ def _cells(chart: LevelChart, even: Floats, strength: Floats, scale: Scale) -> I
 
 
 INNINGS = 25.0
-"""The innings that a player is taken to need; the answers change little between 15 and 40."""
+"""The innings that a player is assumed to need; results change little between 15 and 40."""
 
 
 @dataclass(frozen=True)
 class PointsLevel:
-    """What a level of a chart of points is assumed to play like.
+    """Assumed play of a level in a chart of points.
 
-    `points_an_inning` is an average player's; `p_win_as_next` is P(a player of this level who
-    scores like the next one wins against an average player of this level), None for the highest.
+    `points_an_inning` is for an average player; `p_win_as_next` is P(a player at this level who
+    scores like the next level wins against an average player at this level), None for the highest
+    level.
     """
 
     level: int
@@ -194,7 +195,7 @@ class PointsLevel:
 
 @dataclass(frozen=True)
 class PointsPair:
-    """The match of average players of two levels, the higher one first."""
+    """The match between average players of two levels, higher one first."""
 
     level: int
     opponent_level: int
@@ -210,7 +211,7 @@ class PointsAudit:
     Parameters
     ----------
     innings
-        the mean number that a player needs.
+        the mean number of innings that a player needs.
     """
 
     name: str
@@ -220,7 +221,7 @@ class PointsAudit:
 
 
 def audit_points(chart: PointsChart | str, *, innings: float = INNINGS) -> PointsAudit:
-    """Return how even a chart of points is if points an inning go with the points needed.
+    """Return how even a chart of points is, if points per inning are proportional to points needed.
 
     Parameters
     ----------
@@ -268,7 +269,7 @@ def audit_points(chart: PointsChart | str, *, innings: float = INNINGS) -> Point
 
 
 def _win(needs: tuple[int, int], scored_as: tuple[int, int], innings: float) -> float:
-    """Return P(player 1 wins), either player being first at the table with chance 1/2."""
+    """Return P(player 1 wins), where each player is equally likely to shoot first."""
     p1, p2 = (points / (innings + points) for points in scored_as)
     matches = (StraightPool(*needs, p1, p2, first=first) for first in (1, 2))
     return sum(straight_pool_odds(match).p_win_1 for match in matches) / 2.0

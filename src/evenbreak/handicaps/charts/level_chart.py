@@ -1,4 +1,4 @@
-"""Charts by skill level: which race two players of given levels play."""
+"""Charts by skill level: which race two players play, given their levels."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from evenbreak.errors import InputError
 from evenbreak.handicaps.charts.chart import catalog_rows
 
 LEVEL_CHARTS = {"apa_8ball": "APA 8-ball"}
-"""The charts by skill level that come with the package: the title of each, by name."""
+"""Titles of the built-in charts by skill level, by name."""
 
 
 @dataclass(frozen=True)
 class LevelChart:
-    """A chart of races by the skill levels of the two players, as a league prints it.
+    """Chart of races by the two players' skill levels, as printed by a league.
 
     Parameters
     ----------
     levels
         the skill levels, increasing whole numbers.
     needs
-        `needs[i][j]`: the games that a player of level `levels[i]` needs against one of level
+        `needs[i][j]`: the games that a player at level `levels[i]` needs against one at level
         `levels[j]`.
 
     Raises
@@ -96,7 +96,7 @@ class LevelChart:
         return needs[i, j], needs[j, i]
 
     def places(self, levels: ArrayLike, name: str = "levels") -> Ints:
-        """Return where levels are in the chart's list of them, elementwise.
+        """Return the positions of levels in the chart's list, elementwise.
 
         Raises
         ------
@@ -116,7 +116,7 @@ class LevelChart:
 
 
 def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
-    """Return the games needed as rows of ints, or refuse them."""
+    """Return the games needed as rows of ints, or raise an error."""
     rows = [tuple(row) if hasattr(row, "__iter__") else () for row in needs]
     if len(rows) != len(levels) or any(len(row) != len(levels) for row in rows):
         raise InputError(
@@ -146,7 +146,7 @@ def _needs(needs: Any, levels: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
 
 
 def level_chart(name: str) -> LevelChart:
-    """Return a chart by skill level that comes with the package, by its name in `LEVEL_CHARTS`.
+    """Return a built-in chart by skill level, by its name in `LEVEL_CHARTS`.
 
     `apa_8ball` is the American Poolplayers Association's chart for 8-ball.
 
@@ -184,24 +184,24 @@ def _read(name: str) -> LevelChart:
 
 
 POINTS_CHARTS = {"apa_9ball": "APA 9-ball"}
-"""The charts of points that come with the package: the title of each, by name."""
+"""Titles of the built-in charts of points, by name."""
 
 
 @dataclass(frozen=True)
 class PointsChart:
-    """A chart of the points that a player needs, by skill level, as a league prints it.
+    """Chart of the points that a player needs, by skill level, as printed by a league.
 
     Parameters
     ----------
     levels
         the skill levels, increasing whole numbers.
     points
-        the points that a player of each level needs, 1 or more, increasing.
+        the points that a player at each level needs, 1 or more, increasing.
 
     Raises
     ------
     InputError
-        if the levels or the points do not increase, or there are not as many of both.
+        if the levels or the points do not increase, or their numbers differ.
 
     >>> two = PointsChart("two", [3, 4], [25, 31])
     >>> two.race(4, 3)
@@ -249,10 +249,10 @@ class PointsChart:
 
 
 def points_chart(name: str) -> PointsChart:
-    """Return a chart of points that comes with the package, by its name in `POINTS_CHARTS`.
+    """Return a built-in chart of points, by its name in `POINTS_CHARTS`.
 
-    `apa_9ball` is the American Poolplayers Association's chart for 9-ball, where balls 1 to 8
-    count a point each and the 9 counts two, so that a rack has 10 points.
+    `apa_9ball` is the American Poolplayers Association's chart for 9-ball, where balls 1 to 8 are
+    worth one point each and the 9 is worth two, so a rack has 10 points.
 
     Raises
     ------

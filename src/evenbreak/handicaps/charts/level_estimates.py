@@ -1,10 +1,10 @@
-"""How strong the skill levels of a chart are by a league's own results.
+"""Estimate the strength of a chart's skill levels from a league's own results.
 
-A player of level L has the strength s_L + u, where u, the player's own distance from the middle of
-the level, is N(0, spread^2); a game has the log-odds of the difference of the two strengths. The
+A player at level L has the strength s_L + u, where the player's own distance from the middle of the
+level, u, is N(0, spread^2); the difference between two strengths gives the log-odds of a game. The
 strengths are estimated together with all u, shrunk toward what is known from elsewhere (standard
-deviation `PRIOR_SD`), and the spread by the largest marginal likelihood, in Laplace's approximation
-(Breslow & Clayton 1993).
+deviation `PRIOR_SD`), and the spread is estimated by maximum marginal likelihood, with Laplace's
+approximation (Breslow & Clayton 1993).
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ from evenbreak.ratings.scale import SCALES
 FARGO = SCALES["fargo"]
 
 PRIOR_SD = 50.0
-"""How far a league's levels may be from those of other leagues (standard deviation), in points."""
+"""How far a league's levels may be from other leagues' (standard deviation), in points."""
 
 WIDEST, NARROWEST = 300.0, 3.0
-"""The spreads of the players of a level that are considered, in points."""
+"""The spreads of players within a level that are considered, in points."""
 
 _MOST_STEPS, _TINY = 50, 1e-6
 
@@ -35,9 +35,10 @@ _MOST_STEPS, _TINY = 50, 1e-6
 def estimated_levels(
     usual: Floats, results: Results, places: tuple[Ints, Ints]
 ) -> tuple[Floats, Floats, float]:
-    """Return the levels' points on the Fargo scale, their covariance, and the spread inside them.
+    """Return the levels' Fargo points, their covariance, and the spread within a level.
 
-    `usual` are their points without the results; `places` the levels of a and b in each match.
+    `usual` holds their points without the results; `places` holds the levels of a and b in each
+    match.
     """
     season = _Season(usual, results, places)
     low, high = np.log([NARROWEST, WIDEST])
@@ -53,7 +54,7 @@ def estimated_levels(
 
 
 class _Season:
-    """A league's games between players of some levels, and the likelihood of a spread."""
+    """A league's games between players at some levels, and the likelihood of a spread."""
 
     def __init__(self, usual: Floats, results: Results, places: tuple[Ints, Ints]) -> None:
         sides = results.player_a, results.player_b

@@ -1,6 +1,6 @@
-"""How strong the skill levels of a chart are, and how likely the higher level is to win a game.
+"""The strength of a chart's skill levels, and the higher level's chance of winning a game.
 
-A chart by skill level does not say the value of a level. Three sources do, the best first:
+A chart by skill level does not state the value of a level. Three sources do, best first:
 
 - The league's own results (`level_estimates`).
 - Measured results of many leagues with the same chart: `MEASURED`.
@@ -30,10 +30,10 @@ from evenbreak.words import Sentence, say
 FARGO = SCALES["fargo"]
 
 FEWEST = 100
-"""Matches between different levels from which a league's own results are used."""
+"""Matches between different levels needed to use a league's own results."""
 
 MOST = 10_000
-"""The matches that are used at most, the last ones: more say nothing that would matter."""
+"""The most matches used, counted from the last; more would add nothing that matters."""
 
 MEASURED = {
     "apa_8ball": (
@@ -44,36 +44,35 @@ MEASURED = {
         (0.908, 0.885, 0.811, 0.708, 0.625),
     )
 }
-"""P(the higher level wins a game), by the higher level from the second on, then by the lower one.
+"""P(the higher level wins a game), by the higher level from the second up, then by the lower one.
 
-APA 8-ball: fitted, one chance for each pair, to a public table of the mean match points of some
-40,000 matches of one region (2025), under the chart and the split of three points (3-0 for a
-shutout, 2-1 if the loser was on the hill, else 2-0). All 30 means are then within .021 points. The
-chances are means over the players of two levels, so they leave no spread to average over.
+APA 8-ball: one chance for each pair was fitted to a public table of the mean match points in some
+40,000 matches in one region (2025), under the chart and the split of three points (3-0 for a
+shutout, 2-1 if the loser was on the hill, else 2-0). All 30 means then agree to within .021 points.
+The chances are means over the players at two levels, so there is no spread left to average over.
 """
 
 
 Source: TypeAlias = Literal["results", "measured", "chart"]
-"""What says how strong levels are."""
+"""Where the strength of levels comes from."""
 
 
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class LevelSkills:
-    """How strong the levels of a chart are, on the Fargo scale (100 points double the odds).
+    """Strength of a chart's levels, on the Fargo scale (100 points double the odds).
 
     Parameters
     ----------
     gaps, errors
-        `gaps[i, j]`: by how much `levels[i]` is stronger than `levels[j]`, in points, and its
-        standard error; NaN where nothing says how far off it may be.
+        `gaps[i, j]`: how much stronger `levels[i]` is than `levels[j]`, in points, and its standard
+        error; NaN if the error is unknown.
     points, standard_error
-        the strengths that come nearest to the gaps by least squares, 0 for the lowest level, and
-        their standard errors, of which two make that of a difference as independent ones would;
-        only differences have a meaning.
+        the strengths that fit the gaps best by least squares, 0 for the lowest level, and their
+        standard errors, two of which combine as if independent; only differences have a meaning.
     spread
-        how far players of one level differ from its middle (standard deviation), in points; 0 where
-        it is not known.
+        how far players at one level differ from its middle (standard deviation), in points; 0 if
+        unknown.
     source
         'results' of the league, 'measured' elsewhere, or 'chart': assumed by the chart.
     matches
@@ -108,19 +107,19 @@ class LevelSkills:
         return self.source != "chart"
 
     def difference(self, level_1: ArrayLike, level_2: ArrayLike) -> Any:
-        """Return by how many points level 1 is stronger, elementwise."""
+        """Return how many points stronger level 1 is, elementwise."""
         return self.gaps[self.places(level_1), self.places(level_2)]
 
     def error(self, level_1: ArrayLike, level_2: ArrayLike) -> Any:
-        """Return the uncertainty of `points` for two players of the levels; 0 if not known.
+        """Return the uncertainty of `points` for two players at these levels; 0 if unknown.
 
-        It joins the standard error of the difference and the spread of the players of a level.
+        It combines the standard error of the difference and the spread of players within a level.
         """
         known = np.nan_to_num(self.errors[self.places(level_1), self.places(level_2)])
         return np.hypot(known, np.sqrt(2.0) * self.spread)
 
     def chance(self, level_1: ArrayLike, level_2: ArrayLike) -> Any:
-        """Return P(a player in the middle of level 1 wins a game against one of level 2).
+        """Return P(a player in the middle of level 1 beats one in the middle of level 2 in a game).
 
         >>> level_skills("apa_8ball").chance(5, [3, 4, 5]).round(3)
         array([0.721, 0.594, 0.5  ])
@@ -128,7 +127,7 @@ class LevelSkills:
         return FARGO.win_probability(self.difference(level_1, level_2))
 
     def gap(self, level_1: ArrayLike, level_2: ArrayLike, form: float = 0.0) -> Gap:
-        """Return the gap between players of these levels, from which all their chances come.
+        """Return the gap between players at these levels, which determines all their chances.
 
         >>> round(float(level_skills("apa_8ball").gap(7, 5).win(5, 3)), 2)
         0.66
@@ -136,7 +135,7 @@ class LevelSkills:
         return Gap(self.difference(level_1, level_2), self.error(level_1, level_2), FARGO, form)
 
     def strength(self, levels: ArrayLike) -> Floats:
-        """Return the points of players of these levels; NaN for other levels."""
+        """Return the points of players at these levels; NaN for other levels."""
         array = np.asarray(levels, dtype=np.float64)
         points, known = np.full(array.shape, np.nan), np.isin(array, self.levels)
         points[known] = self.points[self.places(array[known])]
@@ -154,7 +153,7 @@ class LevelSkills:
 
     @property
     def why(self) -> Sentence:
-        """What the chances rest on, in a sentence."""
+        """What the chances are based on, in a sentence."""
         if self.source == "results":
             return say(
                 "The chance of winning a game comes from the skill levels, based on {matches:,} "
@@ -181,15 +180,15 @@ class LevelSkills:
 
 
 def level_skills(chart: LevelChart | str, results: Results | None = None) -> LevelSkills:
-    """Return the strengths of a chart's levels, from the best source available.
+    """Return the strength of a chart's levels, from the best available source.
 
     Parameters
     ----------
     chart
         the chart, or its name in `LEVEL_CHARTS`.
     results
-        the league's own results with `level_a` and `level_b`; they are used if at least `FEWEST`
-        matches are between different levels.
+        the league's own results with `level_a` and `level_b`; used if at least `FEWEST` matches are
+        between different levels.
 
     Raises
     ------
@@ -223,7 +222,7 @@ def level_skills(chart: LevelChart | str, results: Results | None = None) -> Lev
 
 
 def _measured(chart: LevelChart) -> LevelSkills | None:
-    """Return what was measured elsewhere; None where nothing was for these levels and races."""
+    """Return what was measured elsewhere; None if there is nothing for these levels and races."""
     for name, rows in MEASURED.items():
         measured = level_chart(name)
         if (chart.levels, chart.needs) != (measured.levels, measured.needs):
@@ -245,7 +244,7 @@ def _measured(chart: LevelChart) -> LevelSkills | None:
 
 
 def _assumed(chart: LevelChart) -> LevelSkills:
-    """Return the strengths that make the races of a chart as even as possible."""
+    """Return the strengths that make a chart's races as even as possible."""
     points = np.array(audit_levels(chart, scale=FARGO).ratings)
     gaps, own = points[:, None] - points, np.full(len(points), np.nan)
     return LevelSkills(chart, gaps, np.full(gaps.shape, np.nan), points, own, 0.0, "chart")

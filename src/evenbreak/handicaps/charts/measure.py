@@ -33,14 +33,14 @@ class ChartMeasure:
     up_to
         the largest difference, in points.
     mean_unfairness, worst_unfairness
-        mean and largest `|P(the stronger player wins) - target|`. At 0, where neither player
-        is the stronger, it counts as 0.
+        mean and largest `|P(the stronger player wins) - target|`. At 0, where neither player is
+        stronger, it counts as 0.
     worst_difference
         the difference at which it is largest.
     mean_games
         over all differences.
     games_p90
-        the number of games within which 9 of 10 matches end, at every difference.
+        the number of games within which 9 out of 10 matches end, at every difference.
     """
 
     up_to: int
@@ -54,8 +54,8 @@ class ChartMeasure:
 def last_difference(chart: Chart | str, scale: Any) -> int:
     """Return the last whole-point difference at which the chart's last race is not too easy.
 
-    There the race of the open-ended last row is even; beyond it the stronger player is the
-    favorite at every difference. It marks the range that a chart was made for.
+    The race in the open-ended last row is even there; at larger differences, the stronger player is
+    always the favorite. This marks the range that a chart was made for.
 
     >>> last_difference("npl_8", "npl")
     52
@@ -75,9 +75,9 @@ def measure_chart(
     chart
         a chart by rating difference, or its name in `CHARTS`.
     scale
-        what ratings mean, as for `design`.
+        the scale of the ratings, as for `design`.
     up_to
-        the last difference that counts; None for `last_difference(chart, scale)`.
+        the last difference that counts; None: `last_difference(chart, scale)`.
     target
         the chance that the stronger player should have.
 

@@ -1,7 +1,7 @@
-"""Where a chart breaks the rule that makes charts: at each difference, the race with W nearest 1/2.
+"""Where a chart breaks its rule: at each difference, the race with W closest to 1/2.
 
-The chart is held to its own races. Its first row stays for equal players, whom any even race
-suits, and the later ones are compared at each whole-point difference.
+The chart is compared with its own races. Its first row is kept for equal players, for whom any even
+race will do, and later rows are compared at each whole-point difference.
 """
 
 from __future__ import annotations
@@ -18,9 +18,10 @@ from evenbreak.ratings.scale import scale_of
 
 
 class OffRule(NamedTuple):
-    """A difference, in points, at which another race of the chart would be nearer to even.
+    """A difference, in points, at which another race in the chart would be closer to even.
 
-    `win` is P(the stronger player wins) the chart's race, `nearest_win` that of the nearest to 1/2.
+    `win` is P(the stronger player wins) in the chart's race, and `nearest_win` in the race closest
+    to 1/2.
     """
 
     difference: int
@@ -31,9 +32,9 @@ class OffRule(NamedTuple):
 
 
 def off_rule(chart: Chart, scale: Any) -> tuple[OffRule, ...]:
-    """Return the differences at which another race of the chart has W nearer to 1/2.
+    """Return the differences at which another race in the chart has W closer to 1/2.
 
-    Nothing past the start of its last row counts, as its hardest race stays.
+    Nothing past the start of the last row counts, because the hardest race is kept there.
 
     Source: the rule before Table 5.6.
     """
@@ -54,7 +55,7 @@ def off_rule(chart: Chart, scale: Any) -> tuple[OffRule, ...]:
 
 
 def nearest_rows(chart: Chart, scale: Any) -> tuple[ChartRow, ...]:
-    """Return the chart with each race where the rule has it: the race with W nearest 1/2.
+    """Return the chart with its races moved to where the rule has them (W closest to 1/2).
 
     >>> from evenbreak.handicaps import chart
     >>> [(row.difference_from, *row[2:]) for row in nearest_rows(chart("npl_8"), "npl")]
@@ -76,7 +77,7 @@ def nearest_rows(chart: Chart, scale: Any) -> tuple[ChartRow, ...]:
 def _wins(chart: Chart, scale: Any) -> Floats:
     """Return P(the stronger player wins) by race and difference, up to past the last row's start.
 
-    The last race is even further out than the one before it, so it is the nearest from there on.
+    The last race is even further out than the previous one, so it is the closest from there on.
     """
     last = chart.rows[-1].difference_from + 10
     m, n = np.array([(row.stronger_needs, row.weaker_needs) for row in chart.rows]).T

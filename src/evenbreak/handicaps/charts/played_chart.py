@@ -1,8 +1,8 @@
-"""Which chart of the catalog a league plays by, as far as its results show it.
+"""Which catalog chart a league uses, as far as its results show.
 
-Where results state a rating or a skill level for each player, the race of every match is compared
-with that of each chart. Where they state races alone, the races that occur are compared with those
-that a chart has.
+If results state a rating or a skill level for each player, the race in every match is compared with
+each chart's race. If they state only races, the races that occur are compared with each chart's
+list of races.
 """
 
 from __future__ import annotations
@@ -22,29 +22,29 @@ from evenbreak.ratings.validation.starts import level_numbers, levels
 Race = tuple[int, int]
 
 FEWEST = 30
-"""Matches with unequal races from which a chart is looked for."""
+"""Matches with unequal races needed to look for a chart."""
 
 RARE = 0.005
-"""A race in a smaller share of the matches may be a slip of the pen."""
+"""A race in a smaller share of the matches may be a typo."""
 
 HALF = 0.5
-"""The share of the cells, and of the matches, that a chart must share with a league to be named."""
+"""Share of cells, and of matches, that a chart must have in common with a league to be named."""
 
 FEWEST_IN_COMMON = 4
-"""Unequal races that a chart must have in common with a league, where only races are known."""
+"""Unequal races that a chart must have in common with a league, if only races are known."""
 
 
 class PlayedCell(NamedTuple):
-    """A place of a chart where the league plays another race.
+    """A cell in a chart where the league plays a different race.
 
     Parameters
     ----------
     where
-        such as '29 to 36 points apart' or 'level 5 against 3'; '' where only races are known.
+        such as '29 to 36 points apart' or 'level 5 against 3'; '' if only races are known.
     chart, played
-        games of the stronger and the weaker player by the chart, and in most matches; where only
-        races are known, one of them is None: the league never plays a race of the chart, or plays
-        one that the chart does not have.
+        the stronger and the weaker player's games by the chart, and in most matches. If only races
+        are known, one of the two is None: the league never plays a race in the chart, or plays one
+        that the chart does not have.
     matches
         the number of matches there.
     """
@@ -56,7 +56,7 @@ class PlayedCell(NamedTuple):
 
 
 class PlayedChart(NamedTuple):
-    """The chart nearest to the races of a league.
+    """The chart closest to a league's races.
 
     Parameters
     ----------
@@ -76,12 +76,12 @@ class PlayedChart(NamedTuple):
 
     @property
     def same(self) -> bool:
-        """Whether the league plays by this chart, apart from single matches."""
+        """Whether the league uses this chart, apart from a few matches."""
         return not self.changed
 
 
 def played_chart(results: Results) -> PlayedChart | None:
-    """Return the chart of the catalog that is nearest; None where none is near.
+    """Return the closest chart in the catalog; None if none is close.
 
     >>> season = Results.from_names(["Ann"] * 40, ["Bo"] * 40, [5] * 40, [1] * 40,
     ...     race_a=[5] * 40, race_b=[4] * 40, level_a=["90"] * 40, level_b=["80"] * 40)
@@ -114,14 +114,14 @@ def _closeness(played: PlayedChart) -> tuple[float, int]:
 
 
 def level_numbers_of(results: Results) -> Iterator[Floats]:
-    """Yield the levels of a and of b in each match as numbers, NaN where they are none."""
+    """Yield the levels of a and b in each match as numbers; NaN if they aren't numbers."""
     for column in levels(results):
         texts, code = np.unique(column, return_inverse=True)
         yield level_numbers(texts)[code.ravel()]
 
 
 def last_levels(results: Results) -> Floats:
-    """Return the level that each player had in the last match that states it, NaN where none does.
+    """Return each player's level in the last match that states it; NaN if no match does.
 
     >>> night = Results.from_names(["Ann", "Bo"], ["Bo", "Ann"], [5, 2], [1, 4],
     ...     level_a=["6", "4"], level_b=["3", "6"])
@@ -178,7 +178,7 @@ def _compared(
     place: NDArray[np.intp],
     texts: list[str],
 ) -> PlayedChart:
-    """Return how a chart compares, given the races played and said, and the cell of each match."""
+    """Return how a chart compares, given each match's race, its race by the chart, and its cell."""
     # An equal difference has no stronger player, so either may be called a.
     same = (races == said).all(0) | ((races[::-1] == said).all(0) & (said[0] == said[1]))
     changed, cells = [], 0
@@ -195,7 +195,7 @@ def _compared(
 
 
 def _by_race(season: Results) -> Iterator[PlayedChart]:
-    """Yield the charts that have enough of the races that are played."""
+    """Yield the charts that have enough of the races played."""
     pairs = np.column_stack([np.maximum(*season.races), np.minimum(*season.races)])
     races, often = np.unique(pairs, axis=0, return_counts=True)
     played = {(m, n): many for (m, n), many in zip(races.tolist(), often.tolist(), strict=True)}

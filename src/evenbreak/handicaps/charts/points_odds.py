@@ -1,9 +1,9 @@
-"""The odds of a match by a chart of points, and how its match points are shared.
+"""Odds for a match by a chart of points, and how its match points are shared.
 
-The players are taken to shoot as the audit of such a chart takes them to (`level_audit`): each shot
-is made with the same chance, counts a point, and a miss ends the inning. After j innings a player
-then has k points with the chance C(j + k - 1, k) p^k (1 - p)^j, and reaches the last of N points in
-inning i with the chance C(i + N - 2, N - 1) p^N (1 - p)^(i - 1); both are exact here.
+The players are assumed to shoot as in the audit of such a chart (`level_audit`): each shot is made
+with the same chance and scores a point, and a miss ends the inning. After j innings, a player has k
+points with the chance C(j + k - 1, k) p^k (1 - p)^j, and reaches the last of N points in inning i
+with the chance C(i + N - 2, N - 1) p^N (1 - p)^(i - 1); both are exact here.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from evenbreak.handicaps.charts.level_audit import INNINGS
 from evenbreak.handicaps.charts.level_chart import PointsChart, points_chart
 
 MATCH_POINTS = 20
-"""The match points that the two players of an APA 9-ball match share."""
+"""The match points shared by the two players in an APA 9-ball match."""
 
 
 def loser_share(level: Any, points: Any) -> int:
-    """Return the match points of 20 that the loser of an APA 9-ball match gets.
+    """Return how many of the 20 match points the loser of an APA 9-ball match gets.
 
     The winner gets the rest.
 
@@ -35,16 +35,16 @@ def loser_share(level: Any, points: Any) -> int:
     level
         the loser's skill level, 1 to 9.
     points
-        the points that they made, fewer than the level needs.
+        the points that the loser scored, fewer than the level needs.
 
     Raises
     ------
     InputError
-        if there is no such level, or a loser of this level cannot have so many points.
+        if there is no such level, or a loser at this level cannot have this many points.
 
     Notes
     -----
-    Source: the table of the association's score sheet, as two public score programs have it.
+    Source: the table on the association's score sheet, as implemented in two public score programs.
 
     >>> loser_share(3, 21), loser_share(9, 17), loser_share(5, 37)
     (7, 0, 8)
@@ -60,19 +60,19 @@ def loser_share(level: Any, points: Any) -> int:
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class PointsOdds:
-    """How a match by a chart of points ends.
+    """Outcome of a match by a chart of points.
 
     Parameters
     ----------
     needs
-        the points that player 1 and player 2 need from 0 on.
+        the points that player 1 and player 2 need, counted from 0.
     lost_1, lost_2
-        `lost_1[k]`: P(player 1 loses with k points, those of the score with them); the same of
-        player 2.
+        `lost_1[k]`: P(player 1 loses with k points, including those in the current score); the same
+        for player 2.
     share_1, share_2
-        the mean match points of each, of 20; None for another chart than APA 9-ball.
+        each player's mean match points, out of 20; None for charts other than APA 9-ball.
     mean_innings
-        the innings that the match goes on, on average, the last one with it.
+        the mean number of innings left, including the last one.
     """
 
     needs: tuple[int, int]
@@ -105,9 +105,9 @@ def points_odds(
     score: tuple[int, int] = (0, 0),
     innings: float = INNINGS,
 ) -> PointsOdds:
-    """Return how a match of two skill levels by a chart of points ends.
+    """Return the outcome of a match between two skill levels by a chart of points.
 
-    Either player is next at the table with chance 1/2.
+    Either player is next at the table, with a chance of 1/2.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def points_odds(
     level_1, level_2
         the skill levels.
     score
-        the points that the two have.
+        the players' current points.
     innings
         how many innings a player needs on average to reach their points.
 
@@ -155,7 +155,7 @@ def points_odds(
 
 
 def _reaches(points: int, p: float) -> Floats:
-    """Return P(the last of some points comes in inning 1, 2, ...)."""
+    """Return P(the last of a number of points comes in inning 1, 2, ...)."""
     from scipy.stats import nbinom
 
     last = int(nbinom.isf(1e-14, points, p)) + 1
@@ -163,7 +163,7 @@ def _reaches(points: int, p: float) -> Floats:
 
 
 def _points(points: int, p: float, innings: int) -> Floats:
-    """Return P(k points after j innings), j = 0 to `innings`, k = 0 to one less than `points`."""
+    """Return P(k points after j innings) for j = 0 to `innings` and k = 0 to `points` - 1."""
     from scipy.stats import nbinom
 
     made = np.arange(points)

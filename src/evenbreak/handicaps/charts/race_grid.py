@@ -1,7 +1,7 @@
 """The chance and the length of each race at each rating difference.
 
-Arrays have races down and differences across: shape (races, differences). With X the games that
-player 1 wins of the first k, if all of them were played,
+Arrays have races as rows and differences as columns: shape (races, differences). If X is the number
+of the first k games that player 1 would win if all were played,
 
     W(p; m, n) = I_p(m, n)
     E[games]   = (m / p) I_p(m + 1, n) + (n / q) I_q(n + 1, m)
@@ -31,15 +31,15 @@ def even_doublings(m: float, n: float) -> float: ...
 @overload
 def even_doublings(m: ArrayLike, n: ArrayLike) -> Floats: ...
 def even_doublings(m: Any, n: Any) -> Any:
-    """Return by how many doublings of a game's odds the race m:n becomes even.
+    """Return how many doublings of a game's odds make the race m:n even.
 
-    Multiplied by the points that double the odds, this is the rating difference at which the
-    race is even: positive where player 1 needs more games.
+    Multiplied by the points that double the odds, this is the rating difference at which the race
+    is even: positive if player 1 needs more games.
 
     Notes
     -----
     Source: P5.5, solved for p at W(p; m, n) = 1/2. Both p and 1 - p are found by inverting
-    the incomplete beta function, so that neither loses digits.
+    the incomplete beta function, so that neither loses precision.
 
     >>> round(100.0 * even_doublings(7, 4), 2)
     86.09
@@ -71,7 +71,7 @@ def mean_games_grid(scale: Scale, m: ArrayLike, n: ArrayLike, differences: Array
 def ends_within_grid(
     scale: Scale, m: ArrayLike, n: ArrayLike, differences: ArrayLike, games: int
 ) -> Floats:
-    """Return P(the match takes at most `games` games); the others as for `win_grid`."""
+    """Return P(the match takes at most `games` games); other parameters as for `win_grid`."""
     p, q, m, n = _chances_and_columns(scale, m, n, differences)
     won_1 = np.where(m <= games, betainc(m, np.maximum(games - m + 1, 1), p), 0.0)
     won_2 = np.where(n <= games, betainc(n, np.maximum(games - n + 1, 1), q), 0.0)
@@ -81,7 +81,7 @@ def ends_within_grid(
 def games_quantiles(
     scale: Scale, m: int, n: int, differences: ArrayLike, q: float
 ) -> NDArray[np.int64]:
-    """Return the smallest number of games within which m:n ends with chance q, by difference."""
+    """Return the fewest games within which m:n ends with probability q, by difference."""
     points = np.asarray(differences, dtype=float)
     return match_length(Race(m, n, scale.rack(points))).quantile(q).astype(np.int64)
 

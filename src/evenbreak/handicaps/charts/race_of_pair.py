@@ -1,4 +1,4 @@
-"""The race that two players play: even, by a chart, or the fairest of a length."""
+"""The race that two players play: even, from a chart, or the fairest with a given length."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from evenbreak.ratings.scale import Scale
 
 @dataclass(frozen=True)
 class Fairest:
-    """The race in which the stronger player needs `race_to` and the chances are nearest to 1/2.
+    """Race in which the stronger player needs `race_to` games and the chances are closest to 1/2.
 
-    The weaker player needs as many games at most, and at least one.
+    The weaker player needs at most as many games, and at least one.
     """
 
     race_to: int
@@ -28,13 +28,13 @@ class Fairest:
 
 
 Race: TypeAlias = int | Chart | Fairest
-"""An even race to so many games, a chart of races, or the fairest race of a length."""
+"""An even race to a number of games, a chart of races, or the fairest race with a given length."""
 
 
 def games_needed(points: Floats, race: Race, scale: Scale) -> tuple[Ints, Ints]:
-    """Return the games that each of two players needs, for every two players.
+    """Return the games that each of two players needs, for every pair of players.
 
-    The points are those of player 1 minus those of player 2.
+    The points are player 1's minus player 2's.
 
     >>> from evenbreak.ratings.scale import scale_of
     >>> games_needed(np.array([[0.0, 100.0]]), Fairest(7), scale_of("fargo"))

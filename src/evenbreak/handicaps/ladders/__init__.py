@@ -1,1 +1,1 @@
-"""Ladders: how far ratings stray from the skill they stand for, in the long run."""
+"""Ladders: how far ratings stray from the skills that they stand for, in the long run."""

@@ -1,11 +1,11 @@
-"""Leagues that no one enters or leaves.
+"""Closed leagues, which no one joins or leaves.
 
-A ladder has an endless supply of opponents whose errors have nothing to do with the player's own.
-In a closed league the points that one player wins another has lost, and players who started
-together move together:
+A ladder has an endless supply of opponents whose errors are independent of the player's own. In a
+closed league, every point that one player wins is a point that another loses, and players who
+started together move together:
 
 - two players who meet only each other: the sum of their ratings stays the same, so the two errors
-  are opposite, and the difference of the ratings is a chain on a line;
+  are opposite, and the rating difference is a chain on a line;
 - many players who started with the right ratings and all play every night: with moves of one
   point either way all errors are even after an even number of nights and odd after an odd one, so
   rating differences are always even.
@@ -38,21 +38,21 @@ _ROUNDS = 1000
 class ClosedPair:
     """Two players who play only each other, match after match.
 
-    It is a game without an end: a state is the rating of player 1 less that of player 2, in
-    whole points, from -widest to widest; a match that would lead beyond moves no one.
+    This is a game without an end: a state is player 1's rating minus player 2's, in whole points,
+    from -widest to widest; a match that would go beyond that range moves no one.
 
     Parameters
     ----------
     system
         how the ratings move: a `System` or its name.
     chart
-        the races by rating difference; None: the system's own.
+        the races by rating difference; None: the system's own chart.
     skill_difference
-        player 1's skill less player 2's, in points.
+        player 1's skill minus player 2's, in points.
     start
-        the difference of the ratings at the start, in whole points.
+        the rating difference at the start, in whole points.
     widest
-        the largest difference, in points; None: as `match_table` has it.
+        the largest difference, in points; None: the default of `match_table`.
 
     Raises
     ------
@@ -61,9 +61,9 @@ class ClosedPair:
 
     Notes
     -----
-    A pair of equal players with equal ratings at the start has the standard deviation 3.04 on
-    chart 10, where an open ladder has 4.63: one player is over-rated by as much as the other is
-    underrated, so the chart sees twice the error.
+    For a pair of equal players who start with equal ratings, the standard deviation is 3.04 on
+    chart 10, compared with 4.63 for an open ladder: one player is overrated by as much as the other
+    is underrated, so the chart sees twice the error.
 
     >>> from evenbreak.handicaps import chart
     >>> pair = ClosedPair("npl", chart("npl_10"))
@@ -93,7 +93,7 @@ class ClosedPair:
 
     @cached_property
     def table(self) -> MatchTable:
-        """The matches by rating difference."""
+        """The possible matches, by rating difference."""
         return match_table(self.system, self.chart, widest=self.widest)
 
     @cached_property
@@ -127,7 +127,7 @@ class ClosedPair:
         }
 
     def winner(self, state: int) -> None:  # noqa: ARG002
-        """Return None: the two play on forever."""
+        """Return None: the two players go on forever."""
         return
 
     def law(self) -> Distribution:
@@ -164,15 +164,15 @@ def in_step_law(
     """Return the rating errors in a closed league whose players all started correctly rated.
 
     Many equal players start with the right ratings, and every night all of them play someone
-    drawn at random. Two errors have nothing in common but their parity: given a player's error,
-    the opponent's is one that differs from it by an even number of steps.
+    drawn at random. Two errors share only their parity: given a player's error, the opponent's
+    differs from it by an even number of steps.
 
     Parameters
     ----------
     system, chart
         as in `ClosedPair`.
     widest
-        errors go from -widest to widest points; None: as `match_table` has it.
+        errors range from -widest to widest points; None: the default of `match_table`.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Systems side by side: how accurate they are, how fast, how fair, how long, how stable.
+"""Compare systems: accuracy, speed, fairness, match length and stability.
 
 Systems differ in their scales, so errors are given in points and in doublings of the odds: 30
 points of the NPL are one doubling, and so are 100 of Fargo's.
@@ -28,14 +28,14 @@ from evenbreak.handicaps.ladders.unfairness import (
 from evenbreak.ratings.scale import SCALES, Scale
 
 NEAR = 1.0 / 6.0
-"""A rating within this share of a doubling is settled: 5 points of the NPL's 30."""
+"""Error of a settled rating, in doublings of the odds: 5 of the NPL's 30 points."""
 
 
 def near(error: ArrayLike, scale: Scale) -> Floats:
     """Return 1 where a rating error is less than `NEAR` of a doubling, else 0; 0.5 on the edge.
 
-    Ratings are whole points, and the edge may be one of them. Counted half, as part of an interval
-    that is half inside, it makes the share of ratings that are near the same on every scale.
+    Ratings are whole points, and the edge may be one of them. Counting it as half, like an interval
+    that is half inside, makes the share of accurate ratings the same on every scale.
 
     >>> near([4, -5, 6], SCALES["npl"]), near([40, -50, 60], Scale("ten times", 300))
     (array([1. , 0.5, 0. ]), array([1. , 0.5, 0. ]))
@@ -45,7 +45,7 @@ def near(error: ArrayLike, scale: Scale) -> Floats:
 
 
 class SystemRow(NamedTuple):
-    """A system on a chart in the long run.
+    """Long-run behavior of a system on a chart.
 
     Parameters
     ----------
@@ -53,16 +53,16 @@ class SystemRow(NamedTuple):
         standard deviation of the rating error in the long run, in points and in doublings of the
         odds.
     settling_mean, settling_p90
-        matches that a rating takes from one doubling too low to within a sixth of a doubling:
-        the mean, and the number that is enough for nine in ten.
+        matches that a rating needs to get from one doubling too low to within a sixth of a
+        doubling: the mean, and the number that is enough in nine cases out of ten.
     favorite
-        the mean chance of winning of the player favored by the rating errors; 0.5 is fair.
+        the mean chance of the player favored by the rating errors; 0.5 is fair.
     clear_favorite
         the share of matches in which the favorite has a chance of 60% or more.
     games
-        mean per match.
+        mean number per match.
     inflation
-        points that a match adds to the sum of the two ratings, on average.
+        mean number of points that a match adds to the sum of the two ratings.
     """
 
     system: str
@@ -118,19 +118,20 @@ def compare_systems(
 ) -> list[SystemRow]:
     """Return a row for each system, in the order given.
 
-    Everything is exact up to rounding, and conditional on players whose skill does not change.
+    Everything is exact up to rounding, assuming that players' skills do not change.
 
     Parameters
     ----------
     systems
-        for each row a `System` or its name, or a pair of it and a `Chart` (None: its own).
+        for each row, a `System` or its name, or a pair of this and a `Chart` (None: the system's
+        own).
     opponents
-        default: equally good players with rating errors like the player's own. Their points are
-        those of the National Pool League's scale, 30 of which double the odds, and are converted to
-        the scale of each system.
+        default: equally good players with rating errors like the player's own. Their points are on
+        the National Pool League's scale, where 30 points double the odds, and are converted to each
+        system's scale.
     day_sd, match_sd
-        the variation of every player's form, in *doublings of the odds*, so that it is the same on
-        all scales.
+        the standard deviation of every player's form, in *doublings of the odds*, so that it is the
+        same on all scales.
 
     Raises
     ------
@@ -141,7 +142,7 @@ def compare_systems(
 
     Notes
     -----
-    Settling is that of an established player; a newcomer schedule shortens it, see `settling`.
+    Settling is for an established player; a newcomer schedule shortens it (see `settling`).
 
     >>> from evenbreak.handicaps import chart
     >>> for row in compare_systems([("npl", chart("npl_8")), ("npl", chart("npl_20"))]):
@@ -165,7 +166,7 @@ def compare_systems(
 
 
 def on_front(points: Sequence[tuple[float, float]]) -> list[bool]:
-    """Return which pairs no other pair beats by being as low in both numbers and lower in one.
+    """Return the Pareto-optimal pairs: no other pair is as low in both numbers and lower in one.
 
     >>> on_front([(4.4, 62.7), (10.0, 13.0), (11.0, 13.5)])
     [True, True, False]
@@ -191,17 +192,17 @@ _AT_THE_ENDS = 1e-6
 
 
 class NewcomerInflation(NamedTuple):
-    """The effect of one newcomer on the sum of the league's rating errors, in points.
+    """Effect of one newcomer on the sum of the league's rating errors, in points.
 
     Parameters
     ----------
     brought
         the newcomer's rating error on arrival.
     made
-        what their longer steps are expected to add: the part of their moves that no opponent's
-        move balances.
+        what the newcomer's longer steps are expected to add: the part of their moves that no
+        opponent's move balances.
     left
-        brought + made: what is left in the league once they are established.
+        brought + made: what is left in the league once the newcomer is established.
     """
 
     brought: int
@@ -215,9 +216,10 @@ class Lag(NamedTuple):
     Parameters
     ----------
     drift
-        points that the skill rises with each match, on average.
+        points by which the skill rises with each match, on average.
     mean, sd
-        of the rating error in the long run, in points; a negative mean is a rating that lags.
+        mean and standard deviation of the rating error in the long run, in points; a negative mean
+        is a lag.
     """
 
     drift: float
@@ -226,7 +228,7 @@ class Lag(NamedTuple):
 
 
 def inflation(ladder: Ladder) -> float:
-    """Return the mean rise of the sum of the two ratings in a match, in points.
+    """Return the mean increase in the sum of the two ratings in a match, in points.
 
     The mean is over the matches of a player whose error has the ladder's distribution.
 
@@ -249,7 +251,7 @@ def newcomer_inflation(ladder: Ladder, start: int) -> NewcomerInflation:
     ladder
         its system defines the newcomer's steps.
     start
-        the newcomer's rating less their skill, in whole points.
+        the newcomer's rating minus their skill, in whole points.
 
     Raises
     ------
@@ -287,7 +289,8 @@ def lag(ladder: Ladder) -> Lag:
     Raises
     ------
     AccuracyError
-        if the ladder's ends hold the error: the skill outruns it, or the ladder is too narrow.
+        if only the ladder's ends limit the error: the skill outruns the rating, or the ladder is
+        too narrow.
 
     >>> from evenbreak.handicaps import Ladder
     >>> following = lag(Ladder("npl", drift=0.1))

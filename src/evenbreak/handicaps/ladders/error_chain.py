@@ -1,7 +1,7 @@
 """The chain of a ladder over all rating errors, whether or not its start can reach them.
 
-As a game a ladder starts at no error, and with steps of 3 it never comes to an error of 1. A
-newcomer may start anywhere, so the chain here has every error from -widest to widest.
+As a game, a ladder starts with no error, and with steps of 3 it never reaches an error of 1. A
+newcomer may start anywhere, so this chain has every error from -widest to widest.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def move_matrix(ladder: Ladder, factor: int = 1) -> Floats:
 
 
 def chain_of_errors(ladder: Ladder) -> Chain:
-    """Return the chain of a ladder; its states are all errors in points, in order."""
+    """Return a ladder's chain, whose states are all errors in points, in order."""
     matrix = move_matrix(ladder)
     before, after = np.nonzero(matrix)
     # Chances that add up to 1 may exceed it by a rounding error.
@@ -45,16 +45,16 @@ def chain_of_errors(ladder: Ladder) -> Chain:
 
 
 def unit_of(ladder: Ladder) -> int:
-    """Return the greatest common divisor of all moves that can happen, in points."""
+    """Return the greatest common divisor of all possible moves, in points."""
     return math.gcd(*_moves(ladder))
 
 
 def period_of(ladder: Ladder) -> int:
     """Return the period of the error away from the ends.
 
-    An error returns to itself only after a multiple of so many matches: 2 for moves of +-1 or +-3,
-    3 for +2 and -1, 4 for +1 and -3, 1 for moves of one and two points either way. All moves leave
-    the same remainder modulo the common divisor of their differences. Drift of the skill is
+    An error returns to itself only after a multiple of this many matches: 2 for moves of +-1 or
+    +-3, 3 for +2 and -1, 4 for +1 and -3, 1 for moves of one and two points either way. All moves
+    leave the same remainder modulo the common divisor of their differences. Drift of the skill is
     ignored: it breaks the period, but only slowly, by a point now and then.
     """
     if ladder.drift:
@@ -65,11 +65,11 @@ def period_of(ladder: Ladder) -> int:
 
 
 def _moves(ladder: Ladder) -> list[int]:
-    """Return the moves that can happen."""
+    """Return the possible moves."""
     return [int(move) for move in ladder.steps[(ladder.kernel > 0.0).any(axis=0)]]
 
 
 def error_on(widest: int, start: Any, what: str = "rating error") -> int:
-    """Return `start` as an int from -widest to widest; an InputError if it isn't one."""
+    """Return `start` as an int from -widest to widest; raise InputError if it isn't one."""
     wanted = f"a {what} in whole points from {-widest} to {widest}, or make widest larger"
     return whole(start, "start", at_least=-widest, at_most=widest, wanted=wanted)

@@ -2,8 +2,8 @@
 
 Every player draws their form for a night at its start; before its k-th match all players have
 the same joint distribution of error and form. One round of the iteration takes the errors at the
-start of a night, sends all players through the night against each other, and finds the
-distribution that is the same at its end as at its start.
+start of a night, lets all players play each other through the night, and finds the distribution
+that is the same at the end as at the start.
 
 Averaged over the matches of a night, P(move | error) is a chain whose stationary distribution is
 exactly the average one: what flows into an error during a night also flows out of it.
@@ -24,11 +24,11 @@ from evenbreak.handicaps.ladders.pairing import Pairing
 _SETTLED = 1e-13
 _ROUNDS = 300
 _FULL_DIGITS = float(np.finfo(float).tiny / np.finfo(float).eps)
-"""Products of a chance and a weight above this are right to the last digit."""
+"""Products of a probability and a weight above this are correct to the last digit."""
 
 
 class NightModel(NamedTuple):
-    """The matches of a night: what each brings, the chance of each form, and how many there are."""
+    """A night's matches: the outcomes of each, the chance of each form, and their number."""
 
     pairing: Pairing
     weights: Floats
@@ -36,10 +36,10 @@ class NightModel(NamedTuple):
 
 
 class LongRun(NamedTuple):
-    """A ladder in the long run.
+    """Long-run state of a ladder.
 
     `kernel` is P(move | error), shape (errors, steps); `wins` is P(win | error), `law` and
-    `opponents` the distributions of the player's and the opponents' error, shape (errors,).
+    `opponents` are the distributions of the player's and the opponents' error, shape (errors,).
     `changes` has the largest change of a probability in each round of the iteration.
     """
 
@@ -52,16 +52,16 @@ class LongRun(NamedTuple):
 
 
 def long_run(night: NightModel, error: Floats | None, drift: float, *, conserving: bool) -> LongRun:
-    """Return the long run of a player's errors, and of the opponents' if theirs is not given.
+    """Return the long run of a player's errors, and of the opponents' if theirs are not given.
 
-    Without `error` opponents have that of a player without drift, made symmetric. `drift` is how
-    many points the player's skill rises per match on average; `conserving`: the winner gains what
-    the loser loses. An AccuracyError if the iteration does not converge.
+    Without `error`, opponents have the errors of a player without drift, made symmetric. `drift` is
+    how many points the player's skill rises per match on average; `conserving` is whether the
+    winner gains what the loser loses. Raises AccuracyError if the iteration does not converge.
 
     Among symmetric distributions each round reduces the change to about a hundredth. But if the
-    opponents are slightly better on average than they are rated, the player falls below their own
-    skill by slightly more. Without the symmetry, rounding errors would grow in this way until the
-    iteration swings between two skewed distributions.
+    opponents are slightly better than their ratings on average, the player's rating falls below
+    their skill by slightly more. Without the symmetry, rounding errors would grow in this way until
+    the iteration swings between two skewed distributions.
 
     If opponents err as the player does and the system makes all ratings rise, errors are
     measured from the league's mean error; otherwise they would rise forever.
@@ -104,7 +104,7 @@ def _average_over_night(
     opponents: Floats,
     changes: tuple[float, ...],
 ) -> LongRun:
-    """Return the average over a night's matches, given the chances in each of them."""
+    """Return the average over a night's matches, given the chances in each match."""
     steps = night.pairing.steps
     joint = [np.outer(_beginning(night, chances, fall), night.weights)]
     for each in chances[:-1]:
@@ -133,7 +133,7 @@ def _against_the_same(
 
 
 def _beginning(night: NightModel, chances: list[Floats], fall: float) -> Floats:
-    """Return the distribution of errors that is the same at the end of a night as at its start.
+    """Return the error distribution that is the same at the end of a night as at its start.
 
     A night moves a rating by the sum of its matches: P(sum | error, form) is calculated match by
     match and averaged over the form.
@@ -145,11 +145,11 @@ def _beginning(night: NightModel, chances: list[Floats], fall: float) -> Floats:
 
 
 def _one_match_more(sums: Ints, moved: Floats, steps: Ints, chances: Floats) -> tuple[Ints, Floats]:
-    """Return the sums of moves, and their chances, after one more match.
+    """Return the sums of moves and their chances after one more match.
 
     An error beyond an end moves as it would at that end, and is held there only at the end of
     the night. If it were held at once, an even number of matches could move an error by an odd
-    number of points; that happens once in ages, but it would decide between even and odd errors.
+    number of points; that is extremely rare, but it would decide between even and odd errors.
     """
     many, far = moved.shape[1], int(np.abs(sums).max())
     reached = np.unique(sums[:, None] + steps)
@@ -165,7 +165,7 @@ def _one_match_more(sums: Ints, moved: Floats, steps: Ints, chances: Floats) -> 
 
 
 def _average(chances: list[Floats], joint: list[Floats]) -> Floats:
-    """Return P(move | error) averaged over the matches, and P(win | error) last."""
+    """Return P(move | error) averaged over the matches, with P(win | error) last."""
     flow = sum(
         ((each * law).sum(axis=2) for each, law in zip(chances, joint, strict=True)),
         start=np.zeros(chances[0].shape[:2]),
@@ -190,7 +190,7 @@ def _after(joint: Floats, steps: Ints, chances: Floats) -> Floats:
 
 
 def _falling(steps: Ints, chances: Floats, fall: float) -> tuple[Ints, Floats]:
-    """Return moves and chances if errors also fall by `fall`, a whole point at a time.
+    """Return moves and chances if errors also fall by `fall`, one whole point at a time.
 
     >>> _falling(np.array([-1, 1]), np.array([[0.5], [0.5]]), 0.25)[0].tolist()
     [-2, -1, 0, 1]

@@ -1,6 +1,6 @@
-"""A rating error that moves with each match, as a game without an end, and its long run.
+"""A rating error that moves with each match, as an endless game, and its long run.
 
-A move that would take the error beyond the end of the line is not made: the error stays.
+A move that would take the error beyond the end of the line is not made: the error stays the same.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ from evenbreak.stats.summary import Distribution
 
 
 class ErrorWalk:
-    """What all ladders share; each defines its moves and the chance of each move at each error.
+    """Base class of all ladders, which define their moves and each move's chance at each error.
 
-    It is a game without an end: a state is the rating error in whole points, from -widest to
+    A ladder is an endless game: a state is the rating error in whole points, from -widest to
     widest, and it starts at 0.
     """
 
     @property
     @abstractmethod
     def steps(self) -> Ints:
-        """The moves that a match can bring, in points, in increasing order."""
+        """The moves that a match can cause, in points, in increasing order."""
 
     @property
     @abstractmethod
@@ -52,7 +52,7 @@ class ErrorWalk:
         return 0
 
     def moves(self, state: int) -> Mapping[int, float]:
-        """Return the probability of each next error; an InputError for a state beyond an end."""
+        """Return the probability of each next error; InputError for a state beyond an end."""
         half = len(self.kernel) // 2
         if not -half <= state <= half:
             raise InputError(
@@ -74,7 +74,7 @@ class ErrorWalk:
         return
 
     def arcs(self) -> ArcArrays | None:
-        """Return the arcs in the order of the errors; None where not every error is reached."""
+        """Return the arcs in the order of the errors, or None if not every error can be reached."""
         steps, kernel = self.steps, self.kernel
         # Where a match is certainly won or lost there may be no way back to the start.
         if math.gcd(*steps.tolist()) != 1 or not (kernel > 0.0).all() or np.abs(steps).max() > 1:
@@ -87,10 +87,10 @@ class ErrorWalk:
         """Return the distribution of the rating error in the long run: the stochastic limit.
 
         If all moves are multiples of g points, no match takes an error from one remainder modulo g
-        to another. The skill has nothing to do with g, so each remainder is equally likely at the
-        start; the result is the average of the g limits. By default, or with 'kernel', it is the
-        closed form or banded elimination here; otherwise the limit of the ladder as a game (see
-        `evenbreak.chains.limit_of`).
+        to another. The skill is unrelated to g, so each remainder is equally likely at the start;
+        the result is the average of the g limits. By default, or with 'kernel', the result is from
+        a closed form or banded elimination in this module; otherwise it is the limit of the ladder
+        as a game (see `evenbreak.chains.limit_of`).
         """
         way = way_of_limit(via)
         chances = long_run_law(self.steps, self.kernel) if way is None else self._law_by_limit(way)
@@ -112,13 +112,13 @@ class ErrorWalk:
 
 @dataclass(frozen=True)
 class RatingLadder(ErrorWalk):
-    """A ladder of your own: up a point for a match won, down a point for one lost.
+    """Custom ladder: up a point for a match won, down a point for a match lost.
 
     Parameters
     ----------
     wins
-        P(the player wins the match | the rating error is i) for i = -widest ... widest: an
-        odd number of chances, three or more.
+        P(the player wins the match | the rating error is i) for i = -widest ... widest: an odd
+        number of chances, at least three.
 
     Raises
     ------
@@ -207,8 +207,8 @@ def _law_of_class(steps: Ints, kernel: Floats) -> Floats:
 def _eliminated(matrix: Floats, band: int) -> Floats:
     """Return the stationary distribution of a row-stochastic matrix, without subtractions.
 
-    States are eliminated from the highest down: what passes through a state is passed on among
-    the states below it (Grassmann, Taksar & Heyman 1985). Only the band is touched.
+    States are eliminated from the highest down: the flow through a state is redistributed among the
+    states below it (Grassmann, Taksar & Heyman 1985). Only the band is touched.
     """
     many = len(matrix)
     left = np.ones(many)
@@ -229,7 +229,7 @@ def _eliminated(matrix: Floats, band: int) -> Floats:
 
 
 def _limit_from_the_middle(matrix: Floats) -> Floats:
-    """Return the limit, started in the middle, of a walk with walls that no match crosses."""
+    """Return the limit of a walk that starts in the middle, with walls that no match crosses."""
     from evenbreak.chains import chain_from_arrays, stochastic_limit
 
     matrix = np.minimum(matrix, 1.0)  # sums of chances may miss 1 by rounding

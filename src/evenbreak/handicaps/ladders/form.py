@@ -1,4 +1,4 @@
-"""Form: how much better or worse than their skill a player is today, normal, in whole points.
+"""Form: how much better or worse than their skill a player is today; normal, in whole points.
 
 Distributions are arrays over the whole points -k, ..., k. Sums of independent deviations are
 convolutions of such arrays, and so are averages of a smooth function over them.
@@ -18,10 +18,10 @@ _FARTHEST = 8.3
 """Standard deviations beyond which a normal distribution has no more than 1e-16."""
 
 _FINE = 4.0
-"""Up to this standard deviation, in points, a grid has every whole point."""
+"""Largest standard deviation, in points, for which a grid has every whole point."""
 
 _FEW = 1 << 18
-"""Up to this many products a sum is faster than a Fourier transform."""
+"""Number of products up to which a sum is faster than a Fourier transform."""
 
 
 def deviations(sd: float) -> Floats:
@@ -41,9 +41,9 @@ def deviations(sd: float) -> Floats:
 
 
 def difference_law(*sds: float) -> Floats:
-    """Return the distribution of the difference of two players' forms, over -k, ..., k.
+    """Return the distribution of the difference between two players' forms, over -k, ..., k.
 
-    Each of the two has deviations with these standard deviations, all of them independent.
+    Each player has deviations with these standard deviations, all of them independent.
 
     >>> difference_law(0.0), difference_law(0.5)[8:13].round(4)
     (array([1.]), array([0.0266, 0.2152, 0.5156, 0.2152, 0.0266]))
@@ -55,10 +55,10 @@ def difference_law(*sds: float) -> Floats:
 
 
 def deviation_grid(law: Floats, doubling: float) -> tuple[Ints, Floats]:
-    """Return points and weights that stand for a distribution over -k, ..., k in a mean.
+    """Return points and weights that represent a distribution over -k, ..., k in a mean.
 
     Above a standard deviation of 4 points the spacing is half of it, or half a `doubling` of the
-    odds if that is less: for a function as smooth as a chance to win, the trapezoidal rule is
+    odds if that is less: for a function as smooth as a chance of winning, the trapezoidal rule is
     then exact to 1e-11.
 
     >>> points, chances = deviation_grid(deviations(8.0), 30.0)
@@ -76,8 +76,8 @@ def deviation_grid(law: Floats, doubling: float) -> tuple[Ints, Floats]:
 def averages(values: Floats, law: Floats) -> Floats:
     """Return sum over k of law[k] values[..., i + k] for each i at which all of them are known.
 
-    Few terms are added up; many go through a Fourier transform, whose error is about 1e-16 of the
-    largest value.
+    A few terms are added up directly; many are handled by a Fourier transform, whose error is about
+    1e-16 of the largest value.
 
     >>> averages(np.array([0.0, 1.0, 4.0, 9.0]), np.array([0.5, 0.5]))
     array([0.5, 2.5, 6.5])

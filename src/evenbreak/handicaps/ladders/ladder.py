@@ -1,9 +1,9 @@
 """The ladder: how far a rating strays from the skill that it stands for, match by match.
 
-The rating error is the rating less the skill, in points. The chart gives the race at the
-difference of two ratings, the race and the two skills give the chance of each final score, and
-the system's rule moves the rating. That is a chain of rating errors; its stochastic limit is how
-far ratings wander in the long run.
+The rating error is the rating minus the skill, in points. The chart gives the race for a rating
+difference, the race and the two skills give the chance of each final score, and the system's rule
+moves the rating. That is a chain of rating errors; its stochastic limit is how far ratings wander
+in the long run.
 
 Source: the National Pool League's ladder, between Table 5.6 and P5.27, with the natural and the
 autocorrelated model and the improvements suggested there.
@@ -46,30 +46,31 @@ _MOST_SPREAD = 20.0
 class Ladder(ErrorWalk):
     """A player's rating error under a handicap system, as a chain with its long run.
 
-    It is a game without an end: a state is the rating error in whole points, from -widest to
-    widest, and it starts at 0. An error that a match would take beyond an end stays.
+    This is a game without an end: a state is the rating error in whole points, from -widest to
+    widest, and it starts at 0. An error that a match would take beyond an end stays the same.
 
     Parameters
     ----------
     system
-        whose rule moves the ratings: a `System` or its name. A `Chart` stands for the National
-        Pool League's rule on that chart.
+        the system whose rule moves the ratings: a `System` or its name. A `Chart` stands for the
+        National Pool League's rule on that chart.
     chart
-        which sets the races; None: the system's own.
+        the chart that sets the races; None: the system's own.
     opponents
-        who the player meets; always the same kind, whatever the player's rating.
+        the opponents whom the player meets, regardless of the player's rating.
     day_sd
         standard deviation, in points, of a player's form on a night: one deviation from the
         skill for all matches of the night, normal, rounded to whole points. It holds for every
         player.
     match_sd
-        the same for the part of the form that changes with each match.
+        the same for the part of form that changes with each match.
     matches_a_night
-        how many matches a player has on a night, each against another opponent; ratings move
-        after each. It matters only with a `day_sd`.
+        how many matches a player has on a night, each against a new opponent; ratings move after
+        each match. It matters only with a `day_sd`.
     drift
-        how many points the player's skill rises with each match on average, from -1 to 1:
-        after each match it rises by one point with this chance. Opponents' skills do not change.
+        the mean number of points by which the player's skill rises with each match, from -1 to 1:
+        after each match, it rises by one point with this probability. Opponents' skills do not
+        change.
     widest
         errors are cut off at -widest and widest points. None: 2, 4 or 8 doublings of the odds,
         the first with a chance below 1e-9 at each end, for one match a night against these
@@ -86,18 +87,18 @@ class Ladder(ErrorWalk):
 
     Notes
     -----
-    With matches_a_night above 1 and a day_sd the error alone is not a chain, since the matches of
-    a night share their form. `kernel` then holds for the average of the matches of all nights,
-    and the long run is exact for that average; how fast a rating settles follows from it only
-    approximately. Such nights take a fraction of a second if moves have few sizes. With moves as
-    varied as Elo's on a line of 960 errors, and opponents who err as the player does, nights of
-    three matches can take 20 seconds, of six a minute, and of more far longer.
+    With matches_a_night above 1 and a day_sd the error alone is not a chain, since a night's
+    matches share their form. `kernel` is then an average over the matches of all nights, and the
+    long run is exact for that average; how fast a rating settles follows from it only
+    approximately. Such nights take a fraction of a second if there are few different moves. With
+    moves as varied as Elo's on a line of 960 errors, and opponents who err as the player does,
+    nights of three matches can take 20 seconds, of six a minute, and of more far longer.
 
     Source: the natural and the autocorrelated distributions of Fig. 5.9 and after it. The limit
-    of a +-1 ladder is that of the powers of M, since an error is held at the two ends now and
-    then. But that happens once in ages: over any real season the error is odd after an odd number
-    of matches and even after an even one, as on a ladder without ends, whose period is 2. The
-    long run is then the average of the two.
+    of a +-1 ladder is that of the powers of M, since an error is occasionally held at the two ends.
+    But that is extremely rare: over any real season, the error is odd after an odd number of
+    matches and even after an even one, as on a ladder without ends, whose period is 2. The long run
+    is then the average of the two.
 
     >>> from evenbreak.handicaps import AUTOCORRELATED, EQUAL_SKILL, chart
     >>> regular = chart("npl_10")
@@ -176,7 +177,7 @@ class Ladder(ErrorWalk):
 
     @property
     def steps(self) -> Ints:
-        """The moves that a match can bring, in points, in increasing order."""
+        """The moves that a match can cause, in points, in increasing order."""
         return self._long_run.steps
 
     @property
@@ -196,16 +197,16 @@ class Ladder(ErrorWalk):
 
     @property
     def changes(self) -> tuple[float, ...]:
-        """The largest change of a probability in each round, until nothing changed."""
+        """The largest change of a probability in each round of the iteration."""
         return self._long_run.changes
 
     def law(self, *, via: Way | None = None) -> Distribution:
         """Return the distribution of the rating error in the long run: the stochastic limit.
 
         The player's skill stays the same except for the drift. If all moves are multiples of g
-        points, no match takes an error from one remainder modulo g to another. The skill has
-        nothing to do with g, so each remainder is equally likely at the start; the result is the
-        average of the g limits.
+        points, no match takes an error from one remainder modulo g to another. The skill is
+        unrelated to g, so each remainder is equally likely at the start; the result is the average
+        of the g limits.
 
         Parameters
         ----------
@@ -217,7 +218,7 @@ class Ladder(ErrorWalk):
         ------
         AccuracyError
             if the opponents' self-consistent distribution does not converge, or if more than a
-            tenth of the ratings are at the ends of the line, so that only the width holds them.
+            tenth of the ratings are at the ends of the line, so that only the width limits them.
         """
         way = way_of_limit(via)
         law = self._long_run.law if way is None else self._law_by_limit(way)
@@ -245,7 +246,7 @@ class Ladder(ErrorWalk):
         return long_run(night, self._given_error(), self.drift, conserving=self.system.conserving)
 
     def _given_error(self) -> Floats | None:
-        """Return the opponents' error on the line, its ends holding what lies beyond."""
+        """Return the opponents' error on the line, with everything beyond it moved to its ends."""
         law = self.opponents.error
         if law is None:
             return None
@@ -272,7 +273,7 @@ def _system_and_chart(system: Any, chart: Any) -> tuple[StepSystem, Chart]:
 
 
 def _at_the_ends(law: Floats) -> float:
-    """Return P(the error is at an end, or within a move of one)."""
+    """Return P(the error is at an end, or within one move of an end)."""
     near = max(1, len(law) // 40)
     return float(law[:near].sum() + law[-near:].sum())
 
@@ -287,7 +288,7 @@ def _remedy(ladder: Ladder) -> str:
 
 
 def _same_everywhere(system: StepSystem, chart: Chart) -> bool:
-    """Return whether a match is the same whatever the two ratings are."""
+    """Return whether a match is the same regardless of the two ratings."""
     table = known_table(system, chart)
     return all(bool((each == each[0]).all()) for each in (table.needs, table.moves))
 
@@ -301,7 +302,7 @@ def _usual_width(
     match_sd: float,
     drift: float,
 ) -> int:
-    """Return the narrowest usual width with next to nothing at its ends."""
+    """Return the narrowest usual width with almost nothing at its ends."""
     if _same_everywhere(system, chart):
         raise AccuracyError(
             "chart {chart} has the same race at every difference, so nothing corrects a wrong "

@@ -1,8 +1,8 @@
-r"""The ladder of skill levels: where a player of a known strength is published in the long run.
+r"""Ladder of skill levels: the levels of a player with a known strength in the long run.
 
-A system of levels with finitely many states moves a player by matches won and lost. Against an
-opponent of level j, met with the chance q_j and as strong as that level, a player of strength s in
-a state of level i wins with the chance W(p; race of i and j), p = 1 / (1 + 2^(-(s - s_j) / 100)).
+A level system with finitely many states moves a player by matches won and lost. Against an opponent
+at level j, who is met with the chance q_j and is as strong as that level, a player of strength s in
+a state at level i wins with the chance W(p; race of i and j), p = 1 / (1 + 2^(-(s - s_j) / 100)).
 So the state is a Markov chain,
 
     P(state -> after a win) = sum over j of q_j W,   P(state -> after a loss) = the rest,
@@ -32,18 +32,18 @@ from evenbreak.matches.win import race_win_probability
 
 @dataclass(frozen=True, eq=False)
 class LevelLadder:
-    """A player's state in a system of levels, as a game without an end.
+    """A player's state in a level system, as a game without an end.
 
     Parameters
     ----------
     strength
-        of the player, in points of `skills`.
+        the player's strength, in points of `skills`.
     opponents
-        how often the player meets opponents of each level of the chart; any positive weights.
+        how often the player meets opponents at each level of the chart; any positive weights.
     skills
-        how strong the levels are; None: as `level_skills` has it.
+        the strength of the levels; None: the default of `level_skills`.
     start_level
-        the level at which the player starts; None: the nearest to the strength.
+        the level at which the player starts; None: the one closest to the strength.
 
     >>> from evenbreak.handicaps import system_of
     >>> ladder = LevelLadder(system_of("level-steps"), 238.0, (1, 1, 1, 1, 1, 1))
@@ -75,7 +75,7 @@ class LevelLadder:
 
     @property
     def level(self) -> int:
-        """The level whose strength is nearest to the player's."""
+        """The level whose strength is closest to the player's."""
         return self._skills.levels[int(np.abs(self._skills.points - self.strength).argmin())]
 
     @property
@@ -122,17 +122,17 @@ class LevelLadder:
         return float(self.law @ self.wins)
 
     def matches_to_level(self) -> float:
-        """Return the mean number of matches until the player is first at their own level."""
+        """Return the mean number of matches until the player first reaches their own level."""
         target = [k for k, level in enumerate(self.system.states) if level == self.level]
         if self.start in target:
             return 0.0
         return float(first_passage(chain_of(self), self.start, target).mean or np.inf)
 
     def dumping(self, most: int, earnest: int, in_a_row: int = 3) -> list[Dumping]:
-        """Return the exact gain from matches lost on purpose, for 0, 1, ... `most` of them.
+        """Return the exact gain from 0, 1, ..., `most` matches lost on purpose.
 
-        As for `sandbagging`: a player at the start loses them, then plays `earnest` matches, and
-        is compared with one who plays all of them.
+        As in `sandbagging`, a player at the start loses them, then plays `earnest` honest matches,
+        and is compared with one who plays all of them honestly.
         """
         states = len(self.system.states)
         up, down = (self.system.move(np.arange(states), won=won) for won in (True, False))
@@ -168,21 +168,21 @@ class LevelLadder:
 
 
 class Dumping(NamedTuple):
-    """The effect of losing some matches on purpose, compared with an honest player.
+    """Effect of losing some matches on purpose, compared with an honest player.
 
     Parameters
     ----------
     dumped
         matches lost on purpose before the first that counts.
     published
-        difference of the published number from the honest player's, below 0 if lower, on average.
+        mean difference between the published number and the honest player's; negative if lower.
     given_away
-        matches that the honest player wins of those dumped, on average.
+        mean number of the dumped matches that the honest player would win.
     p_first, p_in_a_row
-        P(the first match that counts is won), and as many in a row as asked.
+        P(the first match that counts is won), and P(a given number of them are won in a row).
     extra_wins, error
-        wins beyond the honest player's in matches that count, on average, and the standard error: 0
-        where it is exact.
+        mean number of additional wins in matches that count, compared with the honest player, and
+        its standard error: 0 if exact.
     """
 
     dumped: int
@@ -194,6 +194,6 @@ class Dumping(NamedTuple):
     error: float
 
     def profit(self, stake: float, dumped_stake: float, prize: float, honest_prize: float) -> float:
-        """Return the gain over an honest player, in the unit of the stakes."""
+        """Return the gain over an honest player, in the units of the stakes."""
         won = stake * self.extra_wins - dumped_stake * self.given_away
         return won + prize * (self.p_in_a_row - honest_prize)

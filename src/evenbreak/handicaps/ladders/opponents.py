@@ -1,7 +1,7 @@
-"""Who a player meets on a ladder: how good the opponents are, and how far off their ratings are.
+"""The opponents on a ladder: how good they are, and how far off their ratings are.
 
-An opponent has a skill, a rating, and an error: the rating less the skill. Two of the three are
-given, each by a distribution, independent of each other; the third follows.
+An opponent has a skill, a rating, and an error: the rating minus the skill. Two of the three are
+given by independent distributions; the third follows.
 
 Source: the two assumptions after Fig. 5.9 (opponents rated exactly; the autocorrelated model),
 and the distribution of actual and apparent ratings suggested there as a next step.
@@ -36,7 +36,7 @@ def _in_whole_points(law: Distribution, name: str) -> None:
 
 
 def farthest(law: Distribution) -> int:
-    """Return the largest size of a value.
+    """Return the largest absolute value.
 
     >>> farthest(Distribution((-3, 2), (0.5, 0.5)))
     3
@@ -51,19 +51,19 @@ class Opponents:
     Parameters
     ----------
     spread
-        the distribution of an opponent's skill, or rating, less the player's skill, in whole
+        the distribution of an opponent's skill, or rating, minus the player's skill, in whole
         points.
     error
-        the distribution of an opponent's rating error, rating less skill, in whole points,
-        independent of the spread. None: that of the player's own error, made symmetric; it is
-        found self-consistently.
+        the distribution of an opponent's rating error, rating minus skill, in whole points,
+        independent of the spread. None: the distribution of the player's own error, made symmetric
+        and found self-consistently.
     given
-        'skill' or 'rating': which of the two the spread is about.
+        'skill' or 'rating': which of the two `spread` describes.
 
     Raises
     ------
     InputError
-        if a value of a distribution is not a whole number, or `given` is neither word.
+        if a value in a distribution is not a whole number, or `given` is neither word.
 
     Notes
     -----
@@ -94,7 +94,7 @@ class Opponents:
 
 
 NATURAL = Opponents(error=_NOTHING)
-"""Opponents as good as the player and correctly rated: the natural distribution of Fig. 5.9."""
+"""Opponents as good as the player, correctly rated: the natural distribution of Fig. 5.9. 5.9."""
 
 AUTOCORRELATED = Opponents(given="rating")
 """Opponents rated at the player's skill, with errors distributed like the player's (model A)."""
@@ -110,7 +110,7 @@ def opponents_of(
     given: str = "rating",
     error: Distribution | None = None,
 ) -> Opponents:
-    """Return the opponents that a league offers a player: each of its ratings equally likely.
+    """Return a player's opponents in a league, where each rating is equally likely.
 
     Parameters
     ----------
@@ -130,9 +130,9 @@ def opponents_of(
 
     Notes
     -----
-    Ratings are rounded to whole points before they are subtracted. That an opponent's error does
-    not depend on their rating is an assumption: among players of similar skill those with the
-    highest ratings are mostly over-rated.
+    Ratings are rounded to whole points before they are subtracted. It is assumed that an opponent's
+    error does not depend on their rating; in fact, among players of similar skill, those with the
+    highest ratings are mostly overrated.
 
     >>> opponents_of([70, 80, 80, 95], 80).spread.values
     (-10, 0, 15)
@@ -145,7 +145,7 @@ def opponents_of(
 
 
 def stretched(opponents: Opponents, factor: float) -> Opponents:
-    """Return the same opponents on a scale that has `factor` times as many points.
+    """Return the same opponents on a scale with `factor` times as many points.
 
     >>> stretched(opponents_of([60, 80, 95], 80), 4).spread.values
     (-80, 0, 60)

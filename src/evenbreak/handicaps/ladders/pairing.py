@@ -1,4 +1,4 @@
-r"""What a match brings a player at each rating error, against a given distribution of opponents.
+r"""Outcome of a match at each rating error, against a given distribution of opponents.
 
 Let the player's skill be 0, the rating error e, and the form on the night f. An opponent with
 rating r, error j and form g has the skill r - j, so the two are
@@ -9,7 +9,7 @@ rating r, error j and form g has the skill r - j, so the two are
 and P(move | e, f) is the sum over the opponents of P(move | x, d). If the skill s is given,
 r = s + j: then x depends on e - j and d on f - g, and the sum over (j, g) is a convolution over
 (e, f). If the rating is given, only j - g counts, and the sum is a convolution over d. Form that
-changes from match to match is averaged over beforehand.
+changes from match to match is averaged out beforehand.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ from evenbreak.handicaps.systems.by_match import StepSystem
 from evenbreak.handicaps.systems.match_table import MatchTable, known_table
 
 _FEW = 1 << 20
-"""Up to this many products a sum is faster than a Fourier transform."""
+"""Number of products up to which a sum is faster than a Fourier transform."""
 
 
 class Pairing(ABC):
-    """The matches of a player of skill 0 on a line of errors.
+    """Matches of a player with skill 0 on a line of errors.
 
     `table` has all outcomes of a match at the rating differences that occur; `blur` is the
     distribution of the difference of the two players' match-to-match form, over -k, ..., k; `days`
-    are the forms that a player may have for the night, evenly spaced, symmetric.
+    are the player's possible forms for the night, evenly spaced and symmetric.
     """
 
     def __init__(
@@ -69,11 +69,11 @@ class Pairing(ABC):
 
     @abstractmethod
     def _prepare(self) -> None:
-        """Work out what does not depend on the opponents' errors."""
+        """Precompute what does not depend on the opponents' errors."""
 
     @abstractmethod
     def moves(self, law: Floats) -> Floats:
-        """Return P(move | error, form) for each step, and P(win | error, form) last.
+        """Return P(move | error, form) for each step, with P(win | error, form) last.
 
         `law` is the joint distribution of the opponents' errors and forms, shape (errors, days);
         the result has shape (steps + 1, errors, days).
@@ -98,7 +98,8 @@ class Pairing(ABC):
     ) -> None:
         """Add P(move) and P(win), `weight` times, to a total of shape (steps + 1, x, days).
 
-        x are rating differences; scores are P(final score) by race, shape (races, outcomes, days).
+        `x` are rating differences; `scores` are P(final score) by race, shape (races, outcomes,
+        days).
         """
         place = np.clip(ratings, -self.table.widest, self.table.widest) + self.table.widest
         chances = weight * scores[self._race[place]]
@@ -185,7 +186,7 @@ def pairing_of(
     blur: Floats,
     days: Ints,
 ) -> Pairing:
-    """Return the matches of a player against these opponents."""
+    """Return a player's matches against these opponents."""
     apart = widest + opponents.farthest
     if opponents.given == "rating":
         table = known_table(system, chart, widest=apart)

@@ -1,9 +1,9 @@
-"""How many matches a rating that starts wrong takes to become about right.
+"""How many matches a wrong rating takes to become about right.
 
-A rating settles with the first match after which its error is within a band around 0. The number
-of matches follows from the chain of errors with the band made absorbing. Under a newcomer schedule
-each stage has a chain of its own; a rating that has not settled by the end of the schedule goes on
-as that of an established player.
+A rating settles with the first match after which its error is within a band around 0. The number of
+matches follows from the chain of errors with the band made absorbing. Under a newcomer schedule,
+each stage has its own chain; a rating that has not settled by the end of the schedule continues
+like an established player's.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _HORIZON = 100_000
 
 @dataclass(frozen=True)
 class Settling:
-    """How many matches a rating takes to come near the skill.
+    """Number of matches until a rating is close to the skill.
 
     Parameters
     ----------
@@ -45,9 +45,10 @@ class Settling:
     within
         an error of at most this many points counts as settled.
     newcomer
-        whether the first matches move by the system's newcomer schedule.
+        whether the first matches follow the system's newcomer schedule.
     mean, sd
-        of the number of matches, from linear solves, so not cut off anywhere.
+        mean and standard deviation of the number of matches, from linear solves, so without a
+        cutoff.
     chances
         P(settled after t matches and not before), for t = 0, 1, ..., horizon.
     tail
@@ -64,7 +65,7 @@ class Settling:
 
     @property
     def matches(self) -> Distribution:
-        """The distribution of the number of matches; the tail is added to the horizon."""
+        """Distribution of the number of matches; the tail is added to the horizon."""
         *before, last = self.chances
         return Distribution(tuple(range(len(self.chances))), (*before, last + self.tail))
 
@@ -79,26 +80,26 @@ class Settling:
 
 
 def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = False) -> Settling:
-    """Return how many matches a rating takes to come near the skill.
+    """Return how many matches a rating takes to get close to the skill.
 
-    Each probability is conditional on the error before the first match, and on opponents as
-    the ladder has them, whose ratings have settled.
+    Each probability is conditional on the error before the first match, and on the ladder's
+    opponents, whose ratings have settled.
 
     Parameters
     ----------
     start
-        the rating less the skill before the first match, in whole points.
+        the rating minus the skill before the first match, in whole points.
     within
         an error of at most this many points either way counts as settled.
     newcomer
-        whether the player is new and moves by the system's newcomer schedule at first.
+        whether the player is new and follows the system's newcomer schedule at first.
 
     Raises
     ------
     InputError
-        if start is not on the ladder, within is not a whole number from 0 up, the rating may
-        never come so near (long steps may jump over the band forever), or newcomer is True for
-        a system without a newcomer schedule.
+        if start is not on the ladder, within is not a whole number from 0 up, the rating may never
+        get this close (long steps may jump over the band forever), or newcomer is True for a system
+        without a newcomer schedule.
     AccuracyError
         if more than 1e-12 of the players take more than 100,000 matches.
 
@@ -159,7 +160,7 @@ def settling(ladder: Ladder, start: int, within: int = 5, *, newcomer: bool = Fa
 
 
 def _too_long(mean: float) -> str:
-    """Return how long a rating takes, by the mean, without a number where that is huge."""
+    """Return how long a rating takes, from the mean, without a number if it is huge."""
     if mean > _HORIZON:
         return f"needs more than {_HORIZON:,} matches on average"
     return f"may need more than {_HORIZON:,} matches ({mean:,.0f} on average)"
@@ -176,7 +177,7 @@ def _schedule(ladder: Ladder) -> tuple[tuple[int, int], ...]:
 
 
 def _moments(chances: NDArray[Any]) -> tuple[float, float]:
-    """Return the sums of t and of t squared, weighted."""
+    """Return the weighted sums of t and of t squared."""
     t = np.arange(len(chances))
     return float(t @ chances), float(t * t @ chances)
 
@@ -200,14 +201,14 @@ def ladder_gap(ladder: Ladder) -> float:
     """Return the spectral gap: 1 minus the largest modulus of an eigenvalue.
 
     The eigenvalues of the period are left out: the one near 1 and, with moves of a point either
-    way, the one near -1. The distance of the average over one period from the limit falls like
-    (1 - gap)^matches in the end, so about log(2) / gap matches halve it.
+    way, the one near -1. The distance between the average over one period and the limit eventually
+    falls like (1 - gap)^matches, so about log(2) / gap matches halve it.
 
     Parameters
     ----------
     ladder
-        how the rating moves. If all moves are multiples of some number of points, only errors
-        that are multiples of it count.
+        the ladder on which the rating moves. If all moves are multiples of some number of points,
+        only errors that are multiples of it count.
 
     Raises
     ------
@@ -251,7 +252,7 @@ def _eigenvalues(matrix: Floats) -> NDArray[Any]:
 
 
 def ladder_mixing(ladder: Ladder, start: int, eps: float = 0.25) -> int:
-    """Return after how many matches a rating error is within `eps` of the long run.
+    """Return the number of matches after which a rating error is within `eps` of the long run.
 
     The distance is total variation, half the sum of the absolute differences, between the long
     run and the average over one period of matches (that match and the next, with moves of a point

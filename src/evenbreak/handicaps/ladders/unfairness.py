@@ -1,4 +1,4 @@
-"""How unfair matches are: what wrong ratings do to the chance of winning."""
+"""How unfair matches are: the effect of wrong ratings on the chance of winning."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from evenbreak.handicaps.systems.match_table import MatchTable, known_table
 from evenbreak.stats.summary import Distribution
 
 CLEAR_FAVORITE = 0.6
-"""A player with at least this chance to win a match is its clear favorite."""
+"""A player with at least this chance of winning a match is the clear favorite."""
 
 _DIGITS = 12
 
 
 def unfairness(ladder: Ladder) -> Distribution:
-    """Return the distribution of P(the player wins) over the matches of the long run.
+    """Return the long-run distribution of P(the player wins) over matches.
 
     Each chance is conditional on both players' skills and ratings before the match and averaged
     over their form (`day_sd`, `match_sd`). Player and opponent are independent, and the player's
@@ -32,10 +32,10 @@ def unfairness(ladder: Ladder) -> Distribution:
     Notes
     -----
     A fair match has the chance 1/2; every match would, if ratings were right and the chart had no
-    steps. The standard deviation is how far a typical match is from that; `better_off` looks at
-    the favorite of each match. Chances within 1e-12 of each other are put together. With several
-    matches a night the night's form is taken to be independent of the error, which is not quite
-    true later in the night.
+    steps. The standard deviation shows how far a typical match is from that; `better_off` looks at
+    the favorite in each match. Chances within 1e-12 of each other are merged. With several matches
+    a night, the night's form is assumed to be independent of the error, which is not quite true
+    later in the night.
 
     >>> from evenbreak.handicaps import EQUAL_SKILL, Ladder, chart
     >>> law = unfairness(Ladder("npl", chart("npl_10"), opponents=EQUAL_SKILL))
@@ -57,8 +57,8 @@ def unfairness(ladder: Ladder) -> Distribution:
 def better_off(unfair: Distribution) -> Distribution:
     """Return the distribution of the favorite's chance: the larger of W and 1 - W.
 
-    Its mean less 1/2 is the mean of `|W - 1/2|`; `at_least(0.6)` is the share of matches
-    with a clear favorite.
+    Its mean minus 1/2 is the mean of `|W - 1/2|`; `at_least(0.6)` is the share of matches with a
+    clear favorite.
 
     >>> better_off(Distribution((0.375, 0.5, 0.75), (0.25, 0.5, 0.25)))
     Distribution(values=(0.5, 0.625, 0.75), probability=(0.5, 0.25, 0.25))
@@ -86,10 +86,10 @@ _RARE = 1e-18
 
 @dataclass(frozen=True, eq=False)
 class OpponentPairs:
-    """The kinds of opponents on a ladder, as pairs of offsets, with their matches.
+    """Types of opponents on a ladder, as pairs of offsets, with their matches.
 
-    `skills` are the differences of skill that occur, the player's less the opponent's, in points.
-    Each kind has a chance, a place `ahead` in `skills`, and `apart`, the rating difference less the
+    `skills` are the differences in skill that occur, player's minus opponent's, in points. Each
+    type has a chance, a position `ahead` in `skills`, and `apart`, the rating difference minus the
     player's error.
     """
 
@@ -101,14 +101,14 @@ class OpponentPairs:
     chance: Floats
 
     def wins(self) -> Floats:
-        """Return P(win | rating difference, difference of skill), shape (differences, skills)."""
+        """Return P(win | rating difference, skill difference), shape (differences, skills)."""
         chances = np.zeros((2 * self.table.widest + 1, len(self.skills)))
         for p, weight in self._forms():
             chances += weight * self.table.wins(p)
         return chances
 
     def mean_of(self, worth: NDArray[Any]) -> Floats:
-        """Return the mean worth of a final score, given the player's error, shape (errors,).
+        """Return the mean value of a final score, given the player's error, shape (errors,).
 
         `worth` has shape (differences, outcomes), as in `MatchTable`.
         """
@@ -119,11 +119,11 @@ class OpponentPairs:
         return np.asarray(by_pair[self.places(), self.ahead] @ self.chance)
 
     def places(self) -> Ints:
-        """Return where the table has each rating difference, shape (errors, kinds)."""
+        """Return the position of each rating difference in the table, shape (errors, kinds)."""
         return self.ladder.errors[:, None] + self.apart + self.table.widest
 
     def _forms(self) -> Iterator[tuple[Floats, float]]:
-        """Yield the chances of a game by difference of skill, form by form, with weights."""
+        """Yield the chances of a game by skill difference, form by form, with weights."""
         scale = self.ladder.system.scale
         law = difference_law(self.ladder.day_sd, self.ladder.match_sd)
         forms, weights = deviation_grid(law, scale.points_per_doubling)
@@ -133,7 +133,7 @@ class OpponentPairs:
 
 @lru_cache(maxsize=1)
 def opponent_pairs_of(ladder: Ladder) -> OpponentPairs:
-    """Return the kinds of opponents that the player of a ladder meets."""
+    """Return the types of opponents that a ladder's player meets."""
     opponents, law = ladder.opponents, ladder.opponent_law
     values = np.array(opponents.spread.values, float), np.array(law.values, float)
     condition, error = np.meshgrid(*values, indexing="ij")

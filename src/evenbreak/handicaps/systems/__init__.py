@@ -1,1 +1,1 @@
-"""Handicap systems, one per file: a scale, the charts by which it is played, an update rule."""
+"""Handicap systems, one per file: a scale, the charts that set its races, and an update rule."""

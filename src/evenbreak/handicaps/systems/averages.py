@@ -1,17 +1,18 @@
-"""Averages: points per game as BCA and VNEA leagues keep them, and the share of games won.
+"""Averages: points per game, as in BCA and VNEA leagues, and the percentage of games won.
 
-**Points per game.** The winner of a game scores 10, the loser a point for each own ball made, 0 to
-7. A player's number is all points by all games, and the difference of two averages, times a
-correction and the games, is the head start in points. Results state games and not balls, so the
-loser is taken to make `balls` of them on average. Over N games the head start h is then worth
-h / (10 - balls) games: the better player needs m = floor(N / 2 + h / (2 (10 - balls))) + 1 of them,
-the other one N + 1 - m, which is the race here.
+**Points per game.** The winner of a game scores 10, the loser scores a point for each of their own
+balls made, 0 to 7. A player's number is total points divided by total games, and the head start in
+points is the difference between two averages, times a correction and the number of games. Results
+state games, not balls, so the loser is assumed to make `balls` of them on average. Over N games the
+head start h is then worth h / (10 - balls) games: the better player needs m = floor(N / 2 + h / (2
+(10 - balls))) + 1 of them, the other one N + 1 - m, which is the race here.
 
-**Share of games won.** The percentage of the last 50 games; the difference of two players, times
-five for the five of a team, is looked up in a chart of 25 games.
+**Percentage of games won.** A player's number is the percentage won of the last 50 games; the
+difference between two players, times five for the five players on a team, is looked up in a chart
+for 25 games.
 
-Source: the rules of BCAPL, VNEA and PPL leagues as they print them (10 and 0-7 points, newcomers
-7); Tucson's correction 1.8; PASCO's chart and the chart of a 3-player league, as printed.
+Source: the rules of BCAPL, VNEA and PPL leagues, as printed (10 and 0-7 points, newcomers 7);
+Tucson's correction 1.8; PASCO's chart and the chart of a 3-player league, as printed.
 """
 
 from __future__ import annotations
@@ -29,25 +30,26 @@ from evenbreak.handicaps.systems.system import System
 from evenbreak.ratings.scale import SCALES
 
 WIN = 10.0
-"""The points of a game won."""
+"""Points for winning a game."""
 
 USUAL_GAMES = 50
-"""The games that a number on the list stands for, if it states none."""
+"""Games assumed behind a number on the list if none are stated."""
 
 
 @dataclass(frozen=True)
 class Averages(System):
-    """Points per game, and a head start by the difference of two averages.
+    """Points per game, with a head start from the difference between two averages.
 
     Parameters
     ----------
     games
-        the games of a match, an odd number.
+        the number of games in a match, an odd number.
     correction
-        by what the difference of the averages is multiplied: 1 as most leagues print it, 1.8 in
-        Tucson. If points are additive in skill, 2 is fair.
+        the factor applied to the difference between the averages: 1 in most leagues' printed rules,
+        1.8 in Tucson. If points are additive in skill, 2 is fair.
     balls
-        the loser's balls in a game, on average (an assumption: results do not state them).
+        the mean number of balls that the loser makes in a game (an assumption: results do not state
+        it).
     newcomer
         the average of a player without one.
 
@@ -75,20 +77,20 @@ class Averages(System):
         number(self.newcomer, "newcomer", low=0.0, high=WIN)
 
     def strength(self, numbers: Any) -> Floats:
-        """Return the strengths by the share of games won that averages stand for."""
+        """Return the strengths that averages stand for, from the share of games won."""
         return _strength((np.asarray(numbers, dtype=float) - self.balls) / (WIN - self.balls))
 
     def head_start(self, average_1: Any, average_2: Any) -> Any:
-        """Return the points that the second player (or team of sums) gets each game (round)."""
+        """Return the points that the second player (or team, from sums) gets per game (round)."""
         return self.correction * (average_1 - average_2)
 
     def initial(self, entries: Entries) -> Floats:
-        """Return the stated averages; ratings that can be none are left out."""
+        """Return the stated averages, without ratings that can't be averages."""
         stated = (entries.rating >= 0.0) & (entries.rating <= WIN)
         return np.where(stated, entries.rating, self.newcomer)
 
     def race(self, a: Any, b: Any) -> tuple[Ints, Ints]:
-        """Return the race that the head start is worth over the games of a match."""
+        """Return the race equivalent to the head start over a match's games."""
         points = self.games * np.asarray(self.head_start(np.asarray(a), np.asarray(b)), dtype=float)
         more = np.floor(self.games / 2.0 + np.abs(points) / (2.0 * (WIN - self.balls)) + 1e-9)
         stronger = np.minimum(more.astype(np.int64) + 1, self.games)
@@ -97,9 +99,9 @@ class Averages(System):
         return np.where(ahead, stronger, weaker), np.where(ahead, weaker, stronger)
 
     def update(self, history: History) -> Floats:
-        """Return all points by all games, those behind the list's averages included.
+        """Return total points divided by total games, including those behind the list's averages.
 
-        An average without games next to it stands for 50; a newcomer has none.
+        An average without a number of games stands for 50 games; a newcomer has none.
         """
         points = history.counts("points", lambda m: WIN * m.score_a + self.balls * m.score_b)
         games = history.counts("games", Matches.games_played)
@@ -111,14 +113,14 @@ class Averages(System):
 
 @dataclass(frozen=True)
 class WinPercent(System):
-    """The percentage of the last games won, and PASCO's chart of 25 games.
+    """Percentage won of the last games, with PASCO's chart for 25 games.
 
     Parameters
     ----------
     window
-        the games that count, the last ones.
+        how many of the last games count.
     players
-        the players of a team, by whom the difference of two is multiplied.
+        the number of players on a team, by which the difference between two players is multiplied.
     """
 
     window: int = 50
@@ -144,16 +146,16 @@ class WinPercent(System):
         return _strength(np.asarray(numbers, dtype=float) / 100.0)
 
     def initial(self, entries: Entries) -> Floats:
-        """Return 50 % for everyone whose rating is no percentage."""
+        """Return 50% for every player whose rating isn't a percentage."""
         stated = (entries.rating >= 0.0) & (entries.rating <= 100.0)
         return np.where(stated, entries.rating, 50.0)
 
     def race(self, a: Any, b: Any) -> tuple[Ints, Ints]:
-        """Return the race of PASCO's chart."""
+        """Return the race from PASCO's chart."""
         return pasco_race(self.players * (np.asarray(a, dtype=float) - np.asarray(b, dtype=float)))
 
     def update(self, history: History) -> Floats:
-        """Return the percentage of the last games; of a match that is half in, half its games."""
+        """Return the percentage won of the last games; a match at the edge counts in part."""
         won = history.last(self.window, "won", lambda m: m.score_a)
         played = history.last(self.window, "games", Matches.games_played)
         played, won = np.nan_to_num(played), np.nan_to_num(won)
@@ -167,12 +169,12 @@ class WinPercent(System):
 
 
 def _strength(share: Floats) -> Floats:
-    """Return the Fargo points above the mean opponent at a share of games won."""
+    """Return the Fargo points above the mean opponent for a share of games won."""
     return np.asarray(SCALES["fargo"].difference(np.clip(share, 0.02, 0.98)), dtype=float)
 
 
 def _games_behind(history: History, highest: float) -> Floats:
-    """Return the games behind each number of the list: those stated, or else `USUAL_GAMES`."""
+    """Return the games behind each number on the list: stated games, or else `USUAL_GAMES`."""
     shape = history.initial.shape
     rating, games = (
         column_of(values, shape) for values in (history.entries.rating, history.entries.games)
@@ -182,7 +184,7 @@ def _games_behind(history: History, highest: float) -> Floats:
 
 
 def pasco_race(difference: Any) -> tuple[Ints, Ints]:
-    """Return the games to win out of 25, by the difference of two teams' sums of percentages.
+    """Return the games to win out of 25, from the difference between two teams' percentage sums.
 
     >>> pasco_race([0, 14, 15, 66.4, -145])
     (array([13, 13, 14, 15,  7]), array([13, 13, 12, 11, 19]))

@@ -1,7 +1,7 @@
 """Systems that move ratings match by match, by whole points: a scale, charts and a rule.
 
-An update rule is a plain function from a match to the points that winner and loser move. What
-such a rule does to a rating is a Markov chain, which `Ladder` follows.
+An update rule is a plain function from a match to the points that winner and loser move. Under such
+a rule, a rating is a Markov chain, which `Ladder` follows.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ class PlayedMatch(NamedTuple):
     Parameters
     ----------
     rating
-        before the match; a rule may use only their difference.
+        ratings before the match; a rule may use only their difference.
     games
         games won; None if only the winner is known.
     race
-        games needed; None if not known.
+        games needed; None if unknown.
     played
-        matches played before; None: an established player.
+        number of earlier matches; None: an established player.
     """
 
     rating: tuple[float, float]
@@ -56,24 +56,25 @@ class StepSystem(System):
     name
         the name of the system; `system_of` finds it by this name.
     scale
-        what a difference of its ratings means.
+        the scale of its ratings.
     charts
         the names of the printed charts that set its races; may be empty.
     rule
-        from a match to the whole points that winner and loser move.
+        function from a match to the whole points that winner and loser move.
     own_chart
         the chart used if no other is named; None: the first of `charts`.
     asks
-        what the rule must know about a match besides who won: 'games', 'race', both or nothing.
+        what the rule needs to know about a match besides its winner: 'games', 'race', both or
+        nothing.
     conserving
-        whether the winner gains what the loser loses, once both are established. The
-        distribution of rating errors is then symmetric.
+        whether the winner gains what the loser loses, once both are established. If so, the
+        distribution of rating errors is symmetric.
     newcomer_steps
         (matches, factor) for each stage of a newcomer: for that many matches a newcomer moves by
         an established player's points times the factor. Empty: newcomers move like everyone
         else.
     winner_never_falls
-        whether no one loses points by a match won.
+        whether winning a match never costs points.
     """
 
     name: str
@@ -88,7 +89,7 @@ class StepSystem(System):
     winner_never_falls: bool = True
 
     def moves(self, match: PlayedMatch) -> tuple[int, int]:
-        """Return by how many points the rule moves the winner and the loser of a match.
+        """Return how many points the rule moves the winner and the loser of a match.
 
         Raises
         ------
@@ -122,7 +123,7 @@ class StepSystem(System):
     def update(self, history: History) -> Floats:
         """Return the ratings after all moves of the last night.
 
-        A newcomer's moves go by the matches played before each, in the order of the night.
+        A newcomer's moves depend on the number of earlier matches, in the order of the night.
         """
         night = history.tonight
         up_a, up_b = self._points(night, history.kept)
@@ -159,7 +160,7 @@ class StepSystem(System):
         return flat.reshape(ratings.shape)
 
     def _points(self, night: Matches, kept: MutableMapping[str, Any]) -> tuple[Ints, Ints]:
-        """Return the whole points of player a and of player b in each match; established ones."""
+        """Return the whole points of players a and b in each match, if both are established."""
         won = night.won_a
         columns = {
             "games": (night.score_a, night.score_b),
@@ -184,11 +185,11 @@ class StepSystem(System):
 
     @property
     def cycle(self) -> int:
-        """Number of even matches after which a rating can return: 2 if it moves up or down alike.
+        """Number of even matches after which a rating can return: 2 if moves up and down are equal.
 
         Ratings that move a point either way are an even number of points off after one match and
-        an odd number after the next, so shares of them swing from match to match. Their mean over
-        a cycle does not.
+        an odd number after the next, so their frequencies swing from match to match. Their mean
+        over a cycle does not.
 
         >>> from evenbreak.handicaps import system_of
         >>> [system_of(name).cycle for name in ("npl", "step 4", "step 2 1", "step 5 1")]
@@ -229,7 +230,7 @@ class StepSystem(System):
 
 
 _MOST_POINTS = 1000
-"""No league moves a rating further in one match."""
+"""Limit on a rating's move in one match, beyond any league's rule."""
 
 
 def points_of(value: Any, name: str, *, at_least: int = 1) -> int:
@@ -244,13 +245,13 @@ def points_of(value: Any, name: str, *, at_least: int = 1) -> int:
 
 
 _ROOM = 256
-"""A table has room for so many kinds of matches for each match of a night, at most."""
+"""The most kinds of matches that a table has room for, per match in a night."""
 
 _UNKNOWN = np.iinfo(np.int32).min
 
 
 class _KnownPoints:
-    """The points of each kind of match, in a table: a rule is asked about each kind once."""
+    """Table of the points for each kind of match, so that a rule is called once for each kind."""
 
     def __init__(self, ask: Callable[[Sequence[float]], tuple[int, int]]) -> None:
         self.ask = ask
@@ -259,7 +260,7 @@ class _KnownPoints:
         self.points = np.zeros((2, 0), dtype=np.int32)
 
     def __call__(self, keys: Sequence[Any]) -> tuple[Ints, Ints]:
-        """Return the points of winners and losers, from the columns that make a kind."""
+        """Return the points of winners and losers, from the columns that define a kind."""
         columns = [np.asarray(key).astype(np.int64) for key in keys]
         if (columns[0] != keys[0]).any():  # ratings between whole points
             rows = np.stack([np.ravel(key) for key in keys], axis=1)
@@ -293,7 +294,7 @@ class _KnownPoints:
         return np.array([self.ask(kind) for kind in kinds.tolist()]).T
 
     def _widen(self, low: Ints, high: Ints) -> None:
-        """Make room for more kinds, with some to spare; what is known is asked about again."""
+        """Make room for more kinds, with some to spare; known ones are evaluated again."""
         if self.low is not None:
             low, high = np.minimum(low, self.low), np.maximum(high, self.low + self.size - 1)
         spare = (high - low) // 4 + 1

@@ -1,4 +1,4 @@
-"""All systems, and how they are named."""
+"""The catalog of all systems, and their names."""
 
 from __future__ import annotations
 
@@ -25,9 +25,10 @@ _NUMBER = re.compile(r"[0-9]{1,9}")
 
 
 class _Family(NamedTuple):
-    """Systems that differ only in numbers, which `grammar` shows in their names.
+    """Systems that differ only in numbers, whose place in the name `grammar` shows.
 
-    `numbers` are the fewest and the most that `make` takes, `samples` those of the contract tests.
+    `numbers` is the fewest and the most numbers that `make` takes, and `samples` are the numbers
+    used in the contract tests.
     """
 
     grammar: str
@@ -54,7 +55,7 @@ FAMILIES: Mapping[str, _Family] = MappingProxyType(
         "napa-like": _Family("napa-like", NapaLike, (0, 0)),
     }
 )
-"""The families of systems, by the word with which their names begin."""
+"""Families of systems, by the first word of their names."""
 
 SYSTEMS: Mapping[str, System] = MappingProxyType(
     {
@@ -63,16 +64,16 @@ SYSTEMS: Mapping[str, System] = MappingProxyType(
         for system in (family.make(*numbers) for numbers in family.samples)
     }
 )
-"""The samples of every family, by name."""
+"""The samples from every family, by name."""
 
 
 def system_of(name: Any) -> System:
-    """Return the system of this name: its words, and then its numbers or parameters.
+    """Return a system by name: its words, followed by its numbers or parameters.
 
     Parameters
     ----------
     name
-        a name of `FAMILIES` and the numbers of its grammar, separated by spaces or hyphens, in any
+        a name in `FAMILIES` and the numbers in its grammar, separated by spaces or hyphens, in any
         case: 'npl', 'step 2', 'step-2-1'. Systems with open parameters take them by name:
         'level-review window=15 kept=.5'. The systems of installed packages (entry points
         `evenbreak.systems`) are found by their own names. A `System` is returned unchanged.
@@ -104,7 +105,7 @@ def system_of(name: Any) -> System:
 
 
 def is_ours(written: str) -> bool:
-    """Return whether a name is one of ours, whoever else takes it: its words, and fit numbers.
+    """Return whether a name is a built-in one: its words, followed by fitting numbers.
 
     >>> is_ours("step-2"), is_ours("elo-club")
     (True, False)
@@ -116,7 +117,7 @@ def is_ours(written: str) -> bool:
 
 
 def _in_parts(written: str) -> tuple[str, list[str]]:
-    """Return the word of ours with which a name starts, if it does, and the parts after it."""
+    """Return the built-in word that a name starts with, if any, and the parts after it."""
     written = written.strip().lower()
     word = next((word for word in _BY_LENGTH if _spelled(word).match(written)), "")
     return word, re.split(r"\s+|(?<![=e])-", written[len(word) :])[1:]
@@ -126,12 +127,12 @@ _BY_LENGTH = sorted(FAMILIES, key=len, reverse=True)
 
 
 def _spelled(word: str) -> re.Pattern[str]:
-    """Return how a name may be written: with blanks, hyphens or underscores in it."""
+    """Return the ways to write a name: with spaces, hyphens or underscores."""
     return re.compile(word.replace("-", r"[\s_-]") + r"(?![^\s-])")
 
 
 def _with_options(system: System, options: Mapping[str, str], name: str) -> System:
-    """Return a system with parameters set by name, and called as it was asked for."""
+    """Return a system with parameters set by name, under the name that was asked for."""
     if isinstance(system, StepSystem):
         if options:
             raise InputError("it has no named parameters. Leave out {first}=.", first=min(options))
@@ -154,7 +155,7 @@ def _with_options(system: System, options: Mapping[str, str], name: str) -> Syst
 
 
 def _value(option: str, text: str, usual: Any) -> Any:
-    """Return the value of a parameter by its text; 'none' where it may be left out."""
+    """Parse a parameter's value; 'none' if it may be left out."""
     if text == "none":
         return None
     if isinstance(usual, str):
@@ -170,7 +171,7 @@ def _value(option: str, text: str, usual: Any) -> Any:
 
 
 def _added(name: Any, written: str, word: str) -> System:
-    """Return the system of an installed package, or refuse a name that no one has."""
+    """Return an installed package's system, or raise an error if no package has the name."""
     from evenbreak.handicaps.systems.own import lawful_system
     from evenbreak.plugins import added, plugin
 
@@ -193,7 +194,7 @@ def _added(name: Any, written: str, word: str) -> System:
 
 
 def steps_of(name: Any) -> StepSystem:
-    """Return the system of this name if it moves ratings match by match, by whole points.
+    """Return a system by name if it moves ratings match by match, by whole points.
 
     Raises
     ------

@@ -1,10 +1,10 @@
 """Elo's update, game by game: each game counts, and the better player is expected to win more.
 
 If player 1 wins a of the g games of a match, at ratings that give player 1 the chance e to win a
-game, player 1's rating moves by k (a - e g) points, rounded to whole points, and player 2's by as
-much the other way. So the winner of a match may lose points: a player who needs seven games to
-the opponent's two and wins 7:1 played no better than the rating. The ratings before the match
-hold for all of its games.
+game, player 1's rating moves by k (a - e g) points, rounded to whole points, and player 2's rating
+moves by as much the other way. So the winner of a match may lose points: a player who needs seven
+games to the opponent's two and wins 7:1 played no better than the rating. The ratings before the
+match hold for all of its games.
 
 Source: Elo, The Rating of Chessplayers, Past and Present (1978): the linear update.
 """
@@ -22,7 +22,7 @@ from evenbreak.ratings.scale import SCALES
 _SCALE = SCALES["elo"]
 
 _GAMES = 9
-"""The longest match of the system's own chart."""
+"""The longest match in the system's own chart."""
 
 
 @dataclass(frozen=True)
@@ -40,9 +40,9 @@ class _PerGame:
 
 
 def elo_system(k: Any = 16) -> StepSystem:
-    """Return the system in which each game of a match moves the ratings by Elo's update.
+    """Return the system in which each game in a match moves the ratings by Elo's update.
 
-    No league's chart is on Elo's scale, so the system's own chart has the most even races of at
+    No league's chart is on Elo's scale, so the system's own chart has the most even races with at
     most nine games. Newcomers move like everyone else.
 
     Parameters
@@ -53,7 +53,7 @@ def elo_system(k: Any = 16) -> StepSystem:
     Raises
     ------
     InputError
-        if k is not such a number; from its rule, if the score is missing.
+        if k is not such a number; the rule itself raises it if the score is missing.
 
     >>> rule = elo_system(16).rule
     >>> rule(PlayedMatch((1600, 1500), (5, 4), None)), rule(PlayedMatch((1600, 1500), (7, 1), None))

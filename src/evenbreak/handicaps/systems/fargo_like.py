@@ -1,23 +1,24 @@
-r"""Fargo-like: after every night all ratings are estimated again from all games.
+r"""Fargo-like: after every night, all ratings are re-estimated from all games.
 
 A game between ratings x and y is won with the chance p = 1 / (1 + 2^(-(x - y) / 100)), and a game
 of age t counts 2^(-t / half-life). The ratings are the maximum of
 
     sum over games log p  +  sum over players c_i / 2 (log p(x_i - r_i) + log p(r_i - x_i))
 
-where r_i is the rating on the list and c_i the games that it rests on, aged alike, and a few
-pseudo-games, without which a player who won everything would have no rating. A player with n games
-of 200 is published at the maximum of their own games, against the ratings of the others, and
-200 - n games against the starter r_i, half of them won; what a starter says moves no one else.
+where r_i is the rating on the list, and c_i is the number of games that it rests on, aged likewise,
+and a few pseudo-games, without which a player who won everything would have no rating. A player
+with n games of 200 is published at the maximum of their own games, against the ratings of the
+others, and 200 - n games against the starter r_i, half of them won; what a starter says moves no
+one else.
 
-Published: the scale, that all games count by maximum likelihood, the 200 games and the 200 - n
-games against a starter. By report: the half-life of three years. Assumed: the pseudo-games; that
+Published: the scale, the use of all games by maximum likelihood, the 200 games, and the 200 - n
+games against a starter. Reported: the half-life of three years. Assumed: the pseudo-games; that
 ratings on the list rest on as many games as the list states, `past` at most (200 where it states
 none); and that the level of the scale is held by the list (the real one's anchor is unpublished).
 
-All replicas are solved at once: Newton's method from the last ratings, each step by conjugate
-gradients with a scaled diagonal, or densely in a single small league. Games of a pair are one
-entry, so the work does not grow with the matches of a pair.
+All replicas are solved at once: Newton's method starts from the last ratings, with each step solved
+by conjugate gradients with a scaled diagonal, or densely in a single small league. A pair's games
+are one entry, so the work does not grow with the number of its matches.
 """
 
 from __future__ import annotations
@@ -43,22 +44,22 @@ _SCALE = SCALES["fargo"]
 _UNIT = _SCALE.points_per_log_odds
 _YEAR = 365.25
 _GAMES_A_MATCH = 7.0
-"""How many games a stated match is taken for, where a list states matches and no games."""
+"""Games assumed per stated match, if a list states matches but no games."""
 
 _ENOUGH = 1e-8
-"""A step below this many log-odds ends a fit."""
+"""A fit ends when a step is below this many log-odds."""
 
 _LONGEST = 2.0
-"""The longest step, in log-odds: from farther away Newton's method may overshoot."""
+"""The longest step, in log-odds: from farther away, Newton's method may overshoot."""
 
 _STEPS = 100
 
 _DENSE = 20_000
-"""With at most so many entries of all matrices the steps are solved for densely."""
+"""Matrix entries in total up to which the steps are solved with dense matrices."""
 
 
 class _Games(NamedTuple):
-    """Games by pair: `low` and `high` are the two players' places among players and replicas."""
+    """Games by pair: `low` and `high` are the two players' positions among players and replicas."""
 
     low: Ints
     high: Ints
@@ -68,14 +69,14 @@ class _Games(NamedTuple):
 
 @dataclass(frozen=True)
 class FargoLike(System):
-    """All results refitted every night, on the Fargo scale.
+    """Refit all results every night, on the Fargo scale.
 
     Parameters
     ----------
     half_life
         the years after which a game counts half.
     established
-        the games from which a player's starter no longer counts.
+        the number of games after which a player's starter no longer counts.
     pseudo_games
         games against the list's rating, half of them won, that never age.
     past
@@ -83,9 +84,10 @@ class FargoLike(System):
     starter
         the rating of a player without one.
     games
-        the most games of a match, for the most even race at each difference; None: by the chart.
+        the most games in a match, for the most even race at each difference; None: races come from
+        the chart.
     own_chart
-        which sets the races; None: `fargo_r6_hot`.
+        the chart that sets the races; None: `fargo_r6_hot`.
     """
 
     half_life: float = 3.0
@@ -126,15 +128,15 @@ class FargoLike(System):
         return _of_games(self.games)
 
     def initial(self, entries: Entries) -> Floats:
-        """Return the stated ratings, the starter for a player without one."""
+        """Return the stated ratings, or the starter for a player without one."""
         return np.where(np.isnan(entries.rating), self.starter, entries.rating)
 
     def robustness(self, history: History) -> Floats:
-        """Return the games behind each rating, those before the first night included."""
+        """Return the games behind each rating, including those before the first night."""
         return self._behind(history) + history.counts("games", Matches.games_played)
 
     def _behind(self, history: History) -> Floats:
-        """Return the games that the ratings of the list rest on."""
+        """Return the games that the list's ratings rest on."""
         games, matches = (
             column_of(values, history.initial.shape).astype(float)
             for values in (history.entries.games, history.entries.matches)
@@ -145,7 +147,7 @@ class FargoLike(System):
         return np.where(unrated, 0.0, np.minimum(stated, self.past))
 
     def update(self, history: History) -> Floats:
-        """Return the ratings that all games give."""
+        """Return the ratings fitted to all games."""
         now = float(history.days[history.night - 1]) if history.days is not None else None
         age = 7.0 * (history.night - 1) if now is None else now
         faded = 0.5 ** (age / _YEAR / self.half_life)
@@ -196,7 +198,7 @@ _of_games = lru_cache(maxsize=8)(partial(fixed_length_chart, scale=_SCALE))
 def _joined(
     state: tuple[Ints, Floats, Floats], keys: Ints, won: Floats, played: Floats
 ) -> tuple[Ints, Floats, Floats]:
-    """Return sums by key with more of them added; the keys stay sorted."""
+    """Return sums by key with more values added; the keys stay sorted."""
     old, old_won, old_played = state
     new, place = np.unique(keys, return_inverse=True)
     won = np.bincount(place, won, len(new)).astype(float)
@@ -215,7 +217,7 @@ def _joined(
 
 
 def _pull(games: _Games, at: Floats, start: Floats, counted: Floats) -> tuple[Floats, Floats]:
-    """Return the slope of the log-likelihood by player, and the curvature of each pair."""
+    """Return the gradient of the log-likelihood by player, and the curvature of each pair."""
     p = expit(at[games.low] - at[games.high])
     left = games.won - games.played * p
     slope = np.bincount(games.low, left, at.size) - np.bincount(games.high, left, at.size)
@@ -230,7 +232,7 @@ def _of_start(at: Floats, start: Floats, counted: Floats) -> Floats:
 def _fitted(
     games: _Games, start: Floats, counted: Floats, at: Floats, shape: tuple[int, ...]
 ) -> Floats:
-    """Return the maximum, in log-odds, by Newton's method from `at`."""
+    """Return the maximum, in log-odds, by Newton's method starting from `at`."""
     for _ in range(_STEPS):
         slope, curvature = _pull(games, at, start, counted)
         held = _of_start(at, start, counted)
@@ -295,7 +297,7 @@ def _solved_densely(
 
 
 def _alone(games: _Games, fit: Floats, start: Floats, counted: Floats, few: Any) -> Floats:
-    """Return each of few games at their own maximum, against the others as they were fitted."""
+    """Return players with few games at their own maximum, against the others as fitted."""
     if not few.any():
         return fit
     concerned = few[games.low] | few[games.high]

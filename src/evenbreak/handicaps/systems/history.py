@@ -1,7 +1,7 @@
-"""What a handicap system gets to see: who starts with what, and all matches played so far.
+"""What a handicap system sees: the initial list, and all matches played so far.
 
-Leagues are simulated many at a time, so arrays have the players or matches down and the replicas
-of the league across. The one league of a file is one column.
+Many leagues are simulated at a time, so arrays have players or matches as rows and replicas of the
+league as columns. A single league from a file is one column.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ import numpy as np
 from evenbreak.arrays import Bools, Floats, Ints
 
 ESTABLISHED = 1_000_000
-"""The matches or games of a player of whom the list does not state them."""
+"""Matches or games assumed for a player if the list does not state them."""
 
 NOBODY = -1
-"""The position of both players of a match that was not played."""
+"""The position that stands for both players of a match that was not played."""
 
 _STATE = TypeVar("_STATE")
 
@@ -43,7 +43,7 @@ class Entries:
     def of(
         cls, rating: Any = None, level: Any = None, matches: Any = None, games: Any = None
     ) -> Entries:
-        """Return entries from the columns that a list has; the others are not stated."""
+        """Return entries from the columns that a list has; the others are marked as not stated."""
         shape = np.shape(next(x for x in (rating, level, matches, games) if x is not None))
         columns = [
             np.full(shape, missing) if column is None else np.array(column, dtype=kind)
@@ -59,12 +59,12 @@ class Entries:
 
 @dataclass(frozen=True, eq=False)
 class Matches:
-    """Matches in the order in which they were played, one per row; the replicas across.
+    """Matches in the order in which they were played, one per row, with replicas as columns.
 
-    Nights count from 1 and never fall, shape (matches,). Players are positions, -1 for both where
-    the match was not played. The winner has reached their race; where it is not known, 0, the
-    higher score wins. Ratings (or levels) are those published then; innings, less defensive shots,
-    are None where not counted.
+    Nights count from 1 and never decrease, shape (matches,). Players are positions, -1 for both
+    where the match was not played. The winner reached their race; if the race is unknown (0), the
+    higher score wins. Ratings (or levels) are those published then; innings, minus defensive shots,
+    are None if not counted.
     """
 
     night: Ints
@@ -81,7 +81,7 @@ class Matches:
 
     @classmethod
     def of_night(cls, night: int, *columns: Any) -> Matches:
-        """Return the matches of one night from the other columns, in their order."""
+        """Return one night's matches, in order, from the other columns."""
         arrays = [None if column is None else np.asarray(column) for column in columns]
         first: Any = arrays[0]
         return cls(np.full(len(first), night, dtype=np.int64), *arrays)  # type: ignore[arg-type]
@@ -130,7 +130,7 @@ class Matches:
 
 
 def joined(nights: Sequence[Matches]) -> Matches:
-    """Return the matches of several nights, one after the other."""
+    """Return the matches of several nights, one night after the other."""
     columns = {
         name: np.concatenate([getattr(night, name) for night in nights])
         for name, value in vars(nights[0]).items()
@@ -141,12 +141,13 @@ def joined(nights: Sequence[Matches]) -> Matches:
 
 @dataclass(frozen=True, eq=False)
 class History:
-    """All that was played up to and with a night, and what was published before it.
+    """All matches up to and including a night, and the numbers published before it.
 
-    `initial` was published before the first night, `ratings` before the update: shape (players,
-    replicas), or (players,) for one league. Nights count from 1, and may have no match; `day`
-    counts days from the first night, None: nights are a week apart. `kept` is where a system may
-    keep sums between updates, private to it and the run; without it the matches alone do.
+    `initial` was published before the first night, and `ratings` before the update: shape (players,
+    replicas), or (players,) for one league. Nights count from 1 and may have no matches; `day`
+    counts days from the first night; None: nights are a week apart. `kept` is where a system may
+    keep sums between updates, private to the system and the run; it must also work from the matches
+    alone.
     """
 
     entries: Entries
@@ -159,12 +160,12 @@ class History:
 
     @property
     def players(self) -> int:
-        """How many players there are."""
+        """The number of players."""
         return len(self.initial)
 
     @property
     def tonight(self) -> Matches:
-        """The matches of the last night."""
+        """The matches on the last night."""
         return self.matches[np.searchsorted(self.matches.night, self.night) :]
 
     @property
@@ -176,10 +177,10 @@ class History:
 
     @property
     def matches_before(self) -> Ints:
-        """How many matches each had played before the last night.
+        """How many matches each player had played before the last night.
 
-        Where the list does not state them: a million, or none for a player it states nothing
-        about.
+        If the list does not state them, it is a million, or none for a player about whom the list
+        states nothing.
         """
         unknown = np.isnan(self.entries.rating) & np.isnan(self.entries.level)
         usual = column_of(np.where(unknown, 0, ESTABLISHED), self.initial.shape)
@@ -193,7 +194,7 @@ class History:
         return before
 
     def one(self, replica: int) -> History:
-        """Return the history of one replica: arrays without an axis for replicas."""
+        """Return one replica's history: arrays without an axis for replicas."""
 
         def column(values: Any) -> Any:
             return values[:, min(replica, values.shape[1] - 1)] if np.ndim(values) > 1 else values
@@ -210,10 +211,10 @@ class History:
     def fold(
         self, name: str, start: Callable[[], _STATE], add: Callable[[_STATE, Matches], _STATE]
     ) -> _STATE:
-        """Return what all nights add up to: `add(state, matches of a night)` for each in turn.
+        """Return the accumulated state of all nights, from `add(state, a night's matches)`.
 
-        Only nights that are new since the last update are added to the state in `kept`, so what
-        is added must depend on the matches alone.
+        Only nights that are new since the last update are added to the state in `kept`, so `add`
+        must depend on the matches alone.
 
         >>> night = Matches.of_night(1, [0], [1], [5], [3], [5], [4], [620.0], [560.0])
         >>> begun = np.array([620.0, 560.0])
@@ -229,9 +230,9 @@ class History:
         return total
 
     def counts(self, name: str, of_a: Callable[[Matches], Any]) -> Floats:
-        """Return a sum over the matches of each player, shaped as `initial`, and kept by name.
+        """Return a sum over each player's matches, shaped like `initial`, and keep it by name.
 
-        `of_a` returns what player a adds; it is asked again for the other side.
+        `of_a` returns what player a adds; it is called again for the other side.
         """
 
         def add(sums: Floats, matches: Matches) -> Floats:
@@ -245,9 +246,9 @@ class History:
         return self.fold(name, lambda: np.zeros(self.initial.shape), add).copy()
 
     def last(self, most: int, name: str, of_a: Callable[[Matches], Any]) -> Floats:
-        """Return the last scores of each player, the newest first; NaN where there are fewer.
+        """Return each player's last scores, newest first, padded with NaN.
 
-        As for `counts`, shape (most,) followed by that of `initial`; a score that is NaN is left
+        As for `counts`, the shape is (most,) followed by that of `initial`; NaN scores are left
         out.
         """
         size = self.initial.size
@@ -276,7 +277,7 @@ class History:
 
 
 def column_of(values: Any, shape: tuple[int, ...]) -> Any:
-    """Return values with an entry for each player and replica, where they may be a column.
+    """Return values expanded from a column to an entry for each player and replica.
 
     >>> column_of([3, 5], (2, 4)).shape
     (2, 4)
@@ -287,7 +288,7 @@ def column_of(values: Any, shape: tuple[int, ...]) -> Any:
 
 
 def positions(who: Ints, shape: tuple[int, ...]) -> Ints:
-    """Return where players are in a flattened array of players and replicas; 0 for no one.
+    """Return the flat positions of players in an array of players and replicas; 0 for no one.
 
     >>> positions(np.array([[1, 0]]), (2, 2))
     array([[2, 1]])

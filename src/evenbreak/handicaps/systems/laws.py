@@ -1,4 +1,4 @@
-"""What every handicap system has to hold to, tried on a small league; for one's own systems too."""
+"""The rules that every handicap system must follow, tried on a small league."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ _PLAYERS, _REPLICAS, _NIGHTS = 8, 3, 5
 def broken_laws(system: System, *, seed: int = 1) -> list[str]:
     """Return the rules that a system breaks, in sentences; empty if it breaks none.
 
-    Checked: ratings are finite and races whole games; races of a pair are the same seen from either
-    side; a night doesn't change its input; stored sums change nothing; the order of players, and
-    replicas side by side, change nothing; a winner never falls, where the system says so; and it
-    can be sent to other processes.
+    These rules are checked: ratings are finite and races are whole games; a pair's races are the
+    same seen from either side; a night doesn't change its input; stored sums, the order of players,
+    and replicas side by side change nothing; a winner never falls, if the system says so; and the
+    system can be sent to other processes.
 
     Parameters
     ----------
     seed
-        of the league's draws.
+        seed for the league's random draws.
 
     >>> from evenbreak.handicaps import system_of
     >>> broken_laws(system_of("npl"))
@@ -41,7 +41,7 @@ def broken_laws(system: System, *, seed: int = 1) -> list[str]:
 
 
 def entries_for(system: System, rng: np.random.Generator, replicas: int = _REPLICAS) -> Entries:
-    """Return a small league's entries as a system reads them, with newcomers among them."""
+    """Return a small league's entries for a system, with newcomers among them."""
     shape = _PLAYERS, replicas
     scale = system.scale or SCALES["fargo"]
     ratings = scale.center + scale.points_per_doubling * rng.normal(0.0, 0.7, shape)
@@ -58,7 +58,7 @@ def entries_for(system: System, rng: np.random.Generator, replicas: int = _REPLI
 def played_nights(
     system: System, rng: np.random.Generator, *, keep: bool = True, entries: Entries | None = None
 ) -> Iterator[tuple[History, Floats]]:
-    """Yield the history of each night of a small league, and what the system publishes after it."""
+    """Yield the history of each night in a small league, and what the system publishes after it."""
     entries = entries_for(system, rng) if entries is None else entries
     shape = entries.rating.shape
     initial = checked_ratings(system, system.initial(entries), shape, "initial")

@@ -1,10 +1,10 @@
-"""Level review: skill levels moved by a player's last scores, as APA- and TAP-like leagues do.
+"""Level review: a player's last scores move their skill level, as in APA- and TAP-like leagues.
 
-The rules of both are unpublished but for their windows, so this is a system *like* theirs with
-open parameters. After each night a player who played has a mean of their last scores: of the best
-share of the window (APA-like), or of all but the best and the worst (TAP-like). A level that is
-off that mean moves, by `most_change` at most and never below the lowest attainable level, the
-career's peak less `lowest`.
+Both leagues' rules are unpublished except for their windows, so this is a system *like* theirs with
+open parameters. After each night, a mean is taken of the last scores of each player who played:
+over the best share of the window (APA-like), or over all but the best and the worst (TAP-like). A
+level that differs from that mean moves, by at most `most_change` and never below the lowest
+attainable level, the career's peak minus `lowest`.
 
 Scores are of two kinds:
 
@@ -39,36 +39,36 @@ from evenbreak.handicaps.systems.history import Entries, History, Matches, colum
 from evenbreak.handicaps.systems.system import System
 
 STEP = 74.0
-"""Fargo points of a step of a level: the mean of those measured on 40,000 APA matches."""
+"""Fargo points per level: the mean of those measured in 40,000 APA matches."""
 
 _CAP = 10.0
 _INNINGS = np.array([2.0, 3.0, 4.0, 5.0, 7.0])
-"""The largest mean of levels 7, 6, 5, 4 and 3."""
+"""The largest mean for levels 7, 6, 5, 4 and 3."""
 
 _USUAL = np.array([8.5, 6.0, 4.5, 3.5, 2.5, 1.5])
-"""A mean in the middle of levels 2 to 7."""
+"""A mean in the middle of each level from 2 to 7."""
 
 
 @dataclass(frozen=True)
 class LevelReview(System):
-    """Skill levels moved by the last scores.
+    """Skill levels that are moved by a player's last scores.
 
     Parameters
     ----------
     window
-        how many of the last scores count; leagues have 10 to 21.
+        how many of the last scores count; leagues use 10 to 21.
     kept
-        the best share of them that is averaged, rounded up (.5 APA-like; 1: all).
+        the best share of them to average, rounded up (.5 APA-like; 1: all).
     trim
-        how many of the best and as many of the worst are left out first (1 TAP-like).
+        how many of the best, and of the worst, are left out first (1 TAP-like).
     result
-        the part of the score that is the result; the rest is the performance (.2 TAP-like).
+        the weight of the result in the score; the rest is the performance (.2 TAP-like).
     hysteresis
         how far beyond the border between two levels the mean must be, in levels (or innings).
     most_change
-        levels by which a review moves a player at most.
+        the most levels by which a review moves a player.
     lowest
-        levels below the career's peak that can be reached; None: any.
+        how many levels below the career's peak can be reached; None: any number.
     score
         'games' or 'innings'.
     applied
@@ -76,7 +76,7 @@ class LevelReview(System):
     newcomer
         the level of a player without one.
     own_chart
-        which sets the races; None: `apa_8ball`.
+        the chart that sets the races; None: `apa_8ball`.
     """
 
     window: int = 20
@@ -126,7 +126,7 @@ class LevelReview(System):
 
     @property
     def asks(self) -> tuple[str, ...]:  # type: ignore[override]
-        """The data it needs of a match: games, and innings where they are its score."""
+        """The data that it needs about a match: games, and innings if they are its score."""
         return ("games", "innings") if self.score == "innings" else ("games",)
 
     @property
@@ -135,12 +135,12 @@ class LevelReview(System):
         return self.own_chart or level_chart("apa_8ball")
 
     def initial(self, entries: Entries) -> Floats:
-        """Return the stated levels, put into the chart's; newcomers have the level of those."""
+        """Return the stated levels, limited to the chart's, or else the newcomers' level."""
         levels = np.where(np.isnan(entries.level), self.newcomer, entries.level)
         return nearest_level(self.chart, levels)
 
     def update(self, history: History) -> Floats:
-        """Return the levels after a review of those who played."""
+        """Return the levels after a review of the players who played."""
         levels = np.array(history.ratings)
         scores, count = self._scores(history)
         mean = self._mean(scores, count)
@@ -152,7 +152,7 @@ class LevelReview(System):
         return np.where(_who_played(history) & (count > 0), new, levels)
 
     def _scores(self, history: History) -> tuple[Floats, Any]:
-        """Return the last scores, the newest first, and how many there are of them."""
+        """Return the last scores, newest first, and their number."""
         if self.score == "games":
             scores = history.last(self.window, "scores", self._by_games)
         else:
@@ -183,7 +183,7 @@ class LevelReview(System):
         return score
 
     def _mean(self, scores: Floats, count: Any) -> Floats:
-        """Return the mean of the scores that count; no one's is read where there are none."""
+        """Return the mean of the scores that count; unused for players who have none."""
         best_first = np.sort(scores if self.score == "innings" else -scores, axis=0)  # NaN last
         trim = np.where(count > 2 * self.trim, self.trim, 0)
         left = count - 2 * trim
@@ -195,7 +195,7 @@ class LevelReview(System):
         return np.asarray(mean if self.score == "innings" else -mean)
 
     def _goal(self, mean: Floats, levels: Floats) -> Floats:
-        """Return the level that a mean calls for; one's own within the border's hysteresis."""
+        """Return the level that a mean calls for, or the current one within the hysteresis."""
         kinder, harder = (
             level_of_innings(mean + shift)
             if self.score == "innings"
@@ -206,13 +206,13 @@ class LevelReview(System):
 
 
 def apa_like(**changes: Any) -> LevelReview:
-    """Return a review of the best half of 20 innings scores, as told of APA 8-ball in 2006."""
+    """Return a review of the best half of 20 innings scores, as reported for APA 8-ball in 2006."""
     usual: dict[str, Any] = {"window": 20, "kept": 0.5, "score": "innings", "name": "apa-like"}
     return LevelReview(**{**usual, **changes})
 
 
 def tap_like(**changes: Any) -> LevelReview:
-    """Return a review of 21 scores, best and worst left out, a fifth of them the result."""
+    """Return a review of 21 scores without the best and worst, with a fifth from the result."""
     usual: dict[str, Any] = {
         "window": 21,
         "trim": 1,
@@ -224,7 +224,7 @@ def tap_like(**changes: Any) -> LevelReview:
 
 
 def level_of_innings(mean: Any) -> Any:
-    """Return the level of a mean of innings by games won, by the table of 2006.
+    """Return the level for mean innings per game won, from the table of 2006.
 
     >>> level_of_innings([1.9, 2.0, 3.5, 6.0, 10.0]).tolist()
     [7, 7, 5, 3, 2]
@@ -233,7 +233,7 @@ def level_of_innings(mean: Any) -> Any:
 
 
 def applied_score(level: Any, share: Any) -> Any:
-    """Return the applied score of a match won, by level and share of matches won.
+    """Return the applied score for a match won, by level and share of matches won.
 
     >>> applied_score([7, 7, 5, 2], [1.0, 0.5, 0.3, 0.9]).round(1).tolist()
     [1.1, 1.5, 3.7, 7.0]
@@ -244,7 +244,7 @@ def applied_score(level: Any, share: Any) -> Any:
 
 
 def nearest_level(chart: LevelChart, levels: Any) -> Floats:
-    """Return the chart's level nearest to each number; of two the lower one."""
+    """Return the chart's level closest to each number; the lower one of a tie."""
     own = np.array(chart.levels, dtype=float)
     between = (own[1:] + own[:-1]) / 2.0
     return np.asarray(own[np.searchsorted(between, np.asarray(levels, dtype=float), side="left")])
@@ -273,7 +273,7 @@ def _who_played(history: History) -> Any:
 
 
 def _peaks(history: History) -> Floats:
-    """Return the highest level that each player has had."""
+    """Return each player's highest level so far."""
 
     def add(peaks: Floats, matches: Matches) -> Floats:
         flat = peaks.reshape(-1)

@@ -1,12 +1,13 @@
-"""Level steps: a skill level in steps inside, one up for a match won and one down for one lost.
+"""Level steps: skill levels divided into steps, one up for a match won and one down for a loss.
 
-A *like* system with a finite state, so that its long run can be solved exactly: each level has ten
-steps inside, as TAP-like leagues have; who passes the top of a level enters the next one at step
-`entry`, and who falls below the first enters the level below as many steps under its top, so that
-no one changes back at once. The published number is the level.
+This is a TAP-*like* system with a finite state, so its long run can be solved exactly. Each level
+has ten steps, as in TAP-like leagues.
 
-Source: ten steps a level, and that a promoted player needs three to four losses to fall back, as
-TAP leagues publish; that a match moves one step is an assumption.
+A player who passes the top of a level enters the next one at step `entry`, and one who falls below
+the first step enters the level below at the same distance from its top, so no one changes back
+immediately. The published number is the level. Source: TAP leagues publish that a level has ten
+steps and that a promoted player needs three to four losses to fall back; that a match moves one
+step is an assumption.
 """
 
 from __future__ import annotations
@@ -32,13 +33,13 @@ class LevelSteps(MarkovSystem):
     Parameters
     ----------
     steps
-        the steps inside a level.
+        the number of steps in a level.
     entry
         the step, from 1, at which a promoted player enters a level.
     newcomer
         the level of a player without one.
     own_chart
-        which sets the races; None: `apa_8ball`.
+        the chart that sets the races; None: `apa_8ball`.
 
     >>> LevelSteps(10, 3).move(19, won=True), LevelSteps(10, 3).move(20, won=False)
     (22, 17)
@@ -72,7 +73,7 @@ class LevelSteps(MarkovSystem):
 
     @cached_property
     def states(self) -> Ints:
-        """The published level of each state, the lowest first."""
+        """The published level of each state, from the lowest up."""
         return np.repeat(np.array(self.chart.levels), self.steps)
 
     def first_state(self, levels: Any) -> Ints:
@@ -81,7 +82,7 @@ class LevelSteps(MarkovSystem):
         return place * self.steps + self.steps // 2
 
     def move(self, state: Any, *, won: Any) -> Any:
-        """Return the state after a match, elementwise; the ends stay."""
+        """Return the state after a match, elementwise; the end states stay."""
         state = np.asarray(state)
         inside = state % self.steps
         up = np.where(inside == self.steps - 1, state + self.entry, state + 1)
@@ -91,13 +92,13 @@ class LevelSteps(MarkovSystem):
         return int(after) if after.ndim == 0 else after
 
     def initial(self, entries: Entries) -> Floats:
-        """Return the stated levels, and the newcomers' for the others."""
+        """Return the stated levels, or the newcomers' level if none is stated."""
         stated = np.where(np.isnan(entries.level), self.newcomer, entries.level)
         return nearest_level(self.chart, stated)
 
 
 def level_steps(steps: int = 10) -> LevelSteps:
-    """Return levels of so many steps; who is promoted enters at the third, or the last of fewer.
+    """Return levels with this many steps; the entry is the third step, or the last if fewer.
 
     >>> level_steps(2).entry
     2

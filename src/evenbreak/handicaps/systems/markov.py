@@ -1,4 +1,4 @@
-"""Systems of levels with a finite Markov state: each match moves a player from state to state."""
+"""Level systems with a finite Markov state: each match moves a player from state to state."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from evenbreak.handicaps.systems.system import System
 
 
 class MarkovSystem(System):
-    """A system of levels in which a match moves each player from one of finitely many states.
+    """Level system in which each match moves a player between finitely many states.
 
-    A state is a whole number from 0 on. Where the next state depends only on the last one and on
+    A state is a whole number from 0 up. Where the next state depends only on the last one and on
     whether the match was won, the long run can be solved: `LevelLadder` does, and `evenbreak
     ladder` with it.
     """
@@ -29,14 +29,14 @@ class MarkovSystem(System):
 
     @abstractmethod
     def first_state(self, levels: Any) -> Ints:
-        """Return the state in which players of these levels start, elementwise."""
+        """Return the state in which players at these levels start, elementwise."""
 
     @abstractmethod
     def move(self, state: Any, *, won: Any) -> Any:
         """Return the state after a match, elementwise."""
 
     def update(self, history: History) -> Floats:
-        """Return the levels after the matches of the night, one after the other."""
+        """Return the levels after the night's matches, played one after the other."""
 
         def add(state: Ints, matches: Matches) -> Ints:
             flat = state.reshape(-1)

@@ -1,4 +1,4 @@
-r"""All final scores of a match between two rated players: one table by rating difference.
+r"""All final scores of a match between two rated players, in one table by rating difference.
 
 At the difference x of two ratings the chart gives the race m:n. A match ends m:k with k < n, or
 k:n with k < m, and the update rule gives the points that each such score moves the two players.
@@ -30,19 +30,19 @@ from evenbreak.handicaps.systems.by_match import PlayedMatch, StepSystem
 from evenbreak.matches.win import race_win_probability
 
 NOBODY = -1
-"""The filler of `games` where a race has fewer final scores than the table has room for."""
+"""Filler for `games` if a race has fewer final scores than the table has room for."""
 
 _DOUBLINGS = 2.0
-"""How wide a table is by default: to where the odds of a game are 4 to 1."""
+"""Default width of a table: up to where the odds of a game are 4 to 1."""
 
 
 @array_values
 @dataclass(frozen=True, eq=False)
 class MatchTable:
-    """All final scores of a system's matches, by rating difference; `match_table` makes it.
+    """All final scores of a system's matches, by rating difference; see `match_table`.
 
-    The first axis is the rating difference x, player 1's rating less player 2's, from -widest to
-    widest. The moves are those of established players; newcomers move by the factors of
+    The first axis is the rating difference x, player 1's rating minus player 2's, from -widest to
+    widest. The moves are for established players; newcomers' moves are multiplied by the factors in
     `System.newcomer_steps`.
 
     Parameters
@@ -79,7 +79,7 @@ class MatchTable:
     won: Bools
 
     def wins(self, p: ArrayLike) -> Floats:
-        """Return P(player 1 wins the match | rating difference, chance p to win a game).
+        """Return P(player 1 wins the match | rating difference, chance p of winning a game).
 
         Parameters
         ----------
@@ -108,7 +108,7 @@ class MatchTable:
         return by_race[place]
 
     def chances(self, p: ArrayLike) -> Floats:
-        """Return P(each final score | rating difference, player 1's chance p to win a game).
+        """Return P(each final score | rating difference, player 1's chance p of winning a game).
 
         Parameters
         ----------
@@ -140,7 +140,7 @@ class MatchTable:
 
     @cached_property
     def races(self) -> tuple[Places, Places]:
-        """The first place of each race in the table, and the race of each difference."""
+        """The first place of each race in the table, and the race at each difference."""
         _, first, place = np.unique(self.needs, axis=0, return_index=True, return_inverse=True)
         return first, place.reshape(-1)
 
@@ -148,7 +148,7 @@ class MatchTable:
 def match_table(
     system: StepSystem, chart: Chart | str | None = None, *, widest: Any = None
 ) -> MatchTable:
-    """Return all final scores of a system's matches, by the difference of the two ratings.
+    """Return all final scores of a system's matches, by rating difference.
 
     Parameters
     ----------
@@ -185,7 +185,7 @@ def match_table(
 
 
 known_table = lru_cache(maxsize=8)(match_table)
-"""`match_table`, with the last tables kept; they are read-only."""
+"""`match_table` with a cache of the last tables, which are read-only."""
 
 
 def _scores(needs: Ints) -> tuple[Ints, Bools]:

@@ -1,12 +1,11 @@
 """NAPA-like: a matrix of races by band of the stronger rating, and Elo on the match.
 
-The race is the one of the official calculator, by the band of the stronger rating and the
-difference. The chance of a game is 1 / (1 + 2^(-d / 30)): three of its bands are charts of the
-National Pool League, which has that scale. How ratings move is not published ("a proprietary
-adaptation of Elo", a few points after each match). Assumed here: with the chance W of winning the
-match by its race, a winner gains 2 K (1 - W) points and a loser loses 2 K W, so that K points go
-from one to the other in an even match; twice as many for a player's first 12 matches; no rating
-below 0.
+The race comes from the official calculator, by the band of the stronger rating and the difference.
+The chance of a game is 1 / (1 + 2^(-d / 30)): three of its bands are charts of the National Pool
+League, which has that scale. How ratings move is not published ("a proprietary adaptation of Elo",
+a few points after each match). Assumed here: if W is the chance of winning the match by its race, a
+winner gains 2 K (1 - W) points and a loser loses 2 K W, so K points change hands in an even match;
+moves are doubled for a player's first 12 matches; and no rating falls below 0.
 
 Source: the matrix as transcribed from the calculator; agrees with six published examples.
 """
@@ -42,19 +41,19 @@ BANDS = (
          (48, 8, 3), (58, 9, 3), (68, 8, 2), (74, 9, 2), (_FURTHER, 10, 2)),
     ),
 )  # fmt: skip
-"""From which rating of the stronger player a band begins; its largest differences and races."""
+"""The stronger rating at which a band starts, with its largest differences and races."""
 
 
 @dataclass(frozen=True)
 class NapaLike(System):
-    """Elo on the match with the published matrix of races.
+    """Elo on whole matches, with the published matrix of races.
 
     Parameters
     ----------
     k
-        the points that an even match moves, from 1 to 4 by reports.
+        the points that an even match moves, reportedly from 1 to 4.
     provisional
-        by how much further a player moves in their first `matches` matches.
+        the factor on a player's moves in their first `matches` matches.
     newcomer
         the rating of a player without one.
     """
@@ -80,7 +79,7 @@ class NapaLike(System):
         number(self.newcomer, "newcomer", low=0.0, high=1e4)
 
     def initial(self, entries: Entries) -> Floats:
-        """Return the stated ratings; a level becomes ten times the level and 10 more."""
+        """Return the stated ratings; a level becomes ten times the level plus 10."""
         by_level = np.where(np.isnan(entries.level), self.newcomer, 10.0 * entries.level + 10.0)
         return np.maximum(np.where(np.isnan(entries.rating), by_level, entries.rating), 0.0)
 
@@ -103,7 +102,7 @@ class NapaLike(System):
         return np.where(ahead, stronger, weaker), np.where(ahead, weaker, stronger)
 
     def update(self, history: History) -> Floats:
-        """Return the ratings after the matches of the night, by the ratings before it."""
+        """Return the ratings after the night's matches, based on the ratings before it."""
         night, ratings = history.tonight, np.array(history.ratings, dtype=float)
         few = history.matches_before < self.matches
         p = self.scale.win_probability(night.rating_a - night.rating_b)

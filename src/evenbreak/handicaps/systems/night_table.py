@@ -1,6 +1,6 @@
-"""A night's results next to the list of ratings: who played who, by which race, and who won.
+"""A night's results with the list of ratings: who played whom, in which race, and who won.
 
-For systems that look at all results the nights so far are kept with them.
+Systems that look at all results are given all nights so far.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from evenbreak.ratings.roster import NOT_STATED, Roster
 
 
 class NightTable(NamedTuple):
-    """A night's results next to the list: arrays with an entry for each row.
+    """A night's results with the list: arrays with an entry for each row.
 
-    Results have the chart's race where they state none (`from_chart`). Players are positions in the
-    list, -1 if not on it; `counted` rows change ratings: they are no forfeit and not 0-0. The
-    winner is 1, 2, or 0 where not known; a chart's race is 0 where none was looked up.
+    Results without a stated race have the chart's race (`from_chart`). Players are positions in the
+    list, -1 if not on it; `counted` rows change ratings: they are neither forfeits nor 0-0. The
+    winner is 1, 2, or 0 if unknown; a chart's race is 0 if none was looked up.
     """
 
     results: Results
@@ -41,10 +41,10 @@ class NightTable(NamedTuple):
 
 
 def night_table(roster: Roster, results: Results, chart: Chart | System | str | None) -> NightTable:
-    """Return a night's results next to the list, with races by the chart if there is one.
+    """Return a night's results with the list, with races from the chart if there is one.
 
-    A system stands for its own races. Where it does without them, a race that the score does not
-    finish is left out, and who has won more games has won.
+    A system that is given uses its own races. If it doesn't need races, a race that the score does
+    not finish is left out, and the player with more games has won.
     """
     on_list = {name: position for position, name in enumerate(roster.players)}
     place = np.array([on_list.get(name, -1) for name in results.players], dtype=np.int64)
@@ -87,14 +87,14 @@ def night_table(roster: Roster, results: Results, chart: Chart | System | str | 
 
 
 def _winner(results: Results) -> NDArray[np.int8]:
-    """Return 1 or 2 where a winner is stated or a player reached the race, else 0."""
+    """Return 1 or 2 if a winner is stated or a player reached the race, else 0."""
     raced = 0 if results.race_a is None else results.race_a
     reached = np.where(raced, who_won(results), 0).astype(np.int8)
     return reached if results.winner is None else np.where(results.winner, results.winner, reached)
 
 
 class SeasonSoFar:
-    """The nights of a league, as a system that looks at all of them needs them."""
+    """A league's nights, in the form needed by a system that looks at all of them."""
 
     def __init__(self, system: System, roster: Roster) -> None:
         self.system, self.entries = system, _entries(roster)
@@ -106,7 +106,7 @@ class SeasonSoFar:
         self._first: Any = None
 
     def after(self, night: NightTable) -> Floats:
-        """Return what the system publishes after one more night."""
+        """Return what the system publishes after another night."""
         rows, results = np.flatnonzero(night.counted), night.results
         a, b = night.a[rows], night.b[rows]
         race_a: Any = results.race_a
@@ -143,7 +143,7 @@ class SeasonSoFar:
         return self.ratings
 
     def _day(self, results: Results) -> float:
-        """Return the days from the first night; without a date, a week after the last one."""
+        """Return days since the first night; an undated night is a week after the last."""
         date = None if results.date is None or not len(results) else results.date[0]
         if date is None or np.isnat(date):
             return self.days[-1] + 7.0 if self.days else 0.0
@@ -154,7 +154,7 @@ class SeasonSoFar:
 def listed(system: System, roster: Roster) -> Roster:
     """Return a list as a system publishes it before the first night, with newcomers' numbers.
 
-    A player without a number on the list has played no match, unless the list states some.
+    A player without a number on the list has played no matches, unless the list states otherwise.
     """
     if isinstance(system, StepSystem):
         return roster
@@ -179,12 +179,12 @@ def listed(system: System, roster: Roster) -> Roster:
 
 
 def published(system: System, roster: Roster) -> Floats:
-    """Return the numbers of a list that a system publishes: its levels or its ratings."""
+    """Return the list's numbers that a system publishes: its levels or its ratings."""
     return roster.level if system.publishes == "levels" else roster.rating
 
 
 def levels_alone(roster: Roster) -> bool:
-    """Return whether a list states levels and no ratings, which then are the levels."""
+    """Return whether a list states only levels, in which case its ratings are levels."""
     return bool(np.array_equal(roster.rating, roster.level, equal_nan=True))
 
 

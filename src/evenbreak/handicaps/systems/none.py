@@ -1,4 +1,4 @@
-"""No handicap: every match is the same even race, and no rating moves. What others are held to."""
+"""No handicap: every match is the same even race, and no rating moves."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from evenbreak.handicaps.systems.system import System
 
 @dataclass(frozen=True)
 class NoHandicap(System):
-    """Even races to `games` for everyone, whatever their ratings.
+    """Even races to `games` for everyone, regardless of ratings.
 
     >>> NoHandicap(5).race([700.0, 500.0], 600.0)
     (array([5, 5]), array([5, 5]))
@@ -35,7 +35,7 @@ class NoHandicap(System):
         return f"every match is an even race to {self.games}; ratings stay as they are"
 
     def initial(self, entries: Entries) -> Floats:
-        """Return what the list states, 0 for a player without a rating."""
+        """Return the list's ratings, or 0 for a player without one."""
         return np.nan_to_num(np.where(np.isnan(entries.rating), entries.level, entries.rating))
 
     def race(self, a: Any, b: Any) -> tuple[Ints, Ints]:
@@ -44,5 +44,5 @@ class NoHandicap(System):
         return np.full(shape, self.games), np.full(shape, self.games)
 
     def update(self, history: History) -> Floats:
-        """Return the ratings as they are."""
+        """Return the ratings unchanged."""
         return np.array(history.ratings)

@@ -1,4 +1,4 @@
-"""The National Pool League: a point a match, and longer steps for newcomers.
+"""The National Pool League: one point per match, with longer steps for newcomers.
 
 Source: the text before Table 5.6.
 """
@@ -16,7 +16,7 @@ from evenbreak.ratings.scale import SCALES
 
 
 NEWCOMER_STEPS = ((10, 3), (20, 2))
-"""The National Pool League's: 3 points a match for 10 matches, 2 for the next 20, then 1.
+"""National Pool League steps: 3 points per match for 10 matches, 2 for the next 20, then 1.
 
 The league published them; they are not in the source text.
 """
@@ -28,7 +28,7 @@ def step_after(played: int | None, steps: Sequence[tuple[int, int]] = NEWCOMER_S
     Parameters
     ----------
     played
-        matches before it; None: an established player.
+        number of earlier matches; None: an established player.
     steps
         (matches, factor) for each stage, as in `System.newcomer_steps`.
 

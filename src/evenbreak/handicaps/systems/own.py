@@ -1,4 +1,4 @@
-"""Systems of one's own: classes by their modules, and what installed packages add."""
+"""Custom systems: classes given by their modules, and systems added by installed packages."""
 
 from __future__ import annotations
 
@@ -12,14 +12,15 @@ from evenbreak.plugins import lawful, made, why
 
 
 def own_system(name: str) -> System:
-    """Return the system of a class (or an instance) named as `module:Class`.
+    """Return the system from a class (or an instance) named `module:Class`.
 
-    The module is code that is run, so only a user names one, never a file.
+    The module's code is run, so only a user may name one, never a file.
 
     Raises
     ------
     InputError
-        if there is no such module or class, or what it makes does not hold to `broken_laws`.
+        if there is no such module or class, or the resulting system breaks a rule (see
+        `broken_laws`).
 
     >>> own_system("evenbreak.handicaps.systems.none:NoHandicap").name
     'none'
@@ -51,7 +52,7 @@ def own_system(name: str) -> System:
 
 
 def lawful_system(system: Any) -> System:
-    """Return a system that holds to `broken_laws`, or refuse it by the first law that it breaks."""
+    """Return a system that follows the rules, or raise an error for the first it breaks."""
     if not isinstance(system, System):
         raise InputError(
             "it isn't a System. Derive its class from System: class {short}(System).",

@@ -39,14 +39,14 @@ class MatchChange(NamedTuple):
     winner, loser
         positions in the roster.
     games
-        games of the winner and the loser; None where only the winner is known.
+        the winner's and the loser's games; None if only the winner is known.
     race
-        the same order; None where not known.
+        the same order; None if unknown.
     by_chart
-        the chart's race for their ratings, in the same order; None without one.
+        the chart's race for their ratings, in the same order; None without a chart.
     points
-        rating changes of the winner and the loser; None in a system that doesn't move them match by
-        match.
+        the winner's and the loser's rating changes; None in a system that doesn't move ratings
+        match by match.
     ratings
         the winner's and the loser's, before the night.
     """
@@ -64,7 +64,7 @@ class MatchChange(NamedTuple):
 @array_values
 @dataclass(frozen=True, eq=False)
 class RatingChanges:
-    """The changes of a list's ratings in a night.
+    """Changes to a list's ratings in a night.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class RatingChanges:
         the lists before and after the night, with the players in the same order. The games
         and matches of the night are added to those stated; standard errors stay as they were.
     won, lost
-        matches of each player of the list, without forfeits.
+        matches won and lost by each player on the list, without forfeits.
     forfeits, empty
         the number of rows that changed nothing: forfeits, and matches at 0-0.
     """
@@ -95,24 +95,25 @@ def apply_results(
     chart: Chart | System | str | None = None,
     so_far: SeasonSoFar | None = None,
 ) -> RatingChanges:
-    """Return how a night's results change the ratings of a list.
+    """Return how a night's results change a list's ratings.
 
-    The winner of a match is the one stated in `winner`, or else the player who reached the race
-    that is stated, or else the one who reached the chart's race for the two ratings. Forfeits
-    and 0-0 change nothing. If the list states a player's matches, those of the night are counted
-    on in the order of the rows; a player without a number is an established player.
+    The winner of a match is the one stated in `winner`, or else the player who reached the stated
+    race, or else the one who reached the chart's race for the two ratings. Forfeits and 0-0 change
+    nothing. If the list states a player's matches, the night's matches are added to them in row
+    order; a player without a number is an established player.
 
     Parameters
     ----------
     results
         the matches of the night; every player must be on the list, with a rating.
     chart
-        which set the races where the results state none, for ratings rounded to whole points.
-        Without it a match with neither race nor winner is refused: in a handicap race the higher
-        score is not always the winner's. A system that does not move ratings match by match stands
-        for its own races.
+        the chart that sets the races if the results don't state them, for ratings rounded to whole
+        points. Without it, a match with neither race nor winner is an error: in a handicap race,
+        the player with the higher score has not always won. A system that does not move ratings
+        match by match uses its own races.
     so_far
-        the nights before, which such a system needs; they are added to. None: there were none.
+        the earlier nights, which such a system needs; this night is added to them. None: there were
+        none.
 
     Raises
     ------
@@ -171,7 +172,7 @@ def apply_results(
 
 
 def _match_changes(system: System, roster: Roster, night: NightTable) -> Iterator[MatchChange]:
-    """Yield what each match of the night did."""
+    """Yield the effect of each match in the night."""
     played = [None if many == NOT_STATED else many for many in roster.matches.tolist()]
     for row in np.flatnonzero(night.counted).tolist():
         yield _match_change(system, roster, night, played, row)
@@ -183,7 +184,7 @@ def _match_changes(system: System, roster: Roster, night: NightTable) -> Iterato
 def _match_change(
     system: System, roster: Roster, night: NightTable, played: list[int | None], row: int
 ) -> MatchChange:
-    """Return what the match in one row did, given the matches that each had played before."""
+    """Return the effect of the match in one row, given each player's number of earlier matches."""
     results = night.results
     sides = (0, 1) if night.winner[row] == 1 else (1, 0)
 
@@ -251,10 +252,10 @@ def night_problems(
 
 
 def chart_of_night(system: StepSystem, roster: Roster, results: Results) -> Chart | None:
-    """Return the chart of the system that a night must have been played by, given its scores.
+    """Return the system's chart that a night must have used, given its scores.
 
-    It is the only one whose races all scores finish, for ratings rounded to whole points. None
-    if no chart is needed, since races or winners are stated, or if none or several charts fit.
+    It is the only one whose races all scores finish, for ratings rounded to whole points. None if
+    no chart is needed because races or winners are stated, or if no chart or more than one fits.
 
     >>> from evenbreak.handicaps import system_of
     >>> club = Roster(["Ann", "Bo"], [92, 80])
@@ -272,7 +273,7 @@ def chart_of_night(system: StepSystem, roster: Roster, results: Results) -> Char
 
 
 def _strangers(numbers: Floats, night: NightTable) -> Iterator[Problem]:
-    """Yield for each player without a rating on the list the first row that needs it."""
+    """Yield the first row that needs it for each player without a rating on the list."""
     seen = set()
     for row in np.flatnonzero(night.counted):
         for column, place in (("player_a", night.a[row]), ("player_b", night.b[row])):
@@ -291,13 +292,13 @@ def _strangers(numbers: Floats, night: NightTable) -> Iterator[Problem]:
 
 
 def _off_chart(night: NightTable, problem: Problem) -> bool:
-    """Return whether a score contradicts a race that comes from the chart alone."""
+    """Return whether a score contradicts a race that comes only from the chart."""
     scores = problem.column in ("score_a", "score_b")
     return scores and bool(night.from_chart[problem.row] and night.chart_a[problem.row])
 
 
 def _ended(night: NightTable) -> bool:
-    """Return whether all scores finish the races that come from the chart alone."""
+    """Return whether all scores finish the races that come only from the chart."""
     return not any(_off_chart(night, problem) for problem in find_problems(night.results))
 
 

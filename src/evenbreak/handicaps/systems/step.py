@@ -1,14 +1,14 @@
-"""Systems by the match like the National Pool League's: other steps, or another chart.
+"""Match-by-match systems like the National Pool League's, with other steps or another chart.
 
-Steps are the same every time, or go by the margin of the score: the further the loser was from
+Steps are the same every time, or depend on the margin of the score: the further the loser was from
 winning, the longer the step. If the loser needed r games and won l of them,
 
     points = ceil(most (r - l) / r)
 
-so a shutout moves both players by `most`, and a match that goes hill-hill by 1 (unless r is below
-`most`). What counts is the share of the loser's own race, not games: the weaker player needs
-fewer games and cannot lose by as many. If games counted, the stronger of two correctly rated
-players would lose a fifth of a point a match at the race 5:4, and more than a point at 7:2.
+so a shutout moves both players by `most`, and a hill-hill match moves them by 1 (unless r is below
+`most`). What counts is the share of the loser's own race, not the number of games: the weaker
+player needs fewer games and cannot lose by as many. If games counted, the stronger of two correctly
+rated players would lose a fifth of a point a match at the race 5:4, and more than a point at 7:2.
 """
 
 from __future__ import annotations
@@ -34,14 +34,14 @@ class _Step:
 def step_system(up: Any, down: Any = None) -> StepSystem:
     """Return the system in which the winner goes up by `up` points and the loser down by `down`.
 
-    Scale and charts are those of the National Pool League. Newcomers move like everyone else.
+    The scale and charts are the National Pool League's. Newcomers move like everyone else.
 
     Parameters
     ----------
     up
         points, a whole number from 1 to 1,000.
     down
-        points, a whole number from 0 to 1,000; None: as many as `up`. With another number the
+        points, a whole number from 0 to 1,000; None: the same as `up`. If the two differ, the
         league's mean rating moves: each match adds up - down to the sum of the two ratings.
 
     Raises
@@ -84,17 +84,17 @@ class _Margin:
 def margin_system(most: Any = 2) -> StepSystem:
     """Return the system whose steps depend on the margin of victory, up to `most` points.
 
-    Scale and charts are those of the National Pool League. Newcomers move like everyone else.
+    The scale and charts are the National Pool League's. Newcomers move like everyone else.
 
     Parameters
     ----------
     most
-        the points of a shutout, a whole number from 1 to 1,000; 1 is a point a match.
+        the points for a shutout, a whole number from 1 to 1,000; 1 means a point per match.
 
     Raises
     ------
     InputError
-        if `most` is not such a number; from its rule, if score or race is missing.
+        if `most` is not such a number; the rule itself raises it if the score or race is missing.
 
     >>> rule = margin_system(2).rule
     >>> [rule(PlayedMatch((80, 75), (5, lost), (5, 5))) for lost in (0, 2, 3, 4)]
@@ -116,7 +116,8 @@ def margin_system(most: Any = 2) -> StepSystem:
 def fixed_length_system(games: Any = 9) -> StepSystem:
     """Return the National Pool League's system with races that all have the same longest length.
 
-    The rule is the same, for newcomers too; only the chart differs: `fixed_length_chart(games)`.
+    The rule, including the one for newcomers, is the same; only the chart differs:
+    `fixed_length_chart(games)`.
 
     Parameters
     ----------
@@ -126,7 +127,7 @@ def fixed_length_system(games: Any = 9) -> StepSystem:
     Raises
     ------
     InputError
-        if it is not such a number.
+        if `games` is not such a number.
 
     >>> fixed_length_system(7).usual_chart().race(12)
     (5, 3)

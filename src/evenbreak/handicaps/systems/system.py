@@ -1,7 +1,7 @@
-"""What a handicap system is: who starts with what, which race is played, and what is published.
+"""What a handicap system is: its initial numbers, its races, and the numbers it publishes.
 
-A system is three methods, and says how its numbers are to be read. The simulated league, the
-list after a night and the watch for sandbaggers know a system by these alone.
+A system has three methods, and states what its numbers mean. The league simulation, the list after
+a night and the sandbagging checks use nothing else.
 """
 
 from __future__ import annotations
@@ -22,25 +22,25 @@ from evenbreak.words import Parameter
 
 
 class System(ABC):
-    """A handicap system; one's own is a subclass with `initial`, `update`, and a chart or `race`.
+    """Handicap system; a custom one is a subclass with `initial`, `update`, and a chart or `race`.
 
     Attributes
     ----------
     in_words
-        its rule in words, with what is assumed.
+        its rule in words, including assumptions.
     publishes
         'ratings' or 'levels': what `initial` and `update` return, and `race` reads.
     scale
-        what a difference of its ratings means; None where that is not fixed (levels, averages).
+        the scale of its ratings; None if it is not fixed (levels, averages).
     chart
-        which sets its races; None where no chart does.
+        the chart that sets its races; None if no chart does.
     asks
-        what it needs of a match besides who won: 'games', 'race', 'innings'.
+        what it needs to know about a match besides its winner: 'games', 'race', 'innings'.
     winner_never_falls
         whether no one's published number falls on a night without a lost match, all else equal.
     vectorised
-        whether its methods take all replicas at once; False: a simulation calls `update` with
-        one league after the other.
+        whether its methods take all replicas at once; if False, a simulation calls `update` for one
+        league at a time.
     """
 
     name: str
@@ -57,18 +57,18 @@ class System(ABC):
 
     @abstractmethod
     def update(self, history: History) -> Floats:
-        """Return the published ratings after the last night, shaped as `history.ratings`."""
+        """Return the published ratings after the last night, shaped like `history.ratings`."""
 
     @property
     def chart(self) -> Chart | LevelChart | None:
-        """The chart that sets the races, if one does."""
+        """The chart that sets the races, if any."""
         return None
 
     def race(self, a: Any, b: Any) -> tuple[Ints, Ints]:
-        """Return (m, n): the games needed by players of published ratings a and b, elementwise.
+        """Return (m, n): the games needed by players with published ratings a and b, elementwise.
 
-        A system without a chart has a method of its own. A chart of rating differences is read at
-        ratings rounded to whole points, halves upwards.
+        A system without a chart must override this method. A chart of rating differences is read at
+        ratings rounded to whole points, with halves rounded up.
         """
         chart = self.chart
         if chart is None:
@@ -80,12 +80,12 @@ class System(ABC):
         return chart.races(a, b) if isinstance(chart, LevelChart) else chart.races(a - b)
 
     def strength(self, numbers: Any) -> Floats:
-        """Return what published numbers mean on the Fargo scale; only differences matter.
+        """Convert published numbers to the Fargo scale; only differences matter.
 
         Raises
         ------
         InputError
-            if that is not known.
+            if the conversion is unknown.
 
         >>> from evenbreak.handicaps import system_of
         >>> system_of("npl").strength([60.0, 90.0]).round().tolist()
@@ -106,7 +106,7 @@ class System(ABC):
         return np.asarray(numbers, dtype=float) * (100.0 / self.scale.points_per_doubling)
 
     def on_chart(self, chart: Any) -> System:
-        """Return the same system with races by another chart.
+        """Return the same system with races from another chart.
 
         Raises
         ------
@@ -151,7 +151,7 @@ def updated(system: System, history: History) -> Floats:
 
 
 def checked_ratings(system: System, ratings: Any, shape: tuple[int, ...], method: str) -> Floats:
-    """Return what a method of a system returned, or refuse a wrong shape or a missing number."""
+    """Return a system method's result; raise an error for a wrong shape or a missing number."""
     values = np.asarray(ratings, dtype=float)
     if values.shape != shape:
         raise InputError(
@@ -176,7 +176,7 @@ def checked_ratings(system: System, ratings: Any, shape: tuple[int, ...], method
 
 
 def checked_races(system: System, a: Any, b: Any) -> tuple[Ints, Ints]:
-    """Return the races of a system for pairs of ratings, or refuse one below 1 game."""
+    """Return a system's races for pairs of ratings; raise an error for a race below 1 game."""
     races = system.race(a, b)
     if not isinstance(races, tuple) or len(races) != 2:
         raise InputError(

@@ -1,10 +1,10 @@
-"""The points that a weaker team starts a round with: CSI's team handicap.
+"""CSI's team handicap: the points that a weaker team starts a round with.
 
-Every game is taken to be between two players who are rated as their teams are on average. If
-the average player of team 1 wins a game with probability p, and the winner and the loser of a
-game score w and l points on average, a team is expected to score p w + (1 - p) l points a game.
-The difference over one game of each match-up, rounded down, times the games of a match-up, is
-the handicap of a round.
+Every game is assumed to be between two players who have their teams' average ratings. If the
+average player of team 1 wins a game with probability p, and the winner and the loser of a game
+score w and l points on average, a team is expected to score p w + (1 - p) l points a game. The
+difference over one game of each match-up, rounded down, times the games of a match-up, is the
+handicap of a round.
 
 Source: CSI's published example for 17-point scoring, three players a team and two games a
 match-up: averages of 417 and 447 give 24.042 and 26.958 points over three match-ups, so the
@@ -24,21 +24,21 @@ from evenbreak.ratings.scale import scale_of
 
 POINTS_WON = 13.19
 POINTS_LOST = 3.81
-"""What the winner and the loser of a game score on average, in 17-point scoring."""
+"""Mean points of a game's winner and loser, in 17-point scoring."""
 
 
 @dataclass(frozen=True)
 class TeamHandicap:
-    """The handicap of a round between two teams; `team_handicap` works it out.
+    """Handicap in a round between two teams; see `team_handicap`.
 
     Parameters
     ----------
     p_game_1
-        P(the average player of team 1 wins a game from that of team 2).
+        P(the average player on team 1 wins a game against the average player on team 2).
     scored_1, scored_2
         the points that each team is expected to score over one game of each match-up.
     games
-        the games of a match-up.
+        the number of games in a match-up.
     points
         the points that the weaker team gets in a round, as CSI rounds them.
     """
@@ -58,12 +58,12 @@ class TeamHandicap:
 
     @property
     def even_points(self) -> float:
-        """The points a round that would make both teams expect the same."""
+        """The points per round that would make both teams expect the same."""
         return self.games * abs(self.scored_1 - self.scored_2)
 
     @property
     def given_away(self) -> float:
-        """The share of those points that the rounding keeps from the weaker team."""
+        """The share of those points that the weaker team loses to rounding."""
         return 1.0 - self.points / self.even_points if self.even_points else 0.0
 
 
@@ -84,9 +84,10 @@ def team_handicap(
     average_1, average_2
         the average ratings of the two teams.
     points_won, points_lost
-        what the winner and the loser of a game score on average.
+        mean points of a game's winner and loser.
     scale
-        what ratings mean: 'npl', 'fargo', 'elo', a `Scale` or the points that double the odds.
+        the scale of the ratings: 'npl', 'fargo', 'elo', a `Scale` or the points that double the
+        odds.
 
     Raises
     ------

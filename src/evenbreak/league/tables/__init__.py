@@ -1,1 +1,1 @@
-"""Tables and fixtures: who is ahead of whom, and who plays who on which date."""
+"""Tables and fixtures: who is ahead of whom, and who plays whom on which date."""

@@ -1,7 +1,8 @@
-"""Who plays who, where and when: round robins with home and away, dates, tables, what is left.
+"""Who plays whom, where and when: round robins, home and away, dates, tables, what is left.
 
 The rounds are those of the canonical factorization with its home and away pattern (de Werra 1981,
-"Scheduling in sports"): as few breaks, two matches in a row at home or away, as there can be.
+"Scheduling in sports"), which has the fewest possible breaks (two matches in a row at home or
+away).
 """
 
 from __future__ import annotations
@@ -22,18 +23,18 @@ MOST_MEETINGS = 10
 
 
 def round_robin(sides: int, times: int = 1) -> Ints:
-    """Return a schedule in which every two meet: round (from 1), home, away.
+    """Return a schedule in which every pair meets: round (from 1), home, away.
 
-    Of n sides each plays as often at home as away, or once more or less; a single round robin has
-    n - 2 breaks (none if n is odd, where each side has a bye), and a double one, whose second half
-    mirrors the first, 3n - 6.
+    Each of the n sides plays as often at home as away, or once more or less; a single round robin
+    has n - 2 breaks (none if n is odd, where each side has a bye), and a double one, whose second
+    half mirrors the first, 3n - 6.
 
     Parameters
     ----------
     sides
-        how many teams or players there are.
+        number of teams or players.
     times
-        how often every two meet; home and away change from one time to the next.
+        how often every pair meets; home and away alternate from one time to the next.
 
     >>> round_robin(4).tolist()
     [[1, 0, 3], [1, 1, 2], [2, 3, 1], [2, 2, 0], [3, 2, 3], [3, 0, 1]]
@@ -58,10 +59,10 @@ def round_robin(sides: int, times: int = 1) -> Ints:
 
 
 def clashes(schedule: Ints, venues: Sequence[str], room: Mapping[str, int]) -> int:
-    """Return how many matches of a schedule don't fit at their venue, round by round.
+    """Return how many of a schedule's matches don't fit at their venue, round by round.
 
-    A side's venue is '' where it doesn't matter; `room` is how many matches fit there in a round,
-    any number if not given.
+    A side's venue is '' if it doesn't matter; `room` is how many matches fit there in a round,
+    unlimited if not given.
     """
     at = Counter((week, venues[home]) for week, home, _ in schedule.tolist())
     return sum(max(0, many - room.get(venue, many)) for (_, venue), many in at.items() if venue)
@@ -70,8 +71,8 @@ def clashes(schedule: Ints, venues: Sequence[str], room: Mapping[str, int]) -> i
 def seated(schedule: Ints, venues: Sequence[str], room: Mapping[str, int]) -> Ints:
     """Return a schedule in which sides that share a full venue are at home in turn.
 
-    They get numbers that are never at home in the same round, two by two; then sides change places
-    as long as that leaves fewer clashes.
+    In pairs, they get numbers that are never at home in the same round; then sides are swapped as
+    long as that reduces clashes.
     """
     count = len(venues)
     number = list(range(count))
@@ -98,7 +99,7 @@ def seated(schedule: Ints, venues: Sequence[str], room: Mapping[str, int]) -> In
 def _improved(
     schedule: Ints, number: list[int], venues: Sequence[str], room: Mapping[str, int]
 ) -> Ints:
-    """Return the schedule with these numbers, sides swapped while that leaves fewer clashes."""
+    """Return the schedule with these numbers, after swapping sides while that reduces clashes."""
 
     def drawn(number: Sequence[int]) -> Ints:
         side = np.argsort(number)
@@ -127,18 +128,18 @@ def nights(
     skipped: Iterable[date] = (),
     ends: date | None = None,
 ) -> list[date]:
-    """Return the dates of so many nights.
+    """Return the dates of the given number of nights.
 
     Parameters
     ----------
     begins
-        the first day that may be one.
+        the earliest possible date.
     weekdays
-        on which days of the week (0 is Monday); that of the first day, if none is given.
+        the days of the week (0 is Monday); if empty, the first day's weekday.
     skipped
-        days that are left out, such as holidays.
+        days to skip, such as holidays.
     ends
-        the last day that may be one.
+        the latest possible date.
 
     Raises
     ------
@@ -179,11 +180,11 @@ class Fixture:
     date
         None if no dates are set.
     venue
-        '' if not known.
+        '' if unknown.
     table
         the (first) table; 0 if tables are not assigned.
     turn
-        1 if it starts with the night, 2 after the matches that do, and so on.
+        1 if it starts when the night does, 2 if it follows those matches, and so on.
     """
 
     round: int
@@ -210,14 +211,14 @@ def fixtures(
     Parameters
     ----------
     names
-        the teams or players; the first has the first number.
+        the teams or players, in order of their numbers.
     rounds_a_night
         how many rounds are played in a night.
     venues
-        where each is at home, '' where that is not known; all '' if left out.
+        each side's home venue, '' if unknown; all '' by default.
     tables
-        the number of tables of each venue: a match is given one (or `tables_a_match`), in turn, and
-        sides that share a venue with too few are at home in turn.
+        the number of tables at each venue: each match is assigned one (or `tables_a_match`) in
+        turn, and sides that share a venue with too few tables are at home in turn.
     tables_a_match
         how many tables a match takes.
 
@@ -248,7 +249,7 @@ def fixtures(
 def _with_tables(
     listed: Sequence[Fixture], room: Mapping[str, int], rounds_a_night: int, each: int
 ) -> list[Fixture]:
-    """Return the fixtures with tables, which move on by one from round to round."""
+    """Return the fixtures with tables, which shift by one from round to round."""
     found = []
     turns: Counter[tuple[int, str]] = Counter()  # those of earlier rounds of the night
     for week in dict.fromkeys(one.round for one in listed):
@@ -269,19 +270,19 @@ def _with_tables(
 
 
 def still_to_play(names: Sequence[str], times: int, played: Ints) -> Ints:
-    """Return the matches of a round robin that have not been played yet: home, away.
+    """Return the matches in a round robin that have not been played yet: home, away.
 
     Parameters
     ----------
     times
-        meetings of every two.
+        number of meetings of each pair.
     played
-        the matches played: home, away. Who was home does not matter.
+        the matches played: home, away. It does not matter who was at home.
 
     Raises
     ------
     InputError
-        if two have met more often than `times`.
+        if a pair has met more often than `times`.
 
     >>> still_to_play(["Acers", "Bankers", "Caroms"], 1, np.array([[2, 1]])).tolist()
     [[2, 0], [0, 1]]
@@ -307,8 +308,8 @@ def still_to_play(names: Sequence[str], times: int, played: Ints) -> Ints:
 def left_of(listed: Sequence[tuple[int, int]], played: Iterable[tuple[int, int]]) -> list[int]:
     """Return the positions of the fixtures that have not been played.
 
-    Each match played is the first fixture of its two that is left, with the same side at home if
-    there is one.
+    Each match played is matched to its pair's first remaining fixture, with the same side at home
+    if possible.
 
     >>> left_of([(0, 1), (1, 0), (0, 2)], [(1, 0)])
     [0, 2]

@@ -1,6 +1,6 @@
 """Who is ahead of whom in a table, for one ending of a season or many at once.
 
-Everything in it is a sum over matches, so that the order of the rows never matters.
+Everything is a sum over matches, so the order of the rows never matters.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ _FINE = 100.0  # points are compared to a hundredth
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """What a ladder reads: the matches played, and the remaining ones with many endings at once.
+    """Input of a ladder: the matches played, and the remaining ones with many endings at once.
 
-    `start` are points besides matches; `counted` is for which side a match counts: both, or 1 and 0
-    in a table of home matches. `kinds` are how a match can end, and `ends` the kind of each match
-    in each ending of the season, shape (matches, endings).
+    `start` is points in addition to those from matches; `counted` is for which side a match counts:
+    both, or 1 and 0 in a table of home matches. `kinds` are how a match can end, and `ends` the
+    kind of each match in each ending of the season, shape (matches, endings).
     """
 
     sides: int
@@ -48,7 +48,7 @@ class Record:
     ends: Ints = field(default_factory=lambda: np.zeros((0, 1), dtype=np.int64))
 
     def total(self, gains: Callable[[Outcomes], NDArray[Any]]) -> Ints:
-        """Return sums of what matches bring to both sides, shape (sides, endings)."""
+        """Return sums of each match's contributions to both sides, shape (sides, endings)."""
         now = np.zeros(self.sides, dtype=np.int64)
         np.add.at(now, self.pairs, gains(self.outcomes) * np.array(self.counted))
         total = np.repeat(now[:, None], self.ends.shape[1], axis=1)
@@ -59,11 +59,11 @@ class Record:
         return total
 
     def points(self, outcomes: Outcomes) -> Ints:
-        """Return the points of matches, in hundredths."""
+        """Return the points from matches, in hundredths."""
         return np.round(self.rules.points_of(outcomes) * _FINE).astype(np.int64)
 
     def values(self, rule: str, code: Ints) -> Ints:
-        """Return what a rule compares, higher is better; `code` says who is level so far."""
+        """Return the values that a rule compares, higher is better; `code` tells who is tied."""
         if rule == HEAD_TO_HEAD:
             return self._among_the_level(code)
         if rule == WIN_SHARE:
@@ -76,7 +76,7 @@ class Record:
         return self.total(_GAINS[rule])
 
     def _among_the_level(self, code: Ints) -> Ints:
-        """Return a number for the points of the meetings of those who are level, and so on."""
+        """Return a number for the points from meetings between tied sides, recursively."""
         sides, endings = code.shape
         if (np.diff(np.sort(code, axis=0), axis=0) > 0).all():
             return np.zeros_like(code)
@@ -110,7 +110,7 @@ _GAINS: dict[str, Callable[[Outcomes], NDArray[Any]]] = {
 
 
 def ladder(record: Record) -> Iterator[tuple[str, Ints]]:
-    """Yield each rule with a number for each side and ending, larger for the side ahead so far.
+    """Yield each rule with a number for each side and ending, larger for the side that is ahead.
 
     Sides that no rule so far separates have equal numbers.
     """
@@ -123,7 +123,7 @@ def ladder(record: Record) -> Iterator[tuple[str, Ints]]:
 
 
 def ranks_of(record: Record) -> Ints:
-    """Return a number for each side and ending that is larger for the side ahead.
+    """Return a number for each side and ending that is larger for the side that is ahead.
 
     >>> met = Record(3, TableRules(ties=("head-to-head",)), np.array([[0, 1], [1, 2], [2, 0]]),
     ...              Outcomes([[3, 2], [3, 2], [3, 2]]), np.zeros(3))
@@ -135,7 +135,7 @@ def ranks_of(record: Record) -> Ints:
 
 
 def _dense(code: Ints) -> Ints:
-    """Return smaller numbers in the same order, so that products stay within 64 bits."""
+    """Return smaller numbers in the same order, so that products fit in 64 bits."""
     if code.size and int(code.max()) - int(code.min()) < 1 << 30:
         return np.asarray(code - code.min())
     return np.asarray(np.unique(code, return_inverse=True)[1]).reshape(code.shape)
@@ -144,12 +144,12 @@ def _dense(code: Ints) -> Ints:
 def by_meetings(
     met: NDArray[Any], ahead: NDArray[Any], meetings: Ints | None = None
 ) -> NDArray[Any]:
-    """Return how many are ahead of each once equals are ranked by their meetings.
+    """Return how many sides are ahead of each, after ranking ties by their meetings.
 
-    Equals are ranked by what they won from one another, met[..., i, j] for i; those still equal, by
-    what they won from one another, and so on until nothing changes. `meetings` are how often each
-    two met: equals are ranked only if all of them met one another equally often, as they may not
-    have in the middle of a season. None: they did.
+    Tied sides are ranked by what they won against each other, met[..., i, j] for i; those still
+    tied are ranked by what they won against each other, and so on until nothing changes. `meetings`
+    is how often each pair met: tied sides are ranked only if all of them met each other equally
+    often, which may not be so in the middle of a season. None: they did.
     """
     while True:
         level = ahead[..., :, None] == ahead[..., None, :]
@@ -168,7 +168,7 @@ def _ahead(score: NDArray[Any], compared: NDArray[np.bool_] | bool = True) -> ND
 
 
 def _equally_often(meetings: Ints, level: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return who is level only with those who all met one another equally often."""
+    """Return who is tied only with sides that all met each other equally often."""
     others = level & ~np.eye(len(meetings), dtype=bool)
     most = np.where(others, meetings, -1).max(axis=-1)
     least = np.where(others, meetings, 1 << 30).min(axis=-1)
@@ -189,16 +189,16 @@ def places_by_wins(beats: NDArray[np.int16]) -> NDArray[np.int16]:
 
 
 class Standings(NamedTuple):
-    """How many are ahead of each side in each ending, shapes (sides, endings).
+    """How many sides are ahead of each side in each ending, shapes (sides, endings).
 
-    `level` are those no rule separates from it, itself included; lots decide among them.
+    `level` is the number that no rule separates from it, itself included; lots decide among them.
     """
 
     ahead: Ints
     level: Ints
 
     def places(self, weights: Floats) -> Floats:
-        """Return the weight with which each side takes each place, shape (sides, places).
+        """Return the weight with which each side takes each place: shape (sides, places).
 
         >>> standings_of(np.array([[5], [5], [9]])).places(np.ones(1)).tolist()
         [[0.0, 0.5, 0.5], [0.0, 0.5, 0.5], [1.0, 0.0, 0.0]]
@@ -214,7 +214,7 @@ class Standings(NamedTuple):
         return found
 
     def share_of(self, places: int) -> Floats:
-        """Return each side's chance of one of the first places: 0, 1, or by lot.
+        """Return each side's chance of finishing in the first places: 0, 1, or by lot.
 
         >>> standings_of(np.array([[5], [5], [9]])).share_of(2).ravel().tolist()
         [0.5, 0.5, 1.0]
@@ -223,7 +223,7 @@ class Standings(NamedTuple):
 
 
 def standings_of(ranks: Ints) -> Standings:
-    """Return who is ahead of whom, from numbers as `ranks_of` returns them."""
+    """Return who is ahead of whom, from numbers such as those of `ranks_of`."""
     sides, endings = ranks.shape
     order = np.argsort(ranks, axis=0)
     ordered = np.take_along_axis(ranks, order, axis=0)

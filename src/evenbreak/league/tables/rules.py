@@ -1,4 +1,4 @@
-"""The points of a match, and what decides between those with equal points: players and teams."""
+"""Points for a match, and tie-breaks for players or teams with equal points."""
 
 from __future__ import annotations
 
@@ -15,37 +15,39 @@ from evenbreak.errors import InputError
 POINTS, WIN_SHARE, WINS = "points", "win-share", "wins"
 HEAD_TO_HEAD, DIFFERENCE, SCORED, FORFEITS = "head-to-head", "difference", "scored", "forfeits"
 TIE_BREAKS = (DIFFERENCE, SCORED, WINS, HEAD_TO_HEAD, WIN_SHARE, FORFEITS, POINTS)
-"""What may separate two: games (or sets) won less lost, games won, matches won, the points of the
-meetings of those who are level, the share of matches won, fewer forfeits, the points."""
+"""Possible tie-breaks: games (or sets) won minus lost, games won, matches won, points from the tied
+sides' meetings, the share of matches won, fewer forfeits, points."""
 
 
 @dataclass(frozen=True)
 class TableRules:
-    """The rules of a table.
+    """Rules for a table.
 
     Parameters
     ----------
     win, draw, loss
-        the points of a match.
+        the points for a match.
     a_set
-        the points of each game won (in a team match: of each set), on top.
+        additional points for each game won (in a team match, for each set).
     shutout
-        the points of a win to nil, on top.
+        additional points for a shutout.
     split
-        'apa_8ball' or 'apa_9ball': the points of a match are divided by that league's table,
-        instead of the above.
+        'apa_8ball' or 'apa_9ball': a match's points are divided by that league's table, instead of
+        the above.
     forfeit
-        the points of a match won by forfeit; None: those of a win (2 and 20 in the two splits).
+        the points for a match won by forfeit; None: the same as for a win (2 and 20 in the two
+        splits).
     bye
-        the points of a round without an opponent.
+        the points for a round without an opponent.
     ties
-        what separates those with equal points, in that order; who is still level shares a place.
-        Where 'points' is among them, they count in that turn and not before all others.
+        the tie-breaks, in order; those still tied share a place. If 'points' is listed, points
+        count in that position, not before everything else.
 
     Raises
     ------
     InputError
-        if a loss gives more than a draw or a draw more than a win, or a tie-break is not known.
+        if a loss gives more than a draw, or a draw gives more than a win, or a tie-break is
+        unknown.
 
     >>> TableRules(win=0, draw=0, loss=0, a_set=1).points(3, 2)
     (3.0, 2.0)
@@ -86,7 +88,7 @@ class TableRules:
 
     @property
     def ladder(self) -> tuple[str, ...]:
-        """What decides, in this order."""
+        """The deciding criteria, in order."""
         return self.ties if POINTS in self.ties else (POINTS, *self.ties)
 
     def points(self, scored: int, other: int) -> tuple[float, float]:
@@ -125,8 +127,8 @@ class TableRules:
 class Outcomes:
     """How matches ended, one per row.
 
-    Without `winner` (1 or 2; 0: a draw) the score decides; a race is 0 where not stated; `given`
-    are the points of both, where already known, otherwise the rules set them.
+    Without `winner` (1 or 2; 0: a draw), the score decides; a race is 0 if not stated; `given` is
+    both sides' points if already known; otherwise the rules set them.
 
     >>> Outcomes([[3, 2], [2, 2]]).winner.tolist()
     [1, 0]
@@ -162,7 +164,7 @@ class Outcomes:
         return len(self.score)
 
     def among(self, rows: Bools) -> Outcomes:
-        """Return the outcomes in some rows."""
+        """Return the outcomes in the given rows."""
         given = None if self.given is None else self.given[rows]
         return Outcomes(
             self.score[rows], self.winner[rows], self.race[rows], self.forfeit[rows], given
@@ -170,12 +172,12 @@ class Outcomes:
 
     @property
     def won(self) -> Bools:
-        """Which of both won, shape (matches, 2)."""
+        """Which side won, shape (matches, 2)."""
         return np.asarray(self.winner[:, None] == [1, 2])
 
 
 def _apa_8ball(outcomes: Outcomes) -> Floats:
-    """3:0 for a win to nil, 2:1 where the loser needed one more game, else 2:0."""
+    """3:0 for a shutout, 2:1 if the loser needed one more game, else 2:0."""
     won = outcomes.won
     lost = won[:, ::-1]
     nil = (np.where(lost, outcomes.score, 0).sum(axis=1) == 0)[:, None]
@@ -198,7 +200,7 @@ _LEAST_OF_9BALL = {
 
 
 def _apa_9ball(outcomes: Outcomes) -> Floats:
-    """Divide 20 points by how near the loser came to their target."""
+    """Divide 20 points by how close the loser came to their target."""
     found = np.zeros((len(outcomes), 2))
     races = _stated_races(outcomes)
     for row, won in enumerate(outcomes.winner.tolist()):
@@ -229,8 +231,8 @@ def _stated_races(outcomes: Outcomes) -> Ints:
 
 
 SPLITS: dict[str, Callable[[Outcomes], Floats]] = {"apa_8ball": _apa_8ball, "apa_9ball": _apa_9ball}
-"""How leagues divide the points of a match by how it ended. The 9-ball table is that of two public
-score programs; that of 8-ball reproduces the mean points of 40,000 published matches."""
+"""How leagues divide a match's points according to its result. The 9-ball table comes from two
+public score programs; the 8-ball table reproduces the mean points in 40,000 published matches."""
 
 USUAL_RULES = TableRules()
-"""Two points for a win and one for a draw; then games won less lost, and games won."""
+"""Two points for a win and one for a draw; then games won minus lost, and games won."""

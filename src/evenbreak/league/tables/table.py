@@ -1,4 +1,4 @@
-"""A league's table as it is, of players or of teams, from the results of their matches."""
+"""A league's current table, of players or teams, from the results of their matches."""
 
 from __future__ import annotations
 
@@ -26,22 +26,22 @@ _COUNTED = {BOTH: (1, 1), HOME: (1, 0), AWAY: (0, 1)}
 @array_values
 @dataclass(frozen=True, eq=False)
 class TableMatches:
-    """The matches that a table counts, one per row.
+    """The matches counted in a table, one per row.
 
     Parameters
     ----------
     names
         the players or teams, each once.
     pairs
-        who met who, positions in `names`; the first is at home where that is known.
+        who met whom, as positions in `names`; the first is at home, if that is known.
     date
         when (`datetime64[D]`, NaT where not stated).
     rows
-        the rows of the results that they are, the first row of a team match.
+        the matches' rows in the results; for a team match, its first row.
     undecided
-        how many forfeits are left out because the winner is not known.
+        how many forfeits are left out because the winner is unknown.
     unscored
-        how many are known by their winner alone, and count as 0-0 in games.
+        how many matches are known only by their winner, and count as 0-0 in games.
     """
 
     names: tuple[str, ...]
@@ -56,11 +56,11 @@ class TableMatches:
         return len(self.pairs)
 
     def until(self, day: str) -> TableMatches:
-        """Return the matches up to a day, that day included; those without a date are left out."""
+        """Return the matches up to and including a day; those without a date are left out."""
         return self.among(self.date <= np.datetime64(day, "D"))
 
     def among(self, kept: Bools) -> TableMatches:
-        """Return the matches in some rows."""
+        """Return the matches in the given rows."""
         return replace(
             self,
             pairs=self.pairs[kept],
@@ -71,9 +71,9 @@ class TableMatches:
 
 
 def player_matches(results: Results) -> TableMatches:
-    """Return the matches between players; rows at 0-0 that are no forfeits were not played.
+    """Return the matches between players; 0-0 rows that aren't forfeits were not played.
 
-    The winner is the player who reached their race, where races are stated.
+    The winner is the player who reached their race, if races are stated.
 
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [3, 2], [2, 4],
     ...                             race_a=[5, 4], race_b=[2, 4])
@@ -112,21 +112,21 @@ def team_matches(
 ) -> TableMatches:
     """Return the matches between teams, from the matches between their players.
 
-    What two teams play against one another on one date, in one division, is a match of theirs;
-    the team at home is the first to be named. Where the rules split the points of each set, as in
-    the APA, they are added up.
+    All sets between two teams on the same date, in the same division, form one team match; the home
+    team is the one named first. If the rules split the points of each set, as in the APA, they are
+    added up.
 
     Parameters
     ----------
     results
-        with the teams of both players; rows without are left out.
+        results with the teams of both players; rows without them are left out.
     count_games
         whether a team's score is the games won by its players, instead of the sets.
 
     Raises
     ------
     InputError
-        if no row states the teams of both.
+        if no row states both players' teams.
 
     >>> season = Results.from_names(["Ann", "Bo"], ["Xi", "Yu"], [5, 2], [3, 4],
     ...                             team_a=["Acers"] * 2, team_b=["Bankers"] * 2)
@@ -183,14 +183,14 @@ def team_matches(
 @array_values
 @dataclass(frozen=True, eq=False)
 class LeagueTable:
-    """A table: one row per player or team, the first of the table first.
+    """A league table: one row per player or team, first place at the top.
 
     Parameters
     ----------
     place
-        from 1; who is level shares a place.
+        place, from 1; ties share a place.
     level
-        how many share it.
+        how many share the place.
     played, won, drawn, lost
         matches.
     scored, conceded
@@ -198,7 +198,7 @@ class LeagueTable:
     forfeits
         matches lost by forfeit.
     decided_by
-        what separates each from the one before it in the table; '' if nothing does.
+        the rule that separates each row from the one above it; '' if none does.
     rules
         the rules of the table.
     """
@@ -222,7 +222,7 @@ class LeagueTable:
 
     @property
     def difference(self) -> Ints:
-        """Games (or sets) won less those lost."""
+        """Games (or sets) won minus lost."""
         return np.asarray(self.scored - self.conceded)
 
 
@@ -241,7 +241,8 @@ def league_table(
     rules
         the rules of the table.
     head_start
-        points that each has besides its matches, such as a deduction, in the order of their names.
+        points for each in addition to its matches, such as a deduction, in the order of their
+        names.
     byes
         how many rounds without an opponent each has had.
     side

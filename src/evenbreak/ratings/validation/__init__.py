@@ -1,1 +1,1 @@
-"""How far ratings can be trusted: a season predicted date by date, and what came of it."""
+"""How far ratings can be trusted: a season predicted date by date and compared with its results."""

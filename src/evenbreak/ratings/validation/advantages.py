@@ -1,4 +1,4 @@
-"""Advantages that the ratings do not know: of the break, of the first column, and of experience."""
+"""Advantages not in the ratings: of the break, of the first column, and of experience."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from evenbreak.ratings.validation.walk_forward import Forecasts
 from evenbreak.ratings.who_broke import breakers
 
 MOST_ADVANTAGE = 5.0
-"""How far the search for an advantage of the breaker goes, in log-odds."""
+"""Limit of the search for a break advantage, in log-odds."""
 
 
 class FirstBreaks(NamedTuple):
-    """How often the first breaker won the race, against the sum of predicted chances.
+    """How often the first breaker won the race, compared with the predicted chances.
 
     The p-value is two-sided; matches are races whose first breaker is known.
     """
@@ -33,7 +33,7 @@ class FirstBreaks(NamedTuple):
 
 
 def first_breaks(forecasts: Forecasts) -> FirstBreaks | None:
-    """Compare the races that the first breaker won with those that were predicted."""
+    """Compare the number of races that the first breaker won with the predicted number."""
     first = forecasts.results.first_break
     if first is None:
         return None
@@ -48,15 +48,15 @@ def first_breaks(forecasts: Forecasts) -> FirstBreaks | None:
 
 
 def break_advantage(forecasts: Forecasts) -> Estimate | None:
-    """Return the breaker's advantage in log-odds, where it is known who broke each rack.
+    """Return the breaker's advantage in log-odds, if it is known who broke each rack.
 
     None where no match states its racks, who broke first and who broke next, or where the breaker
     won every rack, or none.
 
-    Under winner breaks the stronger player breaks more often, the more so the stronger they are on
-    that day. So the difference of each match is integrated out: normal about that of the ratings,
-    with their variance plus that of good and bad days, which is estimated too. The standard error
-    is the sandwich's, with each match a cluster.
+    Under winner breaks, the stronger player breaks more often, and even more often on a good day.
+    So the difference in each match is integrated out: it is normal around the rating difference,
+    and its variance is that of the ratings plus that of day-to-day form, which is estimated too.
+    The standard error is a sandwich estimate with each match as a cluster.
     """
     from scipy.optimize import minimize
 
@@ -69,7 +69,7 @@ def break_advantage(forecasts: Forecasts) -> Estimate | None:
     breaks = np.array([1.0, -1.0])[:, None, None]
 
     def at(b: float, days: float) -> tuple[Floats, Floats]:
-        """Return the log-likelihood of each match and its slope in b."""
+        """Return the log-likelihood of each match and its derivative in b."""
         spread = np.sqrt(forecasts.sd[rows] ** 2 + days**2)
         x = forecasts.difference[rows, None] + spread[:, None] * points + b * breaks
         log = (won * log_expit(x) + lost * log_expit(-x)).sum(0) + np.log(weights)
@@ -89,12 +89,12 @@ def break_advantage(forecasts: Forecasts) -> Estimate | None:
 
 
 def known_breaks(forecasts: Forecasts) -> int:
-    """Return how many racks `break_advantage` counts: those whose breaker is known."""
+    """Return how many racks `break_advantage` uses: those whose breaker is known."""
     return int(_tally(forecasts).sum())
 
 
 def _tally(forecasts: Forecasts) -> Floats:
-    """Return the racks of each match, by who broke and who won: 0 for a, 1 for b."""
+    """Return the racks of each match by who broke and who won: 0 for a, 1 for b."""
     results = forecasts.results
     tally = np.zeros((len(forecasts), 2, 2))
     first, form = results.first_break, results.break_format
@@ -109,19 +109,19 @@ def _tally(forecasts: Forecasts) -> Floats:
 
 
 FEWEST_ON_A_DATE = 3
-"""Matches from which a date shows whether it lists winners first."""
+"""Matches on a date needed to show whether it lists winners first."""
 
 UNLIKELY = 0.001
-"""A chance below which luck does not explain the order of the columns."""
+"""Probability below which luck does not explain the order of the columns."""
 
 
 class FirstColumn(NamedTuple):
     """How often the player in the first column (a) won the match.
 
-    `favored` are matches in which a was the favorite, of `with_favorite`. `dates` have three
-    matches or more; on `dates_won` a won all, against `dates_expected`. `varies` is the chance that
-    luck alone makes a's share differ so much between dates, or events, apart from the predicted
-    chances.
+    a was the favorite in `favored` of the `with_favorite` matches that had one. `dates` counts
+    dates with at least three matches; on `dates_won` of them a won every match, where
+    `dates_expected` were expected. `varies` is the probability that luck alone makes a's share
+    differ this much between dates, or events, beyond the predicted chances.
     """
 
     matches: int
@@ -136,10 +136,10 @@ class FirstColumn(NamedTuple):
 
     @property
     def winners_first(self) -> bool:
-        """Whether the file must list winners first: no home advantage is as large.
+        """Whether the file must list winners first, because no home advantage is this large.
 
-        Player a won every one of five matches or more, or three quarters of at least ten and a
-        fifth of them more than predicted.
+        This is so if player a won all of at least five matches, or at least three quarters of ten
+        or more with a share at least .2 above the prediction.
         """
         share, predicted = self.won / self.matches, self.expected / self.matches
         large = self.matches >= 10 and share >= 0.75 and share - predicted >= 0.2
@@ -147,19 +147,19 @@ class FirstColumn(NamedTuple):
 
     @property
     def stronger_first(self) -> int:
-        """1 where the favorite is clearly more often in the first column, -1 in the second."""
+        """1 if the favorite is clearly more often in the first column, -1 if in the second."""
         half = self.with_favorite / 2.0
         far = ndtri(1.0 - UNLIKELY / 2.0) * math.sqrt(half / 2.0)
         return int(self.favored - half > far) - int(half - self.favored > far)
 
     @property
     def winners_first_on_some_dates(self) -> bool:
-        """Whether too many dates have no one but player a winning for that to be luck."""
+        """Whether there are too many dates when only player a wins for that to be luck."""
         return bool(self.dates_won and pdtrc(self.dates_won - 1, self.dates_expected) < UNLIKELY)
 
 
 def first_column(forecasts: Forecasts) -> FirstColumn | None:
-    """Return how often the player in the first column won; None where no match was decided."""
+    """Return how often the player in the first column won; None if no match was decided."""
     rows = forecasts.race_a > 0
     if not rows.any():
         return None
@@ -187,8 +187,8 @@ def first_column(forecasts: Forecasts) -> FirstColumn | None:
 def side_advantage(forecasts: Forecasts) -> Estimate | None:
     """Return the advantage in log-odds of the player in the first column, if any.
 
-    Where the first column is the home player that is the home advantage; elsewhere it
-    shows whether the order of the columns has a meaning.
+    If the first column is the home player, this is the home advantage; otherwise it shows whether
+    the order of the columns means anything.
     """
     ones = np.ones(len(forecasts))
     won, games = forecasts.results.score_a.astype(float), forecasts.games.astype(float)
@@ -199,7 +199,7 @@ def side_advantage(forecasts: Forecasts) -> Estimate | None:
 
 
 def _varies(p: Floats, won: Floats, group: Ints) -> float:
-    """Return the chance that groups differ so much by luck, given one advantage in all of them.
+    """Return the probability that groups differ this much by luck, given one common advantage.
 
     The squared sums of won - p over each group are compared with their mean and variance.
     """
@@ -218,18 +218,19 @@ def _varies(p: Floats, won: Floats, group: Ints) -> float:
 
 
 LIMITS = (0, 1, 21, 51, 201)
-"""The fewest games of each group; the first is that of players without a game."""
+"""The fewest games in each group; the first group is players without a game."""
 
 FEWEST = 30
-"""Matches from which a group is judged."""
+"""Matches needed to judge a group."""
 
 
 class ByExperience(NamedTuple):
-    """Matches in which the player with fewer games had played about so many games before.
+    """Matches in which the less experienced player had played about this many games before.
 
     `most` is None for the last group. `predicted` and `seen` are the less experienced player's
     shares of games; `stronger` is their strength over their rating, compared with the opponent, in
-    log-odds; `spread` is the squared errors of scores over their mean where games are independent.
+    log-odds; `spread` is the mean squared error of scores, relative to its value for independent
+    games.
     """
 
     fewest: int
@@ -243,9 +244,9 @@ class ByExperience(NamedTuple):
 
 
 def by_experience(forecasts: Forecasts) -> list[ByExperience]:
-    """Return how players fared against more experienced ones, by the games that they had played.
+    """Return how players did against more experienced ones, by their own number of games.
 
-    The first date is left out, on which no one has played before. Dates, or matches where that
+    The first date is left out, because no one has played before it. Dates, or matches where that
     gives the larger standard error, are clusters.
     """
     less_a = forecasts.known_a < forecasts.known_b

@@ -1,11 +1,11 @@
 """How good predictions were: losses with bootstrap intervals, calibration and its slope.
 
-A prediction is p, the chance of a player to win a game (or a match), for `games` games of
-which they won `won`. In a race the number of games depends on how they went, but w - p n
-still has mean zero and w log p + (n - w) log(1 - p) is still the log-likelihood: when a
-race stops depends on the past only. With day-to-day form it does not have mean zero, as the
-bad days of favorites last longer, but nearly so if matches weigh as they do in the ratings
-(see `evenbreak.ratings.form_weights`). So whether chances are right is judged by weight.
+A prediction is p, a player's chance of winning a game (or a match), for `games` games of which they
+won `won`. In a race the number of games depends on their outcomes, but w - p n still has mean zero
+and w log p + (n - w) log(1 - p) is still the log-likelihood, because the end of a race depends only
+on the past. With day-to-day form, its mean is not zero, as favorites' bad days last longer, but it
+is nearly zero if matches have the same weights as in the ratings (see
+`evenbreak.ratings.form_weights`). So the chances are judged with those weights.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ from evenbreak.ratings.form_weights import games_weight
 from evenbreak.ratings.validation.walk_forward import Forecasts
 
 TOSS_UP = 1e-9
-"""A match with a chance this near to 1/2 has no favorite: it may be a rounded 1/2."""
+"""A match with a chance this close to 1/2 has no favorite: it may be a rounded 1/2."""
 
 
 class CalibrationBin(NamedTuple):
-    """Predictions of about the same chance for the favorite, and how often the favorite won.
+    """Predictions with similar chances for the favorite, and how often the favorite won.
 
     The upper end belongs to the last bin only; where matches are predicted, games are matches.
     `predicted` is the mean chance over games; `low` to `high` is Wilson's 95% interval, for the
-    number of independent games they are worth.
+    equivalent number of independent games.
     """
 
     p_from: float
@@ -116,22 +116,22 @@ Of = Literal["game", "match"]
 How = Literal["plug-in", "integrated"]
 
 FEWEST_MATCHES = 30
-"""Matches with a favorite from which a slope is given."""
+"""Matches with a favorite needed to give a slope."""
 
 WIDEST_SLOPE = 4.0
-"""A slope with a wider interval says nothing."""
+"""Widest interval with which a slope still says something."""
 
 SUREST = 1e-12
-"""No chance is taken to be closer to 0 or 1."""
+"""Chances are limited to at least this distance from 0 and 1."""
 
 
 class Scored(NamedTuple):
-    """How good one kind of prediction was, of a 'game' or a 'match'.
+    """Accuracy of one kind of prediction, for a 'game' or a 'match'.
 
     `how` is 'plug-in', from the ratings at face value, or 'integrated', averaged over their
     uncertainty. Log-loss, in nats, and Brier score are means; a toss-up has ln 2 and 1/4. The
-    calibration slope is 1 if right, below 1 if predictions are too extreme; None with fewer than 30
-    matches with a favorite, or where its interval is wider than 4.
+    calibration slope is 1 if right, below 1 if predictions are too extreme; None if fewer than 30
+    matches have a favorite, or if its interval is wider than 4.
     """
 
     of: Of
@@ -144,10 +144,10 @@ class Scored(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Predictions:
-    """One kind of prediction of all matches, by a walk through the season.
+    """One kind of prediction for all matches, from a walk through the season.
 
-    By match: the chance of player a, what a won, and how many games (or races) there were, none
-    where there is no race; `weight` is for judging whether chances are right.
+    By match: player a's chance, what a won, and the number of games (or races; 0 if there is no
+    race); `weight` is used to judge the chances.
     """
 
     of: Of
@@ -160,7 +160,7 @@ class Predictions:
 
     @classmethod
     def of_walk(cls, walk: Forecasts, of: Of, how: How) -> Predictions:
-        """Return the predictions of one kind in a walk through a season."""
+        """Return one kind of prediction from a walk through the season."""
         plain = how == "plug-in"
         if of == "game":
             p = walk.p_game if plain else walk.p_game_integrated
@@ -185,7 +185,7 @@ class Predictions:
         return no_favorites(self.p, self.trials)
 
     def scored(self, cluster: Ints, rng: np.random.Generator) -> Scored:
-        """Return how good they were; `rng` resamples matches by their `cluster`."""
+        """Return how good the predictions were; `rng` resamples matches by their `cluster`."""
         x = np.log(self.p) - np.log1p(-self.p)
         by_weight = self.weight * self.won, self.weight * self.trials
         slope = logistic_coefficient(x, *by_weight, cluster)

@@ -1,4 +1,4 @@
-"""The ratings of a league from day to day, as results come in.
+"""A league's ratings from day to day, as results come in.
 
 Little changes from one day to the next, so a few Newton steps from yesterday's mode find today's
 (the model is that of `evenbreak.ratings.posterior`). Newton systems, and the variances of today's
@@ -24,19 +24,19 @@ from evenbreak.ratings.covariance import with_levels
 from evenbreak.ratings.posterior import damped, find_zero, step_accuracy, tolerance
 
 GRADIENT = 1e-6
-"""How small the gradient has to become, in games, times τ where that is below 1."""
+"""How small the gradient has to become, in games, multiplied by τ if that is below 1."""
 
 VARIANCE_ACCURACY = 1e-6
-"""The part of a variance, and of the square of what is left over, from which no more is added."""
+"""Fraction of a variance, and of the squared residual, at which iteration stops."""
 
 AHEAD = 1.1
-"""How many times the pairs that have met the graph of play holds when it is made."""
+"""Initial size of the graph of play, as a multiple of the pairs that have met."""
 
 
 class DailyRefit:
-    """The skills of a league's players in natural log-odds, as results come in.
+    """Skills of a league's players in natural log-odds, as results come in.
 
-    Matches come in in the order given; τ is the prior precision 1/sd².
+    Matches arrive in the order given; τ is the prior precision 1/sd².
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class DailyRefit:
         return self._point[: len(self._means.mean)]
 
     def learn(self, matches: slice, won_a: Floats | Ints, won_b: Floats | Ints) -> None:
-        """Take in the games won in some of the matches, which may be weighted."""
+        """Add the games won in some of the matches, which may be weighted."""
         pair = self._pair[matches]
         low_won = np.where(self._a_is_low[matches], won_a, won_b)
         self._met = max(self._met, int(pair.max(initial=-1)) + 1)
@@ -81,12 +81,12 @@ class DailyRefit:
             self._graph = self._graph_of(ahead)
 
     def begin_day(self, means: PriorMeans | None = None) -> None:
-        """Refit, with other means of the priors if there are any; this ends what was learned."""
+        """Refit, with other prior means if there are any; this ends what was learned."""
         self._means = self._means if means is None else means.faded(self._kept)
         self._find_mode()
 
     def fade(self, keep: float) -> None:
-        """Reduce the weight of everything so far to a part of what it was."""
+        """Reduce the weight of everything so far to a fraction of what it was."""
         self._games[: self._met] *= keep
         self._low_won[: self._met] *= keep
         self._kept *= keep
@@ -124,9 +124,10 @@ class DailyRefit:
         self._point = find_zero(self._point, gradient_at, enough).point
 
     def _curvatures(self, skill: Floats | None = None) -> tuple[Floats, Floats]:
-        """Return the slope of the negative log-likelihood in each pair's difference, and the bend.
+        """Return the first and second derivatives of the negative log-likelihood by pair.
 
-        By default this is at the skills as they stand. The pairs are those of the graph.
+        They are taken in each pair's difference, by default at the current skills. The pairs are
+        those of the graph.
         """
         at = self.skill if skill is None else skill
         low, high = self._graph.low, self._graph.high
@@ -136,7 +137,7 @@ class DailyRefit:
         return expected - low_won, expected * (1.0 - p_low)
 
     def _hessian(self, weight: Floats) -> _Hessian:
-        """Return that of the negative log-posterior where pairs have some weights."""
+        """Return the Hessian of the negative log-posterior if pairs have the given weights."""
         own = self._graph.ends(weight) + self._precision + self._means.information
         across = -self._precision * self._means.design
         levels = np.diag(self._means.precision) - self._means.design.T @ across
@@ -144,7 +145,7 @@ class DailyRefit:
 
 
 class _Graph:
-    """Who has met who: which entries of a Hessian are not 0."""
+    """Who has met whom: which entries of a Hessian are not 0."""
 
     def __init__(self, low: Ints, high: Ints, players: int) -> None:
         self.low, self.high, self.players = low, high, players
@@ -159,12 +160,12 @@ class _Graph:
         self._slot = np.concatenate([pair, pair, np.full(players, len(low))])[order]
 
     def ends(self, each: Floats) -> Floats:
-        """Return for each player the sum over their pairs."""
+        """Return each player's sum over their pairs."""
         low, high = (np.bincount(ends, each, self.players) for ends in (self.low, self.high))
         return np.asarray(low + high)
 
     def flow(self, each: Floats) -> Floats:
-        """Return for each player the sum over the pairs where they are low, less the others."""
+        """Return each player's sum over the pairs where they are low, minus the others."""
         low, high = (np.bincount(ends, each, self.players) for ends in (self.low, self.high))
         return np.asarray(low - high)
 
@@ -191,7 +192,7 @@ class _Hessian:
         self._across, self._levels = across, levels
 
     def _matrix(self, kind: Any) -> Any:
-        """Return the matrix, as what multiplies columns of a kind of numbers."""
+        """Return the matrix as a function that multiplies columns of the given dtype."""
         between = self._graph.matrix(self._between, kind)
         if not len(self._levels):
             return between
@@ -203,7 +204,7 @@ class _Hessian:
         )
 
     def solution(self, right: Floats, accuracy: float) -> Floats:
-        """Return what the Hessian maps to `right`, but for a part of it."""
+        """Return what the Hessian maps to `right`, to within a tolerance."""
         solved, _ = cg(
             self._matrix(np.float64),
             self._scale * right,
@@ -213,7 +214,7 @@ class _Hessian:
         return np.asarray(self._scale * solved)
 
     def energies(self, a: Ints, b: Ints) -> Floats:
-        """Return xᵀ H⁻¹ x for each pair, x being 1 in place a, -1 in place b and 0 elsewhere."""
+        """Return xᵀ H⁻¹ x for each pair, where x is 1 at a, -1 at b and 0 elsewhere."""
         matrix = self._matrix(np.float32)
         blocks = np.array_split(np.arange(len(a)), max(-(-len(a) // AT_ONCE), 1))
         return np.concatenate([self._energies(matrix, a[rows], b[rows]) for rows in blocks])

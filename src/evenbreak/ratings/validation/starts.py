@@ -1,9 +1,8 @@
-"""What a league's starts take back of the difference between players, and what they should.
+"""How much of the difference between players a league's head starts make up for.
 
-A race m:n takes back the difference at which it is even (see `evenbreak.ratings.levels`). How
-large the difference is in fact, the games show: on average over all handicap matches, for each
-size of the start, and for a class, where the results say in which class each player is (see
-`evenbreak.ratings.handicap_slope`).
+A race m:n makes up for the difference at which it is even (see `evenbreak.ratings.levels`). The
+games show the actual difference: on average over all handicap matches, for each size of the start,
+and per class, if the results state the players' classes (see `evenbreak.ratings.handicap_slope`).
 """
 
 from __future__ import annotations
@@ -22,10 +21,10 @@ from evenbreak.ratings.levels import implied_difference
 from evenbreak.ratings.results import Results
 
 FEWEST = 100
-"""Handicap matches from which starts are judged."""
+"""Handicap matches needed to judge starts."""
 
 FEWEST_ALIKE = 30
-"""Matches from which one size of the start is judged."""
+"""Matches needed to judge one size of start."""
 
 LARGEST_LEVEL = 1e6
 
@@ -34,10 +33,10 @@ MOST_CLASSES = 12
 
 
 class StartGroup(NamedTuple):
-    """Matches between players equally many classes, or games given, apart.
+    """Matches between players who are the same number of classes, or games given, apart.
 
-    `race` is the most frequent: the games of the player above first. `stronger` and `taken` are the
-    difference, in log-odds, and what the races take back of it on average.
+    `race` is the most frequent one, with the higher player's games first. `stronger` and `taken`
+    are the difference, in log-odds, and how much the races make up for on average.
     """
 
     apart: int
@@ -48,11 +47,11 @@ class StartGroup(NamedTuple):
 
 
 class Starts(NamedTuple):
-    """What starts take back of the difference between players, in log-odds.
+    """How much of the difference between players starts make up for, in log-odds.
 
-    `share` is the difference for each unit that races take back: 1 where starts are right, above 1
-    where they are too small. Classes, the lowest first, are empty where not known; `a_class` is the
-    worth of one.
+    `share` is the difference per unit that races make up for: 1 if starts are right, above 1 if
+    they are too small. Classes, from the lowest up, are empty if unknown; `a_class` is the value of
+    one class.
     """
 
     matches: int
@@ -70,7 +69,7 @@ class Starts(NamedTuple):
 
 
 def starts(results: Results) -> Starts | None:
-    """Return what starts take back; None with fewer than 100 races that are not even.
+    """Return the effect of starts; None with fewer than 100 uneven races.
 
     >>> season = Results.from_names(["A", "A"], ["B", "B"], [7, 5], [2, 6], race_a=[7, 7],
     ...     race_b=[6, 6])
@@ -114,10 +113,10 @@ def even_start(race: int, difference: float) -> int:
 
 
 def class_steps(results: Results, implied: Floats) -> tuple[tuple[str, ...], Floats]:
-    """Return the classes, the lowest first, and by how many of them a is above b in each match.
+    """Return the classes from the lowest up, and how many classes a is above b in each match.
 
-    Classes without numbers are put in order by the races between them. Where `level_a` and
-    `level_b` hold no classes, or too many, there are none; where a match does not state them, NaN.
+    Classes that aren't numbers are sorted by the races between them. The list is empty if `level_a`
+    and `level_b` hold no classes, or too many; the difference is NaN if a match doesn't state them.
     """
     none: tuple[str, ...] = ()
     a, b = levels(results)
@@ -146,7 +145,7 @@ def levels(results: Results) -> tuple[NDArray[np.str_], NDArray[np.str_]]:
 
 
 def level_numbers(texts: NDArray[np.str_]) -> Floats:
-    """Return the numbers that texts are, NaN where they are none up to a million.
+    """Parse strings as numbers; NaN for anything that isn't a number up to a million.
 
     >>> level_numbers(np.array(["87", "B", "4.5", "inf"]))
     array([87. ,  nan,  4.5,  nan])
@@ -163,7 +162,7 @@ def level_numbers(texts: NDArray[np.str_]) -> Floats:
 
 
 def _strengths(of_a: NDArray[np.intp], of_b: NDArray[np.intp], implied: Floats) -> Floats:
-    """Return how strong the races say that each class is, by least squares."""
+    """Return each class's strength according to the races, by least squares."""
     contrast = np.zeros((len(of_a), int(max(of_a.max(), of_b.max())) + 1))
     np.add.at(contrast, (np.arange(len(of_a)), of_a), 1.0)
     np.add.at(contrast, (np.arange(len(of_b)), of_b), -1.0)

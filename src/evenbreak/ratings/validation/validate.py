@@ -1,4 +1,4 @@
-"""How far ratings can be trusted: a season predicted date by date, and what happened."""
+"""How far ratings can be trusted: a season predicted date by date and compared with its results."""
 
 from __future__ import annotations
 
@@ -56,11 +56,11 @@ if TYPE_CHECKING:
 
 
 class HandicapFairness(NamedTuple):
-    """The handicap races with one spot: how often the player with the longer race won.
+    """How often the player with the longer race won, over handicap races with the same spot.
 
-    `spot` is their race less the opponent's, None: all together. `share` has Wilson's 95% interval,
-    and should be 1/2 with a fair chart; `expected` is their mean chance by the ratings before each
-    date.
+    `spot` is their race minus the opponent's; None: all spots together. `share` has Wilson's 95%
+    interval, and should be 1/2 with a fair chart; `expected` is their mean chance by the ratings
+    before each date.
     """
 
     spot: int | None
@@ -73,9 +73,9 @@ class HandicapFairness(NamedTuple):
 
 
 def handicap_fairness(forecasts: Forecasts) -> list[HandicapFairness]:
-    """Return how fair each spot was, ascending, and all of them together at the end.
+    """Return how fair each spot was, in ascending order, with all of them together at the end.
 
-    Only stated races count; the list is empty where none was a handicap race.
+    Only stated races count; the list is empty if none was a handicap race.
     """
     gives = forecasts.race_a - forecasts.race_b
     rows = gives != 0
@@ -100,7 +100,7 @@ def handicap_fairness(forecasts: Forecasts) -> list[HandicapFairness]:
 class RaceLengths(NamedTuple):
     """Even races of similar length: how often the favorite won, with Wilson's 95% interval.
 
-    `predicted` is the favorites' mean chance, the uncertainty of ratings integrated out.
+    `predicted` is the favorites' mean chance, with the ratings' uncertainty integrated out.
     """
 
     shortest: int
@@ -114,11 +114,11 @@ class RaceLengths(NamedTuple):
 
 
 FEW_STARTS = 0.25
-"""The share of uneven races up to which even ones are judged: more leave only equals for those."""
+"""Largest share of uneven races with which even ones are judged: more leave only equals."""
 
 
 def mostly_even(forecasts: Forecasts) -> bool:
-    """Return whether few races have a start, so that the others have favorites."""
+    """Return whether few races have a head start, so that the others have favorites."""
     raced = forecasts.race_a > 0
     uneven = forecasts.race_a != forecasts.race_b
     return bool(uneven.sum() <= FEW_STARTS * raced.sum())
@@ -127,8 +127,8 @@ def mostly_even(forecasts: Forecasts) -> bool:
 def race_lengths(forecasts: Forecasts) -> list[RaceLengths]:
     """Return how often favorites won the shorter and the longer half of the even races.
 
-    The halves are as nearly equal as whole lengths allow. The list is empty where all races
-    are equally long, or more than a quarter have a start.
+    The halves are as nearly equal as whole lengths allow. The list is empty if all races are
+    equally long, or if more than a quarter have a head start.
     """
     even, p = (
         (forecasts.race_a > 0) & (forecasts.race_a == forecasts.race_b),
@@ -155,60 +155,59 @@ def race_lengths(forecasts: Forecasts) -> list[RaceLengths]:
 
 
 FEWEST_DATES = 10
-"""Dates from which the bootstrap resamples whole dates; with fewer it resamples matches."""
+"""Dates needed for the bootstrap to resample whole dates; with fewer, it resamples matches."""
 
 BINS = 10
 
 
 @dataclass(frozen=True, eq=False)
 class Validation:
-    """What a season shows about the ratings that were predicted from it.
+    """What a season shows about the ratings that were used to predict it.
 
     Attributes
     ----------
     forecasts
         the predictions with the prior `prior_sd`.
     ratings
-        what `fit` makes of all these matches in the same way.
+        the ratings that `fit` returns for all these matches with the same settings.
     prior_sd
         the prior that was given, or else the one that `best_prior` chooses.
     choice
-        how it was chosen; None where it was given.
+        how it was chosen; None if it was given.
     scored
-        games and matches, plug-in and integrated; no matches where there are no races.
+        games and matches, plug-in and integrated; no matches if there are no races.
     usual
-        the integrated predictions with the default prior, `PRIOR_SD`; empty where a prior
-        was given.
+        the integrated predictions with the default prior, `PRIOR_SD`; empty if a prior was given.
     gain
-        log-loss of plug-in less that of integrated, by what is predicted: above 0,
-        integrating out the uncertainty helps.
+        log-loss of plug-in minus that of integrated, by what is predicted: above 0, integrating out
+        the uncertainty helps.
     half_lives
-        what it gains to let old games count less; empty unless `half_life` is 'best', or where
-        the season is too short to say.
+        the gain from letting old games count less; empty unless `half_life` is 'best' and the
+        season is long enough to tell.
     skill
-        ln 2 less the log-loss a game, integrated: above 0, the ratings beat a coin.
+        ln 2 minus the log-loss per game, integrated: above 0, the ratings beat a coin.
     games, matches
         calibration of the favorites' chances, integrated, with the prior to use.
     matches_plug_in
-        the same for matches, by the ratings at face value.
+        the same for matches, with the ratings at face value.
     toss_ups
         how many matches have no favorite and so are in no bin, by what is predicted.
     form
         how much chances vary from match to match; None with fewer than 100 races.
     dispersion, streaks, breaker, first_breaks
-        whether play inside matches agrees with the model; None where the file does not say.
+        whether play inside matches agrees with the model; None if the file does not say.
     side, first_column
-        how much stronger players in the first column are than their ratings, in log-odds, and
-        how many matches they won; None where no one did, or nothing shows it.
+        how much stronger players in the first column are than their ratings, in log-odds, and how
+        many matches they won; None if no one did, or if nothing shows it.
     lengths
-        how often favorites won short races and long ones, where there are both and few starts.
+        how often favorites won short races and long ones, if there are both and few starts.
     spots
         how often the player with the longer race won.
     starts
-        what the games given take back of the difference between players; None where there are
+        how much of the difference between players the games given make up for; None if there are
         too few.
     experience
-        how the less experienced player of a match fared, by the games played before.
+        how the less experienced player in a match did, by the number of games played before.
     drawn
         what the bootstrap resamples: 'dates' or 'matches'.
     """
@@ -262,18 +261,18 @@ def validate(
         standard deviation of the prior in natural log-odds, the same for everyone; None: the
         prior that `best_prior` chooses from all matches with a date, with levels if they help.
     half_life
-        days after which a game counts half; None: games never age. 'best': chosen with the
-        prior, or where that is given, games never age, and it is tested whether that is right.
+        days after which a game counts half; None: games never age. 'best': chosen with the prior;
+        if the prior is given, games never age, and the result says whether that is right.
     beginning
-        ratings that players bring along; None: there are none.
+        ratings that players bring with them; None: there are none.
     seed
-        of the bootstrap and of the simulated seasons: a whole number, or a generator.
+        for the bootstrap and the simulated seasons: a whole number, or a generator.
     executor, jobs
-        who works: any executor of `concurrent.futures` or a `distributed.Client`; None: as many
-        processes as `jobs` says. The answer is the same.
+        what runs the work: any executor of `concurrent.futures` or a `distributed.Client`; None: as
+        many processes as `jobs` says. The answer is the same.
     progress
-        called with how many dates have been predicted, of how many in all ways to rate, and what
-        part of the work that is.
+        called with the number of dates predicted so far, the total over all rating methods, and the
+        fraction of the work done.
 
     Raises
     ------
@@ -284,7 +283,7 @@ def validate(
 
     Notes
     -----
-    A prior chosen on the season by which it is judged looks slightly better than it is;
+    A prior chosen on the same season that it is judged by looks slightly better than it is;
     `PriorChoice.as_it_went` is free of that.
 
     >>> season = Results.from_names(["Ann", "Ann", "Bo"], ["Bo", "Bo", "Ann"], [7, 7, 3], [2, 4, 7],
@@ -353,7 +352,7 @@ def validate(
 
 
 def _tested(choice: PriorChoice) -> tuple[HalfLifeGain, ...]:
-    """Return what each half-life gains, as it was found when the prior was chosen."""
+    """Return the gain from each half-life, as found when the prior was chosen."""
     return tuple(
         HalfLifeGain(days, gain)
         for evidence in choice.evidence
@@ -370,9 +369,9 @@ def _walked(
     progress: Progress,
     share: Share | None,
 ) -> tuple[PriorChoice | None, tuple[HalfLifeGain, ...], Ratings, Forecasts | None, Forecasts]:
-    """Return how the prior was chosen, ratings with it, and walks with the usual one and with it.
+    """Return how the prior was chosen, the ratings with it, and walks with the usual prior and it.
 
-    There is no walk with the usual prior where another was given.
+    There is no walk with the usual prior if another was given.
     """
     season, _ = in_order(results)
     dated = results.select(~np.isnat(np.asarray(results.date)))
@@ -406,13 +405,14 @@ def _walked(
 
 
 SEARCH = 0.25
-"""What one step of the search for a prior takes, in walks through the season."""
+"""Cost of one step in the search for a prior, in walks through the season."""
 
 
 class _Done:
-    """The progress of a validation, from that of its parts, which go through all dates.
+    """Progress of a validation, from that of its parts, each of which goes through all dates.
 
-    `work` is the time of each part in walks through the season; 0 for what there is none of.
+    `work` is the time that each part takes, in walks through the season; 0 for parts that don't
+    occur.
     """
 
     def __init__(self, progress: Progress, dates: int, work: tuple[float, ...]) -> None:
@@ -420,7 +420,7 @@ class _Done:
         self._all = dates * sum(one > 0.0 for one in work)
 
     def part(self, number: int) -> Progress:
-        """Return what is called with how far a part is."""
+        """Return the progress callback of one part."""
 
         def show(done: int, total: int, share: float | None = None) -> None:
             part = done / total if share is None else share
@@ -432,7 +432,7 @@ class _Done:
         return show
 
     def end(self) -> None:
-        """Say that everything is done, also what there was no need for."""
+        """Report that everything is done, including parts that weren't needed."""
         self._progress(self._all, self._all, 1.0)
 
 

@@ -1,7 +1,7 @@
 """Walk forward through a season: each date is predicted before its results are used.
 
-What ratings are worth shows in matches that they have not seen. So the ratings from all
-earlier dates predict every match of a date, and only then are refitted with its results.
+Only matches that the ratings have not seen show how good they are. So the ratings from all earlier
+dates predict every match of a date, and only then are refitted with its results.
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ from evenbreak.workers import Share
 class Forecasts:
     """The chances that the ratings gave for each match before its date, and its result.
 
-    One entry a match, in the order of the dates; all chances are those of player a, given
-    the results of earlier dates, the model and the prior.
+    There is one entry per match, in date order; all chances are those of player a, given the
+    results of earlier dates, the model and the prior.
 
     Attributes
     ----------
     results
         the matches that were predicted: played, with a date.
     date_of
-        the number of each match's date, from 0 up.
+        the number of each match's date, counted from 0.
     difference, sd
         skill a - skill b in natural log-odds: the posterior mode before the date, and
         its standard deviation (Laplace).
@@ -56,8 +56,9 @@ class Forecasts:
         the race: as stated, or else an even race to the winner's games (see
         `even_races`); 0 where there is none.
     p_match, p_match_integrated
-        P(a wins the match), likewise; NaN where there is no race. Integrated over day-to-day form
-        too, as games of a match share it; the chance of a single game is the same with it.
+        P(a wins the match), likewise; NaN where there is no race. They are also averaged over
+        day-to-day form, which the games of a match share; it leaves the chance of a single game
+        unchanged.
     won
         1 where a won the race, 0 where b did, NaN where there is none.
     prior_sd, half_life, levels, form
@@ -102,7 +103,7 @@ class Forecasts:
 
     @property
     def new(self) -> Bools:
-        """Whether one of the two players had not played before."""
+        """Whether at least one of the two players had not played before."""
         return np.asarray((self.known_a == 0) | (self.known_b == 0))
 
 
@@ -116,7 +117,7 @@ def walk_forward(
     progress: Progress = lambda *_: None,
     share: Share | None = None,
 ) -> Forecasts:
-    """Predict every dated match of `results` from the matches of earlier dates alone.
+    """Predict every dated match in `results` from the matches on earlier dates alone.
 
     Parameters
     ----------
@@ -128,21 +129,22 @@ def walk_forward(
         in days; None: games never age.
     levels
         how far newcomers are behind, how much teams and divisions differ, and the ratings that
-        players bring along.
+        players bring with them.
     form
         day-to-day form: the standard deviation of a game's log-odds.
     progress
-        called with the dates done, all dates, and the share of the work done.
+        called with the number of dates done, the number of all dates, and the fraction of the work
+        done.
     share
-        what gives spans of dates to other processes (see `evenbreak.workers`), for the same
-        answer; None: there is only this one.
+        passes spans of dates to other processes (see `evenbreak.workers`), for the same answer;
+        None: only this process works.
 
     Raises
     ------
     InputError
         if there are not two dates with games, or prior_sd or half_life is out of range.
     AccuracyError
-        if a mode is not found to rounding.
+        if a mode is not found to within rounding.
 
     Notes
     -----
@@ -186,17 +188,17 @@ def walk_forward(
 
 
 Progress: TypeAlias = Callable[..., None]
-"""Called with how many dates are done, of how many, and what part of the work that is."""
+"""Called with the dates done, the total number of dates, and the fraction of the work done."""
 
 SPANS, LEAST_DATES = 12, 25
-"""Into how many spans a season is cut at most, and how many dates each of them has at least."""
+"""The most spans that a season is cut into, and the fewest dates in each."""
 
 OF_MODE = 25
-"""Finding a date's mode takes about as long as the variances of so many matches."""
+"""Finding a date's mode takes about as long as the variances of this many matches."""
 
 
 class _Walk(NamedTuple):
-    """A season, in the order of its dates, to be walked through from any date on."""
+    """Season in date order, to be walked through from any date on."""
 
     season: Results
     days: NDArray[np.datetime64]
@@ -208,14 +210,14 @@ class _Walk(NamedTuple):
 
     @property
     def starts(self) -> Ints:
-        """The first match of each date, and the number of all."""
+        """The first match of each date, and the number of matches."""
         return np.searchsorted(self.date_of, np.arange(len(self.days) + 1))
 
     @property
     def done(self) -> Floats:
-        """What part of the work is done before each date, and at the end: later ones take longer.
+        """Fraction of the work done before each date, and at the end; later dates take longer.
 
-        What a date takes grows with the pairs that have met, and with its matches.
+        The time for a date grows with the pairs that have met, and with its matches.
         """
         a, b = self.season.player_a, self.season.player_b
         pairs = np.minimum(a, b) * len(self.season.players) + np.maximum(a, b)
@@ -225,9 +227,10 @@ class _Walk(NamedTuple):
         return np.append(0.0, np.cumsum(work) / work.sum())
 
     def spans(self) -> list[tuple[int, int]]:
-        """Return the spans of dates, about equally much work each, that are walked on their own.
+        """Return the spans of dates, with about equal work, that are walked separately.
 
-        Each starts with a fit of all that came before, so that who walks it makes no difference.
+        Each starts with a fit of everything before it, so it makes no difference which process
+        walks it.
         """
         many = max(min(SPANS, len(self.days) // LEAST_DATES), 1)
         cuts = np.searchsorted(self.done[1:-1], np.arange(1, many) / many)
@@ -238,7 +241,7 @@ class _Walk(NamedTuple):
 def _walked(
     walk: _Walk, span: tuple[int, int], progress: Progress = lambda *_: None
 ) -> tuple[Floats, Floats]:
-    """Return the differences and variances before each match of a span of dates."""
+    """Return the differences and variances before each match in a span of dates."""
     season, days, half_life, levels = walk.season, walk.days, walk.half_life, walk.levels
     a, b, starts = season.player_a, season.player_b, walk.starts
     first, last = span
@@ -286,9 +289,9 @@ def _walked(
 def even_races(results: Results) -> tuple[Ints, Ints, Floats]:
     """Return the race of each match and whether a won it: race_a, race_b, won.
 
-    A match without a stated race is read as an even race to the winner's games, unless
-    some such match ended in a draw: then none of them was a race. Where there is no race
-    its games are 0 and `won` is NaN.
+    A match without a stated race is treated as an even race to the winner's games, unless some such
+    match ended in a draw: then none of them was a race. If there is no race, its games are 0 and
+    `won` is NaN.
 
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Ann"], [7, 4], [5, 6])
     >>> even_races(season)
@@ -307,9 +310,9 @@ def even_races(results: Results) -> tuple[Ints, Ints, Floats]:
 
 
 def in_order(results: Results) -> tuple[Results, dict[str, int]]:
-    """Return the played matches with a date, by date, and how many rows were left out.
+    """Return the played matches that have a date, by date, and how many rows were left out.
 
-    An InputError if there are not two dates with games.
+    Raises InputError if there are not two dates with games.
     """
     played, forfeits, empty = results.played()
     dates = played.date

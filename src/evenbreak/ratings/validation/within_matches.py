@@ -1,9 +1,9 @@
-"""Whether every game of a match has the same chance, whatever went before, as the model says.
+"""Test of the model's claim that every game of a match has the same chance, whatever came before.
 
-From scores alone: do they vary about the predictions as much as they should? From racks: do
-wins come in streaks?
+From scores alone: do they vary around the predictions as much as they should? From racks: do wins
+come in streaks?
 
-What day-to-day form means for deciders, sweeps and games is compared with what is seen.
+The effect of day-to-day form on deciders, sweeps and games is compared with what happened.
 """
 
 from __future__ import annotations
@@ -29,19 +29,19 @@ REPLICAS = 300
 """Simulated seasons."""
 
 MOST_SIMULATED = 5_000_000
-"""Matches in all of them: the more matches a season has, the fewer seasons are needed."""
+"""Matches in all simulated seasons: the more a season has, the fewer seasons are needed."""
 
 LONGEST_SIMULATED = 1000
-"""Games needed in the longest race that is simulated: each game of it takes memory."""
+"""Games in the longest race that is simulated: each game takes memory."""
 
 
 class Dispersion(NamedTuple):
     """How far scores are from the predictions, compared with simulated seasons.
 
     `seen` is the sum over races of (games won - p games)², over the sum of p (1 - p) games;
-    `by_chance` its mean over seasons simulated from the model, each match at a rating difference
-    drawn from its posterior and with its own form: both spread scores too. The p-value is
-    two-sided.
+    `by_chance` is its mean over seasons simulated from the model, with a rating difference for each
+    match drawn from its posterior, and its own form, both of which also spread scores. The p-value
+    is two-sided.
     """
 
     seen: float
@@ -65,11 +65,11 @@ class Streaks(NamedTuple):
 
 
 def dispersion(forecasts: Forecasts, rng: np.random.Generator) -> Dispersion | None:
-    """Compare the spread of scores about the predictions with that of simulated seasons.
+    """Compare the spread of scores around the predictions with that of simulated seasons.
 
-    None where there is no race to 1,000 games or less after the first date. More spread than
-    by chance points to good and bad days that `form` does not hold, or to ratings that lag behind;
-    less, to matches that are kept close.
+    None if there is no race to 1,000 games or fewer after the first date. More spread than by
+    chance suggests good and bad days beyond `form`, or ratings that lag behind; less spread
+    suggests matches that are kept close.
     """
     longest = np.maximum(forecasts.race_a, forecasts.race_b)
     rows = (longest > 0) & (longest <= LONGEST_SIMULATED) & (forecasts.date_of > 0)
@@ -108,10 +108,10 @@ def _spread(won: Ints, games: Ints, p: Floats) -> float:
 def streaks(forecasts: Forecasts) -> Streaks | None:
     """Compare the runs in the racks with those of the same racks in random order.
 
-    If every rack of a match has the same chance, whatever it is, then given the score every order
-    of the racks that ends with the winner's is equally likely: so the last rack is left out, and no
-    rating is needed. If breaking is worth something, there are streaks under winner breaks and the
-    opposite under alternate breaks.
+    If every rack in a match has the same chance, whatever it is, then given the score, all orders
+    of the racks that end with a rack for the winner are equally likely. So the last rack is left
+    out, and no rating is needed. If the break is an advantage, there are streaks under winner
+    breaks and the opposite under alternate breaks.
 
     Wald & Wolfowitz (1940), "On a test whether two samples are from the same population", within
     each match.
@@ -136,11 +136,11 @@ def streaks(forecasts: Forecasts) -> Streaks | None:
 
 
 class ScoreShape(NamedTuple):
-    """How often something about scores was seen, and how often it was expected, mean over races.
+    """A feature of scores: how often it was seen and expected, as a mean over races.
 
-    'deciders' went to the last possible game, 'sweeps' had a loser without a game, 'games' is
-    length. `said` is by the forecasts, the uncertainty of ratings integrated out; `said_with_form`
-    with day-to-day form too.
+    'deciders' went to the last possible game, in 'sweeps' the loser won no game, 'games' is the
+    length. `said` is from the forecasts, with the ratings' uncertainty integrated out;
+    `said_with_form` adds day-to-day form.
     """
 
     of: str
@@ -161,8 +161,8 @@ def match_form(
 ) -> MatchForm | None:
     """Return the effect of day-to-day form on scores; None if it was not estimated.
 
-    None with fewer than 100 races of two games or more, too. The first date is left out; matches of
-    one cluster, such as those of a date, may depend on each other.
+    Also None with fewer than 100 races of at least two games. The first date is left out; matches
+    in the same cluster, such as a date, may depend on each other.
     """
     rows = _judged(forecasts)
     if form is None or rows.sum() < FEWEST:
@@ -202,7 +202,7 @@ def _shapes(
 
 
 def score_shapes(p: Floats, m: Ints, n: Ints) -> Floats:
-    """Return the chance of a decider and of a sweep, and the mean games, of races m:n.
+    """Return the chances of a decider and of a sweep, and the mean number of games, in races m:n.
 
     >>> score_shapes(np.array([0.5]), np.array([2]), np.array([2])).ravel().tolist()
     [0.5, 0.5, 2.5]

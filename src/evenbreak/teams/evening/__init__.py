@@ -1,1 +1,1 @@
-"""A team night as it is run: what happened, one event after another, and the state that follows."""
+"""A team night in progress: its events, one after another, and the resulting state."""

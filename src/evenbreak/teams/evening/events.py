@@ -1,6 +1,6 @@
-"""What is played on a team night, and what happens on it: events, which are only ever added.
+"""The plan of a team night, and its events, which are only ever added.
 
-An event is a frozen value; `KINDS` turns it into JSON and back.
+An event is a frozen value; `KINDS` converts it to JSON and back.
 """
 
 from __future__ import annotations
@@ -40,10 +40,10 @@ Whole: TypeAlias = Annotated[int, Meta(ge=-(10**9), le=10**9)]
 
 @dataclass(frozen=True)
 class TeamSheet:
-    """A team as it came in.
+    """A team as entered.
 
-    Errors are 0 where not stated; weights are what each player counts for under a cap, the skill
-    level or the rating, which a chart by skill level reads too.
+    Errors are 0 if not stated; weights are each player's value under a cap, the skill level or the
+    rating, which a chart by skill level uses too.
     """
 
     name: str
@@ -59,12 +59,12 @@ class TeamSheet:
 
 
 Unknown: TypeAlias = Points | None
-"""A standard error; None where nothing says how large it is."""
+"""A standard error; None if its size is unknown."""
 
 
 @dataclass(frozen=True)
 class LevelsTonight:
-    """The `LevelSkills` of a night, as known when it started."""
+    """The `LevelSkills` of a night, as known at its start."""
 
     gaps: tuple[tuple[Points, ...], ...]
     errors: tuple[tuple[Unknown, ...], ...]
@@ -76,7 +76,7 @@ class LevelsTonight:
 
     @classmethod
     def of(cls, skills: LevelSkills) -> LevelsTonight:
-        """Return what a night keeps of how strong levels are."""
+        """Return the data that a night stores about the strength of levels."""
         unknown: Any = None
         errors, own = (
             np.where(np.isnan(one), unknown, one).tolist()
@@ -93,7 +93,7 @@ class LevelsTonight:
         )
 
     def skills(self, chart: LevelChart) -> LevelSkills:
-        """Return the strengths of a chart's levels; an InputError if these aren't its levels."""
+        """Return the strengths of a chart's levels; InputError if these aren't its levels."""
         many = len(chart.levels)
 
         def each(values: Sequence[Unknown], name: str) -> Any:
@@ -118,16 +118,16 @@ class LevelsTonight:
 
 @dataclass(frozen=True)
 class NightPlan:
-    """What is played on a team night, and by whom.
+    """The plan of a team night: what is played, and by whom.
 
-    `handicapped`: the stronger player needs `race` games, the weaker gets the fairest number; with
-    one of the package's charts, `race` is 0. `order` is as `order_of` reads it, or 'sealed';
-    `count` is sets, games or points; `doubles` are numbers of sets. `cap` is the largest sum of a
-    lineup's weights; `at_most` is how many players of a weight or more may play; `times` is how
-    often a player may be put up. `match_form` is the standard deviation of a game's log-odds from
-    set to set. `by_level`: chances come from skill levels, whose strengths by a chart of races are
-    `levels`; None in the file of an earlier version, whose chances are those of `level_skills`
-    without results.
+    `handicapped`: the stronger player needs `race` games, and the weaker player gets the fairest
+    number; with a built-in chart, `race` is 0. `order` is an order for `order_of`, or 'sealed';
+    `count` is sets, games or points; `doubles` are the numbers of the doubles sets. `cap` is the
+    largest sum of a lineup's weights; `at_most` is how many players with at least a given weight
+    may play; `times` is how often a player may be put up. `match_form` is the standard deviation of
+    a game's log-odds from set to set. `by_level`: chances come from skill levels, whose strengths
+    by a chart of races are `levels`; None in files from earlier versions, whose chances are those
+    of `level_skills` without results.
     """
 
     teams: tuple[TeamSheet, TeamSheet]
@@ -151,7 +151,7 @@ class NightPlan:
 
 @lru_cache(maxsize=8)
 def meeting_of(plan: NightPlan) -> Meeting:
-    """Return the meeting of a plan, as team A sees it; an InputError if the plan makes no sense."""
+    """Return a plan's meeting from team A's point of view; InputError if the plan is invalid."""
     first, second = (team.roster for team in plan.teams)
     race = _race(plan)
     return meeting_by(
@@ -167,7 +167,7 @@ def meeting_of(plan: NightPlan) -> Meeting:
 
 
 class Rules(Protocol):
-    """The rules of a team night, as a plan and a question state them; see `NightPlan`."""
+    """The rules of a team night, from a plan or a question; see `NightPlan`."""
 
     @property
     def order(self) -> str: ...  # noqa: D102
@@ -194,11 +194,11 @@ def meeting_by(
     form: float = 0.0,
     levels: LevelSkills | None = None,
 ) -> Meeting:
-    """Return the meeting of two rosters by the rules of a night.
+    """Return the meeting between two rosters under the rules of a night.
 
-    Weights are what each player counts for under a cap; `form` is the standard deviation of a
-    game's log-odds from set to set; with `levels`, chances come from their strengths, not ratings.
-    An InputError if the rules make no sense.
+    Weights are each player's value under a cap; `form` is the standard deviation of a game's
+    log-odds from set to set; with `levels`, chances come from their strengths, not ratings. Raises
+    InputError if the rules are invalid.
     """
     whole(sets, "sets", at_least=1)
     wrong = [k for k in rules.doubles if not 1 <= k <= sets]
@@ -225,10 +225,10 @@ def meeting_by(
 
 
 def check_plan(plan: NightPlan) -> None:
-    """Refuse a plan that can't be played, or is too large to calculate.
+    """Raise an error if a plan can't be played, or is too large to calculate.
 
-    An InputError if a team cannot fill its sets within the caps, two names are one, or no race is
-    given.
+    It is an InputError if a team cannot fill its sets within the caps, two players have the same
+    name, or no race is given.
     """
     first, second = (team.name for team in plan.teams)
     if first.casefold() == second.casefold():
@@ -267,7 +267,7 @@ Score: TypeAlias = tuple[Games, Games]
 
 @dataclass(frozen=True)
 class Begun:
-    """A night starts; one that was under way is put aside."""
+    """A night starts; one in progress is put aside."""
 
     plan: NightPlan
 
@@ -283,7 +283,7 @@ class PutUp:
 
 @dataclass(frozen=True)
 class HandedIn:
-    """A team hands in its whole lineup, where lineups are sealed."""
+    """A team hands in its whole lineup, if lineups are sealed."""
 
     team: Team
     picks: tuple[Pick, ...]
@@ -291,7 +291,7 @@ class HandedIn:
 
 @dataclass(frozen=True)
 class Proposed:
-    """A team says how a set ended; it counts once the other says the same."""
+    """A team reports a set's result, which counts once the other team reports the same."""
 
     team: Team
     number: Number
@@ -300,7 +300,7 @@ class Proposed:
 
 @dataclass(frozen=True)
 class Result:
-    """The director says how a set ended, for the first time or as a correction."""
+    """The director enters a set's result, or corrects it."""
 
     number: Number
     score: Score
@@ -317,11 +317,11 @@ KINDS: Kinds[What] = Kinds(
         "undone": Undone,
     }
 )
-"""What can happen, each kind by the name under which it is kept."""
+"""The kinds of events, each by the name under which it is stored."""
 
 
 @dataclass(frozen=True)
 class Event(log.Event):
-    """Something that happened on a team night."""
+    """An event of a team night."""
 
     what: What

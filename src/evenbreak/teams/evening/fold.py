@@ -1,4 +1,4 @@
-"""The state of a team night, as the fold of its events."""
+"""The state of a team night, computed from its events."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ from evenbreak.teams.set_laws import brought
 from evenbreak.teams.solve import names_first
 
 EVERYBODY = None
-"""Whoever is in the room: sees no pick before both are in, where picks are unseen."""
+"""Any viewer: sees no pick until both are in, if picks are unseen."""
 
 
 @dataclass(frozen=True)
 class SetLine:
-    """A set of the night, by number from 1.
+    """A set in the night, numbered from 1.
 
-    `picks` are () before the nomination; `said` is each team's result, and `hidden` the team whose
-    pick is in, but left out here. Times are '' until then.
+    `picks` are () before the nomination; `said` is the result that each team reported, and `hidden`
+    is the team whose pick is in, but not shown here. Times are '' until then.
     """
 
     number: int
@@ -47,7 +47,7 @@ class SetLine:
 
     @property
     def missing(self) -> tuple[int, ...]:
-        """The teams whose pick is not in."""
+        """The teams whose picks are not in."""
         return tuple(team for team in (0, 1) if not (self.picks[team] or self.hidden[team]))
 
     @property
@@ -58,7 +58,7 @@ class SetLine:
 
 @dataclass(frozen=True, eq=False)
 class TeamEvening:
-    """The state of a team night; `began` is the number, from 1, of its first event.
+    """State of a team night; `began` is the number, from 1, of its first event.
 
     `last` is the event that an undo would take back.
     """
@@ -70,7 +70,7 @@ class TeamEvening:
 
     @cached_property
     def meeting(self) -> Meeting:
-        """What is played, as team A sees it."""
+        """The plan of the night, from team A's point of view."""
         return meeting_of(self.plan)
 
     @property
@@ -84,21 +84,21 @@ class TeamEvening:
         return self.meeting.order == SEALED
 
     def unseen(self, number: int) -> bool:
-        """Whether the picks of a set are shown only once both are in."""
+        """Whether a set's picks are shown only once both are in."""
         return self.sealed or self.meeting.order[number - 1] == BOTH
 
     def open(self, number: int) -> bool:
-        """Whether everyone may see who is put up in a set."""
+        """Whether everyone may see the picks for a set."""
         return not self.unseen(number) or self.sets[number - 1].named
 
     @property
     def to_name(self) -> SetLine | None:
-        """The set for which someone is put up next; None if every set has its players."""
+        """The set that is nominated for next; None if every set has its players."""
         return next((line for line in self.sets if not line.named), None)
 
     @property
     def due(self) -> tuple[int, ...]:
-        """The teams that may put someone up now (0: A, 1: B)."""
+        """The teams that may put up a player now (0: A, 1: B)."""
         line = self.to_name
         if line is None:
             return ()
@@ -127,22 +127,22 @@ class TeamEvening:
         return 0 if line.score[0] == self.needs(line)[0] else 1
 
     def needs(self, line: SetLine) -> Score:
-        """Return the games that each side of a set needs."""
+        """Return the games that each side needs in a set."""
         return self.meeting.needs(*line.picks)
 
     def brought(self, line: SetLine) -> Score:
-        """Return what a finished set brought each team: sets, games or points."""
+        """Return what each team got from a finished set: sets, games or points."""
         return brought(self.needs(line), line.score or (0, 0), self.meeting.count)
 
     @cached_property
     def score(self) -> Score:
-        """The score of the night: sets, games or points, as they count."""
+        """The score of the night: sets, games or points, whichever count."""
         each = [self.brought(line) for line in self.sets if line.score]
         return sum(a for a, _ in each), sum(b for _, b in each)
 
     @property
     def playing(self) -> list[SetLine]:
-        """The sets that are being played."""
+        """The sets in play."""
         return [line for line in self.sets if line.named and line.score is None]
 
     @property
@@ -151,18 +151,18 @@ class TeamEvening:
         return all(line.score for line in self.sets)
 
     def used(self, team: int) -> Pick:
-        """Return who plays or has played for a team, once for each set."""
+        """Return who is playing or has played for a team, once per set."""
         return tuple(name for line in self.sets if line.named for name in line.picks[team])
 
     def put_up(self, team: int) -> Pick:
-        """Return who has been put up for a team, once for each set, answered or not."""
+        """Return who has been put up for a team, once per set, answered or not."""
         return tuple(name for line in self.sets for name in line.picks[team])
 
     def seen_by(self, viewer: int | None) -> TeamEvening:
-        """Return the state as a team's captain sees it, or as `EVERYBODY` does.
+        """Return the state as seen by a team's captain, or by `EVERYBODY`.
 
-        What the other team has put up unseen is left out until both picks are in; where lineups
-        are sealed, until both are handed in.
+        The other team's unseen picks are left out until both are in or, if lineups are sealed,
+        until both lineups are handed in.
         """
         lines = tuple(
             line if self.open(line.number) else _without(line, viewer) for line in self.sets
@@ -181,7 +181,7 @@ def _without(line: SetLine, viewer: int | None) -> SetLine:
 
 
 def team_evening(events: Iterable[Event]) -> TeamEvening | None:
-    """Return the state after some events; None if no night has started.
+    """Return the state after the given events; None if no night has started.
 
     >>> from evenbreak.teams.evening.events import TeamSheet
     >>> us = TeamSheet("Racks", ("Ann", "Bo"), (600.0, 500.0), (0.0, 0.0), (6.0, 5.0))
@@ -227,7 +227,7 @@ def _take(lines: list[SetLine], what: What) -> None:
 
 
 def _stamped(line: SetLine, at: str) -> SetLine:
-    """Return a set with the time at which it came as far as it is."""
+    """Return a set with the time at which it reached its current stage."""
     named = line.named_at or (at if line.named else "")
     over = line.over_at or (at if line.score else "")
     return replace(line, named_at=named, over_at=over)

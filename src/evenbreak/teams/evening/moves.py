@@ -1,6 +1,6 @@
-"""What the captains and the director may do: each checks one thing, and returns its events.
+"""Actions of the captains and the director: each is checked, and returns its events.
 
-What has been entered already gives no event, so that a second tap changes nothing.
+Repeating an entry gives no events, so a second tap changes nothing.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def begin(state: TeamEvening | None, plan: NightPlan) -> list[What]:
 
 
 def put_up(state: TeamEvening, team: int, number: int, pick: Pick) -> list[What]:
-    """Put someone up in a set; an InputError if it isn't this team's turn, or not allowed."""
+    """Put up a player in a set; InputError if it isn't this team's turn, or isn't allowed."""
     if state.sealed:
         raise InputError("lineups are sealed tonight; hand in the whole lineup")
     line = _line(state, number)
@@ -68,7 +68,7 @@ def put_up(state: TeamEvening, team: int, number: int, pick: Pick) -> list[What]
 
 
 def _check_turn(state: TeamEvening, team: int, number: int, *, replaces: bool) -> None:
-    """Refuse a pick that is not due."""
+    """Raise an error for a pick that is not due."""
     line = state.to_name
     if line is None or line.number != number:
         due = say("set {n} is next", n=line.number) if line else say("every set has its players")
@@ -91,9 +91,9 @@ def _check_turn(state: TeamEvening, team: int, number: int, *, replaces: bool) -
 
 
 def hand_in(state: TeamEvening, team: int, picks: tuple[Pick, ...]) -> list[What]:
-    """Hand in a whole lineup; it may be changed until the other one is in too.
+    """Hand in a whole lineup, which may be changed until the other one is in too.
 
-    An InputError if lineups aren't sealed, both are in, or it breaks the caps.
+    Raises InputError if lineups aren't sealed, both are in, or it breaks the caps.
     """
     if not state.sealed:
         raise InputError("lineups aren't sealed tonight. Put up one player after another.")
@@ -108,7 +108,7 @@ def hand_in(state: TeamEvening, team: int, picks: tuple[Pick, ...]) -> list[What
 
 
 def propose(state: TeamEvening, team: int, number: int, score: Score) -> list[What]:
-    """Enter one team's result of a set; an InputError if impossible, or another counts already."""
+    """Enter one team's result for a set; InputError if impossible or another one already counts."""
     line = _checked(state, number, score)
     if line.score == score or (line.score is None and line.said[team] == score):
         return []
@@ -123,7 +123,7 @@ def propose(state: TeamEvening, team: int, number: int, score: Score) -> list[Wh
 
 
 def result(state: TeamEvening, number: int, score: Score) -> list[What]:
-    """Enter a set's result, or correct it; an InputError if it can't be."""
+    """Enter a set's result, or correct it; InputError if it is impossible."""
     line = _checked(state, number, score)
     return [] if line.score == score else [Result(number, score)]
 
@@ -145,7 +145,7 @@ def _line(state: TeamEvening, number: int) -> SetLine:
 
 
 class CapNow(NamedTuple):
-    """How far a cap is used up: `total` is what all put up count, answered or not."""
+    """How much of a cap is used: `total` is the sum over all players put up, answered or not."""
 
     name: str
     total: float
@@ -153,10 +153,10 @@ class CapNow(NamedTuple):
 
 
 class Choices(NamedTuple):
-    """Who can be put up for the next set that has no players yet.
+    """Who can be put up for the next set without players.
 
-    `used_up` have played as often as they may; `barred` could still play, but the caps or the
-    remaining sets keep them out now.
+    `used_up` are players who have played as often as they may; `barred` are players who could still
+    play, but whom the caps or the remaining sets rule out now.
     """
 
     picks: tuple[Pick, ...]
@@ -189,7 +189,7 @@ def choices(state: TeamEvening, team: int) -> Choices:
 
 
 def check_line_up(state: TeamEvening, team: int, picks: Sequence[Pick]) -> None:
-    """Refuse (InputError) a whole lineup that does not fill its sets within the caps."""
+    """Raise InputError if a whole lineup does not fill its sets within the caps."""
     squad = state.meeting.squads[team]
     named = [name for pick in picks for name in pick]
     for name in named:

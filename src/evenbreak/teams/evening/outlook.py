@@ -15,9 +15,10 @@ from evenbreak.teams.solve import SolvedNight, solved
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """A night solved as team 0 (A) or 1 (B) sees it, that team as `ours`.
+    """A night solved for team 0 (A) or 1 (B), with that team as `ours`.
 
-    The solution has every point of the night; of sealed lineups, the time before they are in.
+    The solution covers every point of the night; for sealed lineups, only the time before they are
+    in.
     """
 
     team: int
@@ -25,7 +26,7 @@ class Side:
     solution: SolvedNight | SealedNight
 
     def mirrored(self) -> Side:
-        """Return the same night as the other team sees it."""
+        """Return the same night from the other team's point of view."""
         meeting = self.meeting.mirrored()
         if isinstance(self.solution, SolvedNight):
             found: SolvedNight | SealedNight = self.solution.mirrored(meeting.night())
@@ -35,14 +36,14 @@ class Side:
 
 
 def side_of(state: TeamEvening) -> Side:
-    """Return a night solved as team A sees it; it stays the same as long as the plan does."""
+    """Return a night solved for team A; it stays valid as long as the plan does."""
     meeting = state.meeting
     night = meeting.night()
     return Side(0, meeting, sealed(night) if meeting.order == SEALED else solved(night))
 
 
 def point_of(state: TeamEvening, team: int) -> Point:
-    """Return where a night stands, as a team sees it."""
+    """Return the current point in a night, from a team's point of view."""
     other = 1 - team
     line = state.to_name
     last_won: bool | None = None
@@ -69,7 +70,7 @@ def point_of(state: TeamEvening, team: int) -> Point:
 def chance(side: Side, state: TeamEvening) -> float:
     """Return a team's chance of winning the night from now on; a tie counts as half.
 
-    Picks that the other team has not shown make no difference.
+    The other team's hidden picks make no difference.
 
     >>> from evenbreak.teams.evening.events import Begun, Event, PutUp
     >>> from evenbreak.teams.evening.fold import team_evening

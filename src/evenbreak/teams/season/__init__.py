@@ -1,1 +1,1 @@
-"""A season of team matches: the table, and how it may end."""
+"""A season of team matches: the table, and the chances of its final places."""

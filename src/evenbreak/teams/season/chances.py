@@ -1,10 +1,9 @@
-"""The chances of each final place: exact where few matches are left, else simulated.
+"""Chances of each final place: exact if few matches are left, else simulated.
 
-Where the strengths are known, all endings of the remaining matches are gone through if there are
-few enough. Otherwise seasons are drawn in pieces, each with its own random numbers, so that the
-result does not depend on who works on them. Where the strengths are uncertain, every season has its
-own draw of them: the seasons are then independent, and the spread of their outcomes is the whole
-error.
+If the strengths are known, all endings of the remaining matches are enumerated if there are few
+enough. Otherwise seasons are drawn in pieces, each with its own random numbers, so the result does
+not depend on which worker does them. If the strengths are uncertain, every season has its own draw
+of them: the seasons are then independent, and the spread of their outcomes is the whole error.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ if TYPE_CHECKING:
 
 
 PRIOR_SD = 0.5
-"""How much teams of a league differ, in log-odds of a set, before there are results."""
+"""How much teams in a league differ, in log-odds of a set, before there are results."""
 
 _MOST_COVARIANCE = 1e-12  # added to the diagonal, so that its root exists
 
@@ -50,9 +49,9 @@ def scores_of(*, sets: int | None = None, race: int | None = None) -> Ints:
     Parameters
     ----------
     sets
-        number of sets, all of them played; or
+        number of sets, all of which are played; or
     race
-        sets that a team needs to win.
+        the sets that a team needs to win.
 
     Raises
     ------
@@ -77,7 +76,7 @@ def scores_of(*, sets: int | None = None, race: int | None = None) -> Ints:
 @array_values
 @dataclass(frozen=True, eq=False)
 class TeamStrengths:
-    """How strong the teams are, as far as their matches show: a normal distribution.
+    """Strength of the teams, as far as their matches show it: a normal distribution.
 
     Parameters
     ----------
@@ -156,13 +155,13 @@ def score_chances(skills: Floats, to_come: Ints, scores: Ints) -> Floats:
 
 
 MOST_ENDINGS = 200_000
-"""Endings up to which all are gone through."""
+"""Number of endings up to which all are enumerated."""
 
 _PIECE = 5_000
 
 
 class Watched(NamedTuple):
-    """The numbers of first places, and the remaining matches, that are asked about."""
+    """The numbers of top places, and the remaining matches, to report on."""
 
     places: tuple[int, ...]
     matches: tuple[int, ...]
@@ -171,23 +170,24 @@ class Watched(NamedTuple):
 @array_values
 @dataclass(frozen=True, eq=False)
 class SeasonChances:
-    """How a season may end.
+    """Possible endings of a season.
 
     Parameters
     ----------
     p_place
         P(each team takes each place), shape (teams, places).
     exact
-        whether all endings were gone through; otherwise seasons were drawn.
+        whether all endings were enumerated; otherwise, seasons were drawn.
     seasons
-        how many seasons were drawn, or how many endings there are.
+        the number of seasons drawn, or the number of endings.
     watched
-        the places and the matches that were asked about.
+        the places and matches to report on.
     p_if
-        for each number of first places watched, P(a team takes one of them | how a match watched
-        ends), shape (matches, 3, teams): home wins, draw, away wins; NaN where that cannot be.
+        for each watched number of top places, P(a team takes one of them | a watched match's
+        result), shape (matches, 3, teams): home wins, draw, away wins; NaN if the result is
+        impossible.
     p_result
-        P(home wins, a draw, away wins) for each match watched.
+        P(home wins, draw, away wins) for each watched match.
     """
 
     season: TeamSeason
@@ -199,11 +199,11 @@ class SeasonChances:
     p_result: Floats
 
     def p_first(self, places: int) -> Floats:
-        """P(each team takes one of the first places)."""
+        """P(each team takes one of the top places)."""
         return np.asarray(self.p_place[:, :places].sum(axis=1))
 
     def error(self, p: Floats) -> Floats:
-        """Return the standard errors of chances, their spread between seeds; 0 if exact."""
+        """Return the standard errors of chances (their spread between seeds); 0 if exact."""
         if self.exact:
             return np.zeros(p.shape)
         return np.sqrt(p * (1.0 - p) / self.seasons)
@@ -231,19 +231,18 @@ def season_chances(
     Parameters
     ----------
     places, matches
-        what to watch: for which numbers of first places to say what which of the remaining matches
-        change.
+        what to report on: for these numbers of top places, the effect of these remaining matches.
     strengths
-        how strong the teams may be: each season drawn has its own draw of them. None: the chances
-        of `season` hold.
+        the distribution of the teams' strengths: each drawn season has its own draw of them. None:
+        use the chances in `season`.
     seasons
         how many seasons are drawn, if the strengths are uncertain or the endings too many.
     seed
-        of the random numbers.
+        for the random numbers.
     executor, jobs
-        who works on the pieces; the result does not depend on it. See `evenbreak.league.simulate`.
+        what runs the pieces; the result does not depend on it. See `evenbreak.league.simulate`.
     progress
-        called with the seasons done and all seasons.
+        called with the number of seasons done and the total.
 
     Raises
     ------
@@ -300,7 +299,7 @@ Counted = tuple[Floats, list[Floats], Floats]
 
 
 class _Counts:
-    """What is summed over endings."""
+    """The quantities summed over endings."""
 
     def __init__(self, season: TeamSeason, watched: Watched) -> None:
         teams, many = len(season.teams), len(watched.matches)
@@ -331,7 +330,7 @@ class _Counts:
 
 
 def _counted(season: TeamSeason, watched: Watched, ends: Ints, weights: Floats) -> Counted:
-    """Return the sums over endings."""
+    """Return the sums over all endings."""
     ranks = ranks_of(season.record(ends))
     standings = standings_of(ranks)
     results = np.sign(season.scores[:, 0] - season.scores[:, 1])[ends[list(watched.matches)]]

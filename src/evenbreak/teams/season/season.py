@@ -1,4 +1,4 @@
-"""A season under way: the matches played, those to come, and what each of them can bring."""
+"""A season in progress: matches played, upcoming matches, and their possible results."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_TEAMS = 200
 @array_values
 @dataclass(frozen=True, eq=False, init=False)
 class TeamSeason:
-    """A season under way.
+    """Season in progress.
 
     Parameters
     ----------
@@ -32,19 +32,20 @@ class TeamSeason:
     to_come
         the remaining matches, one per row: home, away.
     scores
-        the scores that an upcoming match can have, one per row: sets of home and of away.
+        the scores that an upcoming match can have, one per row: sets of the home and of the away
+        team.
     chances
         P(each of these scores) for each upcoming match, shape (layers, matches, scores): a layer
-        for each of the strengths that are possible, all equally likely; one if they are known.
+        for each possible set of strengths, all equally likely; one layer if they are known.
     rules
-        how the table is kept.
+        the rules of the table.
     head_start
-        points that each team has besides its matches, such as a deduction.
+        points that each team has in addition to its matches, such as a deduction.
 
     Raises
     ------
     InputError
-        if a match names no team, or one team twice; or the chances do not add up to 1.
+        if a match has an unknown team, or the same team twice, or the chances do not add up to 1.
     """
 
     teams: tuple[str, ...]
@@ -103,18 +104,18 @@ class TeamSeason:
 
     @cached_property
     def points_of_scores(self) -> Floats:
-        """The points of home and away for each of `scores`, shape (scores, 2)."""
+        """The home and the away team's points for each of `scores`, shape (scores, 2)."""
         return self.rules.points_of(Outcomes(self.scores))
 
     @cached_property
     def points(self) -> Floats:
-        """The points of each team now."""
+        """Each team's current points."""
         found = self.head_start.copy()
         np.add.at(found, self.played[:, :2], self.rules.points_of(Outcomes(self.played[:, 2:])))
         return found
 
     def record(self, ends: Ints) -> Record:
-        """Return what its ladder reads, with the score of each upcoming match in each ending.
+        """Return the input of its ladder, given the score of each upcoming match in each ending.
 
         Parameters
         ----------
@@ -134,7 +135,7 @@ class TeamSeason:
 
     @cached_property
     def most_points(self) -> Floats:
-        """The points that each team has if it gets all it can in the remaining matches."""
+        """Each team's points if it gets as many as possible from the remaining matches."""
         best = self.points_of_scores.max(axis=0) if len(self.scores) else np.zeros(2)
         found = self.points.copy()
         np.add.at(found, self.to_come[:, 0], best[0])
@@ -142,11 +143,12 @@ class TeamSeason:
         return found
 
     def points_to_be_sure(self, places: int) -> Floats:
-        """Return the points that make each team sure of one of the first places.
+        """Return the additional points that guarantee each team one of the top places.
 
-        With so many points more, at most `places` - 1 other teams can still have as many, whatever
-        else happens; 0 if that is so already. It is NaN where the remaining matches do not give so
-        many. Teams that play each other cannot all have their most, so fewer may do.
+        With that many more points, at most `places` - 1 other teams can still equal it, no matter
+        what else happens; 0 if the place is already certain. It is NaN if the remaining matches do
+        not give that many. Teams that play each other cannot all reach their maximum, so fewer
+        points may be enough.
         """
         found = np.full(len(self.teams), np.nan)
         for team, now in enumerate(self.points):
@@ -164,7 +166,7 @@ class TeamSeason:
         return found
 
     def _most_if_beaten(self, team: int) -> Floats:
-        """Return the most points of each other team if a team wins all its remaining matches."""
+        """Return each other team's maximum points if a team wins all its remaining matches."""
         found = self.most_points.copy()
         if not len(self.scores):
             return np.delete(found, team)
@@ -180,7 +182,7 @@ class TeamSeason:
 
 
 def _step(points: Floats, start: Floats) -> float:
-    """Return the smallest difference of two sums of points: 1, or less where there are halves."""
+    """Return the smallest difference between two sums of points: 1, or less if there are halves."""
     values = np.concatenate([points.ravel(), start])
     for step in (1.0, 0.5, 0.25, 0.1):
         if np.allclose(values / step, np.round(values / step)):
