@@ -37,7 +37,7 @@ ARCS = Schema(
     ),
     probability=Number(
         "p, prob, chance",
-        "P(the target is next), given the source",
+        "the chance of going to the target from the source",
         needed=True,
         instead=[WEIGHT],
         filled=True,
@@ -46,7 +46,7 @@ ARCS = Schema(
         write=_CHANCE,
     ),
     weight=Number(
-        about="used if there is no `probability`", filled=True, least=0, most=1, write=_CHANCE
+        about="used if there's no `probability` column", filled=True, least=0, most=1, write=_CHANCE
     ),
 )
 
@@ -155,7 +155,7 @@ def _refuse_twice(
     for row in again:
         table.note(
             row,
-            "the arc {source} -> {target} is in line {line} already. Keep one of the two.",
+            "the arc {source} -> {target} is already in line {line}. Keep one of the two.",
             source=quoted(states[sources[row]]),
             target=quoted(states[targets[row]]),
             line=table.lines[first[which[row]]],
@@ -175,8 +175,8 @@ def sum_problems(
     wrong = np.sort(first[np.abs(sums[leaving] - 1.0) > SUM_TOLERANCE])
     return {
         row: say(
-            "the arcs out of {state} sum to {sum:.12g}, not 1. Add what is missing (a "
-            "self-loop counts), or write more digits.",
+            "the arcs out of {state} sum to {sum:.12g}, not 1. Add what's missing (self-loops "
+            "count), or write more digits.",
             state=quoted(states[sources[row]]),
             sum=sums[sources[row]],
         )

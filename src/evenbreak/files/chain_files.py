@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 STATES = Schema(
     "states",
-    state=Text("name, node", "the name of the state", needed=True),
+    state=Text("name, node", "the state's name", needed=True),
     kind=Text(about="`start` for the state that the chain starts in"),
     winner=Text(about="the number of the player who has won there"),
 ) | Schema(**dict.fromkeys(("class", "class_kind", "period", "limit"), Text()))
@@ -90,9 +90,8 @@ def read_chain(
     if form in OTHER_FORMS:
         raise refusal(
             str(path),
-            "a {form} file isn't read here. Write the graph as GraphML "
-            "(networkx.write_graphml), the matrix in Matrix Market form "
-            "(scipy.io.mmwrite), or the arcs as CSV.",
+            "{form} files can't be read. Save the graph as GraphML (networkx.write_graphml), "
+            "the matrix as a Matrix Market file (scipy.io.mmwrite), or the arcs as CSV.",
             form=form,
         )
     if form in (".graphml", ".xml"):
@@ -106,7 +105,7 @@ def _graphml(content: bytes) -> nx.Graph[Any]:
     import networkx as nx
 
     def refuse(*_: object) -> None:
-        raise ValueError("it has a DOCTYPE, which could expand to more than the file holds")
+        raise ValueError("it has a DOCTYPE, which could make it expand far beyond its size")
 
     parser = expat.ParserCreate()
     parser.StartDoctypeDeclHandler = refuse
@@ -138,7 +137,7 @@ def _node_link(content: bytes) -> nx.Graph[Any]:
 def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
     source, content = content_of(path)
     if len(content) > MOST_MEGABYTES << 20:
-        raise refusal(source, "is larger than {n} MB. Write its arcs as CSV.", n=MOST_MEGABYTES)
+        raise refusal(source, "is larger than {n} MB. Save its arcs as CSV.", n=MOST_MEGABYTES)
     try:
         graph = parsed(content)
     except Exception as error:
@@ -150,11 +149,11 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
     if not graph.is_directed() or graph.is_multigraph():
         raise refusal(
             source,
-            "{fault}. Write a directed graph, with one arc from a state to another.",
+            "{fault}. Save a directed graph, with at most one arc from one state to another.",
             fault=say("is a multigraph") if graph.is_directed() else say("isn't directed"),
         )
     if not len(graph):
-        raise refusal(source, "has no states. Write a node for each.")
+        raise refusal(source, "has no states. Write a node for each one.")
     names = ("probability", *ARCS["probability"].aliases, WEIGHT)
     problems, triples = Problems(source), []
     position = {state: k for k, state in enumerate(graph)}
@@ -164,21 +163,26 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
             weighted = not attributes.keys() & {*names[:-1]} and WEIGHT in attributes
             problems.add(
                 None,
-                "the arc {start} -> {end} has {chance}. Give each arc a number from 0 to "
-                "1, named probability{scaled}.",
+                "the arc {start} -> {end} has {chance}. Give each arc a probability from 0 to "
+                "1, in an attribute of that name{scaled}.",
                 start=quoted(str(j)),
                 end=quoted(str(i)),
                 chance=say("no probability")
                 if chance is None
                 else say("probability {chance}", chance=f"{chance!r:.40}"),
-                scaled=say(", such as its weight divided by all that leave its source")
+                scaled=say(
+                    ", such as its weight divided by the total weight of all arcs from "
+                    "the same state"
+                )
                 if weighted
                 else "",
             )
         triples.append((position[j], position[i], chance))
     states = [str(state) for state in graph]
     if len(set(states)) < len(states):
-        raise refusal(source, "has two states that are written alike. Give each a name of its own.")
+        raise refusal(
+            source, "has two states whose names are written the same. Give each its own name."
+        )
     problems.raise_any()
     ends = np.array([triple[:2] for triple in triples], dtype=np.int64).reshape(-1, 2)
     sources, targets = ends.T
@@ -189,7 +193,9 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
     nodes = dict(zip(states, graph.nodes.values(), strict=True))
     starts = [state for state, node in nodes.items() if node.get("kind") == "start"]
     if len(starts) > 1:
-        raise refusal(source, "has {n} nodes of the kind start. Leave one.", n=len(starts))
+        raise refusal(
+            source, "has {n} nodes whose kind is start. Mark only one as the start.", n=len(starts)
+        )
     start = starts[0] if starts else None
     winners = _winners({state: node.get("winner") for state, node in nodes.items()}, source)
     return ArcsFile(states, sources, targets, p, source, (), start, winners)
@@ -208,8 +214,8 @@ def _winners(winners: Mapping[str, Any], source: str) -> dict[str, int]:
         if players[state] < 1:
             raise refusal(
                 source,
-                "state {state} has winner {winner}. Give the number of the player who "
-                "has won there, 1, 2, ...",
+                "state {state} has the winner {winner}. Give the winning player's number: 1, 2, "
+                "...",
                 state=quoted(state),
                 winner=quoted(str(winner)),
             )
@@ -228,8 +234,8 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
     if rows is None and by_rows and not by_columns:
         raise refusal(
             source,
-            "is row-stochastic: its rows sum to 1 and its columns don't, so a row holds "
-            "the chances out of its state. Say so with {rows}='from', or transpose it.",
+            "is row-stochastic: its rows sum to 1 and its columns don't, so each row holds the "
+            "chances of leaving one state. Use {rows}='from', or transpose the matrix.",
             rows=Parameter("rows"),
         )
     if rows is None and by_rows and (matrix - matrix.T).count_nonzero():
@@ -237,8 +243,8 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
             source,
             None,
             "its rows and its columns both sum to 1; each column was read as the probabilities "
-            "of leaving its state. If the rows hold them, give {rows} from; if this is right, "
-            "give {rows} to",
+            "of leaving one state. If the rows hold those probabilities, use {rows} from; if "
+            "the columns do, use {rows} to",
             rows=Parameter("rows"),
         )
         warnings = (either,)
@@ -257,8 +263,8 @@ def _of_matrix(path: str | Path, states: str | Path | None, rows: Rows | None) -
     for k in np.flatnonzero(np.abs(sums - 1.0) > SUM_TOLERANCE).tolist():
         problems.add(
             None,
-            "{line} {k} sums to {sum:.12g}, not 1. Give probabilities out of each state, "
-            "with a 1 on the diagonal for a state that is never left.",
+            "{line} {k} sums to {sum:.12g}, not 1. Give the probabilities of leaving each "
+            "state, with a 1 on the diagonal for a state that is never left.",
             line=say("row") if rows == "from" else say("column"),
             k=k + 1,
             sum=sums[k],
@@ -298,7 +304,7 @@ def _square(content: bytes, source: str) -> csc_array[np.float64]:
         size = " x ".join(map(str, entries_read.shape))
         raise refusal(
             source,
-            "holds a {kind}matrix of {size}. Give a square one of real numbers.",
+            "holds a {size} {kind}matrix. Give a square matrix of real numbers.",
             kind=kind,
             size=size,
         )
@@ -318,8 +324,8 @@ def _states(
     if len(names) != n or len(set(names)) < n or not all(names):
         raise refusal(
             table.source,
-            "names {names} states in {rows} rows, and the matrix has {n}. Give each a "
-            "name of its own, in the order of the matrix.",
+            "has {names} different names in {rows} rows, but the matrix has {n} states. Give "
+            "each state its own name, in the matrix's order.",
             names=len(set(filter(None, names))),
             rows=len(names),
             n=n,

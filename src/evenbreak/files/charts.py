@@ -35,11 +35,11 @@ _GAMES = Whole(filled=True, least=1, most=MOST_GAMES, write=say("a number of gam
 
 DIFFERENCES = Schema(
     difference_from=_DIFFERENCE.called(
-        "from, gap from, points from", "the first rating difference of the row, in whole points"
+        "from, gap from, points from", "the row's smallest rating difference, in whole points"
     ),
     difference_to=_DIFFERENCE.called(
         "to, gap to, points to",
-        "the last one; empty in the last row, which is open-ended",
+        "the row's largest rating difference; empty in the last row, which is open-ended",
         filled=False,
         empty=None,
     ),
@@ -53,11 +53,11 @@ DIFFERENCES = Schema(
 """A chart by rating difference."""
 
 LEVELS = Schema(
-    level=_LEVEL.called("skill level, own level, level a", "the level of one player"),
+    level=_LEVEL.called("skill level, own level, level a", "one player's level"),
     opponent_level=_LEVEL.called(
-        "opponent, opponent skill level, level b", "the level of the other player"
+        "opponent, opponent skill level, level b", "the other player's level"
     ),
-    needs=_GAMES.called("games, own games", "the games that the player of `level` needs"),
+    needs=_GAMES.called("games, own games", "the games that the player at `level` needs"),
     opponent_needs=_GAMES.called(
         "opponent games",
         "the games that the opponent needs; can be left out if every pair is listed in both orders",
@@ -69,7 +69,7 @@ LEVELS = Schema(
 POINTS = LEVELS.only("level") | Schema(
     points=_GAMES.called(
         "points to win, needs points",
-        "the points that a player at this level needs; larger in each row",
+        "the points that a player at this level needs; more in each row than in the one above",
     )
 )
 """A chart of points."""
@@ -159,7 +159,7 @@ def _read(table: TextTable, chart: Schema) -> TextTable:
     if not table.found:
         table.problems.add(
             None,
-            "has none of the columns of a chart. Name the columns {differences}, or {levels}.",
+            "has none of a chart's columns. Name the columns {differences}, or {levels}.",
             differences=", ".join(DIFFERENCES.columns),
             levels=", ".join(LEVELS.columns),
         )
@@ -197,7 +197,7 @@ def _levels(table: TextTable, name: str) -> LevelChart:
     for mine, opponent in missing[:MOST_MISSING]:
         table.problems.add(
             None,
-            "doesn't say what level {level} needs against level {opponent}. Add a row.",
+            "doesn't say how many games level {level} needs against level {opponent}. Add a row.",
             level=mine,
             opponent=opponent,
         )
@@ -372,7 +372,7 @@ def chip_chart_of(name_or_path: str) -> ChipChart:
         return CHIP_CHARTS[name_or_path]
     if not Path(name_or_path).exists() and name_or_path != "-":
         raise InputError(
-            "there's no chip chart or file {name!r}. Charts: {charts}. A file needs the "
+            "there's no chip chart or file {name!r}. The charts are {charts}. A file needs the "
             "columns {columns}.",
             name=name_or_path,
             charts=listed(list(CHIP_CHARTS), "or"),

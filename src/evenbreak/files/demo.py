@@ -14,17 +14,17 @@ from evenbreak.files.store.tournament import new_tournament, read_event_list
 from evenbreak.tournaments.evening.fold import Evening
 
 DEMO: Mapping[str, str] = {
-    "demo_entrants.csv": "the players of a tournament",
+    "demo_entrants.csv": "a tournament's players",
     "demo_league.csv": "a league's results over two seasons",
-    "demo_roster.csv": "the players of a club and their ratings",
+    "demo_roster.csv": "a club's players and their ratings",
     "demo_pairs.csv": "who plays who tonight",
     "demo_team.csv": "a captain's team",
     "demo_opponents.csv": "the team across the table",
     "drill_log.csv": "a player's attempts at a progressive drill",
     "practice_scores.csv": "practice scores before a change",
-    "practice_scores_after.csv": "practice scores after it",
-    "practice_shots.csv": "practice of single shots",
-    "league.toml": "the league's file: commands run in the folder begin with what it says",
+    "practice_scores_after.csv": "practice scores after that change",
+    "practice_shots.csv": "practice on individual shots",
+    "league.toml": "the league's file, which sets defaults for commands run in the folder",
 }
 """The files of the demo: what each holds."""
 
@@ -42,7 +42,7 @@ def write_demo(folder: str | Path) -> list[str]:
     new = {name: text for name, text in content.items() if not (there / name).exists()}
     others = [name for name in DEMO if name not in new and not _holds(there / name, content[name])]
     if others:
-        problem = "already exists and isn't the demo's. Choose another folder."
+        problem = "already exists and isn't part of the demo. Choose another folder."
         raise DataError([f"{there / name} {problem}" for name in others])
     if new:
         write_files(there, new)

@@ -55,7 +55,7 @@ DRILL_LOG = Schema(
     "attempts",
     level=Whole(
         "difficulty, step, balls",
-        "the level of the attempt",
+        "the attempt's level",
         needed=True,
         filled=True,
         least=1,
@@ -123,7 +123,7 @@ SHOTS = Schema(
     outcome=OUTCOME,
     shot=Text(
         "name, exercise, shot name",
-        "which shot; without this column, all rows are about the same shot",
+        "which shot it was; without this column, all rows are for the same shot",
     ),
     date=Day(_DAY, "the day"),
 )
@@ -268,8 +268,8 @@ def _jump_warning(table: TextTable, log: DrillLog, rows: NDArray[np.int64]) -> l
     step = 1 if log.success[row - 1] else -1
     problem = say(
         "level {level} follows a {outcome} at level {before}, which leads to level {by_rule}; "
-        "{count}. Keep the rows in the order of the attempts; a column session or date says where "
-        "a session begins",
+        "{count}. Keep the rows in the order of the attempts; a session or date column shows "
+        "where a session starts",
         level=log.level[row],
         outcome=say("success") if step > 0 else say("miss"),
         before=log.level[row - 1],

@@ -61,7 +61,7 @@ class LeagueInit(Question):
     folder: Annotated[str, Field(Named(folder, "[FOLDER]"), argument=True)] = "."
     yes: Annotated[bool, Field(Flag(), "Accept all suggestions without asking.")] = False
     name: Annotated[
-        str | None, Field(LINE, "The name of the league.", usual="the folder's", metavar="TEXT")
+        str | None, Field(LINE, "The league's name.", usual="the folder's", metavar="TEXT")
     ] = None
     discipline: Annotated[Discipline | None, Says("The game.", usual="8-ball")] = None
     scale: Annotated[ScaleOf, Says(more="")] = None

@@ -243,11 +243,11 @@ def _notes(sheet: Sheet, shown: Sheet) -> Iterator[str]:
 
 def _about_names(lines: Sequence[PlayerLine], rated: int) -> Iterator[str]:
     if rated > len(lines):
-        yield f"The number beside a name is its place among all {rated:,} players."
+        yield f"The number next to a name is that player's place among all {rated:,} players."
     if any(UNKNOWN in drawable(line.name) for line in lines):
         yield (
-            f"{UNKNOWN} is a letter that the font of this page lacks; ratings.csv has "
-            "the names whole, in the same order."
+            f"{UNKNOWN} is a letter that this page's font lacks; ratings.csv has the full "
+            "names, in the same order."
         )
 
 
@@ -346,5 +346,5 @@ class _Table:
             page.centered(end + sizes.group, y, group_text(line), size=size, ha="right")
         if sizes.group:
             page.text(end + sizes.group, sizes.top - 0.06, GROUP, size=NOTE, ha="right")
-        for k, text in enumerate(("bar: two of them either way", "rating ± standard error")):
+        for k, text in enumerate(("bar: ±2 standard errors", "rating ± standard error")):
             page.text(end, sizes.top - 0.06 - 0.15 * k, text, size=NOTE, ha="right")

@@ -157,14 +157,14 @@ def _check(tonight: Round, players: int) -> None:
     matches = len(tonight.pairs)
     if tonight.listed and matches > MOST_MATCHES:
         raise InputError(
-            f"{matches:,} matches are too many for a page, which holds {MOST_MATCHES} at "
-            "most. Make a list and a page for each part of the round."
+            f"{matches:,} matches are too many for one page, which holds at most {MOST_MATCHES}. "
+            "Make a separate list and page for each part of the round."
         )
     if not tonight.listed and players > MOST_ACROSS:
         raise InputError(
             say(
-                "{players:,} players are too many for a page, which holds all pairs of "
-                "{most_across} at most. Name those who meet with {pairs} PAIRS.csv.",
+                "{players:,} players are too many for one page, which can show all pairs of at "
+                "most {most_across}. List who plays who with {pairs} PAIRS.csv.",
                 players=players,
                 most_across=MOST_ACROSS,
                 pairs=Parameter("pairs"),

@@ -70,7 +70,7 @@ def files_of(manifest: bytes) -> set[str]:
         case {"pages": list(pages), "files": dict(tables)}:
             names = [*pages, *(f"data/{one}" for one in tables)]
             return {one for one in names if isinstance(one, str) and _OURS.fullmatch(one)}
-    raise ValueError("this isn't the manifest of a site")
+    raise ValueError("this isn't a site's manifest")
 
 
 def _standings(table: LeagueTable) -> pd.DataFrame:

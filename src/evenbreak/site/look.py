@@ -149,8 +149,8 @@ def logo_name(content: bytes, source: str) -> str:
     """
     if len(content) > MOST_LOGO_BYTES:
         raise InputError(
-            "logo {source} is {size:,} bytes; the limit is {most:,}. Save a smaller version, "
-            "such as 400 pixels wide.",
+            "the logo {source} is {size:,} bytes; the limit is {most:,}. Save a smaller "
+            "version, such as one 400 pixels wide.",
             source=source,
             size=len(content),
             most=MOST_LOGO_BYTES,
@@ -159,5 +159,5 @@ def logo_name(content: bytes, source: str) -> str:
         if content.startswith(start) and (ending != "webp" or content[8:12] == b"WEBP"):
             return f"logo.{ending}"
     raise InputError(
-        "logo {source} isn't a PNG, JPEG or WebP picture. Save it as one.", source=source
+        "the logo {source} isn't a PNG, JPEG or WebP image. Save it as one of these.", source=source
     )

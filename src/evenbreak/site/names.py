@@ -70,7 +70,7 @@ class PublicNames:
             place = known.place(means.get(same_name(clean_name(name)), clean_name(name)))
             if place is None:
                 problems.append(
-                    f"{where or 'names'}: {quoted(name)} isn't a player of this "
+                    f"{where or 'names'}: {quoted(name)} isn't a player in this "
                     f"league{known.hint(clean_name(name))}. Write the name as it is in "
                     "the results."
                 )

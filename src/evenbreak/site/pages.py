@@ -42,11 +42,11 @@ _ROUND_A_BRACKET = 14_000  # bytes of a bracket's page besides
 
 _TABLES = {
     "standings.csv": "Standings",
-    "ratings.csv": "Ratings, with how far off each may be",
-    "races.csv": "The race of every pair",
+    "ratings.csv": "Ratings, each with its margin of error",
+    "races.csv": "Every pair's race",
     "matches.csv": "All matches",
     "changes.csv": "What has changed in a week",
-    "manifest.json": "What is in these files, with a checksum of each",
+    "manifest.json": "A list of these files, with their checksums",
 }
 
 
@@ -337,7 +337,7 @@ class _Pages:
         if league.races.levels:
             won = f" {game}, and the race {_percent(p)} of the time." if alone else ""
             said = (
-                f"{name} is a skill level {first:g} and {opponent}, the last opponent, a skill "
+                f"{name} is a skill level {first:g}, and {opponent}, the last opponent, is a skill "
                 f"level {second:g}. The chart gives {race((m, n))}.{won}"
             )
         else:
@@ -345,20 +345,20 @@ class _Pages:
             points = f"{{:.{league.decimals}f}}".format
             fair = isinstance(league.races.rule, OfferedRaces)
             played = race((m, n))
-            reason = "is the race nearest to even" if fair else "is what the chart gives"
+            reason = "is the race closest to even" if fair else "is what the chart gives"
             said = (
-                f"{name} is rated {points(first)} and {opponent}, the last opponent, "
-                f"{points(second)}: {points(apart)} points apart. {game}, and {played} {reason}: "
+                f"{name} is rated {points(first)}, and {opponent}, the last opponent, is rated "
+                f"{points(second)}, so they are {points(apart)} points apart. {game}, and {played} {reason}: "
                 f"{name} wins it {_percent(p)} of the time."
             )
         more = [
-            f"If {one.winner} wins the next match between the two {one.score}, the race becomes "
+            f"If {one.winner} wins their next match {one.score}, the race becomes "
             f"{race(one.then.race)}."
             for one in league.one_more(name, opponent)
             if one.then.race is not None
         ]
         if isinstance(league.races.rule, OfferedRaces) and not more:
-            more = ["Whoever wins the next match between the two, the race stays the same."]
+            more = ["No matter who wins their next match, the race stays the same."]
         return race((m, n)), [said, *more]
 
     def tournaments(self) -> bytes:

@@ -89,8 +89,8 @@ def history(league: PublishedLeague, player: str) -> Chart | None:
     lower = [(at, axis.y(r - e)) for at, r, e in zip(x, rating, error, strict=True)]
     middle = [(at, axis.y(r)) for at, r in zip(x, rating, strict=True)]
     return Chart(
-        f"The rating from {short_day(known[0][0])}, {rating[0]:.0f}, to "
-        f"{short_day(known[-1][0])}, {rating[-1]:.0f}",
+        f"The rating from {rating[0]:.0f} on {short_day(known[0][0])} to "
+        f"{rating[-1]:.0f} on {short_day(known[-1][0])}",
         _ticks(axis),
         below=[(LEFT, short_day(known[0][0]), "start"), (x[-1], short_day(known[-1][0]), "end")],
         line=_points(middle),
@@ -148,8 +148,8 @@ def _spread(league: PublishedLeague) -> tuple[str, Chart, str] | None:
     half = [one.rating for one in placed]
     low, high = np.quantile(half, [0.25, 0.75]).tolist()
     words = (
-        f"From {placed[0].rating:.0f} down to {placed[-1].rating:.0f}; the middle half of the "
-        f"{len(placed)} players is between {low:.0f} and {high:.0f}. The bars show how far off "
+        f"Ratings run from {placed[0].rating:.0f} down to {placed[-1].rating:.0f}; the middle half "
+        f"of the {len(placed)} players are between {low:.0f} and {high:.0f}. The bars show how far off "
         "each rating may be."
     )
     label = "The rating of every player with a place, the highest on the left"
@@ -185,10 +185,10 @@ def _evenness(league: PublishedLeague) -> tuple[str, Chart, str] | None:
         size = np.abs(apart[part])
         below.append((at, f"{size.min():.0f}–{size.max():.0f}", "middle"))
     words = (
-        f"The stronger player won {100 * won.mean():.0f}% of {len(rows):,} matches; today's "
-        f"ratings say to expect {100 * float(np.mean(expected)):.0f}%. A dot on the dashed line "
-        "means even races. Under each dot: how many points apart the two players were. The bars "
-        "show how far luck alone can move a dot."
+        f"The stronger player won {100 * won.mean():.0f}% of {len(rows):,} matches; by "
+        f"today's ratings, you'd expect {100 * float(np.mean(expected)):.0f}%. A dot on the dashed "
+        "line means even races. Below each dot is how many points apart the two players were. The "
+        "bars show how far luck alone can move a dot."
     )
     chart = Chart(
         "How often the stronger player won, by the difference in ratings",

@@ -85,7 +85,7 @@ def _placed(
     """Return the tournament with its bracket: its rounds say who comes from where."""
     stages: list[Any] = _rows(data, "stage") or []
     if len(stages) != 1:
-        raise ExportError("has {n} stages. Give a tournament of one stage.", n=len(stages))
+        raise ExportError("has {n} stages. Give a tournament with one stage.", n=len(stages))
     group_of, round_of = (
         {row["id"]: int(row["number"]) for row in _rows(data, name) or ()}
         for name in ("group", "round")
@@ -98,7 +98,7 @@ def _placed(
         for before, match in zip(saved.matches, _rows(data, "match"), strict=True)
     }
     if len(spots) < len(saved.matches):
-        raise ExportError("has two matches in one place of its bracket")
+        raise ExportError("has two matches in the same place in its bracket")
     kind = stages[0].get("type")
     double = kind == "double_elimination"
     if double and not any(group == 3 for group, _, _ in spots):

@@ -122,7 +122,7 @@ def export_of(content: bytes, source: str) -> Export | None:
     remarks = Counter(remark for _, part in played for remark in part.remarks)
     noted = _counted(left_out, remarks)
     if not played:
-        raise refusal(source, "has no match that was played{noted}", noted=noted)
+        raise refusal(source, "has no matches that were played{noted}", noted=noted)
     rows = [list(TITLES), *(part.row() for _, part in played)]
     if noted:
         read = say_count(

@@ -30,12 +30,12 @@ class Remark(Enum):
         "matches counted without the head starts in their scores",
     )
     NO_RACE = (
-        "match read without its race, which the score does not end",
-        "matches read without their races, which the scores do not end",
+        "match whose score doesn't complete its race (race ignored)",
+        "matches whose scores don't complete their races (races ignored)",
     )
     FEWER_GAMES = (
-        "match read without its winner, who won fewer games",
-        "matches read without their winners, who won fewer games",
+        "match whose stated winner won fewer games (winner ignored)",
+        "matches whose stated winners won fewer games (winners ignored)",
     )
     NO_DATE = (
         "match whose time can't be read as a date",
@@ -168,7 +168,7 @@ class SavedTournament(NamedTuple):
 
 def misshapen() -> str:
     """Return what to say of a file that is not built as its program builds it."""
-    return say("isn't built as expected. Save it again in the other program.")
+    return say("doesn't have the expected structure. Save it again in the other program.")
 
 
 def match_of(key: Any, read: Callable[[], tuple[Played, ...] | Remark], *times: Any) -> SavedMatch:
@@ -214,7 +214,7 @@ def player_of(names: Mapping[Any, str], number: Any) -> str:
     name = names.get(number)
     if not name:
         raise ExportError(
-            "is played by number {number!r}, which no participant with a name has", number=number
+            "has player number {number!r}, but no named participant has that number", number=number
         )
     return name
 

@@ -79,7 +79,7 @@ def _events(
 ) -> list[Event]:
     players = saved.players
     if len(players) < 2:
-        raise InputError("has no two players with names")
+        raise InputError("has fewer than two players with names")
     entrants = tuple(rated.get(name, plan.newcomer(name)) for name in players)
     plan = _with_races(_planned(saved, plan), saved, names := _names(saved))
     happened = _happened(saved, names, _tables(saved, plan.tables))
@@ -167,7 +167,7 @@ def _pair_names(saved: SavedTournament) -> dict[Any, str]:
         name_of[pair] = match.name
     pairs = [frozenset(filter(None, one.slots)) for one in saved.matches]
     if len(set(pairs)) < len(pairs):
-        raise InputError("has two matches of the same two players in a round robin")
+        raise InputError("has two matches between the same two players in a round robin")
     return {
         one.key: name_of[pair]  # type: ignore[index]
         for one, pair in zip(saved.matches, pairs, strict=True)
@@ -183,7 +183,7 @@ def _with_races(plan: Plan, saved: SavedTournament, names: Mapping[Any, str]) ->
     if plan.race:
         return plan
     if not stated:
-        raise InputError("doesn't say what is raced to. Give {race}.", race=Parameter("race"))
+        raise InputError("doesn't say how long the races are. Give {race}.", race=Parameter("race"))
     usual = Counter(stated.values()).most_common(1)[0][0]
     inside = bracket_of(replace(plan, race=usual), saved.players, None).by_name
     others = {name: race for name, race in stated.items() if race != usual and name in inside}
@@ -278,7 +278,7 @@ def _check(events: Sequence[Event]) -> None:
     for aside in state.aside:
         seats = state.standing.seats.get(aside.result.match)
         if seats is None:
-            raise InputError("{match} is a bye, but has a result", match=aside.result.match)
+            raise InputError("{match} is a bye, but it has a result", match=aside.result.match)
         now = [say("no one yet") if k is None else state.order[k] for k in seats]
         raise InputError(
             "{players} played {match}, but the matches before it send {others} there",

@@ -96,7 +96,7 @@ def _one_league(every: list[SeenFile]) -> list[SeenFile]:
         league |= {one.name for one in more}
         known = known.union(*(one.players for one in more))
     teams = frozenset[str]().union(*(one.teams for one in every if one.name in league))
-    about = say("players of another league than {file}", file=largest.name)
+    about = say("players from a different league than {file}", file=largest.name)
     return [
         replace(one, what="", about=about)
         if one.name not in league and one.players and not one.players & (known | teams)
@@ -135,7 +135,7 @@ def _chart(path: Path) -> SeenFile | None:
     except DataError:
         about = say("a chart with mistakes: see `evenbreak chart audit {name}`", name=path.name)
         return SeenFile(name=path.name, what="", about=about)
-    return SeenFile(name=path.name, what=CHART, about=say("a chart of races"))
+    return SeenFile(name=path.name, what=CHART, about=say("a race chart"))
 
 
 _OF_CHARTS = ({"stronger_needs", "weaker_needs"}, {"level", "opponent_level", "needs"})
@@ -146,7 +146,7 @@ def _aliases(path: Path) -> SeenFile | None:
     if table is None or table.titles["means"].casefold() not in ("means", "stands for"):
         return None
     means = read_aliases(path).means
-    about = say_count("{n} name that means another", "{n} names that mean others", len(means))
+    about = say_count("{n} other name for a player", "{n} other names for players", len(means))
     return SeenFile(name=path.name, what="aliases", about=about, holds=means)
 
 
@@ -172,7 +172,7 @@ def _perhaps(path: Path) -> SeenFile | None:
     if not ways:
         return None
     about = say(
-        "perhaps results; `evenbreak rate {name}` shows in which {n} ways they can be read",
+        "perhaps results; `evenbreak rate {name}` shows the {n} ways to read them",
         name=path.name,
         n=len(ways),
     )
@@ -195,7 +195,7 @@ def _results_by(path: Path, columns: Mapping[str, str]) -> SeenFile:
         file = read_results(path, columns=columns)
     except DataError as error:
         about = say_count(
-            "results of matches, with {n} line to fix: see `evenbreak rate {name}`",
+            "match results, with {n} line to fix: see `evenbreak rate {name}`",
             "match results, with {n} lines to fix: see `evenbreak rate {name}`",
             len(error.problems),
             name=path.name,
@@ -203,7 +203,7 @@ def _results_by(path: Path, columns: Mapping[str, str]) -> SeenFile:
         return SeenFile(name=path.name, what=RESULTS, about=about, columns=columns)
     results, warnings = file.results, tuple(filter(source_of_form, file.warnings))
     about = say(
-        "{n:,} matches of {players:,} players", n=len(results), players=len(results.players)
+        "{n:,} matches among {players:,} players", n=len(results), players=len(results.players)
     )
     names = frozenset(map(same_name, results.players))
     return SeenFile(

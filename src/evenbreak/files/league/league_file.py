@@ -38,7 +38,10 @@ class LeagueFiles:
     """`[files]`: the files of the league's folder."""
 
     roster: Annotated[
-        str | None, Field(values.FILE, "The players: rating, skill level or both, and team.")
+        str | None,
+        Field(
+            values.FILE, "The players, with their ratings, skill levels or both, and their teams."
+        ),
     ] = None
     fixtures: Annotated[str | None, Field(values.FILE, "Who plays who, and when.")] = None
     teams: Annotated[
@@ -76,10 +79,13 @@ class TeamRules:
     ] = None
     at_most: Annotated[
         tuple[int, float] | None,
-        Field(values.STRONG, "At most this many players of this level or above, such as 2:6."),
+        Field(
+            values.STRONG,
+            "The most players allowed at or above a level, such as 2:6 (two at level 6 or above).",
+        ),
     ] = None
     order: Annotated[
-        str | None, Field(values.ORDER, "Who names first, as for `evenbreak lineup`.")
+        str | None, Field(values.ORDER, "Who names a player first, as in `evenbreak lineup`.")
     ] = None
     count: Annotated[
         str | None, Field(values.COUNT, "What decides a match: sets won, all games, or points.")
@@ -125,7 +131,10 @@ class Published:
     color: Annotated[str | None, Field(values.COLOR, "The site's color.")] = None
     logo: Annotated[str | None, Field(values.FILE, "A logo for the top of the site.")] = None
     names: Annotated[
-        str, Field(values.NAMES, "Players' names in full, as initials, or not at all (hidden).")
+        str,
+        Field(
+            values.NAMES, "How players' names appear: in full, as initials, or not at all (hidden)."
+        ),
     ] = "full"
     players: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
     """The same for single players."""
@@ -140,24 +149,25 @@ class LeagueFile:
 
     folder: Path
     file: str = LEAGUE_TOML
-    name: Annotated[str | None, Field(values.LINE, "The name of the league.")] = None
+    name: Annotated[str | None, Field(values.LINE, "The league's name.")] = None
     discipline: Annotated[str | None, Field(Choice(DISCIPLINES), "The game.")] = None
     scale: Annotated[
         Scale | None,
-        Field(values.SCALE, "The scale of the ratings; left out in a league of skill levels."),
+        Field(values.SCALE, "The rating scale; leave it out if the league uses skill levels."),
     ] = None
     chart: Annotated[
         str | None, Field(values.FILE, "The race chart: a name, or a file in the folder.")
     ] = None
     race: Annotated[
-        int | None, Field(Whole(1, LONGEST_RACE), "Without a chart: even races to this many games.")
+        int | None,
+        Field(Whole(1, LONGEST_RACE), "Without a chart: every race is even, to this many games."),
     ] = None
     race_to: Annotated[
         int | None,
         Field(
             Whole(1, LONGEST_RACE),
-            "Without a chart: the stronger player races to this many games, and the weaker gets "
-            "the fairest race.",
+            "Without a chart: the stronger player races to this many games, and the weaker "
+            "player gets the fairest race.",
         ),
     ] = None
     system: Annotated[
@@ -238,7 +248,8 @@ def league_of(content: bytes, path: Path, *, quickly: bool = False) -> LeagueFil
         line = re.match(r"line (\d+)", place_of)
         problems.add(
             int(line[1]) if line else text.count("\n") + 1,
-            'can\'t be read: {what}. Write a key, = and a value, and text in quotes: name = "Ann".',
+            "can't be read: {what}. Write a key, = and a value, with text in quotes: name = "
+            '"Ann".',
             what=what,
         )
     problems.raise_any()
@@ -299,12 +310,12 @@ class _Reader:
     def whole(self, league: LeagueFile) -> None:
         """Note what does not go together."""
         if league.begins and league.ends and league.ends < league.begins:
-            self.note(("ends",), "ends before it starts. Correct one of the two dates.")
+            self.note(("ends",), "the season ends before it starts. Correct one of the two dates.")
         races = [name for name in ("chart", "race", "race_to") if getattr(league, name) is not None]
         if len(races) > 1:
             self.note(
                 (races[1],),
-                "{key} and {other} each say how long races are. Keep one.",
+                "{key} and {other} both say how long races are. Keep one.",
                 key=races[1],
                 other=races[0],
             )
@@ -349,14 +360,14 @@ class _Reader:
             keys,
             "there's no file {name} in the folder. Correct the name{near}, or delete the line.",
             name=quoted(name),
-            near=say(" (there is {near})", near=quoted(near[0])) if near else "",
+            near=say(" (did you mean {near}?)", near=quoted(near[0])) if near else "",
         )
         return None
 
     def sources(self, value: Any, keys: Keys) -> tuple[Source, ...]:
         """Return the files of results."""
         if not isinstance(value, list) or not all(isinstance(one, Mapping) for one in value):
-            self.note(keys, 'write a line [[results]] for each file, and below it file = "..."')
+            self.note(keys, 'write a [[results]] line for each file, with file = "..." below it')
             return ()
         every = [self.section(Source, one, (*keys, k)) for k, one in enumerate(value)]
         names = [one.get("file") for one in value]
@@ -373,7 +384,9 @@ class _Reader:
             if isinstance(value, str) and value.strip():
                 yield name, value
             else:
-                self.note((*keys, name), "{name} takes a text in quotes", name=quoted(name))
+                self.note(
+                    (*keys, name), "the value of {name} must be text in quotes", name=quoted(name)
+                )
 
     def columns(self, table: Mapping[str, Any], keys: Keys) -> dict[str, str]:
         """Return the titles of columns by what they are."""
@@ -423,7 +436,7 @@ class _Reader:
         else:
             self.note(
                 keys,
-                "there is no key {key}; here are {known}",
+                "there's no key {key}. The keys here are {known}.",
                 key=quoted(key),
                 known=", ".join(known),
             )

@@ -155,8 +155,8 @@ def _scale(roster: SeenFile) -> str:
 
 WIDTH = 90
 HEAD = """\
-# The file of a league. Commands run in this folder take their defaults from it; options win.
-# A line that begins with # is a comment: remove the # to use it.
+# A league's file. Commands run in this folder take their defaults from it; options override it.
+# A line that starts with # is a comment; remove the # to use it.
 
 """
 
@@ -177,7 +177,8 @@ def league_toml(league: NewLeague) -> str:
         if section != "files":
             parts += [f"\n[{section}]\n", *_keys(of, f"{section}.", league.values)]
     parts.append(
-        '\n# How single players are named, as "Ann Lee" = "initials".\n[publish.players]\n'
+        '\n# How individual players\' names appear, such as "Ann Lee" = "initials".\n'
+        "[publish.players]\n"
     )
     return "".join(parts)
 

@@ -116,7 +116,8 @@ def league_results(
     """
     if not league.results:
         raise refusal(
-            str(league.path), 'names no results. Add a line [[results]], and below it file = "...".'
+            str(league.path),
+            'lists no results. Add a [[results]] line, with file = "..." below it.',
         )
     if aliases is None:
         aliases = AliasesFile(dict(league.aliases), str(league.path), ())
@@ -147,9 +148,8 @@ def league_results(
             league.place(names[k]),
             None,
             say_count(
-                "{n} match that already exists, with the same players, score and day, counts once",
-                "{n:,} matches that are there already, with the same players, score and day, "
-                "count once",
+                "{n} match is a repeat, with the same players, score and day, and counts once",
+                "{n:,} matches are repeats, with the same players, score and day, and count once",
                 n,
             ),
         )
@@ -287,13 +287,15 @@ class _Rows:
         for rows in met.values():
             if len(rows) == 2 and self.keys[rows[0]] != self.keys[rows[1]]:
                 doubts += self._between(
-                    rows, say("another score than in {source}, line {line}; both count")
+                    rows, say("the score differs from {source}, line {line}; both matches count")
                 )
         for rows in alike.values():
             undated = [row for row in rows if self.keys[row][0] == "NaT"]
             others = [row for row in rows if row not in undated]
             if len(undated) == 1 == len(others):
-                text = say("without a date the same as {source}, line {line}; both count")
+                text = say(
+                    "the same match as in {source}, line {line}, but without a date; both count"
+                )
                 doubts += self._between([others[0], undated[0]], text)
         return doubts
 

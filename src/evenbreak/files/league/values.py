@@ -61,7 +61,8 @@ def strong_in(text: str) -> tuple[int, float]:
     )
     if match is None:
         raise InputError(
-            "{value!r}: write how many players of which level, such as 2:6.", value=text
+            "{value!r}: write the most players allowed at or above a level, such as 2:6.",
+            value=text,
         )
     return int(match[1]), float(match[2])
 
@@ -92,8 +93,8 @@ def points_in(text: str) -> TableRules:
             raise InputError("too few")
     except (InputError, ValueError):
         message = (
-            f"{text!r} isn't a rule for points. Give those of a win, a draw and a loss, "
-            "such as 2,1,0 (and of each game or set won, such as 1,0,0,1), or sets, or "
+            f"{text!r} isn't a rule for points. Give the points for a win, a draw and a loss, "
+            "such as 2,1,0 (and for each game or set won, such as 1,0,0,1), or sets, or "
             f"{' or '.join(SPLITS)}."
         )
         raise InputError(message) from None
@@ -202,7 +203,7 @@ def _line(text: str) -> str:
     line = " ".join(unicodedata.normalize("NFC", text).split())
     if not 1 <= len(line) <= 200 or not line.isprintable():
         raise InputError(
-            "{value!r}: give a line of up to 200 letters that can be printed", value=line[:40]
+            "{value!r} must be one line of up to 200 printable characters", value=line[:40]
         )
     return line
 

@@ -19,7 +19,7 @@ from evenbreak.league.tables.table import player_matches, team_matches
 from evenbreak.ratings.results import Results
 
 SIDES = TEAM.but(player={"instead": ("team",)}, team={"also": "team name"}) | Schema(
-    venue=Text("home venue, location, place", "where the team is at home"),
+    venue=Text("home venue, location, place", "where the team plays its home matches"),
     tables=Whole("tables there", "the number of tables at that venue", most=1000),
 )
 """Who takes part: players, or teams with their venues."""
@@ -29,7 +29,7 @@ FIXTURE_LIST = PAIR | Schema(
     date=Day("day, match date", "the day"),
     venue=Text("location, place", "where it is played"),
     table=Whole("table number", "the table", most=1000),
-    turn=Whole("", "which match on that table it is that night", most=1000),
+    turn=Whole("", "whether it's the first match there that night, the second, ...", most=1000),
 )
 """Fixtures, as `league fixtures` writes them."""
 
@@ -87,7 +87,7 @@ def read_sides(path: str | Path, *, of: str | None = None) -> Sides:
         names.setdefault(known, " ".join(name.split()))
         venues[known] = venues.get(known) or venue.strip()
     if len(names) < 2:
-        table.problems.add(None, "names fewer than two. List everyone who takes part.")
+        table.problems.add(None, "has fewer than two names. List everyone who is taking part.")
     table.problems.raise_any()
     tables = {
         venue.strip(): int(many)
@@ -117,7 +117,7 @@ def read_fixture_list(path: str | Path) -> tuple[list[Fixture], tuple[str, ...]]
     table = FIXTURE_LIST.read(path)
     for row, (home, away) in enumerate(zip(table["home"], table["away"], strict=True)):
         if home and same_name(home) == same_name(away):
-            table.note(row, "{name} meets itself. Correct one of the names.", name=quoted(home))
+            table.note(row, "{name} is on both sides. Correct one of the names.", name=quoted(home))
     table.problems.raise_any()
     days = [None if np.isnat(day) else day.astype(object) for day in table["date"]]
     columns = (

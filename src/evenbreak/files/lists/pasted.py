@@ -306,7 +306,7 @@ class _Judge:
 
     @staticmethod
     def _number(cell: str) -> str:
-        return say("the number {n} may be a rating, or not", n=cell)
+        return say("the number {n} may or may not be a rating", n=cell)
 
     def _with_front(
         self, one: _Parts
@@ -397,8 +397,8 @@ def _without_doubles(read: Sequence[Reading]) -> list[Reading]:
             )
             other = (player._replace(name=f"{player.name} {many}"),)
             twice = say(
-                "player {name} is already in line {line}. Delete one of the two, or give "
-                "two players of the same name different names, such as {other}.",
+                "player {name} is already in line {line}. Delete one of the two, or give two "
+                "players with the same name different names, such as {other}.",
                 name=quoted(player.name),
                 line=first,
                 other=quoted(other[0].name),

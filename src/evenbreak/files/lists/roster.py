@@ -46,8 +46,8 @@ ROSTER = Schema(
         needed=True,
         instead=("given_name surname",),
     ),
-    given_name=Text("", "with the surname, or with the rest of the name in `player`"),
-    surname=Text("", "with `given_name`, instead of `player`"),
+    given_name=Text("", "used with `surname`, or with the rest of the name in `player`"),
+    surname=Text("", "used with `given_name`, instead of `player`"),
     rating=Number(
         "points, handicap, fargo rating, fargo, elo",
         "the rating; the column title may name the scale (`Fargo rating`, `Elo`); not needed if "
@@ -60,8 +60,8 @@ ROSTER = Schema(
     ),
     effective_rating=Number(
         "",
-        "in a list saved from FargoRate: the rating of players whose `rating` is 0 because they "
-        "have fewer than 200 games; these ratings are provisional",
+        "in a list saved from FargoRate: the provisional rating of a player whose `rating` is 0 "
+        "because they have fewer than 200 games",
         least=0,
         most=LARGEST,
         write=say("points such as 85"),
@@ -77,12 +77,12 @@ ROSTER = Schema(
     ),
     standard_error=_ERROR.called(
         "se, sd, error, plus or minus, uncertainty",
-        "how far off the rating may be: one standard deviation, in the same points",
+        "how far off the rating may be: one standard deviation, in rating points",
     ),
     quasi_error=_ERROR.called(
         "quasi standard error, qse",
-        "the same without the uncertainty that all ratings share, for rating differences; used "
-        "instead of `standard_error` if given",
+        "the standard error for rating differences, which leaves out the uncertainty that all "
+        "ratings share; used instead of `standard_error` if given",
     ),
     games=_COUNT.called(
         "games played, racks, robustness",
@@ -93,8 +93,8 @@ ROSTER = Schema(
     ),
     matches=_COUNT.called(
         "matches played",
-        "matches that the player has played, for [systems](systems.md) with longer steps for "
-        "newcomers; players without a value are treated as established",
+        "how many matches the player has played, for [systems](systems.md) with larger steps "
+        "for newcomers; players without a value are treated as established",
     ),
     provisional=YesNo(
         "preliminary",
@@ -106,17 +106,17 @@ ROSTER = Schema(
         "matches won for which only the winner is known; like games, they show that a player "
         "isn't new",
     ),
-    races_lost=_COUNT.called("", "the same for matches lost"),
+    races_lost=_COUNT.called("", "matches lost for which only the winner is known"),
     match_form=Number(
-        about="[day-to-day form](../explanation/ratings.md#day-to-day-form): how much "
-        "the log-odds of a game vary from match to match; the same in each row",
+        about="[day-to-day form](../explanation/ratings.md#day-to-day-form): how much the "
+        "log-odds of a game vary from match to match; the same in every row",
         least=0,
         most=3,
         write=say("the standard deviation of log-odds from 0 to 3, such as 0.35"),
     ),
     scale=Parsed(
         "rating scale, points that double the odds",
-        "the scale of all ratings; the same in each row",
+        "the scale of all ratings; the same in every row",
         parse=_known_scale,
         nothing=None,
         kind=say("a scale"),
@@ -151,43 +151,43 @@ _WEEK = Whole(most=LAST_WEEK, write=say("1 for the first week, 2, ..."))
 OF_SEASON = Schema(
     skill=Number(
         "true skill, true rating, strength",
-        "the true skill at the start, in points. If it is empty, a skill is drawn for each season "
-        "from a normal distribution around the rating with `standard_error`; if that is empty "
-        "too, the rating is taken to be exact",
+        "the player's true skill at the start, in points. If this is empty, a skill is drawn "
+        "for each season from a normal distribution around the rating, with `standard_error` "
+        "as its standard deviation; if that is empty too, the rating is treated as exact",
         least=-FARTHEST,
         most=FARTHEST,
         write=say("points such as 85"),
     ),
     day_sd=Number(
         "day, day fluctuation, form",
-        "how far the skill varies from day to day: one standard deviation, in points; if the "
-        "cell is empty, `--day-sd` applies",
+        "how much the skill varies from day to day: one standard deviation, in points; if this "
+        "is empty, `--day-sd` applies",
         least=0,
         most=LARGEST_SD,
         write=say("points such as 5"),
     ),
     drift=Number(
         "points a week, improves by",
-        "points by which the true skill rises each week",
+        "how many points the true skill rises each week",
         least=-LARGEST_SD,
         most=LARGEST_SD,
         write=say("points a week such as 0.1"),
     ),
     joins=_WEEK.called("first week, joins in week", "the player's first week; 1 if empty"),
     leaves=_WEEK.called(
-        "last week, leaves after week", "the last week; empty or 0 if the player stays to the end"
+        "last week, leaves after week", "the player's last week; empty or 0 if they stay to the end"
     ),
     absence=Number(
         "absent, p absent",
-        "P(the player misses a week); 0 if empty",
+        "the chance that the player misses a week; 0 if empty",
         least=0,
         most=1,
-        write=say("the chance to be absent, such as 0.1"),
+        write=say("the chance of being absent, such as 0.1"),
     ),
     team=Name(
         "team name, club",
         "the player's team, in a team league; the fixtures are then between teams",
-        write=say("the team of each player"),
+        write=say("each player's team"),
     ),
 )
 """The columns that a simulated season uses besides those of a roster; other readers skip them."""
@@ -333,7 +333,7 @@ def roster_of(table: TextTable, *, rated: bool = True) -> RosterFile:
     if own in table:
         table.note(
             np.isnan(rating) & ratings.good & (games > 0),
-            "{column} is empty after {games} games. Fill it in, or write 0 games.",
+            "{column} is empty, but the player has {games} games. Fill it in, or write 0 games.",
             column=own,
             games=games,
         )
@@ -372,9 +372,8 @@ def _refuse_twice(table: TextTable, names: list[str]) -> None:
             spelt = "" if spelling == name else say(" as {name}", name=quoted(spelling))
             table.problems.add(
                 line,
-                "player {name} is already in line {line}{spelt}. Delete one of the two, "
-                "or give two players of the same name different names, such as 'Ann Lee "
-                "2'.",
+                "player {name} is already in line {line}{spelt}. Delete one of the two, or give "
+                "two players with the same name different names, such as 'Ann Lee 2'.",
                 name=quoted(name),
                 line=earlier,
                 spelt=spelt,
@@ -398,7 +397,7 @@ def _scale(table: TextTable) -> Scale | None:
     if named is not None and not first.same_points(SCALES[named]):
         table.note(
             rows[0],
-            "scale {scale!r} differs from the title {title}. Correct one of them.",
+            "scale {scale!r} differs from the column title {title}. Correct one of them.",
             scale=first.text,
             title=quoted(table.titles["rating"]),
         )
@@ -424,8 +423,8 @@ def _form(table: TextTable) -> float:
     first = float(column[rows[0]])
     table.note(
         rows[column[rows] != first],
-        "match_form {form:g} differs from {first:g} in line {line}; it is that of the whole "
-        "league, so write one number",
+        "match_form {form:g} differs from {first:g} in line {line}; it applies to the whole "
+        "league, so write the same number in every row",
         form=column,
         first=first,
         line=table.lines[rows[0]],

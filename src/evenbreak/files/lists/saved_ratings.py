@@ -121,8 +121,8 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
         raise DataError(
             [
                 say(
-                    "{source} states that its ratings are {stated}, but the results are "
-                    "rated on {asked}. Give {scale} {stated}.",
+                    "{source} says its ratings are {stated}, but the results are rated on "
+                    "{asked}. Give {scale} {stated}.",
                     source=FilePath(file.source),
                     stated=file.scale.text,
                     asked=scale.text,
@@ -132,12 +132,12 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
         )
     if file.levels and file.scale is None:
         raise refusal(
-            file.source, "its ratings are skill levels. Give ratings in points to begin from."
+            file.source, "its ratings are skill levels. Give ratings in points to start from."
         )
     roster = file.roster
     rated = np.flatnonzero(~np.isnan(roster.rating))
     if not len(rated):
-        raise refusal(file.source, "no player in it has a rating to begin from")
+        raise refusal(file.source, "none of its players has a rating to start from")
     rated_players = KnownNames(players)
     places = [rated_players.place(roster.players[k]) for k in rated]
     error = roster.standard_error[rated]

@@ -118,7 +118,7 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
         table.problems.add(None, "has 1 player; a league needs two or more")
     in_teams = "team" in table.found
     if in_teams:
-        table.note(table["team"] == "", "team is empty. Name the team of each player.")
+        table.note(table["team"] == "", "team is empty. Name each player's team.")
     file = roster_of(table)
     roster, newcomers = _with_newcomers(file)
     sd = np.where(np.isnan(skill), roster.standard_error, 0.0)
@@ -143,8 +143,8 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
     rounded = int((whole != roster.rating).sum())
     if rounded:
         note = say_count(
-            "{n} rating is rounded to whole points, as charts need",
-            "{n:,} ratings are rounded to whole points, as charts need",
+            "{n} rating was rounded to whole points, because charts need them",
+            "{n:,} ratings were rounded to whole points, because charts need them",
             rounded,
         )
         warnings.append(warning(table.source, None, note))
@@ -174,7 +174,7 @@ def _with_newcomers(file: RosterFile) -> tuple[Roster, list[str]]:
     if not new.any():
         return roster, []
     if not len(stated):
-        raise refusal(file.source, "has no rating at all. Fill in those that are known.")
+        raise refusal(file.source, "has no ratings at all. Fill in the ones you know.")
     middle, spread = float(np.median(stated)), float(stated.std())
     error = np.where(new & np.isnan(roster.standard_error), spread, roster.standard_error)
     started = replace(
@@ -274,7 +274,7 @@ class _OfRoster(Name):
         if not name:
             return super().fault("")
         return say(
-            "{name} isn't in the roster{hint}. Write names as the roster does.",
+            "{name} isn't in the roster{hint}. Write names as they are in the roster.",
             name=quoted(name),
             hint=self.players.hint(name),
         )
@@ -396,7 +396,7 @@ def _twice(table: TextTable, week: NDArray[np.int64], pairs: NDArray[np.int64]) 
         warning(
             table.source,
             table.lines[row],
-            "the same two meet in week {week} as in line {line}; both matches are played",
+            "the same two already meet in week {week}, in line {line}; both matches will be played",
             week=week[row],
             line=table.lines[earlier[row]],
         )

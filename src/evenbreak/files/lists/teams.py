@@ -41,7 +41,7 @@ TEAM = (
 )
 """The players of a team."""
 
-SQUADS = TEAM | Schema(team=Name(about="the player's team", write=say("the team of each player")))
+SQUADS = TEAM | Schema(team=Name(about="the player's team", write=say("each player's team")))
 """The players of all teams."""
 
 
@@ -97,7 +97,7 @@ TEAMS = Schema(
         most=10_000,
         write=say("points such as -2"),
     ),
-    venue=Text("home venue, location, place", "where the team plays at home"),
+    venue=Text("home venue, location, place", "where the team plays its home matches"),
     tables=Text("tables there", "the number of tables at that venue"),
 )
 """The teams of a league."""
@@ -198,7 +198,7 @@ def read_squads(path: str | Path) -> dict[str, TeamList]:
         teams.setdefault(name, []).append(line)
     table.problems.raise_any()
     if len(teams) < 2:
-        raise refusal(table.source, "names one team only; a league has two or more")
+        raise refusal(table.source, "has only one team; a league needs two or more")
     every = set(table.lines.tolist())
     return {name: _team_of(table.without(every - set(lines))) for name, lines in teams.items()}
 
@@ -319,17 +319,17 @@ def read_team_results(
     home, away = table.read["home_score"], table.read["away_score"]
     table.note(
         table["forfeit"] & (home.values + away.values == 0),
-        "is a forfeit without a score. Write the sets that it counts, such as 3 and 0.",
+        "is a forfeit without a score. Write the sets that it counts for, such as 3 and 0.",
     )
     table.note(
         (home.stated != away.stated) & home.good & away.good,
-        "one score is empty. Write both, or neither where the match wasn't played.",
+        "one score is empty. Write both, or neither if the match wasn't played.",
     )
     scores = np.stack([home.values, away.values], axis=1)
     unplayed = (scores.sum(axis=1) == 0) & home.good & away.good
     every = _matches(table, teams, scores)
     if unplayed.all():
-        raise refusal(table.source, "no match in it has been played. Fill in the scores.")
+        raise refusal(table.source, "none of its matches has been played. Fill in the scores.")
     to_come = replace(every.among(unplayed), scores=np.zeros((unplayed.sum(), 0), dtype=np.int64))
     return every.among(~unplayed), replace(to_come, warnings=())
 
@@ -363,7 +363,7 @@ def _matches(table: TextTable, teams: TeamNames, scores: Ints) -> TeamMatches:
                 pairs[row, side] = place
         if both[0] and same_name(both[0]) == same_name(both[1]):
             table.problems.add(
-                line, "{name} meets itself. Correct one of the teams.", name=quoted(both[0])
+                line, "{name} is on both sides. Correct one of the teams.", name=quoted(both[0])
             )
     table.problems.raise_any()
     rounds = tuple(table.cells("round" if "round" in table else "date"))
@@ -395,8 +395,8 @@ def _twice(
         key = (home, away, rounds[row], *scores[row].tolist())
         if key in seen:
             again = say(
-                "{home} against {away} is in line {line} already; if it was entered twice, delete "
-                "one",
+                "{home} against {away} is already in line {line}; if it was entered twice, "
+                "delete one",
                 home=names[home],
                 away=names[away],
                 line=seen[key],
@@ -407,7 +407,7 @@ def _twice(
         for team in (home, away) if rounds[row] else ():
             if (rounds[row], team) in busy:
                 also = say(
-                    "{team} plays in round {round} in line {line} already",
+                    "{team} already plays in round {round}, in line {line}",
                     team=names[team],
                     round=rounds[row],
                     line=busy[rounds[row], team],

@@ -56,7 +56,7 @@ def read_players(
         if len(line) > _LONGEST_LINE:
             problems.add(
                 number,
-                "{line} has {n:,} letters, which isn't a name. {remedy}",
+                "{line} has {n:,} characters, too many for a name. {remedy}",
                 line=quoted(line),
                 n=len(line),
                 remedy=_WRITE_IT,
@@ -67,7 +67,7 @@ def read_players(
             problems.add(one.number, doubt_words(one))
     rows = [(one.number, player) for one in read for player in one.players]
     if not rows and not len(problems):
-        problems.add(None, "names no one. Write one player on each line.")
+        problems.add(None, "has no names. Write one player per line.")
     columns = {name: Texts.of([""] * len(rows)) for name in schema.columns}
     columns["player"] = Texts.of([player.name for _, player in rows])
     for k, name in enumerate(numbers):
@@ -130,20 +130,22 @@ def _left_out(read: Sequence[Reading], source: str) -> list[str]:
             rating = player.cells[0] if player.cells else ""
             if rating and float(rating.replace(",", ".")) <= 0:
                 low = say(
-                    "{name} has the rating {rating}. Leave it out if it means none.",
+                    "{name} has the rating {rating}. Leave it out if it means no rating.",
                     name=quoted(player.name),
                     rating=rating,
                 )
                 found.append(warning(source, one.number, low))
         if not one.players and not one.doubt:
-            title = say("{text} is left out as a heading", text=quoted(one.text))
+            title = say(
+                "{text} was left out, because it looks like a heading", text=quoted(one.text)
+            )
             found.append(warning(source, one.number, title))
     numbered = [one for one in read if one.front is not None]
     if [one.front for one in numbered] != list(range(1, len(numbered) + 1)):
         first = numbered[0]
         left_out = say(
-            "the numbers in front of names, such as the {n} before {name}, are left out; the order "
-            "is that of the lines",
+            "the numbers in front of names, such as the {n} before {name}, were left out; the "
+            "players are in the order of the lines",
             n=first.front,
             name=quoted(first.players[0].name),
         )

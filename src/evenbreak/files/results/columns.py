@@ -115,7 +115,7 @@ LAYOUTS = Schema(
     status=Text(
         "", "whether the match was played: `played`, `forfeit`, `bye`, `postponed` and the like"
     ),
-    remark=Text("", "used only if it says nothing but `forfeit`, `bye` or the like"),
+    remark=Text("", "used only if all it says is `forfeit`, `bye` or the like"),
     winner_score=Text(
         "winner games, winners score, games won by winner",
         "with `winner` and `loser`, instead of the two scores",

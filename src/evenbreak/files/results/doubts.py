@@ -46,8 +46,8 @@ def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> li
         warning(
             source,
             lines[row],
-            "{a}-{b} can hardly be games won, as nearly all winners here have {usual:.0f} or "
-            "fewer; they may be points",
+            "{a}-{b} can hardly be games won, because nearly all winners here have {usual:.0f} "
+            "or fewer; the numbers may be points",
             a=results.score_a[row],
             b=results.score_b[row],
             usual=usual,
@@ -87,8 +87,8 @@ def _counted(problems: Sequence[str], rows: int, source: str) -> list[str]:
     if not rows:
         return []
     count = say_count(
-        "{n} row is left out, as {skip_bad} asks",
-        "{n:,} rows are left out, as {skip_bad} asks",
+        "{n} row was left out, because of {skip_bad}",
+        "{n:,} rows were left out, because of {skip_bad}",
         rows,
         skip_bad=_SKIP_BAD,
     )
@@ -157,7 +157,7 @@ def _far(
         return far, ""
     far[considered] = (dates[considered] < most[0]) | (dates[considered] > most[-1])
     return far, say(
-        "{years} years or more from all others ({first} to {last})",
+        "at least {years} years away from all other dates ({first} to {last})",
         years=YEARS_APART,
         first=str(most[0]),
         last=str(most[-1]),

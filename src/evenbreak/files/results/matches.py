@@ -86,7 +86,10 @@ def _not_used(names: list[str], source: str) -> list[str]:
     """Return a warning if columns say what others say too."""
     if not names:
         return []
-    text = say("columns not used, since others say the same: {names}", names=quoted_list(names))
+    text = say(
+        "columns not used, because other columns hold the same information: {names}",
+        names=quoted_list(names),
+    )
     return [form_warning(source, None, text)]
 
 
@@ -121,8 +124,8 @@ def _score(text: str) -> Pair | str:
         return "", ""
     if _is_date(text):
         return say(
-            "looks like a date that a spreadsheet made of a score; format the column as text and "
-            "type the scores again"
+            "looks like a date that a spreadsheet made from a score; format the column as text "
+            "and type the scores again"
         )
     score = _SCORE_CELL.fullmatch(text)
     if score is not None:
@@ -177,8 +180,8 @@ def _not_won(won: int, lost: int, needed: int, other: int) -> str:
     if needed and other:
         if won < needed and lost >= other:
             return say(
-                "the loser reached the race ({won}-{lost} in a race {needed}:{other}). "
-                "Write the winner's number first, in the score and the race.",
+                "the loser reached the race ({won}-{lost} in a race {needed}:{other}). Write "
+                "the winner's number first, in both the score and the race.",
                 needed=needed,
                 other=other,
                 **score,
@@ -289,12 +292,12 @@ def _unknown(column: str) -> Sentence:
     """Return what to say of a row without a score, in the column of a score if there is one."""
     if not column:
         return say(
-            "nothing says who won. Write race_a, race_b and winner, or racks, or mark a "
-            "forfeit, or leave out a match that wasn't played."
+            "nothing shows who won. Write race_a, race_b and winner, or racks, or mark a "
+            "forfeit; if the match wasn't played, leave it out."
         )
     return say(
-        "{column} is empty. Write the games won, or race_a, race_b and winner if no more "
-        "is known, or mark a forfeit, or leave out a match that wasn't played.",
+        "{column} is empty. Write the games won, or race_a, race_b and winner if that's all you "
+        "know, or mark a forfeit; if the match wasn't played, leave it out.",
         column=column,
     )
 

@@ -86,11 +86,11 @@ def columns_hint(
     ]
     if not places and not readings:
         return say(
-            "Is it the right file? Results have a match per row: {columns}.",
+            "Is it the right file? Results have one match per row: {columns}.",
             columns=",".join(called.get(name, name) for name in TEAMS),
         )
     if not 0 < len(readings) <= _MOST_READINGS:
-        return say("Add them. One column score, with 7-5 in a cell, can replace the two.")
+        return say("Add them. One score column, with 7-5 in a cell, can replace the two.")
     options = [_option(reading) for reading in readings]
     if len(options) == 1:
         return say(

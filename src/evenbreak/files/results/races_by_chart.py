@@ -47,7 +47,7 @@ def races_by_chart(
         return results, [warning(source, None, text)]
     if results.level_a is None or results.level_b is None:
         text = say(
-            "{chart} sets no race here, because the columns {level_a} and {level_b} are missing",
+            "{chart} sets no races here, because the columns {level_a} and {level_b} are missing",
             chart=of_league.name,
             level_a="level_a",
             level_b="level_b",
@@ -74,18 +74,18 @@ def races_by_chart(
     told: list[str] = []
     if filled.any():
         text = say_count(
-            "the race of {n} match is that of {chart} for the levels stated",
-            "the races of {n:,} matches are those of {chart} for the levels stated",
+            "{n} match gets its race from {chart}, by the levels stated",
+            "{n:,} matches get their races from {chart}, by the levels stated",
             int(filled.sum()),
             chart=of_league.name,
         )
         told.append(warning(source, None, text))
     if (unknown := unset & ~known).any():
         text = say_count(
-            "{n} match without a race states no levels of {chart}; it counts game by game, without "
-            "a winner unless one is stated",
-            "{n:,} matches without a race state no levels of {chart}, this one first; they count "
-            "game by game, without a winner unless one is stated",
+            "{n} match has neither a race nor levels from {chart}; it counts game by game, "
+            "without a winner unless one is stated",
+            "{n:,} matches, starting with this one, have neither a race nor levels from "
+            "{chart}; they count game by game, without a winner unless one is stated",
             int(unknown.sum()),
             chart=of_league.name,
         )
@@ -93,9 +93,9 @@ def races_by_chart(
     if (unfit := unset & known & ~ends).any():
         row = int(unfit.argmax())
         text = say_count(
-            "the score {a}-{b} doesn't end the race {race} of the levels stated. Check it.",
-            "the score {a}-{b} doesn't end the race {race} of the levels stated, nor do "
-            "those of {more:,} more matches theirs. Check them.",
+            "the score {a}-{b} doesn't complete the {race} race for the levels stated. Check it.",
+            "the score {a}-{b} doesn't complete the {race} race for the levels stated, and "
+            "{more:,} more scores don't complete their races. Check them.",
             int(unfit.sum()),
             a=int(score_a[row]),
             b=int(score_b[row]),

@@ -237,14 +237,14 @@ def refuse_unfound(
         file, _, name = key.rpartition(":")
         if file and not any(file in (str(path), Path(path).name) for path in paths):
             raise InputError(
-                "{columns} has titles for {file}, which is none of the files. Correct its name.",
+                "{columns} has titles for {file}, which isn't one of the files. Correct its name.",
                 columns=Parameter("columns"),
                 file=quoted(file),
             )
         found = {key_of(one.titles[name]) for one in files if name in one.titles}
         if not file and title != UNREAD and key_of(title) not in found:
             raise InputError(
-                "{columns} has {title}, which is a column of none of the files. Correct it.",
+                "{columns} has {title}, which isn't a column in any of the files. Correct it.",
                 columns=Parameter("columns"),
                 title=quoted(title),
             )
@@ -255,7 +255,7 @@ def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
     for name in columns:
         if name.rpartition(":")[2] not in RESULTS_FILE.columns:
             raise InputError(
-                "{columns} has {name!r}, which isn't a column of results. Give {names}.",
+                "{columns} has {name!r}, which isn't a results column. The columns are {names}.",
                 columns=Parameter("columns"),
                 name=name,
                 names=", ".join(RESULTS_FILE.columns),
@@ -269,15 +269,15 @@ def _merged(names: dict[str, str], source: str) -> list[str]:
         warning(
             source,
             None,
-            "{text} is read as {name}, as names that differ in case or spaces alone mean one "
-            "player",
+            "{text} is read as {name}, because names that differ only in case or spaces mean "
+            "the same player",
             text=quoted(text),
             name=quoted(name),
         )
         for text, name in names.items()
     ]
     return first_ones(
-        warnings, MOST_RENAMED, source, lambda n: say("and {n:,} more names that are read so", n=n)
+        warnings, MOST_RENAMED, source, lambda n: say("and {n:,} more names like these", n=n)
     )
 
 
@@ -292,7 +292,7 @@ def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:
     more = len(changed) - MOST_RENAMED
     rest = [say("and {n:,} more", n=more)] if more > 0 else []
     text = say(
-        "names read according to {aliases}: {names}",
+        "names changed by {aliases}: {names}",
         aliases=FilePath(aliases),
         names=joined([*changed[:MOST_RENAMED], *rest], ", "),
     )
@@ -308,10 +308,10 @@ def _repeated_rows(table: TextTable) -> list[str]:
     if not len(again):
         return []
     text = say_count(
-        "{n} row is the same as an earlier one, date included; all are counted, so delete what was "
-        "entered twice",
-        "{n:,} rows are the same as an earlier one, date included; all are counted, so delete what "
-        "was entered twice",
+        "{n} row is the same as an earlier one, date included; all are counted, so delete any "
+        "that were entered twice",
+        "{n:,} rows are the same as an earlier one, date included; all are counted, so delete "
+        "any that were entered twice",
         len(again),
     )
     return [warning(table.source, table.lines[again[0]], text)]
@@ -357,7 +357,7 @@ def in_a_row(files: Sequence[ResultsFile], *, doubles: bool = False) -> ResultsF
     for k, file in enumerate(files):
         if file.sha256 in prints[:k]:
             raise InputError(
-                "{first} and {second} hold the same results. Give each once.",
+                "{first} and {second} hold the same results. Give only one of them.",
                 first=FilePath(files[prints.index(file.sha256)].source),
                 second=FilePath(file.source),
             )

@@ -90,8 +90,8 @@ def _unknown(table: TextTable, said: Mapping[str, Sequence[str]]) -> list[str]:
     if not words:
         return []
     text = say(
-        "statuses that aren't known count as played: {words}. Write forfeit, bye or "
-        "postponed where it wasn't.",
+        "unknown statuses count as played: {words}. If a match wasn't played, write forfeit, "
+        "bye or postponed.",
         words=quoted_list(list(words)),
     )
     return [warning(table.source, None, text)]
@@ -104,8 +104,8 @@ def _counted(table: TextTable, left_out: Sequence[LeftOut]) -> list[str]:
         (_BYE, "{n} bye is left out (line {lines})", "{n:,} byes are left out (lines {lines})"),
         (
             _NOT_YET,
-            "{n} match that was not played is left out (line {lines})",
-            "{n:,} matches that were not played are left out (lines {lines})",
+            "{n} match that wasn't played is left out (line {lines})",
+            "{n:,} matches that weren't played are left out (lines {lines})",
         ),
     ):
         lines = [row.line for row in left_out if row.why == why]

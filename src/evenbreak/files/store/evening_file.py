@@ -30,22 +30,22 @@ _WAIT = 30.0  # seconds for another program to finish its move
 WHY = {  # by the code of SQLite's error
     sqlite3.SQLITE_NOTADB: say("{name} isn't a tournament file"),
     sqlite3.SQLITE_FULL: say(
-        "there's no room on the disk of {name}, so nothing was changed. Make room and try again."
+        "the disk that holds {name} is full, so nothing was changed. Free some space and try again."
     ),
     sqlite3.SQLITE_IOERR: say(
-        "the disk of {name} reports an error, so nothing was changed ({error}). Check "
-        "whether there's room on it."
+        "the disk that holds {name} reports an error ({error}), so nothing was changed. Check "
+        "whether it has free space."
     ),
     sqlite3.SQLITE_READONLY: say(
-        "{name} can only be read, so nothing was changed. Allow writing to it and to its folder."
+        "{name} is read-only, so nothing was changed. Allow writing to it and to its folder."
     ),
     sqlite3.SQLITE_BUSY: say("{name} is in use by another program. Try again."),
     sqlite3.SQLITE_CANTOPEN: say(
-        "{name} can't be opened. Check who may read and write it and its folder."
+        "{name} can't be opened. Check the permissions of the file and its folder."
     ),
 }
 DAMAGED = say(
-    "{name} is damaged ({error}); go on with a copy of it, such as one ending in .backup.db"
+    "{name} is damaged ({error}); continue with a copy of it, such as one ending in .backup.db"
 )
 
 Result = TypeVar("Result")
@@ -154,7 +154,7 @@ def _connected(
 ) -> Iterator[sqlite3.Connection]:
     """Connect to a file, or to the part that takes its place later; errors name the file."""
     if place.is_dir():
-        raise refused(place, "{name} is a folder. Name the file of a tournament.")
+        raise refused(place, "{name} is a folder. Name a tournament's file.")
     try:
         with closing(_connection(part or place, "rwc" if part else "rw", reading)) as base:
             yield base
@@ -330,7 +330,7 @@ def named(path: str | Path, what: str) -> Iterator[None]:
     except FAULTS as error:
         raise refused(
             path,
-            "{name}, {what}: {why}. Go on with a copy of the file, such as one ending in "
+            "{name}, {what}: {why}. Continue with a copy of the file, such as one ending in "
             ".backup.db",
             what=what,
             why=error.sentence

@@ -116,7 +116,7 @@ def _when_alone(folder: Path, write: Callable[[Path], None]) -> None:
         while not _written(folder, write):
             if time.monotonic() > end:
                 raise OSError(
-                    errno.EBUSY, "another run is writing into it. Try again when it is done."
+                    errno.EBUSY, "another run is writing to it. Try again when that run is done."
                 )
             time.sleep(_PAUSE)
     except OSError as error:
@@ -153,7 +153,7 @@ def _nearest(folder: Path) -> Path:
     if not above.is_dir():
         what = "that" if above == folder else str(above)
         raise NotADirectoryError(
-            errno.ENOTDIR, f"{what} is a file, so no folder can be in it. Choose another."
+            errno.ENOTDIR, f"{what} is a file, so it can't hold a folder. Choose another."
         )
     return above
 
@@ -339,7 +339,7 @@ def recover(folder: Path) -> None:
         with contextlib.suppress(OSError):
             work.rmdir()
     if os.path.lexists(work):
-        raise OSError(errno.EEXIST, f"{WORK} in it wasn't made by this program. Move it away.")
+        raise OSError(errno.EEXIST, f"{WORK} in it isn't from this program. Move it elsewhere.")
 
 
 def _keep_old(folder: Path, entries: Tree) -> list[_Change]:
@@ -349,7 +349,7 @@ def _keep_old(folder: Path, entries: Tree) -> list[_Change]:
     for number, (name, content) in enumerate(entries.items()):
         place = folder / name
         if place.is_dir() and not place.is_symlink():
-            raise IsADirectoryError(errno.EISDIR, f"{name} in it is a folder. Move it away.")
+            raise IsADirectoryError(errno.EISDIR, f"{name} in it is a folder. Move it elsewhere.")
         place.parent.mkdir(parents=True, exist_ok=True)
         existed = os.path.lexists(place)
         if existed:

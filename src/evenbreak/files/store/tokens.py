@@ -83,7 +83,7 @@ def create_token(path: str | Path, name: str, scope: str, at: str) -> str:
     """
     called = clean_name(name)
     if not is_name(called) or len(called) > _LONGEST:
-        what = say("a name of up to {most} letters that can be printed", most=_LONGEST)
+        what = say("a name of up to {most} printable characters", most=_LONGEST)
         raise InputError("{name!r} isn't {what}", name=name[:_LONGEST], what=what)
     token = _BEGINS + base64.b32encode(secrets.token_bytes(_BYTES)).decode().lower()
     with changing(path) as base:

@@ -33,7 +33,7 @@ from evenbreak.words import Command, say
 
 Night: TypeAlias = Mapping[int, Evening]
 """The events of a night by their numbers, each knowing of the others."""
-TAKEN = say("that was entered before; nothing was entered a second time")
+TAKEN = say("that was already entered; it wasn't entered a second time")
 
 
 def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: int = 0) -> Evening:
@@ -121,7 +121,7 @@ def begin_beside(
         assert isinstance(first.what, Opened)  # noqa: S101
         if "chips" in {first.what.plan.form, *(one.plan.form for one in states.values())}:
             raise InputError(
-                "a chip tournament needs all the tables, so no other event can run beside it"
+                "a chip tournament needs all the tables, so no other event can run alongside it"
             )
         plan = first.what.plan.at_tables_of(house.plan)
         events[0] = replace(first, what=replace(first.what, plan=plan))
@@ -248,7 +248,7 @@ def _refuse_tables(added: Sequence[Event], event: int) -> None:
     tables = ("tables", "labels", "reserved", "streamed", "slower")
     for one in added if event > 1 else ():
         if isinstance(one.what, Changed) and any(getattr(one.what, k) is not None for k in tables):
-            raise InputError("the tables are those of the first event. Change them there.")
+            raise InputError("the tables belong to the first event. Change them there.")
 
 
 def _strands(base: sqlite3.Connection, path: str | Path, event: int = 1) -> dict[int, list[Event]]:
@@ -260,7 +260,7 @@ def _strands(base: sqlite3.Connection, path: str | Path, event: int = 1) -> dict
         raise refused(path, "{name} has no event {event}", event=event)
     raise refused(
         path,
-        "{name} holds a team night and no tournament. Open it with {serve}, or start a "
+        "{name} holds a team night, not a tournament. Open it with {serve}, or start a "
         "tournament in it with {new}.",
         serve=Command("serve"),
         new=Command("tournament new"),
@@ -299,7 +299,7 @@ def read_event_list(path: str | Path) -> list[Event]:
             events.append(_RULES.read(at, kind, what, by))
         except (InputError, ValueError) as error:
             why = error.sentence if isinstance(error, InputError) else str(error)
-            problem = say("isn't an event of a tournament: {why}", why=why)
+            problem = say("isn't a tournament's event: {why}", why=why)
             raise refusal(str(path), problem, line) from None
     try:
         state = evening(events)

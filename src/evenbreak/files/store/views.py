@@ -138,7 +138,7 @@ def apart(base: sqlite3.Connection, path: str | Path) -> Iterator[None]:
         if not base.in_transaction:  # SQLite has dropped the entry too
             raise
         base.execute("ROLLBACK TO views")
-        _LOG.warning("the views in %s are left as they were: %s", Path(path).name, error)
+        _LOG.warning("the views in %s were left as they were: %s", Path(path).name, error)
     base.execute("RELEASE views")
 
 

@@ -135,7 +135,8 @@ def _order_in(table: TextTable, name: str) -> tuple[DateOrder | None, bool]:
         )
         table.problems.add(
             None,
-            "{column} has the month first ({mdy}) and the day first ({dmy}). Use one order.",
+            "{column} has dates with the month first ({mdy}) and with the day first ({dmy}). "
+            "Use one order.",
             column=name,
             mdy=mdy,
             dmy=dmy,
@@ -145,8 +146,8 @@ def _order_in(table: TextTable, name: str) -> tuple[DateOrder | None, bool]:
         row = int(np.isin(codes, open_).argmax())
         table.note(
             row,
-            "{column} {date} may have the month first or the day, and no date of the "
-            "file shows which. Add {dates} mdy (month first) or {dates} dmy (day first).",
+            "{column} {date} may have the month or the day first, and no date in the file shows "
+            "which. Add {dates} mdy (month first) or {dates} dmy (day first).",
             column=name,
             date=quoted(distinct[codes[row]]),
             dates=Parameter("dates"),

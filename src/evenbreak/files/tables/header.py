@@ -181,7 +181,7 @@ class Header:
             elif name in places:
                 problems.add(
                     line,
-                    "columns {title} and {other} both mean {column}. Leave one out.",
+                    "columns {title} and {other} both mean {column}. Remove one.",
                     title=quoted(titles[places[name]]),
                     other=quoted(title),
                     column=name,
@@ -195,8 +195,8 @@ class Header:
         ):
             problems.add(
                 line,
-                "the first line, {titles}, doesn't name columns. It must have {header} in a file "
-                "of this kind.",
+                "the first line, {titles}, doesn't name the columns. In this file it must have "
+                "{header}.",
                 titles=quoted_list(titles),
                 header=",".join(self.required),
             )

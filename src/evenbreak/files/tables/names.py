@@ -25,7 +25,7 @@ _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2":
 LONGEST_NAME = 200
 """Letters of a name; where a quotation mark is missing, half a file may be in one cell."""
 
-NAME = say("a name of up to {most} letters that can be printed", most=LONGEST_NAME)
+NAME = say("a name of up to {most} printable characters", most=LONGEST_NAME)
 
 MOST_LISTED = 20
 """How many names are listed in warnings about a file."""
@@ -82,8 +82,8 @@ class Name(Column):
         if len(name) <= LONGEST_NAME:
             return super().fault(text)
         return say(
-            "{name} has {n:,} letters. Write a name of up to {most}, and look for a "
-            "missing quotation mark.",
+            "{name} has {n:,} characters. Write a name of up to {most}, and look for a missing "
+            "quotation mark.",
             name=quoted(name),
             n=len(name),
             most=LONGEST_NAME,
@@ -112,7 +112,7 @@ def hidden_letter_warnings(table: TextTable, columns: Sequence[str]) -> list[str
         warning(
             table.source,
             None,
-            "{text} has letters that can't be seen; it's read as {name}",
+            "{text} has invisible characters; it's read as {name}",
             text=quoted(text),
             name=quoted(clean_name(text)),
         )
@@ -123,7 +123,7 @@ def hidden_letter_warnings(table: TextTable, columns: Sequence[str]) -> list[str
         warnings,
         MOST_LISTED,
         table.source,
-        lambda n: say("and {n:,} more names with such letters", n=n),
+        lambda n: say("and {n:,} more names with invisible characters", n=n),
     )
 
 

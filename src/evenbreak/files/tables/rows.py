@@ -175,7 +175,9 @@ def text_of(content: Content, source: str) -> Text:
         if also:
             raise refusal(source, "is neither UTF-8 nor Windows-1252 text. Save it as UTF-8.", also)
         warnings = [
-            form_warning(source, wrong, "isn't UTF-8. Read as Windows-1252, so check the accents.")
+            form_warning(
+                source, wrong, "isn't UTF-8. It was read as Windows-1252, so check the accents."
+            )
         ]
     if blank:
         raise refusal(source, "is empty. Write a header line, then one line for each row.")
@@ -392,10 +394,10 @@ def _of_workbook(sheets: list[Sheet], source: str, header: Header) -> TableRows:
     if len(complete) < 2:
         return rows
     also = say_count(
-        "only the sheet {sheet} is read, although {others} has such a table too; to read it, save "
-        "each sheet as a file of its own",
-        "only the sheet {sheet} is read, although {others} have such a table too; to read them, "
-        "save each sheet as a file of its own",
+        "only sheet {sheet} is read, although {others} has a table like it; to read that one "
+        "too, save each sheet as its own file",
+        "only sheet {sheet} is read, although {others} have tables like it; to read those too, "
+        "save each sheet as its own file",
         len(complete) - 1,
         sheet=quoted(sheet.name),
         others=quoted_list([another.name for another in complete[1:]]),

@@ -134,7 +134,7 @@ class Column:
         if len(bad) >= ENOUGH_ROWS and len(bad) == int(stated[codes].sum()):
             table.problems.add(
                 table.header or None,
-                "none of the {n:,} cells of {column} can be read; {column} {fault}",
+                "none of the {n:,} cells in {column} can be read; {column} {fault}",
                 n=len(bad),
                 column=name,
                 fault=self.fault(distinct[codes[bad[0]]]),

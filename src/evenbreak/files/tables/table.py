@@ -221,8 +221,8 @@ def read_table(
     row_lines, columns = _columns(body, len(titles), places, misfits)
     if len(misfits) >= ENOUGH_ROWS and not len(row_lines):
         problem = say(
-            "none of the {n:,} rows below has the {width} cells of this header. Correct "
-            "it, or quote cells that hold the separator.",
+            "none of the {n:,} rows below this header has {width} cells, as the header does. "
+            "Correct the header, or put cells that contain the separator in quotes.",
             n=len(misfits),
             width=len(titles),
         )
@@ -249,7 +249,7 @@ def read_table(
 def _add_unreadable(lines: list[int], problems: Problems) -> None:
     for line in lines:
         problems.add(
-            line, 'can\'t be split into cells. Close every " and write "" for one in a cell.'
+            line, 'can\'t be split into cells. Close every ", and write "" for a " inside a cell.'
         )
 
 
@@ -282,10 +282,10 @@ def _fits(line: int, row: list[str], width: int, problems: Problems) -> bool:
         return True
     if "".join(row).strip():
         problem = say_count(
-            "has {n} cell, but the header has {width}. Add what is missing, or quote "
-            "cells that hold the separator.",
-            "has {n} cells, but the header has {width}. Add what is missing, or quote "
-            "cells that hold the separator.",
+            "has {n} cell, but the header has {width}. Add what's missing, or put cells that "
+            "contain the separator in quotes.",
+            "has {n} cells, but the header has {width}. Add what's missing, or put cells that "
+            "contain the separator in quotes.",
             len(row),
             width=width,
         )

@@ -38,7 +38,7 @@ _NUMBER = re.compile(r"[0-9]{1,7}", re.ASCII)
 _DAMAGE = (zipfile.BadZipFile, zlib.error, EOFError, ValueError, RuntimeError, OSError)
 
 UNREADABLE = "can't be read as a workbook. Save it again as .xlsx or .ods, or as CSV."
-TOO_MUCH = "needs too much memory or time to be read. Save the table as CSV."
+TOO_MUCH = "takes too much memory or time to read. Save the table as CSV."
 _FAR = "has cells far away from the others. Delete them."
 
 
@@ -78,7 +78,7 @@ def _look_through(content: bytes) -> None:
             names, size = {part.filename for part in parts}, sum(part.file_size for part in parts)
             if "content.xml" not in names and "[Content_Types].xml" not in names:
                 raise UnreadableError(
-                    "is a zip archive, but no .xlsx or .ods workbook. Save it as CSV."
+                    "is a zip archive, but not an .xlsx or .ods workbook. Save it as CSV."
                 )
             if "xl/workbook.bin" in names:
                 raise UnreadableError("is a binary workbook (.xlsb). Save it as .xlsx or as CSV.")

@@ -213,8 +213,8 @@ def pods(
     entrants = checked_lines(lines, len(names))
     if len(entrants) < 2 * size:
         raise InputError(
-            "{players} players are too few: pods of {size} need more than {size} players, or "
-            "smaller pods",
+            "{players} players are too few for pods of {size}; use smaller pods, or more than "
+            "{size} players",
             players=len(names),
             size=size,
         )
@@ -288,7 +288,9 @@ def losers_qualifiers(bracket: Bracket) -> tuple[Slot, ...]:
     """
     found = tuple(match.slots[1] for match in bracket.matches if match.name.startswith("K1."))
     if not found or not bracket.format.startswith("double elimination"):
-        raise InputError("bracket has no qualifiers to redraw. Give double_elimination 4 or more.")
+        raise InputError(
+            "bracket has no qualifiers to redraw. Give double_elimination 4 or more qualifiers."
+        )
     return found
 
 

@@ -69,7 +69,7 @@ def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tu
     for name in names:
         if name in seen:
             raise InputError(
-                "{players} has {name!r} twice. Give each player a name of their own.", name=name
+                "{players} has {name!r} twice. Give each player a different name.", name=name
             )
         seen.add(name)
     return names

@@ -99,8 +99,8 @@ def groups_then_knockout(
     fewest = max(2, going_on + (best > 0))
     if len(names) // count < fewest:
         raise InputError(
-            "{name} is {value!r} for {players} players, but each group needs {fewest}. "
-            "Make fewer groups, or let fewer players go on.",
+            "{name} is {value!r} for {players} players, but each group needs {fewest}. Make "
+            "fewer groups, or let fewer players advance.",
             name=Parameter("groups"),
             value=groups,
             players=len(names),

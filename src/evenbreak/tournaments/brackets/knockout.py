@@ -242,7 +242,7 @@ def by_rating(players: Sequence[Name], ratings: Sequence[float]) -> list[Name]:
     """
     rated = column(ratings, "ratings", len(players), "players")
     if np.isnan(rated).any():
-        raise InputError("ratings must hold finite numbers; one value isn't")
+        raise InputError("ratings must be finite numbers; one of them isn't")
     return [players[i] for i in np.argsort(-rated, kind="stable")]
 
 

@@ -33,7 +33,7 @@ def _in_order(drafts: Sequence[Draft]) -> list[Draft]:
                 continue
             if slot.match not in by_name or (slot in taken and not _again(draft)):
                 raise InputError(
-                    "{draft} waits for the {outcome} of {match}, who doesn't come there",
+                    "{draft} is waiting for the {outcome} of {match}, who isn't sent there",
                     draft=draft.name,
                     outcome=slot.outcome,
                     match=slot.match,

@@ -152,7 +152,7 @@ def _winner(
     if None not in seats and player not in seats:
         names = " and ".join(bracket.players[k] for k in seats if k is not None and k >= 0)
         raise InputError(
-            "results has {given!r} as winner of {match}, which is between {what}",
+            "results has {given!r} as the winner of {match}, which is between {what}",
             given=given,
             match=match.name,
             what=names or "nobody",
@@ -201,8 +201,7 @@ def _in_given_order(
     order = [bracket.player(player) for player in given[name]]
     if sorted(order) != sorted(members):
         raise InputError(
-            "results has {given!r} for group {group}. Give its players in the order of "
-            "their ranks.",
+            "results has {given!r} for group {group}. Give the group's players in order of rank.",
             given=given[name],
             group=name,
         )

@@ -216,7 +216,7 @@ def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:
     """Raise an error if a round has a player twice, lacks one of a later round, or a winner."""
     if len(played) > event.rounds:
         raise InputError(
-            "{played} rounds have been played, but the event has {rounds}",
+            "{played} rounds have been played, but the event has only {rounds}",
             played=len(played),
             rounds=event.rounds,
         )
@@ -224,7 +224,7 @@ def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:
     for number, pairings in enumerate(played, 1):
         seats = [player for p in pairings for player in (p.first, p.second) if player is not None]
         if number == 1 and sorted(seats) != sorted(event.players):
-            raise InputError("round 1 doesn't have every player once")
+            raise InputError("round 1 must have every player exactly once")
         if len(set(seats)) < len(seats) or not set(seats) <= before:
             raise InputError("round {n} has a player twice, or one who had withdrawn", n=number)
         before = set(seats)

@@ -60,8 +60,8 @@ class ChipChart:
                 )
             if stronger.chips > weaker.chips:
                 raise InputError(
-                    "players from {rating:g} on get {chips} chips, more than weaker players, "
-                    "who get {weaker}",
+                    "players rated {rating:g} or above get {chips} chips, more than weaker "
+                    "players, who get {weaker}",
                     rating=stronger.rating_from,
                     chips=stronger.chips,
                     weaker=weaker.chips,
@@ -99,7 +99,7 @@ CHIP_CHARTS: dict[str, ChipChart] = {
             ChipRow(501, 5),
             ChipRow(601, 4),
         ],
-        "the chip tournaments of a club in Hoboken, Fargo ratings, as published",
+        "chip tournaments at a club in Hoboken, by Fargo rating, as published",
     ),
     "pharaohs": ChipChart(
         "pharaohs",
@@ -113,7 +113,7 @@ CHIP_CHARTS: dict[str, ChipChart] = {
             ChipRow(650, 3),
             ChipRow(700, 2),
         ],
-        "the chip tournaments at Pharaohs, Fargo ratings, as published",
+        "chip tournaments at Pharaohs, by Fargo rating, as published",
     ),
 }
 """The chip charts that come with the package, by name."""

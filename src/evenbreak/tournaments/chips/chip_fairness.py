@@ -124,7 +124,8 @@ def fairest_chips(
     low, high = whole(fewest, "fewest", at_least=1), whole(most, "most", at_least=1)
     if low > high or len(rated) < 2:
         raise InputError(
-            "{fewest} is {value!r} and most {most!r}. Give the smaller number first, two players.",
+            "{fewest} is {value!r} and most is {most!r}. {fewest} can't be larger, and there "
+            "must be at least two players.",
             value=fewest,
             most=most,
         )

@@ -133,13 +133,15 @@ def last_players(
     order = tuple(range(len(counts))) if line is None else tuple(int(k) for k in line)
     if len(counts) < 2 or sorted(order) != list(range(len(counts))):
         raise InputError(
-            "{line} is {value!r}. Give each of {n_counts} players once, two or more.",
+            "{line} is {value!r}. Give each of {n_counts} players once; there must be at least "
+            "two.",
             value=line,
             n_counts=len(counts),
         )
     if prod(counts) * factorial(len(counts)) > _MOST_STATES:
         raise InputError(
-            "{chips} is {value!r}: too many states to be exact. Simulate with play_chips.",
+            "{chips} is {value!r}, which means too many states for an exact answer. Simulate "
+            "with play_chips.",
             value=chips,
         )
     game = LastPlayers(counts, order, tuple(map(tuple, table.tolist())))

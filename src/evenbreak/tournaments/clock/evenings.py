@@ -78,7 +78,7 @@ def play_evenings(
     for name in names:
         if name not in laws:
             raise InputError(
-                "{laws} has no match {name!r}. Give the odds of every match (`pair_odds`).",
+                "{laws} has no match {name!r}. Give the odds for every match (`pair_odds`).",
                 name=name,
             )
     rng = np.random.default_rng(seed)
@@ -153,7 +153,7 @@ def _under_way(
     elapsed = clock - since
     if elapsed < 0.0:
         raise InputError(
-            "{match} started at {since:g}; it is {clock:g} now",
+            "{match} started at {since:g}, but it's only {clock:g} now",
             match=match.match,
             since=since,
             clock=clock,

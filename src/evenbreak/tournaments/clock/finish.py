@@ -360,7 +360,10 @@ def minutes_later(one: Finish, other: Finish) -> tuple[float, float]:
         if they were played out different numbers of times.
     """
     if one.finishes.shape != other.finishes.shape:
-        raise InputError("the two were played out different numbers of times. Give the same runs.")
+        raise InputError(
+            "the two were played out different numbers of times. Use the same "
+            "number of runs for both."
+        )
     later = one.finishes - other.finishes
     return float(later.mean()), float(later.std() / np.sqrt(len(later)))
 
@@ -380,7 +383,7 @@ def tables_free(tables: int | Sequence[float], clock: float, busy: int) -> Float
         free = np.zeros(whole(tables, "tables", at_least=1))
     if len(free) < max(busy, 1):
         raise InputError(
-            "{tables} is {value!r}, with {busy} matches under way. Give more tables.",
+            "{tables} is {value!r}, but {busy} matches are under way. Give more tables.",
             value=tables,
             busy=busy,
         )

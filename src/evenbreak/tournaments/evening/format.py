@@ -106,13 +106,13 @@ NamedTables: TypeAlias = Annotated[
     HouseTables,
     Field(
         Named(house_tables, "T|NAME,...", number=True),
-        "How many tables there are, or what they are called, such as 4, or 5-8,TV.",
-        label=say("Tables, how many or by name"),
+        "How many tables there are, or their names, such as 4, or 5-8,TV.",
+        label=say("Tables (how many, or their names)"),
     ),
 ]
 Discipline: TypeAlias = Annotated[
     str,
-    Field(Choice(DISCIPLINES), "The game, which sets how long matches take.", label=say("Game")),
+    Field(Choice(DISCIPLINES), "The game, which affects how long matches take.", label=say("Game")),
 ]
 
 _FORMAT, _RACES = "Format", "Races"
@@ -122,7 +122,7 @@ LosersRace: TypeAlias = Annotated[
     Race | None,
     Field(
         _RACE,
-        "Races on the losers' side, and in a consolation event.",
+        "The race on the losers' side, and in a consolation event.",
         usual="the same as the others",
         label=say("Race on the losers' side (blank: the same)"),
         section=_RACES,
@@ -133,7 +133,7 @@ FinalRace: TypeAlias = Annotated[
     Race | None,
     Field(
         _RACE,
-        "Races of the final, and of a second final.",
+        "The race in the final, and in a second final.",
         usual="the same as the others",
         label=say("Race in the final (blank: the same)"),
         section=_RACES,
@@ -153,9 +153,9 @@ class Format:
         str,
         Field(
             Choice(("true", "single")),
-            "The final of a double elimination: must the undefeated player lose twice (true), or "
-            "once (single)?",
-            label=say("Final of a double elimination"),
+            "The final of a double elimination: does the undefeated player have to lose twice "
+            "(true), or only once (single)?",
+            label=say("Double-elimination final"),
             titles={
                 "true": say("The unbeaten player must lose twice"),
                 "single": say("One match decides"),
@@ -178,8 +178,8 @@ class Format:
         Few | None,
         Field(
             _PLAYERS,
-            "How many players go on: from a double elimination to a single one (2, 4, 8 ...), "
-            "or from each group or pod.",
+            "How many players advance: from a double elimination to a single elimination (2, 4, "
+            "8 ...), or from each group or pod.",
             usual="2 from a group, 1 from a pod",
             metavar="M",
             label=say("Players advancing from each group, pod or side (blank: default)"),
@@ -192,9 +192,9 @@ class Format:
         str,
         Field(
             Choice({"half-shift": "half shift", "redraw": "redraw"}),
-            "How qualifiers from the losers' side meet those from the winners' side: halves "
-            "crossed, or by draw.",
-            label=say("How those from the losers' side meet the others"),
+            "How qualifiers from the losers' side are paired with those from the winners' side: "
+            "by crossing the halves, or by a draw.",
+            label=say("How qualifiers from the losers' side meet the others"),
             titles={"half-shift": say("Cross the halves"), "redraw": say("Redraw")},
             section=_FORMAT,
             rare=True,
@@ -207,9 +207,9 @@ class Format:
             Choice(
                 {"fewest-rematches": "fewest rematches", "usual": "usual", "straight": "straight"}
             ),
-            "Where losers on the winners' side drop to in a double elimination or in pods.",
+            "Where losers from the winners' side drop to, in a double elimination or in pods.",
             metavar="NAME",
-            label=say("Where losers of the winners' side drop to"),
+            label=say("Where losers from the winners' side drop to"),
             titles={
                 "fewest-rematches": say("Fewest rematches"),
                 "usual": say("As in most programs"),
@@ -236,22 +236,22 @@ class Format:
         Few | None,
         Field(
             _PLAYERS,
-            "How many players go on from all groups together.",
-            usual="the total of those from each group",
+            "How many players advance from all groups together.",
+            usual="as many as advance from each group",
             metavar="M",
             label=say("Players advancing from all groups together (blank: as many from each)"),
             section=_FORMAT,
             formats=("groups",),
-            more="16 from 5 groups are the top three in each group and the best fourth-place "
-            "player: by the share of matches won, then by games won minus games lost per "
-            "match, and then by lot.",
+            more="If 16 advance from 5 groups, they are the top three in each group and the "
+            "best fourth-place player: by the share of matches won, then by games won "
+            "minus games lost per match, and then by lot.",
         ),
     ] = None
     pod_size: Annotated[
         Few,
         Field(
             Choice({"4": 4, "8": 8, "16": 16}, "N"),
-            "The number of lines in a pod: 4, 8 or 16.",
+            "How many players a pod holds: 4, 8 or 16.",
             label=say("Players in a pod"),
             section=_FORMAT,
             formats=("pods",),
@@ -261,8 +261,8 @@ class Format:
         Few | None,
         Field(
             _PLAYERS,
-            "The number of rounds in a Swiss tournament.",
-            usual="as many as a single elimination has",
+            "How many rounds a Swiss has.",
+            usual="as many as in a single elimination",
             label=say("Rounds of a Swiss (blank: as many as in a single elimination)"),
             section=_FORMAT,
             formats=("swiss",),

@@ -122,7 +122,7 @@ def games_in(
         return score
     if state.plan.form != "chips":
         raise InputError(
-            "{score!r} isn't a score. Write the games of each player, such as 7-5.", score=score
+            "{score!r} isn't a score. Write each player's games, such as 7-5.", score=score
         )
     winner = known_player(state, score)
     refuse_stranger(state, winner, name, pair)
@@ -133,7 +133,7 @@ def refuse_stranger(state: Evening, player: str, match: str, pair: tuple[str, st
     """Refuse a player who is not in a match."""
     if player not in pair:
         names = {"player": player, "match": state.match_words(match), "a": pair[0], "b": pair[1]}
-        raise InputError("{player} isn't in {match}: it is {a} against {b}", **names)
+        raise InputError("{player} isn't in {match}, which is {a} against {b}", **names)
 
 
 def undecided(state: Evening, match: str) -> str:

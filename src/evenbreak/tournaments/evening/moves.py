@@ -259,9 +259,7 @@ def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
         ready = [name for name in state.standing.to_play if loser in state.pair(name)]
         if len(ready) != 1:
             if not ready:
-                raise InputError(
-                    "{player} has no match ready that could be forfeited", player=loser
-                )
+                raise InputError("{player} has no match ready to forfeit", player=loser)
             raise InputError(
                 "{player} has {n} matches ready. Say which: {matches}.",
                 player=loser,
@@ -307,7 +305,7 @@ def late(state: Evening, entrant: Entrant) -> Late:
     if state.lines is None:
         reason = say("this format has no byes")
     elif byes:
-        reason = say("every player with a bye has already played on")
+        reason = say("every player with a bye has already played")
     else:
         reason = say("the bracket has no bye")
     raise InputError(
@@ -406,7 +404,7 @@ def change(
         raise InputError("the races come from a chart, so only the number of tables can change")
     if state.plan.form == "chips" and any(races):
         raise InputError(
-            "a chip tournament is played by the rack, so only the number of tables can change"
+            "a chip tournament is played rack by rack, so only the number of tables can change"
         )
     sides = {match.side for match in state.whole.matches} if state.drawn else {"losers", "final"}
     if losers_race is not None and not sides & {"losers", "consolation"}:
@@ -443,7 +441,7 @@ def edit(state: Evening, player: str, *, name: str = "", rating: float | None = 
     after = replace(rated, name=name or player)
     if after == before:
         raise InputError(
-            "nothing about {player} would change. Enter another name or rating.", player=player
+            "nothing about {player} would change. Enter a different name or rating.", player=player
         )
     check_entrant(state, after, besides=player)
     return Edited(player, after)

@@ -121,7 +121,7 @@ def refuse_bye(name: str) -> None:
     """Refuse a bye instead of a player."""
     if BYE.fullmatch(name):
         raise InputError(
-            "{name!r} is a bye, not a player. Leave it out, the draw adds the byes.", name=name
+            "{name!r} is a bye, not a player. Leave it out; the draw adds byes.", name=name
         )
 
 

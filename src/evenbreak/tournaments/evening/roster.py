@@ -44,7 +44,7 @@ def swap(state: Evening, one: str, other: str) -> Swapped:
     In a Swiss they trade opponents in the round that is being played.
     """
     if not state.drawn:
-        raise InputError("there's no draw yet in which players could trade places")
+        raise InputError("there's no draw yet, so players can't trade places")
     names = entered(state, one), entered(state, other)
     if one == other:
         raise InputError("name two players to trade places")
@@ -67,8 +67,8 @@ def _refuse_begun(state: Evening, player: str, *, this_round: bool = False) -> N
         return
     if state.plan.form == "chips":
         raise InputError(
-            "a chip tournament plays on in the order of its line. Drop {player}, and "
-            "enter who comes in their place as a late player.",
+            "in a chip tournament, the line keeps its order. Drop {player}, and enter their "
+            "replacement as a late player.",
             player=player,
         )
     now = f"R{len(state.later)}." if this_round else ""
@@ -119,5 +119,5 @@ def decline(state: Evening, name: str) -> Declined:
 
 def _registered(state: Evening, name: str) -> str:
     if name not in state.registered:
-        raise InputError("{player} isn't on the list of those who would like to play", player=name)
+        raise InputError("{player} isn't on the list of people who'd like to play", player=name)
     return name

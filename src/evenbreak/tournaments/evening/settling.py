@@ -24,7 +24,9 @@ def stand(state: Evening, match: str) -> list[Result]:
     played by other players, or an earlier one must be settled first.
     """
     if state.plan.form == "chips":
-        raise InputError("a rack of a player without chips can't stand. Play it again, or undo it.")
+        raise InputError(
+            "a rack played by someone with no chips left can't stand. Play it again, or undo it."
+        )
     name = known_match(state, match)
     played = {one.result.match: one.result for one in state.aside}
     if name not in played:
@@ -53,7 +55,7 @@ def stand(state: Evening, match: str) -> list[Result]:
         if before is None:
             first = slot.match if isinstance(slot, Source) else name
             raise InputError(
-                "{first} leads to {match}, and it is still open. Settle {first} first.",
+                "{first} leads to {match} and is still open. Settle {first} first.",
                 first=state.match_words(first),
                 match=state.match_words(name),
             )

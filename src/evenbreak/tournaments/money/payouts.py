@@ -93,7 +93,7 @@ class Payouts:
             for row in self.rows
         ]
         raise InputError(
-            "{payouts} pays {spans} entrants, not {entrants}. Enter your own shares.",
+            "{payouts} is for {spans} entrants, not {entrants}. Enter your own shares.",
             payouts=self.name,
             spans=joined(spans, ", "),
             entrants=count,
@@ -115,13 +115,15 @@ PAYOUTS: dict[str, Payouts] = {
             PayoutRow(33, 49, (0.40, 0.18, 0.14, 0.07, 0.06, 0.05, 0.05, 0.05)),
             PayoutRow(50, 80, (0.35, 0.15, 0.12, 0.07, 0.06, 0.05, 0.05, 0.05, 0.05, 0.05)),
         ),
-        "the chip tournaments of a club in Hoboken, as published",
+        "chip tournaments at a club in Hoboken, as published",
     ),
     "40/30/20/10": Payouts(
         "40/30/20/10", (PayoutRow(4, None, (0.4, 0.3, 0.2, 0.1)),), "a common split"
     ),
     "40/30/15": Payouts(
-        "40/30/15", (PayoutRow(3, None, (0.4, 0.3, 0.15)),), "a common split, the rest the house's"
+        "40/30/15",
+        (PayoutRow(3, None, (0.4, 0.3, 0.15)),),
+        "a common split, with the rest going to the house",
     ),
     "70/30": Payouts("70/30", (PayoutRow(2, None, (0.7, 0.3)),), "a common split"),
 }

@@ -112,7 +112,7 @@ def _given(win: Wins, name: str) -> Any:
         return win
     if name not in win:
         raise InputError(
-            "{win} has no chances for match {name!r}. Give them for every match.", name=name
+            "{win} has no chances for match {name!r}. Give chances for every match.", name=name
         )
     return win[name]
 
@@ -136,8 +136,8 @@ def _table(given: Any, bracket: Bracket) -> Floats:
     if off.max() > 1e-9:
         i, j, *_ = np.unravel_index(off.argmax(), off.shape)
         raise InputError(
-            "win[{player}, {player_2}] and win[{player_2}, {player}] don't add up to 1. "
-            "Give the chances of both players of one match.",
+            "win[{player}, {player_2}] and win[{player_2}, {player}] don't add up to 1. Give "
+            "both players' chances in the same match.",
             player=players[i],
             player_2=players[j],
         )

@@ -121,8 +121,8 @@ def _plan(now: Standing) -> Plan:
     plan = exact_plan(now.remaining, (), MOST_STATES / len(now.bracket.players))
     if plan is None:
         raise InputError(
-            "bracket is too large for leverages at this point. Ask again after a few "
-            "results, or compare title_odds with and without a result."
+            "bracket is too large for leverages at this point. Try again after a few results, "
+            "or compare title_odds with and without a result."
         )
     return plan
 

@@ -260,7 +260,9 @@ def conditional(plan: Plan, chances: Chances, through: ForwardPass) -> ForwardPa
     is still being played.
     """
     if any(isinstance(step, GroupStep) for step in plan.steps):
-        raise InputError("results has a match after the groups. Give it when the groups are over.")
+        raise InputError(
+            "results has a match from after the groups. Leave it out until the groups are over."
+        )
     if not float(through.total) > 0.0:
         raise InputError("results can't all happen. Give results that agree with each other.")
     at_end = {

@@ -261,7 +261,7 @@ def _checked(
 ) -> tuple[Races, Scale, Floats, float]:
     rated = column(ratings, "ratings", len(bracket.players), "players")
     if not np.isfinite(rated).all():
-        raise InputError("ratings must hold finite numbers; one value isn't")
+        raise InputError("ratings must be finite numbers; one of them isn't")
     plan = races if isinstance(races, Races) else Races(races)
     unknown = set(plan.by_match) - set(bracket.by_name)
     if unknown:
