@@ -105,7 +105,7 @@ def test_a_matrix_that_reads_both_ways_comes_with_a_warning(tmp_path) -> None:
     path = matrix_file(tmp_path, BOTH)
     file = read_chain(path)
     assert chain_in(file, None).matrix.toarray().tolist() == BOTH
-    assert "If the rows hold them, give rows from" in file.warnings[0]
+    assert "If the rows hold those probabilities, use rows from" in file.warnings[0]
     assert read_chain(path, rows="to").warnings == ()
     assert chain_in(read_chain(path, rows="from"), None).matrix.toarray().T.tolist() == BOTH
     assert read_chain(matrix_file(tmp_path, [[0.0, 1.0], [1.0, 0.0]])).warnings == ()
@@ -224,14 +224,14 @@ def edge(source, target, **attributes):
         ([edge("S", "W", probability=True)], {}, "'S' -> 'W' has probability True"),
         ([edge("S", "W", probability=0.5), edge("S", "W", probability=1.0)], {}, "listed twice"),
         ([edge("S", "W", weight=3.0)], {}, "'S' -> 'W' has probability 3.0"),
-        ([edge("S", "W", weight=3.0)], {}, "its weight divided by all that leave its source"),
+        ([edge("S", "W", weight=3.0)], {}, "its weight divided by the total weight"),
         ([edge("S", "W", p=1.0)], {"nodes": [{"id": "S"}]}, "'W', which isn't among the nodes"),
         ([{"source": "S"}], {"nodes": [{"id": "S"}]}, "arc 1 has no source or no target"),
-        ([], {"nodes": [{"id": "S", "winner": "Ann"}]}, "state 'S' has winner 'Ann'. Give the"),
-        ([], {"nodes": [{"id": k, "kind": "start"} for k in "AB"]}, "2 nodes of the kind start"),
+        ([], {"nodes": [{"id": "S", "winner": "Ann"}]}, "state 'S' has the winner 'Ann'. Give the"),
+        ([], {"nodes": [{"id": k, "kind": "start"} for k in "AB"]}, "2 nodes whose kind is start"),
         ([edge("S", "W", probability=1.0)], {"directed": False}, "directed"),
         ([edge("S", "W", probability=1.0)], {"multigraph": True}, "one arc"),
-        ([edge("1", "1", p=1.0)], {"nodes": [{"id": 1}, {"id": "1"}]}, "alike"),
+        ([edge("1", "1", p=1.0)], {"nodes": [{"id": 1}, {"id": "1"}]}, "written the same"),
         ([], {}, "no states"),
     ],
 )
@@ -284,7 +284,7 @@ def test_a_graph_that_defines_entities_is_refused_unread(tmp_path, definition, e
 def test_a_graph_that_would_fill_the_memory_is_refused(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("evenbreak.files.chain_files.MOST_MEGABYTES", 0)
     path = json_file(tmp_path, [edge("S", "W", probability=1.0)])
-    assert "larger than 0 MB. Write its arcs as CSV" in problem(path)
+    assert "larger than 0 MB. Save its arcs as CSV" in problem(path)
 
 
 def test_json_that_is_nested_without_end_is_refused(tmp_path) -> None:
@@ -328,7 +328,7 @@ def test_a_graph_in_another_form_of_json(tmp_path) -> None:
 def test_other_forms_of_graphs_and_matrices_are_named_and_not_read_as_tables(tmp_path, form):
     path = tmp_path / f"mine{form}"
     path.write_bytes(b"graph [ directed 1 ]")
-    assert f"a {form} file isn't read here. Write the graph as GraphML" in problem(path)
+    assert f"{form} files can't be read. Save the graph as GraphML" in problem(path)
 
 
 def test_a_missing_file(tmp_path) -> None:

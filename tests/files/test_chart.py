@@ -97,7 +97,7 @@ def test_cells_that_are_no_whole_numbers(write):
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("a,b\n1,2\n", "has none of the columns of a chart"),
+        ("a,b\n1,2\n", "has none of a chart's columns"),
         (ROWS, "has no rows below its header"),
         ("from,to,stronger\n0,,5\n", "there's no column 'weaker_needs'"),
         ("level,opponent_level\n3,3\n", "there's no column 'needs'"),
@@ -119,9 +119,9 @@ def test_a_chart_of_levels_needs_each_pair_once_only(write):
 def test_faults_of_a_chart_of_levels(write):
     path = write(LEVELS + "3,3,2,2\n4,3,3,2\n3,4,3,3\n5,5,4,4\n5,3,2,3\n")
     assert problems_of(path) == [
-        "F: doesn't say what level 4 needs against level 4. Add a row.",
-        "F: doesn't say what level 4 needs against level 5. Add a row.",
-        "F: doesn't say what level 5 needs against level 4. Add a row.",
+        "F: doesn't say how many games level 4 needs against level 4. Add a row.",
+        "F: doesn't say how many games level 4 needs against level 5. Add a row.",
+        "F: doesn't say how many games level 5 needs against level 4. Add a row.",
         "F:4: level 3 needs 3 games against level 4 here but 2 in line 3. Keep one of the two.",
         "F:6: level 5 needs 2 games against level 3, which needs 3",
     ]

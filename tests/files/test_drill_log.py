@@ -88,8 +88,8 @@ def test_all_problems_are_told_at_once(drill_file):
         ":5: level '101' isn't a whole number from 1 to 100. Write 1, 2, 3, ...",
         ":6: success is empty. Write one of them, and a row for each attempt.",
         (
-            ":7: has 3 cells, but the header has 2. Add what is missing, or quote cells "
-            "that hold the separator."
+            ":7: has 3 cells, but the header has 2. Add what's missing, or put cells that "
+            "contain the separator in quotes."
         ),
     ]
 
@@ -98,7 +98,7 @@ def test_all_problems_are_told_at_once(drill_file):
     ("text", "words"),
     [
         ("level,success\n", "has no attempts below its header"),
-        ("1,yes\n2,no\n", "doesn't name columns"),
+        ("1,yes\n2,no\n", "doesn't name the columns"),
         ("level\n1\n", "there's no column 'success' among 'level'"),
         ("", "is empty"),
     ],

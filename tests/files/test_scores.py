@@ -52,8 +52,8 @@ def test_all_problems_at_once(read):
             "Write a score such as 48."
         ),
         (
-            ":3: date '3/9/2024' may have the month first or the day, and no date of the "
-            "file shows which. Add dates mdy (month first) or dates dmy (day first)."
+            ":3: date '3/9/2024' may have the month or the day first, and no date in the file "
+            "shows which. Add dates mdy (month first) or dates dmy (day first)."
         ),
         ":4: score is empty. Write a score such as 48.",
         (

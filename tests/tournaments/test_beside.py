@@ -145,7 +145,7 @@ def test_the_tables_are_those_of_the_first_event(tmp_path):
     enter(path, 1, lambda _: [Changed(tables=2, labels=("TV", "Bar"))])
     assert read_tournament(path, 2).plan.table_name(1) == "TV"
     assert read_tournament(path, 2).plan.tables == 2
-    with pytest.raises(ValueError, match="tables are those of the first event"):
+    with pytest.raises(ValueError, match="tables belong to the first event"):
         enter(path, 2, lambda state: [moves.change(state, tables=5)])
     with pytest.raises(ValueError, match="has no event 3"):
         read_tournament(path, 3)

@@ -418,7 +418,7 @@ def test_a_night_survives_a_restart_and_needs_no_tournament(tmp_path: Path) -> N
 
     shown = CliRunner().invoke(program, ["tournament", "show", "--file", str(path)])
     assert shown.exit_code == 3
-    assert "holds a team night and no tournament" in shown.stderr
+    assert "holds a team night, not a tournament" in shown.stderr
     assert len(shown.stderr.strip().splitlines()) == 1
 
     entrants = tuple(Entrant(name, 500.0) for name in RACKS)

@@ -106,7 +106,7 @@ def test_matches_in_two_files_are_named(run, seasons, tmp_path):
         ("player,rating,prior\nInes Valbrecht,90,-3\n", "begin.csv:2"),
         ("player,rating,scale\nInes Valbrecht,600,fargo\n", "--scale fargo"),
         ("player,level\nInes Valbrecht,6\n", "skill levels"),
-        ("player,rating\nInes Valbrecht,\n", "no player in it has a rating"),
+        ("player,rating\nInes Valbrecht,\n", "none of its players has a rating"),
     ],
 )
 def test_what_cannot_be_begun_from_is_refused(run, seasons, tmp_path, content, what):

@@ -124,7 +124,7 @@ def test_a_graph_too_large_to_write_is_refused_with_the_remedy(run, tmp_path) ->
         ("nowhere.csv", "no such file"),
         ("nowhere.graphml", "no such file"),
         ("nowhere.mtx", "no such file"),
-        ("nowhere.gml", "a .gml file isn't read here"),
+        ("nowhere.gml", ".gml files can't be read"),
     ],
 )
 def test_a_missing_file_is_not_taken_for_a_game(run, tmp_path, name, said) -> None:

@@ -88,8 +88,8 @@ def test_a_list_of_events_is_refused_with_line_and_field(tmp_path: Path) -> None
     said = run("import", events, "--out", second)
     assert (said.exit_code, second.exists()) == (3, False)
     assert (
-        "events.csv:4: isn't an event of a tournament: score 1 must be a whole "
-        "number up to 10000; it is 1000000"
+        "events.csv:4: isn't a tournament's event: score 1 must be a whole number up to 10000; "
+        "it is 1000000"
     ) in said.stderr
 
 

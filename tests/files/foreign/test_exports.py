@@ -134,7 +134,7 @@ def test_what_was_not_played_in_cuescore_is_left_out_and_counted(read):
 def test_a_score_that_does_not_end_its_race_is_read_without_it(read, score):
     file = read(cuescore(cue("Ann", "Bo", score)))
     assert matches(file) == [("Ann", "Bo", *score, 0, 0)]
-    assert "without its race" in file.warnings[0]
+    assert "doesn't complete its race" in file.warnings[0]
 
 
 def test_the_race_of_the_tournament_is_that_of_its_matches(read):
@@ -159,9 +159,12 @@ def test_the_race_of_the_tournament_is_that_of_its_matches(read):
         (cue(7, "Bo", (7, 5)), "has no name for player A"),
         (cue("An\ud800", "Bo", (7, 5)), "can't be printed"),
         (cue("Ann", "Ann", (7, 5)), "'Ann' is on both sides"),
-        (cue("Ann", "Bo", (7, 5), status="waiting"), "has no match that was played; left out: 1"),
-        (None, "isn't built as expected"),
-        ([], "isn't built as expected"),
+        (
+            cue("Ann", "Bo", (7, 5), status="waiting"),
+            "has no matches that were played; left out: 1",
+        ),
+        (None, "doesn't have the expected structure"),
+        ([], "doesn't have the expected structure"),
     ],
 )
 def test_what_is_wrong_in_a_cuescore_file_is_one_problem(read, match, told):
@@ -262,9 +265,9 @@ def test_what_was_not_played_in_challonge_is_left_out_and_counted(read):
         ({"tournament": {"participants": [{"id": 1}]}}, "holds no matches"),
         (challonge(bout("7:x")), "has the score '7:x'"),
         (challonge(bout("7-5", player1_id=99)), "number 99"),
-        (challonge(bout("7-5"), people=[{"name": "Ann"}]), "isn't built as expected"),
-        (challonge(bout(7)), "isn't built as expected"),
-        (challonge(), "has no match that was played"),
+        (challonge(bout("7-5"), people=[{"name": "Ann"}]), "doesn't have the expected structure"),
+        (challonge(bout(7)), "doesn't have the expected structure"),
+        (challonge(), "has no matches that were played"),
     ],
 )
 def test_what_is_wrong_in_a_challonge_file_is_one_problem(read, data, told):
@@ -335,7 +338,7 @@ def test_what_was_not_played_in_brackets_manager_is_left_out_and_counted(read):
     [
         (duel(side(8, 7, "win"), side(1, 5)), "number 8"),
         (duel(side(0, -7, "win"), side(1, 5)), "has score -7"),
-        (duel(7, side(1, 5)), "isn't built as expected"),
+        (duel(7, side(1, 5)), "doesn't have the expected structure"),
     ],
 )
 def test_what_is_wrong_in_a_brackets_manager_file_is_one_problem(read, match, told):

@@ -155,7 +155,7 @@ def test_every_key_has_an_example_and_all_can_stand_in_one_file(folder):
     used = [
         line[2:] if line.startswith("# ") and " = " in line and not line.startswith(races) else line
         for line in lines
-        if "Names that mean" not in line and "How single" not in line
+        if "Names that mean" not in line and "How individual" not in line
     ]
     league = league_of("\n".join(used).encode(), folder / "league.toml")
     assert all(getattr(league, key) is not None for key in EXAMPLES if "." not in key) is False

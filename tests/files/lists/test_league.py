@@ -39,7 +39,7 @@ def test_every_column_is_read(tmp_path: Path) -> None:
     assert players.played.tolist() == [25, ESTABLISHED, 0]
     assert (file.drawn, file.exact) == (1, 1)
     assert file.warnings == (
-        f"{tmp_path}/club.csv: 2 ratings are rounded to whole points, as charts need",
+        f"{tmp_path}/club.csv: 2 ratings were rounded to whole points, because charts need them",
     )
 
 

@@ -105,7 +105,9 @@ def test_all_problems_at_once(read):
     )
     problems = problems_of(read, text)
     assert [line.split(":")[1] for line in problems] == ["2", "3", "3", "4", "4", "4", "5", "6"]
-    assert problems[-2] == ":5: rating is empty after 12 games. Fill it in, or write 0 games."
+    assert problems[-2] == (
+        ":5: rating is empty, but the player has 12 games. Fill it in, or write 0 games."
+    )
 
 
 @pytest.mark.parametrize(
@@ -198,7 +200,7 @@ def test_an_unknown_or_a_second_scale_is_refused(read, scale, named):
 
 
 def test_a_cell_with_half_a_file_in_it_is_no_name(read):
-    with pytest.raises(DataError, match=r":3: .*130,000 letters"):
+    with pytest.raises(DataError, match=r":3: .*130,000 characters"):
         read("player,rating\nAnn,80\n" + 130_000 * "a" + ",70\n")
 
 
@@ -215,7 +217,7 @@ def test_the_title_of_the_ratings_may_name_their_scale(tmp_path, title, scale):
 def test_a_title_that_names_another_scale_than_the_column_is_refused(tmp_path):
     path = tmp_path / "club.csv"
     path.write_text("Name,Fargo Rating,Scale\nAnn,700,elo\n", encoding="utf-8")
-    with pytest.raises(DataError, match=r"'elo' differs from the title 'Fargo Rating'"):
+    with pytest.raises(DataError, match=r"'elo' differs from the column title 'Fargo Rating'"):
         read_roster(path)
 
 

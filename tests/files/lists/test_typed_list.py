@@ -289,12 +289,12 @@ def test_lists_as_they_are_pasted(tmp_path, text, players, ratings):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("Players:\nAnn\nBo\n", "'Players:' is left out as a heading"),
-        ("Ann Lee,0\nBo,612\n", "'Ann Lee' has the rating 0. Leave it out if it means none"),
+        ("Players:\nAnn\nBo\n", "'Players:' was left out, because it looks like a heading"),
+        ("Ann Lee,0\nBo,612\n", "'Ann Lee' has the rating 0. Leave it out if it means no rating"),
         ("Ann Lee,-30\nBo,612\n", "'Ann Lee' has the rating -30"),
         (
             "3) Ann\n5) Bo\n",
-            "the numbers in front of names, such as the 3 before 'Ann', are left out",
+            "the numbers in front of names, such as the 3 before 'Ann', were left out",
         ),
     ],
 )
@@ -330,7 +330,7 @@ def test_a_message_shows_a_tab_as_a_blank(tmp_path: Path) -> None:
 def test_a_line_without_end_is_refused_at_once(tmp_path: Path, sign: str) -> None:
     path, began = tmp_path / "list.txt", time.monotonic()
     path.write_text(f"Ann Lee 612\n{sign * 40_000}\n", encoding="utf-8")
-    with pytest.raises(DataError, match="letters, which isn't a name") as caught:
+    with pytest.raises(DataError, match="characters, too many for a name") as caught:
         read_entrants(path)
     assert len(caught.value.problems) == 1
     assert time.monotonic() - began < 5.0

@@ -22,7 +22,7 @@ def test_rows_that_cannot_be_read_are_left_out_and_listed(tmp_path):
     assert len(found.results) == len(found.lines) == 30
     assert found.results.players == ("Ann", "Bo")  # nobody whose only match is left out
     texts = "\n".join(found.warnings)
-    assert "3 rows are left out" in texts
+    assert "3 rows were left out" in texts
     assert all(f"season.csv:{line}: " in texts for line in (32, 33, 34))
     assert "'seven'" in texts
 
@@ -85,4 +85,4 @@ def test_rows_with_too_many_or_too_few_cells_count_as_left_out(tmp_path):
     )
     found = read_results(path, skip_bad=True)
     assert (found.skipped, len(found.results)) == (3, 1)
-    assert "3 rows are left out" in found.warnings[0]
+    assert "3 rows were left out" in found.warnings[0]

@@ -45,5 +45,5 @@ def test_the_aliases_of_a_league_can_be_those_of_another_file(league):
 
 def test_a_league_without_results_is_refused_with_what_to_write(tmp_path):
     (tmp_path / "league.toml").write_text("tables = 6\n")
-    with pytest.raises(DataError, match=r"names no results\. Add a line \[\[results\]\]"):
+    with pytest.raises(DataError, match=r"lists no results\. Add a \[\[results\]\] line"):
         read_seasons([tmp_path / "league.toml"])

@@ -25,10 +25,10 @@ def test_levels_set_the_race_and_so_the_winner(read):
     assert np.transpose([file.results.score_a, file.results.score_b])[:2].tolist() == winners
     texts = [text.partition("night.csv")[2] for text in file.warnings]
     assert texts == [
-        ": the races of 2 matches are those of apa_8ball for the levels stated",
+        ": 2 matches get their races from apa_8ball, by the levels stated",
         (
-            ":4: the score 1-1 doesn't end the race 2:3 of the levels stated, nor do "
-            "those of 1 more matches theirs. Check them."
+            ":4: the score 1-1 doesn't complete the 2:3 race for the levels stated (and 1 more "
+            "like this). Check them."
         ),
     ]
     assert len(file.ties) == 1
@@ -49,7 +49,10 @@ def test_stated_races_stay(read):
 def test_levels_that_the_chart_does_not_have_leave_the_race_open(read):
     file = read("Ann,Bo,4,1,5,3", "Ann,Cy,3,1,5,8", "Bo,Cy,1,3,,3")
     assert np.transpose(file.results.races).tolist() == [[4, 2], [0, 0], [0, 0]]
-    assert any(":3: 2 matches without a race state no levels" in text for text in file.warnings)
+    assert any(
+        ":3: 2 matches, starting with this one, have neither a race nor levels" in text
+        for text in file.warnings
+    )
 
 
 def test_ratings_set_the_race_by_a_chart_of_differences(read):

@@ -127,8 +127,8 @@ def test_all_problems_are_told_at_once_with_line_column_and_remedy(read):
             "correct the scores or the race."
         ),
         (
-            ":8: has 2 cells, but the header has 8. Add what is missing, or quote cells "
-            "that hold the separator."
+            ":8: has 2 cells, but the header has 8. Add what's missing, or put cells that "
+            "contain the separator in quotes."
         ),
     ]
     assert all(". " in text for text in told)
@@ -141,7 +141,7 @@ def test_names_that_differ_in_case_or_spaces_are_one_player_and_both_spellings_a
     )
     assert file.results.players == ("Ann Lee", "Bo")
     assert file.results.player_a.tolist() == [0, 0, 1, 1]
-    told = [w.partition(": ")[2].partition(", as")[0] for w in file.warnings]
+    told = [w.partition(": ")[2].partition(", because")[0] for w in file.warnings]
     assert told == [
         "'ANN LEE' is read as 'Ann Lee'",
         "'Ann  Lee' is read as 'Ann Lee'",

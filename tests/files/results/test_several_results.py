@@ -48,7 +48,7 @@ def test_titles_may_be_those_of_one_file_or_of_the_files_that_have_them(tmp_path
     assert results.score_a.tolist() == [7, 3]
     shared = {"player_a": "Sp 1", "player_b": "Sp 2", "score": "Stand"}
     assert read_seasons([autumn, spring], columns=shared).results.score_a.tolist() == [7, 3]
-    with pytest.raises(InputError, match=r"'summer\.csv', which is none of the files"):
+    with pytest.raises(InputError, match=r"'summer\.csv', which isn't one of the files"):
         read_seasons([autumn, spring], columns={**columns, "summer.csv:score": "X"})
-    with pytest.raises(InputError, match="'Runde', which is a column of none"):
+    with pytest.raises(InputError, match="'Runde', which isn't a column in any"):
         read_seasons([autumn, spring], columns={**columns, "event": "Runde"})

@@ -91,7 +91,7 @@ def test_a_file_in_the_place_of_a_folder_above_is_told(tmp_path, place):
     with pytest.raises(NotADirectoryError) as caught:
         write_files(above / place, NEW)
     assert caught.value.filename == str(above / place)
-    told = f"{above} is a file, so no folder can be in it. Choose another."
+    told = f"{above} is a file, so it can't hold a folder. Choose another."
     assert caught.value.strerror == told
     assert content(tmp_path) == {"one.csv": b"mine"}
 
@@ -151,7 +151,7 @@ def test_files_of_people_are_left_alone_whatever_they_are_called(folder):
 def test_a_folder_that_only_has_the_name_of_ours_is_left_alone(folder, name):
     (folder / WORK).mkdir()
     (folder / WORK / name).write_bytes(b"mine")
-    with pytest.raises(OSError, match="wasn't made by this program"):
+    with pytest.raises(OSError, match="isn't from this program"):
         write_files(folder, NEW)
     assert (folder / WORK / name).read_bytes() == b"mine"
     assert (folder / "a.csv").read_bytes() == OLD["a.csv"]
@@ -161,7 +161,7 @@ def test_a_file_put_into_our_folder_is_left_alone(folder):
     (folder / WORK).mkdir()
     for name in (MADE_BY_US, "new-0", "thesis.txt"):
         (folder / WORK / name).write_bytes(b"mine")
-    with pytest.raises(OSError, match="wasn't made by this program"):
+    with pytest.raises(OSError, match="isn't from this program"):
         write_files(folder, NEW)
     assert sorted(content(folder / WORK)) == [MADE_BY_US, "thesis.txt"]
 
@@ -172,7 +172,7 @@ def test_a_link_with_the_name_of_our_folder_is_not_followed(folder, tmp_path):
     (tmp_path / "home" / MADE_BY_US).write_bytes(b"")
     (tmp_path / "home" / "new-0").write_bytes(b"mine")
     (folder / WORK).symlink_to(tmp_path / "home")
-    with pytest.raises(OSError, match="wasn't made by this program"):
+    with pytest.raises(OSError, match="isn't from this program"):
         write_files(folder, NEW)
     assert (tmp_path / "home" / "new-0").read_bytes() == b"mine"
 
@@ -223,7 +223,7 @@ def test_a_folder_is_checked_without_a_trace(tmp_path):
     check_folder(tmp_path / "new" / "newer")
     assert list(tmp_path.iterdir()) == []
     (tmp_path / "file").write_text("")
-    with pytest.raises(NotADirectoryError, match="is a file, so no folder can be in it"):
+    with pytest.raises(NotADirectoryError, match="is a file, so it can't hold a folder"):
         check_folder(tmp_path / "file" / "x" / "y")
 
 

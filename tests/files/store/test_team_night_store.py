@@ -29,7 +29,7 @@ def test_a_night_and_a_tournament_share_a_file_whichever_is_first(tmp_path):
             add(path, Begun(plan()))
             assert holds(path, TEAM_NIGHT)
             assert not holds(path, TOURNAMENT)
-            with pytest.raises(DataError, match="holds a team night and no tournament"):
+            with pytest.raises(DataError, match="holds a team night, not a tournament"):
                 read_tournament(path)
         new_tournament(path, [Event(AT, OPENED)])
         state, added = add(path, Begun(plan(race=6)))

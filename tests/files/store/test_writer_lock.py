@@ -33,9 +33,9 @@ def holder(tmp_path):
 
 def test_a_second_writer_waits_and_is_told_why(holder, tmp_path, monkeypatch):
     monkeypatch.setattr(folder_module, "PATIENCE", 0.1)
-    with pytest.raises(OSError, match="another run is writing into it"):
+    with pytest.raises(OSError, match="another run is writing to it"):
         write_files(tmp_path, {"a.csv": b"1"})
-    with pytest.raises(OSError, match="another run is writing into it"):
+    with pytest.raises(OSError, match="another run is writing to it"):
         check_folder(tmp_path / "deep" / "sheet")
     assert [path.name for path in tmp_path.iterdir()] == [LOCK]
     holder.communicate()

@@ -65,7 +65,7 @@ def test_encodings(content, encoding):
 
 def test_the_warning_says_where_the_file_stops_being_utf8():
     *_, warnings = text_of("Zoë\nBo\n".encode() + "Émile".encode("cp1252"), "r.csv")
-    assert warnings[0].startswith("r.csv:3: isn't UTF-8. Read as Windows-1252")
+    assert warnings[0].startswith("r.csv:3: isn't UTF-8. It was read as Windows-1252")
 
 
 @each_of(

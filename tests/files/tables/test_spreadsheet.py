@@ -175,7 +175,7 @@ def far_cells():
     ("make", "told"),
     [
         (lambda: b"PK\x03\x04\x14\0", "can't be read as a workbook"),
-        (lambda: archive(readme_txt="hello"), "no .xlsx or .ods workbook"),
+        (lambda: archive(readme_txt="hello"), "not an .xlsx or .ods workbook"),
         (lambda: archive(content_xml="<a/>"), "can't be read as a workbook"),
         (lambda: xlsx({"A": []}), "no sheet with anything in it"),
         (far_cells, "far away"),

@@ -118,12 +118,12 @@ def test_rows_of_the_wrong_width_are_told_and_the_rest_kept(read):
     assert table.cells("name") == ["Cy", "Ed"]
     assert [text.split(";")[0] for text in problems(table)] == [
         (
-            ":2: has 1 cell, but the header has 2. Add what is missing, or quote cells "
-            "that hold the separator."
+            ":2: has 1 cell, but the header has 2. Add what's missing, or put cells that "
+            "contain the separator in quotes."
         ),
         (
-            ":4: has 3 cells, but the header has 2. Add what is missing, or quote cells "
-            "that hold the separator."
+            ":4: has 3 cells, but the header has 2. Add what's missing, or put cells that "
+            "contain the separator in quotes."
         ),
     ]
 

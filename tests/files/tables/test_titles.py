@@ -114,7 +114,7 @@ def test_byes_and_matches_not_played_are_left_out_and_counted(tmp_path):
     assert file.results.score_b.tolist() == [5, 3]
     told = "\n".join(file.warnings)
     assert "3 byes are left out (lines 2, 3, 6)" in told
-    assert "2 matches that were not played are left out (lines 5, 8)" in told
+    assert "2 matches that weren't played are left out (lines 5, 8)" in told
     assert "'abandoned'" in told
 
 

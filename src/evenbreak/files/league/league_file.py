@@ -153,7 +153,7 @@ class LeagueFile:
     discipline: Annotated[str | None, Field(Choice(DISCIPLINES), "The game.")] = None
     scale: Annotated[
         Scale | None,
-        Field(values.SCALE, "The rating scale; leave it out if the league uses skill levels."),
+        Field(values.SCALE, "The rating scale, unless the league uses skill levels."),
     ] = None
     chart: Annotated[
         str | None, Field(values.FILE, "The race chart: a name, or a file in the folder.")

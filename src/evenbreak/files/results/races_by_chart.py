@@ -94,8 +94,8 @@ def races_by_chart(
         row = int(unfit.argmax())
         text = say_count(
             "the score {a}-{b} doesn't complete the {race} race for the levels stated. Check it.",
-            "the score {a}-{b} doesn't complete the {race} race for the levels stated, and "
-            "{more:,} more scores don't complete their races. Check them.",
+            "the score {a}-{b} doesn't complete the {race} race for the levels stated (and "
+            "{more:,} more like this). Check them.",
             int(unfit.sum()),
             a=int(score_a[row]),
             b=int(score_b[row]),
