@@ -33,7 +33,7 @@ def test_a_public_name_is_nobody_elses() -> None:
 
 
 def test_a_slip_in_a_name_is_refused_and_not_published() -> None:
-    with pytest.raises(DataError, match="'Zeb Quackenbush' isn't a player of this league"):
+    with pytest.raises(DataError, match="'Zeb Quackenbush' isn't a player in this league"):
         PublicNames.of(PLAYERS, by_player={"Zeb Quackenbush": "hidden"})
 
 

@@ -64,7 +64,7 @@ def test_a_scale_that_the_list_contradicts_is_refused(run, tmp_path, title):
         assert "the results contradict NPL ratings: by them" in told.stderr
     else:
         assert told.exit_code == 2
-        assert "says its ratings are on the Fargo scale" in told.stderr
+        assert "states that its ratings are on the Fargo scale" in told.stderr
 
 
 def test_a_list_that_states_the_wrong_scale_is_refused_with_both_readings(run, tmp_path):

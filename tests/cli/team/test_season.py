@@ -114,6 +114,6 @@ def test_what_may_have_been_entered_twice_is_named(run, tmp_path):
     schedule.write_text("round,home,away\n3,A,C\n3,B,D\n3,A,D\n4,A,C\n")
     said = run("season", str(results), str(schedule), "--sure", "--seasons", "1000").stderr
     assert "r.csv:4: A against B is already in line 2" in said
-    assert "s.csv:4: A plays in round 3 in line 2 already" in said
+    assert "s.csv:4: A already plays in round 3, in line 2" in said
     assert "s.csv:4: D plays in round 3 in line 3 already" in said
     assert said.count("already") == 3

@@ -101,7 +101,7 @@ def test_a_stated_rating_is_for_strangers_only(written):
         league, read_entrants(written("player,rating\nAnn Lee,70\nCy,64\nBo Diaz,71\n"))
     )
     assert file.roster.rating.tolist() == [92, 64, 71]
-    assert any("entrants.txt:2: Ann Lee's rating 70" in warning for warning in file.warnings)
+    assert any("entrants.txt:2: the rating 70" in warning for warning in file.warnings)
     assert not any("Bo Diaz" in warning for warning in file.warnings)
 
 

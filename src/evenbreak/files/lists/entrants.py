@@ -161,7 +161,7 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
         warning(
             entrants.source,
             entrants.lines[k],
-            "{player}'s rating {stated:g} isn't used, because {list} has {rating:g}",
+            "the rating {stated:g} for {player} isn't used, because {list} has {rating:g}",
             stated=stated.rating[k],
             player=quoted(roster.players[k]),
             list=league.source,

@@ -47,7 +47,7 @@ def wait(
     found = Waits(name, pair, tuple(dict.fromkeys(absent)), until, reason)
     if not found and name not in state.waiting_for:
         raise InputError(
-            "{match} isn't on hold. Say who is absent, or why it should wait.",
+            "{match} isn't waiting. Say who is absent, or why it should wait.",
             match=state.match_words(name),
         )
     return found
