@@ -115,5 +115,5 @@ def test_what_may_have_been_entered_twice_is_named(run, tmp_path):
     said = run("season", str(results), str(schedule), "--sure", "--seasons", "1000").stderr
     assert "r.csv:4: A against B is already in line 2" in said
     assert "s.csv:4: A already plays in round 3, in line 2" in said
-    assert "s.csv:4: D plays in round 3 in line 3 already" in said
+    assert "s.csv:4: D already plays in round 3, in line 3" in said
     assert said.count("already") == 3

@@ -321,7 +321,7 @@ def named(path: str | Path, what: str) -> Iterator[None]:
     Traceback (most recent call last):
     ...
     evenbreak.errors.DataError: tonight.db, entry 3 (late): line is 'x'; give a whole number from 0
-    to 255. Go on with a copy of the file, such as one ending in .backup.db
+    to 255. Continue with a copy of the file, such as one ending in .backup.db
     """
     try:
         yield

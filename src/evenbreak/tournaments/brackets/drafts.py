@@ -47,7 +47,7 @@ def checked_players(players: Sequence[str] | int, *, fewest: int = FEWEST) -> tu
     >>> checked_players(["Ann", "Ann"])
     Traceback (most recent call last):
     ...
-    evenbreak.errors.InputError: players has 'Ann' twice. Give each player a name of their own.
+    evenbreak.errors.InputError: players has 'Ann' twice. Give each player a different name.
     """
     if isinstance(players, str):
         raise InputError(
