@@ -348,7 +348,8 @@ class _Pages:
             reason = "is the race closest to even" if fair else "is what the chart gives"
             said = (
                 f"{name} is rated {points(first)}, and {opponent}, the last opponent, is rated "
-                f"{points(second)}, so they are {points(apart)} points apart. {game}, and {played} {reason}: "
+                f"{points(second)}, so they are {points(apart)} points apart. {game}, "
+                f"and {played} {reason}: "
                 f"{name} wins it {_percent(p)} of the time."
             )
         more = [

@@ -149,8 +149,8 @@ def _spread(league: PublishedLeague) -> tuple[str, Chart, str] | None:
     low, high = np.quantile(half, [0.25, 0.75]).tolist()
     words = (
         f"Ratings run from {placed[0].rating:.0f} down to {placed[-1].rating:.0f}; the middle half "
-        f"of the {len(placed)} players are between {low:.0f} and {high:.0f}. The bars show how far off "
-        "each rating may be."
+        f"of the {len(placed)} players are between {low:.0f} and {high:.0f}. The bars show "
+        "how far off each rating may be."
     )
     label = "The rating of every player with a place, the highest on the left"
     below = [(x[0], "1st", "middle"), (x[-1], f"{len(placed)}", "end")]

@@ -74,7 +74,8 @@ Flo,80,,,,-2,x,,
         (5, "drift '2000' isn't a number from -1,000 to 1,000"),
         (
             5,
-            "absence '1.5' isn't a number from 0 to 1. Write the chance of being absent, such as 0.1",
+            "absence '1.5' isn't a number from 0 to 1. Write the chance of being absent, "
+            "such as 0.1",
         ),
         (5, "standard_error '-3' isn't a number from"),
         (6, "rating '20000' isn't a number from -10,000 to 10,000"),
