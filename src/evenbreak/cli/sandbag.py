@@ -135,7 +135,9 @@ def _moved(
     """Return the system on the scale of the list; refuse or doubt one that results contradict."""
     from evenbreak.answers.kit.scales import contradiction, far_doubts
 
-    refuse_levels(first, f"the system {system.name} needs ratings in points. Give a list of those.")
+    refuse_levels(
+        first, f"the system {system.name} needs ratings in points. Give a list with points."
+    )
     own = system.scale.name != DEFAULT_SCALE
     assumed = own and scale is None
     points = system.scale if assumed else first.scale_by(scale, SAY_WHICH, POINTS_OR_SCALE)

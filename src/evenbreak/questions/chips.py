@@ -121,7 +121,7 @@ class ChipAudit(ChipField):
         str | None,
         Field(
             File("FILE.csv"),
-            "The field.",
+            "The players in the tournament.",
             usual="16 players, spread over four doublings of the odds",
         ),
     ] = None

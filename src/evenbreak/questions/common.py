@@ -57,8 +57,8 @@ _SCALE = Field(
     SCALE,
     "The scale of the ratings: POINTS double the odds of winning a game.",
     usual="inferred from the ratings",
-    more="Default: the list's `scale` column or, without one, [the scale that the ratings "
-    "suggest](../files.md#the-scale-of-a-list).",
+    more="If the list has a `scale` column, that scale is used; otherwise see [how the scale is "
+    "inferred](../files.md#the-scale-of-a-list).",
 )
 ScaleOf: TypeAlias = Annotated[Scale | None, _SCALE]
 OnScale: TypeAlias = Annotated[Scale, _SCALE, Says(usual="", more="")]
@@ -166,9 +166,9 @@ ByWay: TypeAlias = Annotated[
         "How the answer is calculated: with a formula, or from the game's graph and matrix.",
         section="Details",
         rare=True,
-        more="The ways are the fast formula (kernel), elimination of states, and eigenvectors; "
-        "their answers are compared. See [the same answer by another "
-        "way](../../how-to/your-own-chain.md#the-same-answer-by-another-method).",
+        more="The methods are the fast formula (kernel), elimination of states, and "
+        "eigenvectors; their answers are compared. See [the same answer by another "
+        "method](../../how-to/your-own-chain.md#the-same-answer-by-another-method).",
     ),
 ]
 
@@ -296,6 +296,6 @@ class OnPaper(Question):
     """What to print of a tournament."""
 
     title: Annotated[
-        Title, Says("A title, such as the name of the event.", usual="the name of its file")
+        Title, Says("A title, such as the event's name.", usual="the name of its file")
     ] = ""
     paper: PaperName = None

@@ -47,7 +47,7 @@ Prizes: TypeAlias = Annotated[
     Field(
         Text("MONEY,..."),
         "The money for first place, second, ..., such as 500,300,150.",
-        more="Also show each player's average prize.",
+        more="The answer then also has each player's average prize.",
     ),
 ]
 
@@ -150,9 +150,9 @@ class Next(TimedUnderWay):
   evenbreak tournament next
   evenbreak tournament next --prizes 500,300,150
 """
-    prizes: Annotated[Prizes, Says(more="Also show how much prize money each match decides.")] = (
-        None
-    )
+    prizes: Annotated[
+        Prizes, Says(more="The answer then also shows how much prize money each match decides.")
+    ] = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -84,7 +84,10 @@ class Breaks(Question):
     via: ByWay = None
     plot: Annotated[
         PlotFile,
-        Says(more="Draw the two players as a dot on contour lines of A's share of the racks."),
+        Says(
+            more="The chart shows the two players as a dot on contour lines of A's share of "
+            "the racks."
+        ),
     ] = None
 
     def check(self) -> None:
@@ -107,7 +110,7 @@ class Straight(Question):
 """
     old_words = ("averages",)
     averages: Annotated[
-        Shots | None, Field(Named(_averages, "A:B"), "Average balls per inning of A and B.")
+        Shots | None, Field(Named(_averages, "A:B"), "A's and B's average balls per inning.")
     ] = None
     p1: Annotated[Chance, Says("Chance that A makes a shot.")] = None
     p2: Annotated[Chance, Says("Chance that B makes a shot.")] = None
@@ -117,7 +120,8 @@ class Straight(Question):
     safety: Safety = 1.0
     first: Annotated[str, Field(Choice(("a", "b")), "The player who shoots first.")] = "a"
     plot: Annotated[
-        PlotFile, Says(more="Plot A's chance against the points that the weaker player needs.")
+        PlotFile,
+        Says(more="The chart shows A's chance against the points that the weaker player needs."),
     ] = None
 
     def check(self) -> None:
@@ -173,8 +177,8 @@ class OneBall(Question):
     plot: Annotated[
         PlotFile,
         Says(
-            more="Draw the shots on contour lines of the chance of winning; on the thick line "
-            "the game is even."
+            more="The chart shows the shots on contour lines of the chance of winning; on the "
+            "thick line, the game is even."
         ),
     ] = None
 

@@ -81,7 +81,7 @@ class LadderErrors(BySystem):
         bool,
         Field(
             Flag(),
-            "At first, that player's rating moves by the system's longer steps for newcomers.",
+            "At first, the player's rating moves by the system's longer steps for newcomers.",
             section=_SETTLING,
         ),
     ] = False
@@ -92,7 +92,7 @@ class LadderErrors(BySystem):
         PlotFile,
         Says(
             section="",
-            more="Draw the distribution of the error and how players settle or, with "
+            more="The chart shows the distribution of the error and how players settle or, with "
             "`--compare`, the systems.",
         ),
     ] = None
@@ -100,7 +100,7 @@ class LadderErrors(BySystem):
         bool,
         Field(
             Flag(),
-            "Opponents have the player's skill as their rating, with errors like the player's.",
+            "Opponents are rated at the player's skill, with rating errors like the player's.",
             section=_OPPONENTS,
         ),
     ] = False
@@ -118,7 +118,7 @@ class LadderErrors(BySystem):
             File("ROSTER.csv"),
             "Opponents are drawn from a league, with rating errors like the player's.",
             section=_OPPONENTS,
-            more="The rated players of [a roster](../files.md#roster).",
+            more="They are the rated players on [a roster](../files.md#roster).",
         ),
     ] = None
     skill: Annotated[
@@ -236,7 +236,7 @@ class SandbagPay(BySystem):
             Whole(1, 50),
             "How many wins in a row it takes to win a tournament.",
             metavar="K",
-            more="Players keep the ratings they enter it with.",
+            more="During it, players keep the ratings that they entered with.",
         ),
     ] = 3
     prize: Annotated[
@@ -244,7 +244,7 @@ class SandbagPay(BySystem):
         Field(
             _MONEY,
             "The tournament's prize.",
-            more="It is played before the matches that count and moves no ratings.",
+            more="The tournament is played before the matches that count, and it moves no ratings.",
         ),
     ] = 0.0
     start_error: Annotated[int, _START_ERROR, Says(kind=Whole(-100, 100))] = 0
@@ -252,7 +252,8 @@ class SandbagPay(BySystem):
         bool, _COMPARE, Says(more="Each is shown with the number of dumped matches that pays most.")
     ] = False
     plot: Annotated[
-        PlotFile, Says(section="", more="Draw the chance of winning each match that counts.")
+        PlotFile,
+        Says(section="", more="The chart shows the chance of winning each match that counts."),
     ] = None
 
     def check(self) -> None:
@@ -281,7 +282,8 @@ class SandbagWatch(BySystem, Reading):
         str,
         ROSTER,
         Says(
-            "The ratings before the first match in the results.", more="Every player must have one."
+            "The ratings before the first match in the results.",
+            more="Every player must have a rating.",
         ),
     ]
     chart: Annotated[
@@ -347,7 +349,9 @@ class SandbagWatch(BySystem, Reading):
             more="Case and spacing in the name don't matter.",
         ),
     ] = None
-    plot: Annotated[PlotFile, Says(section="", more="Draw the evidence match by match.")] = None
+    plot: Annotated[
+        PlotFile, Says(section="", more="The chart shows the evidence match by match.")
+    ] = None
 
     def check(self) -> None:
         """Refuse standard input for several files."""

@@ -158,7 +158,7 @@ class Simulate(BySystem):
             "Compare handicap systems, named as for {system}; the first one is the league's own.",
             many=True,
             more='Or give several at once, separated by commas: `--compare "npl, step 2"`. If '
-            "{system} is given, it comes first. See [compare two "
+            "`--system` is given, that system comes first. See [compare two "
             "systems](../../how-to/compare-handicap-systems.md).",
         ),
     ] = ()

@@ -221,14 +221,15 @@ class Played(Question):
     ] = None
     set_: Annotated[
         tuple[int, int] | None,
-        Field(RACE, "Play sets, each one a race of M:N; {race} then counts sets.", option="set"),
+        Field(RACE, "Play sets, each one an M:N race; {race} then counts sets.", option="set"),
     ] = None
     score: Annotated[
         tuple[int, int] | None,
         Field(
             SCORE,
             "The score so far: A has I, and B has J.",
-            more="For games on the wire, or a match under way; with `--set`, it counts sets.",
+            more="Use it for games on the wire, or for a match under way; with `--set`, it "
+            "counts sets.",
         ),
     ] = None
     win_by: Annotated[
@@ -383,7 +384,9 @@ class Live(Players, Played):
         Field(Flag(), "Add the comeback table: the odds at every possible score.", old=("table",)),
     ] = False
     form: FormOfDay = None
-    plot: Annotated[PlotFile, Says(more="Draw the match so far; needs `--racks`.")] = None
+    plot: Annotated[
+        PlotFile, Says(more="The chart shows the match so far; it needs `--racks`.")
+    ] = None
 
     def check(self) -> None:
         """Refuse what needs something else."""
@@ -431,7 +434,8 @@ class Compare(Players):
         ),
     ] = None
     plot: Annotated[
-        PlotFile, Says(more="Plot A's chance in each format against the chance in a game.")
+        PlotFile,
+        Says(more="The chart shows A's chance in each format against the chance in a game."),
     ] = None
 
     @classmethod

@@ -261,7 +261,7 @@ class Change(Entry):
         None
     )
     name: Annotated[str | None, Field(Text("NAME"), "Name of the tournament.")] = None
-    date: Annotated[str | None, Field(Text("DATE"), "Its date.")] = None
+    date: Annotated[str | None, Field(Text("DATE"), "The tournament's date.")] = None
     reserved: Annotated[
         tuple[str, ...] | None,
         Field(Named(names_in, "TABLE,...", number=True), "Tables assigned only by name, or none."),
@@ -353,7 +353,8 @@ class Redo(Entry):
     """Redo the last entry that was undone."""
 
     entry: Annotated[
-        int | None, Field(Whole(2, 10**7), "Its entry number in the history.", usual="the last one")
+        int | None,
+        Field(Whole(2, 10**7), "The entry's number in the history.", usual="the last one"),
     ] = None
 
 
@@ -377,7 +378,7 @@ class Wait(TimedUnderWay):
         tuple[str, ...], Field(PLAYER, "Which of the match's players isn't here.", many=True)
     ] = ()
     until: Annotated[
-        int | None, Field(TIME_OF_DAY, "When they forfeit the match.", usual="never")
+        int | None, Field(TIME_OF_DAY, "When the absent player forfeits the match.", usual="never")
     ] = None
     reason: Annotated[str, Field(Text("TEXT"), "Another reason.")] = ""
 

@@ -118,7 +118,7 @@ class Hit(Units, BallFriction):
         ),
     ]
     topspin: Annotated[
-        float, Field(SPIN, "1 is natural roll, 0 is stun, and a negative number is draw.")
+        float, Field(SPIN, "Topspin: 1 is natural roll, 0 is stun, and a negative number is draw.")
     ] = 1.0
     english: Annotated[
         tuple[float, str] | None,
@@ -228,7 +228,11 @@ class TableSpeed(Units):
     ]
     table_length: Annotated[
         float | None,
-        Field(LENGTH, "Between the noses of the end cushions.", usual="100 inches, nine feet"),
+        Field(
+            LENGTH,
+            "Length between the noses of the end cushions.",
+            usual="100 inches, for a nine-foot table",
+        ),
     ] = None
     ball_diameter: Annotated[
         float | None, Field(LENGTH, "Diameter of the ball.", usual="2.25 inches")
@@ -266,7 +270,7 @@ class Aim(Hit):
   evenbreak physics aim --cut 30 --distance 36 --topspin 0 --speed 60
   evenbreak physics aim --cut 30 --distance 36 --english "1 tip outside"
 """
-    distance: Annotated[float, Field(LENGTH, "From the object ball to the pocket.")]
+    distance: Annotated[float, Field(LENGTH, "Distance from the object ball to the pocket.")]
     squirt: Annotated[
         float,
         Field(
@@ -387,7 +391,9 @@ class Shot(Units, BallFriction, Equipment):
             "Cut angle; negative for a cut to the left.",
         ),
     ] = None
-    distance: Annotated[float | None, Field(LENGTH, "Between the centers of the two balls.")] = None
+    distance: Annotated[
+        float | None, Field(LENGTH, "Distance between the centers of the two balls.")
+    ] = None
     cue_ball: Annotated[
         tuple[float, float] | None,
         Field(

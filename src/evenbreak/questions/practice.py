@@ -97,8 +97,8 @@ class DrillPlayed(Question):
     plot: Annotated[
         PlotFile,
         Says(
-            more="Draw the fraction of attempts at each level; for a log, compared with the "
-            "attempts so far."
+            more="The chart shows the fraction of attempts at each level; for a log, compared "
+            "with the attempts so far."
         ),
     ] = None
 
@@ -200,9 +200,9 @@ class Runs(Question):
             "The player's average, in balls per inning.",
         ),
     ] = None
-    p: Annotated[Chance, Says("Or the chance that the player makes a shot.", more="Below 1.")] = (
-        None
-    )
+    p: Annotated[
+        Chance, Says("Or the chance that the player makes a shot.", more="It must be below 1.")
+    ] = None
     safety: Annotated[
         Safety, Says(more="`--mean` is then the average against such an opponent.")
     ] = 1.0
@@ -247,8 +247,8 @@ class Runs(Question):
         PlotFile,
         Says(
             section="",
-            more="Draw the probability of each score, with mean, median and mode; the scores "
-            "asked for are shaded.",
+            more="The chart shows the probability of each score, with mean, median and mode; "
+            "the scores asked for are shaded.",
         ),
     ] = None
 

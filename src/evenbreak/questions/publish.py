@@ -56,8 +56,8 @@ class Publish(Results, Lengths):
         Says(
             "The league's chart, by name or in a file.",
             usual="the fairest races",
-            more="With a chart of skill levels, they are read from {roster}; otherwise each "
-            "player's last level in the results is used.",
+            more="With a chart of skill levels, the levels are read from `--roster`; without "
+            "it, each player's last level in the results is used.",
         ),
     ] = None
     roster: Annotated[
@@ -77,8 +77,8 @@ class Publish(Results, Lengths):
         str | None,
         Field(
             Named(folder, "DIR", offers="files"),
-            "A folder of tournaments that `evenbreak tournament` or the page has saved; "
-            "finished ones are shown with their brackets.",
+            "A folder of tournaments saved by `evenbreak tournament` or the page; finished ones "
+            "are shown with their brackets.",
         ),
     ] = None
     teams: Annotated[TeamsFile, Says(section=_TABLE)] = None

@@ -95,8 +95,9 @@ class HowToRate(Assumed, ByChart):
             "Rate as of this day, leaving out later matches.",
             usual="the last date",
             section=_RATING,
-            more="Such as 2025-03-01, 1.3.2025, or 3/1/2025 with `--dates mdy`. Ages are "
-            "counted from it. It may be up to a year ahead, for an upcoming tournament.",
+            more="Write it as 2025-03-01, 1.3.2025, or 3/1/2025 with `--dates mdy`. The age of "
+            "each match is counted from this day, which may be up to a year ahead, for an "
+            "upcoming tournament.",
         ),
     ] = None
 
@@ -271,7 +272,8 @@ class Validate(Results, Assumed):
         PlotFile,
         Says(
             section="",
-            more="Plot the predicted chances against how often favorites won, with 95% intervals.",
+            more="The chart shows the predicted chances against how often favorites won, with "
+            "95% intervals.",
         ),
     ] = None
     jobs: Annotated[Jobs, Says(section="The work")] = 1
@@ -335,7 +337,7 @@ class Report(Results, HowToRate, Lengths):
         Field(
             Flag(),
             "Also write sheet.xlsx, a workbook of all tables.",
-            more="Needs XlsxWriter (`pip install XlsxWriter`), the extra `evenbreak[excel]`.",
+            more="Needs XlsxWriter: `pip install XlsxWriter`, or the extra `evenbreak[excel]`.",
         ),
     ] = False
     excel_csv: Annotated[

@@ -123,8 +123,9 @@ class Serve(Question):
         Field(
             Flag(),
             "Open a sample tournament, half played.",
-            more="The tournament has 16 players, some results, matches on tables and one to "
-            "call. Its file name is printed; the file is in a temporary folder of its own.",
+            more="The tournament has 16 players, some results, matches on tables and one match "
+            "to call. Its file name is printed; the file is in a temporary folder of its "
+            "own.",
         ),
     ] = False
     open: Annotated[
@@ -143,7 +144,7 @@ class Serve(Question):
         Field(
             Flag(),
             "Let phones connect; prints the address and a QR code.",
-            more="Without it, the director lets them in on the page.",
+            more="Without it, the director can let them in on the page.",
         ),
     ] = False
     host: Annotated[

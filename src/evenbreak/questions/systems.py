@@ -48,8 +48,8 @@ SystemOf: TypeAlias = Annotated[
         "none [GAMES], fargo-like, level-review, apa-like, tap-like, level-steps [STEPS], "
         "averages, win-percent, napa-like, or a class of your own as MODULE:CLASS.",
         usual="npl",
-        more="`evenbreak systems` lists them, with those of installed packages. Put a name with a "
-        "blank in quotes, or write a hyphen: `step-2`. Open parameters are set by name: "
+        more="`evenbreak systems` lists them, with those of installed packages. Put a name that "
+        "has a space in quotes, or use a hyphen: `step-2`. Parameters can be set by name: "
         "`'level-review window=15'`. See [Systems](../systems.md).",
     ),
 ]

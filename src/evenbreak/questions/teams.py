@@ -124,7 +124,7 @@ Squads: TypeAlias = Annotated[
     str | None,
     Field(
         File("TEAMS.csv"),
-        "A list of all teams: OURS and THEIRS may then be names of teams in it.",
+        "A list of all teams: OURS and THEIRS can then be team names from the list.",
         section=_RULES,
         more="The list has the columns team, player, and rating or level.",
     ),
@@ -224,7 +224,7 @@ class Lineup(OfTeams, Capped):
         tuple[str, ...],
         Field(
             Named(names_in, "NAME,..."),
-            "Players of either team who are absent tonight.",
+            "Players on either team who are absent tonight.",
             section=_RULES,
         ),
     ] = ()
@@ -232,7 +232,7 @@ class Lineup(OfTeams, Capped):
         tuple[str, ...],
         Field(
             Named(names_in, "NAME,..."),
-            "Players of either team who have already played.",
+            "Players on either team who have already played.",
             more="If both teams have a player with that name, write `ours:Ann` or `theirs:Ann`.",
         ),
     ] = ()

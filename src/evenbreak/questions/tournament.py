@@ -42,7 +42,8 @@ class NewTournament(TournamentPlan, Starters):
         str | None,
         Field(
             File("FILE.db"),
-            "Use the same options as that tournament and, without a list, the same players.",
+            "Use the same options as the tournament in FILE.db and, without a list, the same "
+            "players.",
             rare=True,
         ),
     ] = None
@@ -57,7 +58,11 @@ class NewTournament(TournamentPlan, Starters):
     )
     beside: Annotated[
         bool,
-        Field(Flag(), "Run it alongside the tournament in {out}, on the same tables.", rare=True),
+        Field(
+            Flag(),
+            "Run this event alongside the tournament in {out}, on the same tables.",
+            rare=True,
+        ),
     ] = False
     at: At = None
 

@@ -141,8 +141,8 @@ def test_without_a_folder_nothing_is_written(simulated, tmp_path):
     ("text", "words", "error"),
     [
         (LEVELS, ("--chart", "apa_9ball"), "counts points"),
-        (LEVELS, ("--compare", "npl, none"), "doesn't know"),
-        (RATED, ("--compare", "npl, level review", "--chart", "apa_8ball"), "can't be played by"),
+        (LEVELS, ("--compare", "npl, none"), "doesn't use"),
+        (RATED, ("--compare", "npl, level review", "--chart", "apa_8ball"), "can't be used with"),
         (RATED, ("--compare", "nonesuch"), "nonesuch"),
         (RATED, ("--compare", "npl", "--rack-by-rack"), "can't be used together."),
         (RATED, ("--newcomers", "2", "--compare", "npl"), "share"),

@@ -102,8 +102,8 @@ def test_a_list_without_levels_is_refused_by_a_system_of_levels(run, tmp_path):
 def test_ratings_that_are_no_averages_are_said_to_be_left_out(run):
     found = run("rate", "nights.csv", "--system", "averages", "--roster", "list.csv")
     text = " ".join(found.stderr.split())
-    assert "3 of the ratings can't be numbers of the system averages, such as 640" in text
+    assert "3 of the ratings can't be ratings in the system averages, such as 640" in text
     assert (
-        "can't be numbers"
+        "can't be ratings"
         not in run("rate", "nights.csv", "--system", "fargo-like", "--roster", "list.csv").stderr
     )

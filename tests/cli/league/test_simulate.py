@@ -309,8 +309,8 @@ def test_one_season_has_no_standard_errors(run, tmp_path):
 def test_much_to_play_is_said_and_jobs_advised_where_there_are_none(run, monkeypatch, tmp_path):
     monkeypatch.setattr("evenbreak.cli.league.simulate.LONG", 1)
     words = ("simulate", ROSTER, *FIXTURES, *FEW, "--no-matches", "--out", str(tmp_path / "out"))
-    assert "4,800 matches are to be played; --jobs" in run(*words).stderr
-    assert "4,800 matches are to be played\n" in run(*words, "--jobs", "2").stderr
+    assert "4,800 matches will be played; --jobs" in run(*words).stderr
+    assert "4,800 matches will be played\n" in run(*words, "--jobs", "2").stderr
 
 
 @pytest.mark.slow

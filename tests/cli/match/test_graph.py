@@ -115,7 +115,7 @@ def test_a_graph_too_large_to_write_is_refused_with_the_remedy(run, tmp_path) ->
     path.write_text("source,target,p\n" + "".join(f"{k},{k + 1},1\n" for k in range(5000)))
     result = run("graph", str(path), "--out", str(tmp_path / "out"))
     assert result.exit_code == 3
-    assert "arcs.csv: has 5,001 states; evenbreak graph writes up to 5,000" in result.stderr
+    assert "arcs.csv: has 5,001 states, but evenbreak graph writes at most 5,000" in result.stderr
 
 
 @pytest.mark.parametrize(

@@ -163,7 +163,7 @@ def test_a_tournament_of_another_program_goes_on(night, tmp_path):
     listed.write_text("player,rating,scale\nPlayer 2,640,fargo\nPlayer 6,520,fargo\n")
     words = (str(saved), "--ratings", str(listed), "--race", "5", "--tables", "2")
     result = night.run("tournament", "import", *words, "--out", night.file, "--text")
-    assert "8 players and 5 results are imported." in result.stdout
+    assert "Imported 8 players and 5 results." in result.stdout
     assert "6 players without a rating" in result.stdout
     (one,) = night("next")["next"]
     assert {one["player_a"], one["player_b"]} == {"Player 2", "Player 6"}
@@ -226,7 +226,7 @@ def test_another_event_is_played_on_the_same_tables(begun, tmp_path):
     more.write_text("player,rating\nEd,90\nFlo,80\nGus,70\nHal,60\n")
     new = ("tournament", "new", str(more), "--format", "single", "--race", "3", "--beside")
     said = begun.run(*new, "--out", begun.file, "--text")
-    assert "It is event 2 of the night: use --event 2 with the other commands." in said.stdout
+    assert "This is event 2 of the night: use --event 2 with the other commands." in said.stdout
     first = begun("call", "1")["next"][0]
     begun("draw", "--event", "2")
     other = begun("call", "1", "--event", "2")["next"][0]

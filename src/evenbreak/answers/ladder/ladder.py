@@ -29,7 +29,7 @@ SHARES = (0.5, 0.75, 0.9, 0.95, 0.99)
 
 OPPONENTS = {
     "natural": "Opponents are as good as the player, with correct ratings.",
-    "autocorrelated": "Opponents have the player's skill as their rating, with errors like the "
+    "autocorrelated": "Opponents are rated at the player's skill, with rating errors like the "
     "player's.",
     "equal skill": "Opponents are as good as the player, with rating errors like the player's.",
     "league": "Opponents are drawn from the league, with rating errors like the player's.",

@@ -121,8 +121,8 @@ def _systems(
     chart = None if asked.chart is None else files.find_chart(asked.chart)
     if isinstance(chart, handicaps.PointsChart):
         refuse(
-            f"--chart {asked.chart} counts points, not games, and its matches aren't "
-            "simulated yet. Give a chart of races, such as apa_8ball."
+            f"--chart {asked.chart} counts points, not games, so its matches can't "
+            "be simulated yet. Give a chart of races, such as apa_8ball."
         )
     every = list(asked.compared)
     if not every or (asked.system is None and len(every) == 1):
@@ -136,7 +136,7 @@ def _systems(
     ]
     if not fitting[0]:
         refuse(
-            f"the system {every[0].name} can't be played by the chart {chart.name}. Give "
+            f"the system {every[0].name} can't be used with the chart {chart.name}. Give "
             "the league's own system first, or leave --chart out."
         )
     others = [
@@ -167,7 +167,7 @@ def schedule_of(
     fixtures = files.read_schedule(asked.schedule, who)
     last, warnings = fixtures.schedule.weeks, list(fixtures.warnings)
     if weeks is not None and weeks < last:
-        warnings.append(f"{fixtures.source}: matches after week {weeks} are not played")
+        warnings.append(f"{fixtures.source}: matches after week {weeks} aren't played")
     if weeks is not None and weeks > last:
         warnings.append(f"{fixtures.source}: ends with week {last}; no one plays after it")
     return fixtures.schedule, weeks or last, warnings
@@ -232,8 +232,8 @@ def _strengths(
     chart: Any = own.chart
     if not isinstance(chart, handicaps.LevelChart):
         refuse(
-            f"{file.source} has skill levels, which the system {own.name} doesn't know. "
-            "Give the league's own first, such as --chart apa_8ball --system "
+            f"{file.source} has skill levels, which the system {own.name} doesn't use. "
+            "Give the league's own system first, such as --chart apa_8ball --system "
             "level-review."
         )
     skills = handicaps.level_skills(chart)

@@ -68,7 +68,9 @@ def command(asked: Matchups, face: str, page_file: str | None) -> Answer:
         file = files.roster_of_entrants(file, files.read_entrants(asked.players_file))
     if isinstance(of_league, handicaps.PointsChart):
         if page_file is not None:
-            refuse(f"--html has no page of points yet. Leave it out with the chart {asked.chart}.")
+            refuse(
+                f"--html can't show points charts yet. Leave it out with the chart {asked.chart}."
+            )
         return _by_points(asked, file, of_league, face, warnings)
     file, players, points, levels, doubts = _rated(asked, file, of_league)
     warnings += doubts
@@ -138,7 +140,7 @@ def _by_points(
     from evenbreak.answers.league.matchups import points_matchups_answer
 
     if asked.games is not None or asked.race_to is not None:
-        refuse(f"{chart.name} is a chart of points, so it sets no race in games")
+        refuse(f"{chart.name} is a points chart, so it sets no race in games")
     file, _ = by_level(file, chart)
     file, notes = with_known_level(file, asked.starter, asked.results)
     warnings = [*warnings, *map(str, notes)]

@@ -71,7 +71,9 @@ def command(asked: Publish) -> Answer:
     with Progress("steps") as progress:
         ratings, _ = usual_ratings(results, scale=scale, progress=progress)
     if not ratings.matches:
-        raise DataError([f"{file.source}: no match in it was played. Add matches with games."])
+        raise DataError(
+            [f"{file.source}: none of its matches were played. Add matches with games."]
+        )
     league = PublishedLeague(
         asked.title,
         results,

@@ -132,7 +132,7 @@ def _by_system(asked: Rate, system: handicaps.System, roster: str) -> Answer:
     )
     if last.scale is not None:
         return answer
-    remedy = f"The system {system.name} takes them as they are."
+    remedy = f"The system {system.name} uses them as they are."
     doubts = league_doubts(system.scale, last.roster.rating, remedy)
     return replace(answer, warnings=[*answer.warnings, *doubts])
 
@@ -154,7 +154,7 @@ def _by_all_results(asked: Rate, system: handicaps.System, roster: str) -> Answe
         return answer
     first = int(other[0])
     doubt = (
-        f"{last.source}: {len(other)} of the ratings can't be numbers of the system "
+        f"{last.source}: {len(other)} of the ratings can't be ratings in the system "
         f"{system.name}, such as {stated[first]:g}; these players start at "
         f"{begun[first]:g}"
     )
@@ -271,10 +271,10 @@ def rated(
             **more,
         )
     if not ratings.matches:
-        why_none = "was played. Add matches with games."
+        why_none = "were played. Add matches with games."
         if ratings.later:
-            why_none = f"was played by {day}. Give a later day to --as-of."
-        raise DataError([f"{file.source}: no match in it {why_none}"])
+            why_none = f"were played by {day}. Give a later day to --as-of."
+        raise DataError([f"{file.source}: none of its matches {why_none}"])
     return ratings, choice
 
 

@@ -46,7 +46,7 @@ def command(asked: Simulate) -> Answer:
     season, warnings = season_of(file, asked)
     if (many := matches_to_play(season) * asked.replicas) >= LONG:
         remedy = "; --jobs shares the work" if asked.jobs == 1 and asked.dask is None else ""
-        say(f"{many:,} matches are to be played{remedy}")
+        say(f"{many:,} matches will be played{remedy}")
     tally = _simulated(season, asked)
     tables = season_tables(season, tally)
     answer = season_answer(

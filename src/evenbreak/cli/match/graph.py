@@ -106,8 +106,8 @@ def _check_size(file: ArcsFile) -> None:
         if count > most:
             raise DataError(
                 [
-                    f"{file.source}: has {count:,} {what}; evenbreak graph writes up to {most:,}, "
-                    "and evenbreak chain finds the limit of more"
+                    f"{file.source}: has {count:,} {what}, but evenbreak graph writes at most "
+                    f"{most:,}. Use evenbreak chain to find the limit."
                 ]
             )
 
@@ -219,7 +219,7 @@ def _match(played: MatchFormat, chances: tuple[float, ...]) -> tuple[str, Game]:
     kind = "" if played.ahead or played.set_ else "Race "
     if len(chances) == 2 and not played.breaks:
         refuse(
-            f"with --p1 and --p2 the break of {played} matters. Add winner breaks, loser "
+            f"with --p1 and --p2, it matters who breaks in {played}. Add winner breaks, loser "
             "breaks or alternate breaks, or give --p alone."
         )
     return f"{kind}{played}{_with(chances)}".capitalize(), played.match(Rack(*chances))

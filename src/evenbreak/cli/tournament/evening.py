@@ -67,7 +67,10 @@ def add(
         meant = getattr(asked, "yes", False) or getattr(asked, "follow", None)
         lost = [] if meant else lost_words(before, after)
         if lost:
-            refuse(f"nothing has been entered yet. {' '.join(lost)} If that's right, add --yes.")
+            refuse(
+                f"nothing has been entered yet. {' '.join(lost)} "
+                "If that's what you want, add --yes."
+            )
 
     return add_events(asked.path, events, event=asked.event, check=check)
 

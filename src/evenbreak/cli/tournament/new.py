@@ -103,7 +103,7 @@ def _like(asked: NewTournament, path: str) -> Answer:
 
 
 def _beside_words(number: int) -> str:
-    return f"It is event {number} of the night: use --event {number} with the other commands."
+    return f"This is event {number} of the night: use --event {number} with the other commands."
 
 
 @command_of(SecondChance, "second-chance")
@@ -186,7 +186,7 @@ def import_(asked: Import) -> Answer:
         events = read_saved_tournament(saved, plan, known, at)
     state = evening(events)
     players, played = len(state.entrants), len(state.winners) if state.drawn else 0
-    said = [f"{count_of(players, 'player')} and {count_of(played, 'result')} are imported."]
+    said = [f"Imported {count_of(players, 'player')} and {count_of(played, 'result')}."]
     if played and (starts := sum(one.race is not None for one in state.counted.values())):
         had = f"{count_of(starts, 'match', 'matches')} had a head start"
         to_come = "; the remaining matches have none" if state.standing.to_play else ""

@@ -185,7 +185,7 @@ class Format:
             label=say("Players advancing from each group, pod or side (blank: default)"),
             section=_FORMAT,
             formats=("double", "groups", "pods"),
-            more="Half of the qualifiers of a double elimination come from each side.",
+            more="In a double elimination, half of the qualifiers come from each side.",
         ),
     ] = None
     placement: Annotated[
@@ -237,7 +237,7 @@ class Format:
         Field(
             _PLAYERS,
             "How many players advance from all groups together.",
-            usual="as many as advance from each group",
+            usual="the qualifiers from all groups",
             metavar="M",
             label=say("Players advancing from all groups together (blank: as many from each)"),
             section=_FORMAT,
