@@ -1,8 +1,8 @@
-"""From a question to its answer: one table, for the terminal, the page's interface and Python.
+"""From a question to its answer: one table for the terminal, the page's API and Python.
 
 A command reads its options as a question and prints what `answer_to` returns; `POST /api/v1/odds`
-reads JSON as the same question and sends the same answer. A question is in the table if its answer
-is all there is to it: what writes files, or runs a tournament, is a command of its own.
+reads JSON as the same question and sends the same answer. A question is in the table if it does
+nothing but answer: anything that writes files, or runs a tournament, is a command of its own.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from evenbreak.answers.kit.answer import Answer
 
 
 class Place(NamedTuple):
-    """Where a question and its answer are declared, by module and name; imported when asked."""
+    """The module and name of each question and its answer; imported when asked."""
 
     question: str
     answer: str
@@ -52,11 +52,11 @@ ASKED = {
     "physics breakcue": Place("physics:BreakCue", "physics.asked:breakcue"),
     "physics shot": Place("physics:Shot", "physics.asked:shot"),
 }
-"""By the name of its command."""
+"""The questions by command name."""
 
 
 def question_of(command: str) -> Any:
-    """Return the class of the question that a command asks.
+    """Return a command's question class.
 
     >>> question_of("odds").__name__
     'Odds'
@@ -65,7 +65,7 @@ def question_of(command: str) -> Any:
 
 
 def answer_to(command: str, asked: Any) -> Answer:
-    """Return the answer to a question; an AskedError if the question contradicts itself.
+    """Return the answer to a question; raise AskedError if the question contradicts itself.
 
     >>> odds = question_of("odds")(p=0.6, race=(7, 5))
     >>> print(answer_to("odds", odds).sentences[0])
@@ -78,7 +78,7 @@ def answer_to(command: str, asked: Any) -> Answer:
 
 @cache
 def schemas() -> dict[str, Any]:
-    """Return the JSON schema of the answers of each command, by its name."""
+    """Return the JSON schema of each command's answers, by command name."""
     import json
 
     text = files("evenbreak.answers").joinpath("answers.schema.json").read_text("utf-8")

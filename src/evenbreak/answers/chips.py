@@ -1,4 +1,4 @@
-"""Chip tournaments: the odds of one, who a chip chart favors, and a fairer chart."""
+"""Chip tournaments: the odds, who a chip chart favors, and a fairer chart."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _EXACT = 4  # players at most whose chances are exact
 
 @dataclass(frozen=True, eq=False)
 class ChipField:
-    """The players of a chip tournament."""
+    """A chip tournament's players."""
 
     names: Sequence[str]
     ratings: Floats
@@ -48,7 +48,7 @@ class ChipField:
 
     @property
     def words(self) -> str:
-        """Who plays, in words."""
+        """The field, in words."""
         return (
             f"{count_of(len(self.names), 'player')} {self.source}, on "
             f"{count_of(self.tables, 'table')}; ratings {scale_words(self.scale)}"
@@ -56,7 +56,7 @@ class ChipField:
 
 
 def spread_field(scale: Scale, tables: int) -> ChipField:
-    """Return a field of 16 players, two doublings of the odds to either side of the middle.
+    """Return a field of 16 players, up to two doublings of the odds on either side of the middle.
 
     >>> from evenbreak.ratings import SCALES
     >>> spread_field(SCALES["fargo"], 4).ratings[[0, -1]]
@@ -77,10 +77,10 @@ def chip_odds_answer(
     seed: int = 0,
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return who wins a chip tournament.
+    """Return each player's chance of winning a chip tournament.
 
-    `chart` sets the chips at the start; or `left` gives the last players at one table and their
-    chips: the first is at the table, the second is the challenger, and the others wait in line.
+    `chart` sets the starting chips; or `left` has the last players, at one table, and their chips:
+    the first is at the table, the second is the challenger, and the others are waiting in line.
     """
     rng = np.random.default_rng(seed)
     if left is None:
@@ -147,7 +147,7 @@ def chip_audit(asked: questions.ChipAudit) -> Answer:
 
 
 def chip_design(asked: questions.ChipDesign) -> Answer:
-    """Return the chip chart that makes a tournament as even as a search can."""
+    """Return the chip chart that makes a tournament as even as a search can make it."""
     field, warnings = _field_of(asked, asked.entrants)
     starts = _bands(field) if asked.bands is None else sorted(asked.bands)
     found = fairest_chips(
@@ -169,12 +169,12 @@ def chip_design(asked: questions.ChipDesign) -> Answer:
 
 
 def _start(row: ChipRow) -> float | None:
-    """Return where a row of a chart starts; None for the weakest players' row."""
+    """Return where a chart's row starts; None for the weakest players' row."""
     return None if np.isinf(row.rating_from) else row.rating_from
 
 
 def _bands(field: ChipField) -> list[float]:
-    """Return the multiples of half a doubling, seen from the middle, among the ratings."""
+    """Return the ratings that are whole multiples of half a doubling from the middle."""
     step = field.scale.points_per_doubling / 2.0
     low, high = (
         int(np.floor((end - field.scale.center) / step) + 1)
@@ -184,7 +184,7 @@ def _bands(field: ChipField) -> list[float]:
 
 
 def _chart_of(ratings: Floats, found: ChipFairness, starts: Sequence[float]) -> ChipChart:
-    """Return the chart behind designed chips; a row without players goes with the one above."""
+    """Return the chart for designed chips; a row without players is merged with the row above."""
     rows: list[ChipRow] = []
     place = np.searchsorted(starts, ratings, side="right")
     for k, start in enumerate([-np.inf, *starts]):
@@ -215,7 +215,7 @@ def _fairness(found: ChipFairness) -> Quantities:
 
 
 def _row_table(chart: ChipChart, found: ChipFairness) -> Table:
-    """Return, for each row of a chart, how often its players win."""
+    """Return how often the players in each row of a chart win."""
     starts = [row.rating_from for row in chart.rows]
     place = np.searchsorted(starts, found.ratings, side="right") - 1
     rows: list[list[Any]] = []
@@ -252,7 +252,7 @@ def chip_odds(asked: questions.ChipOdds) -> Answer:
 
 
 def _field_of(asked: questions.ChipField, entrants: str | None) -> tuple[ChipField, list[str]]:
-    """Return who plays, made up if no file says it, and what is doubtful about it."""
+    """Return the players, made up if no file names them, and warnings about them."""
     if entrants is None:
         return spread_field(asked.scale or SCALES["fargo"], asked.tables), []
     file = read_entrants(entrants)

@@ -1,4 +1,4 @@
-"""The demo's files: what was written, and what to try on them."""
+"""Written files: the demo's, a league's new file, the source text's numbers; what to do next."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePath
@@ -12,7 +12,7 @@ from evenbreak.words import FilePath, listed, say
 
 
 def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> Answer:
-    """Return what the demo's folder holds, and three commands to try.
+    """Return the contents of the demo's folder, and three commands to try.
 
     >>> print(demo_answer("try", {"drill_log.csv": "a drill"}, ["drill_log.csv"]).sentences[0])
     Wrote 1 file to try. The players are made up.
@@ -43,7 +43,7 @@ def league_answer(
 ) -> Answer:
     """Return what a league's new file was written from, and what can be run now.
 
-    Each of `files` is a name, what it is used as ('' if nothing), and its content in words.
+    Each of `files` has a name, what it is used as ('' if nothing), and its content in words.
 
     >>> answer = league_answer("league.toml", [("a.csv", "results", "9 matches")], [])
     >>> print(answer.sentences[0])
@@ -71,11 +71,11 @@ MEANINGS = {
     "erratum": "the text is wrong, and the computed number is right",
     "differs": "the computed number is not the one expected",
 }
-"""What a verdict on a number says."""
+"""What a verdict on a number means."""
 
 
 def reproduction_answer(folder: str, verdicts: Mapping[str, int], files: Iterable[str]) -> Answer:
-    """Return how the numbers of the source text compare, and what was written."""
+    """Return how the source text's numbers compare, and what was written."""
     names = list(files)
     total, wrong = sum(verdicts.values()), verdicts.get("erratum", 0)
     confirmed = verdicts.get("agrees", 0) + verdicts.get("formula", 0)

@@ -1,1 +1,1 @@
-"""What a night is made of, whatever is played: a log of events, their fold, and the moves."""
+"""The parts of a night, whatever is played: a log of events, their fold, and the moves."""

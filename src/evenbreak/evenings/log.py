@@ -1,6 +1,6 @@
-"""What happens on a night: entries that are only ever added, undone and entered again by number.
+"""What happens on a night: entries that are only ever added, and undone and redone by number.
 
-Each rule set has its own kinds of entries: frozen dataclasses, which are kept as JSON.
+Each rule set has its own kinds of entries: frozen dataclasses, which are stored as JSON.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ Number: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=1_000_000_000)]
 What = TypeVar("What")
 
 PROGRAM = "program: "
-"""What the author of an entry begins with that another program made; its name follows."""
+"""The prefix of an entry's author if another program made it; the program's name follows."""
 
 
 @dataclass(frozen=True)
 class Event:
     """Something that happened, when (local time, such as 2025-03-01T19:30:00), and who entered it.
 
-    Commands leave out who did; they are the director's, as is the page of the desk.
+    Commands don't say who entered something; their entries are the director's, like the desk's.
     """
 
     at: str
@@ -44,12 +44,12 @@ class Event:
 
     @property
     def by_program(self) -> bool:
-        """Whether another program entered it, with a token that the director created."""
+        """Whether another program entered it, using a token that the director created."""
         return self.by.startswith(PROGRAM)
 
     @property
     def by_directors(self) -> bool:
-        """Whether it was entered at the desk or by a command."""
+        """Whether it was entered at the desk or with a command."""
         return not (self.by_phones or self.by_program)
 
 
@@ -58,20 +58,20 @@ Entered = TypeVar("Entered", bound=Event)
 
 @dataclass(frozen=True)
 class Undone:
-    """An entry is undone: that of a number, or else the last one that has not been undone yet."""
+    """An entry is undone: the one with a number, or else the last one not undone yet."""
 
     entry: Number | None = None
 
 
 @dataclass(frozen=True)
 class Redone:
-    """An entry that was undone counts again."""
+    """An undone entry counts again."""
 
     entry: Number
 
 
 class TakenBack(NamedTuple, Generic[Entered]):
-    """An entry that is undone, and the number of that which undid it."""
+    """An undone entry, and the number of the entry that undid it."""
 
     event: Entered
     by: int
@@ -93,9 +93,9 @@ class Log(Generic[Entered]):
         self.undone: dict[int, TakenBack[Entered]] = {}
 
     def take(self, number: int, event: Entered) -> int | None:
-        """Take an entry; return the number of the one that it undoes or redoes, if it does.
+        """Add an entry; return the number of the entry it undoes or redoes, if any.
 
-        An InputError if that isn't there, or isn't undone.
+        Raises InputError if there is no such entry, or it hasn't been undone.
         """
         match event.what:
             case Undone(entry=entry):
@@ -115,7 +115,7 @@ class Log(Generic[Entered]):
 
 
 class Kinds(Generic[What]):
-    """The kinds of entries of a rule set by the names under which they are kept.
+    """A rule set's kinds of entries, by the names under which they are stored.
 
     >>> kinds = Kinds({"undone": Undone, "redone": Redone})
     >>> kinds.text(Redone(3)), kinds.read("redone", '{"entry": 3}')
@@ -131,11 +131,11 @@ class Kinds(Generic[What]):
 
     @cached_property
     def names(self) -> dict[type[What], str]:
-        """The name of each kind."""
+        """Each kind's name."""
         return {kind: name for name, kind in self.kinds.items()}
 
     def name(self, what: What) -> str:
-        """Return the name of the kind of an entry."""
+        """Return the name of an entry's kind."""
         return self.names[type(what)]
 
     def text(self, what: What) -> str:
@@ -143,14 +143,14 @@ class Kinds(Generic[What]):
         return json.dumps(msgspec.to_builtins(what))
 
     def read(self, kind: str, text: str) -> What:
-        """Return an entry from its kind and JSON; an InputError names the field that is wrong."""
+        """Return an entry from its kind and JSON; InputError names the invalid field."""
         if kind not in self.kinds:
             raise InputError("{kind!r} isn't a type of entry", kind=kind[:40])
         return read_json(self.kinds[kind], text)
 
 
 def read_json(kind: type[What], text: str) -> What:
-    """Return a value of a class from its JSON; an InputError if a field is missing or wrong."""
+    """Return a class's value from its JSON; raise InputError if a field is missing or invalid."""
     try:
         data = json.loads(text, parse_constant=_lowest)
         json.dumps(data, ensure_ascii=False).encode()  # no half of a letter is in it
@@ -168,14 +168,14 @@ def read_json(kind: type[What], text: str) -> What:
 
 
 def _lowest(text: str) -> float:
-    """Return the one number that JSON has no letters for: where the first of some ranges starts."""
+    """Return -inf, where the first of some ranges starts; JSON has no other way to write it."""
     if text != "-Infinity":
         raise ValueError(text)
     return -math.inf
 
 
 def _unknown(data: Any, read: Any) -> str | None:
-    """Return the first name in data that nothing was read from."""
+    """Return the first name in data that wasn't read."""
     if isinstance(data, dict) and isinstance(read, dict):
         each = [key if key not in read else _unknown(one, read[key]) for key, one in data.items()]
     elif isinstance(data, list) and isinstance(read, list | tuple):
@@ -203,7 +203,7 @@ _WORDS = {
 
 
 def _wanted(why: str) -> str:
-    """Return what would be right, from the words in which msgspec says so."""
+    """Return what would be valid, based on msgspec's error message."""
     said = why.partition(", got")[0]
     for theirs, ours in _WORDS.items():
         said = said.replace(theirs, ours)
@@ -211,7 +211,7 @@ def _wanted(why: str) -> str:
 
 
 def _refusal(why: str, value: Any) -> InputError:
-    """Return the error of a value that was refused, from the reason and the path to it."""
+    """Return the error for a rejected value, given the reason and its path."""
     wanted, _, path = why.partition(" - at `$")
     names: list[str] = []
     for name, place in _PATH.findall(path):

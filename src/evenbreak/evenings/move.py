@@ -13,7 +13,7 @@ What = TypeVar("What")
 
 
 class AlreadyError(InputError):
-    """What is entered is so already: the same tap came in twice."""
+    """Raised if what is entered is already so: the same tap came in twice."""
 
 
 @dataclass(frozen=True)
@@ -22,9 +22,9 @@ class Move(Generic[State, What]):
 
     The question's fields are the options of a command and the fields of a form. `decide` returns
     the entries for a state, a question and a time, or raises an `InputError` (against the rules) or
-    an `AlreadyError`. `said` and `doubts` return in words what it changed and what may be wrong
+    an `AlreadyError`. `said` and `doubts` return, in words, what it changed and what may be wrong
     with it, given the states before and after; `would` returns what it would do, for a move that is
-    confirmed first even if it takes nothing away.
+    confirmed first even if it removes nothing.
     """
 
     question: type

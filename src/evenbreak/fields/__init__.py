@@ -1,1 +1,1 @@
-"""How a question is declared: the kinds of values, the fields, and what faces read off them."""
+"""Declaring a question: value types, fields, and what interfaces derive from them."""

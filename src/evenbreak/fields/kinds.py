@@ -1,7 +1,7 @@
-"""The kinds of values that a field can have: numbers, pairs such as 7:5, choices, files.
+"""The types of value that a field can have: numbers, pairs such as 7:5, choices, files.
 
-A kind reads a text, or refuses it and says how to write it; it also says what a JSON schema has
-for it. The terminal and the page read by the same kinds, so they have the same limits.
+A kind parses a string, or rejects it and says how to write it; it also gives the JSON schema. The
+terminal and the page use the same kinds, so they have the same limits.
 """
 
 from __future__ import annotations
@@ -16,32 +16,32 @@ from evenbreak.errors import InputError
 from evenbreak.words import say
 
 LONGEST = 1000
-"""The most games that a race, a lead or a score can have."""
+"""The most games in a race, a lead or a score."""
 
 BETWEEN = r"[:/\-–—−]"
-"""What may stand between the two numbers of a race or a score, as a regular expression."""
+"""Separators allowed between the two numbers of a race or a score, as a regular expression."""
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
-"""A finite number, as text."""
+"""A finite number, as a string."""
 
 _SHOWN = 60
-"""The most characters of a value of JSON that a refusal repeats."""
+"""The longest part of an invalid JSON value that an error message repeats."""
 
 _WHOLE = re.compile(r"[+-]?\d{1,40}", re.ASCII)
 
 
 class Kind:
-    """A kind of values."""
+    """A type of value."""
 
     metavar: str
-    """What stands for a value in help texts."""
+    """The placeholder for a value in help texts."""
 
     def read(self, text: str) -> Any:
-        """Return the value of a text, or raise an `InputError` that says how to write it."""
+        """Return a string's value, or raise an `InputError` that says how to write it."""
         return text
 
     def load(self, value: Any) -> Any:
-        """Return the value of what JSON has for it; refuse what `schema` forbids.
+        """Return the value that JSON stands for; reject what `schema` forbids.
 
         >>> Whole(1, 9).load(7), TwoWhole().load([7, 5]), Choice(("npl", "fargo")).load("npl")
         (7, (7, 5), 'npl')
@@ -51,11 +51,11 @@ class Kind:
         return self.read(value)
 
     def words(self, value: Any) -> str:
-        """Return a value as it is typed."""
+        """Return a value in typed form."""
         return f"{value:g}" if isinstance(value, float) else str(value)
 
     def from_afar(self) -> Kind | None:
-        """Return the kind by which other computers may give it; None: they may not."""
+        """Return the kind for values from other computers; None if they may not give it."""
         return self
 
     @property
@@ -64,7 +64,7 @@ class Kind:
         return ""
 
     def schema(self) -> dict[str, Any]:
-        """Return what a JSON schema says of such a value."""
+        """Return the JSON schema for such a value."""
         return {"type": "string"}
 
 
@@ -77,34 +77,34 @@ class Text(Kind):
 
 @dataclass(frozen=True)
 class File(Kind):
-    """The name of a file, or one of `names`, which are all that other computers may give."""
+    """The name of a file, or one of `names`, which is all that other computers may give."""
 
     metavar: str = "FILE"
     names: Callable[[], Iterable[str]] | None = None
 
     def from_afar(self) -> Kind | None:
-        """Return the choice of what comes with the program."""
+        """Return the choice of built-in names."""
         return None if self.names is None else Choice(tuple(self.names()))
 
 
 @dataclass(frozen=True)
 class Flag(Kind):
-    """Yes or no; no unless it is there."""
+    """Yes or no; no if not given."""
 
     metavar: str = ""
 
     def read(self, text: str) -> bool:
-        """Return yes, unless a text is empty or says no."""
+        """Return True, unless a string is empty or says no."""
         return text.strip().lower() not in ("", "0", "no", "off", "false")
 
     def load(self, value: Any) -> bool:
-        """Return what JSON has for it."""
+        """Return the value that JSON stands for."""
         if not isinstance(value, bool):
             raise InputError("{value} is neither true nor false", value=_as_json(value))
         return value
 
     def schema(self) -> dict[str, Any]:
-        """Return what a JSON schema says of such a value."""
+        """Return the JSON schema for such a value."""
         return {"type": "boolean"}
 
 
@@ -129,17 +129,17 @@ class Whole(Kind):
         )
 
     def load(self, value: Any) -> int:
-        """Return the number that JSON has; 7.0 is 7 there."""
+        """Return the number that JSON has; 7.0 becomes 7."""
         whole = isinstance(value, float) and value.is_integer()
         return self.read(_number_typed(int(value) if whole else value))
 
     @property
     def limits(self) -> str:
-        """The limits in words; one that hardly limits is left out."""
+        """The limits in words; a limit that hardly restricts anything is left out."""
         return f"{self.low:,} to {self.high:,}" if self.high < 10**9 else ""
 
     def schema(self) -> dict[str, Any]:
-        """Return what a JSON schema says of such a value."""
+        """Return the JSON schema for such a value."""
         return {"type": "integer", "minimum": self.low, "maximum": self.high}
 
 
@@ -182,12 +182,12 @@ class Number(Kind):
 
     @property
     def limits(self) -> str:
-        """The limits in words; those so wide that they hardly limit are left out."""
+        """The limits in words; limits so wide that they hardly restrict anything are left out."""
         is_plain = (self.low, self.high) == (0.0, 1.0) or abs(self.high) >= 1e5
         return "" if is_plain else f"{self.low:g} to {self.high:g}"
 
     def schema(self) -> dict[str, Any]:
-        """Return what a JSON schema says of such a value."""
+        """Return the JSON schema for such a value."""
         return {"type": "number", "minimum": self.low, "maximum": self.high}
 
 
@@ -220,16 +220,16 @@ class NumberOr(Kind):
         return self.read(value if value == self.word else _number_typed(value))
 
     def schema(self) -> dict[str, Any]:
-        """Return what a JSON schema says of such a value."""
+        """Return the JSON schema for such a value."""
         return {"anyOf": [Number(self.low, self.high).schema(), {"const": self.word}]}
 
 
 @dataclass(frozen=True)
 class TwoWhole(Kind):
-    """Two whole numbers with a sign between them, such as 7:5.
+    """Two whole numbers with a separator between them, such as 7:5.
 
-    `sign` is a regular expression; `one` number may stand for both; `rising`: the second isn't
-    below the first.
+    `sign` is a regular expression for the separator; with `one`, a single number may stand for
+    both; with `rising`, the second must not be below the first.
     """
 
     sign: str = BETWEEN
@@ -260,19 +260,19 @@ class TwoWhole(Kind):
         return self.read(self.words((m, n)))
 
     def words(self, value: tuple[int, int]) -> str:
-        """Return a value as it is typed."""
+        """Return a value in typed form."""
         m, n = value
         return f"{m}..{n}" if self.rising else f"{m}:{n}"
 
     def schema(self) -> dict[str, Any]:
-        """Return what a JSON schema says of such a value."""
+        """Return the JSON schema for such a value."""
         limits = {"type": "integer", "minimum": self.low, "maximum": self.high}
         return {"type": "array", "items": limits, "minItems": 2, "maxItems": 2}
 
 
 @dataclass(frozen=True)
 class Choice(Kind):
-    """One of several words; with a mapping, what each of them means to the program."""
+    """One of several words; with a mapping, also what each word means to the program."""
 
     of: tuple[str, ...] | Mapping[str, Any] = ()
     metavar: str = ""
@@ -286,13 +286,13 @@ class Choice(Kind):
         return self.of[word] if isinstance(self.of, Mapping) else word
 
     def words(self, value: Any) -> str:
-        """Return a value as it is typed."""
+        """Return a value in typed form."""
         if isinstance(self.of, Mapping):
             return next((word for word, meaning in self.of.items() if meaning == value), str(value))
         return str(value)
 
     def load(self, value: Any) -> Any:
-        """Return the value of what JSON has: true and false too, where yes and no mean these."""
+        """Return the value that JSON stands for; true and false may stand for yes and no."""
         return value if isinstance(value, bool) and self._is_yes_or_no else super().load(value)
 
     @property
@@ -300,17 +300,17 @@ class Choice(Kind):
         return isinstance(self.of, Mapping) and {*map(type, self.of.values())} == {bool}
 
     def schema(self) -> dict[str, Any]:
-        """Return what a JSON schema says of such a value."""
+        """Return the JSON schema for such a value."""
         words = {"type": "string", "enum": list(self.of)}
         return {"anyOf": [{"type": "boolean"}, words]} if self._is_yes_or_no else words
 
 
 @dataclass(frozen=True)
 class Named(Kind):
-    """What a function reads, such as a scale or a system by its name.
+    """Something that a function reads, such as a scale or a system by name.
 
-    `reader` raises an `InputError`; `offers` is a function of `cli.kit.completion` for the shell;
-    `spelled` returns a value as typed; `number`: JSON may have it without quotes.
+    `reader` raises an `InputError`; `offers` is a function in `cli.kit.completion` for the shell;
+    `spelled` returns a value in typed form; with `number`, JSON may have it without quotes.
     """
 
     reader: Callable[[str], Any] = str
@@ -320,16 +320,16 @@ class Named(Kind):
     number: bool = False
 
     def load(self, value: Any) -> Any:
-        """Return the value of what JSON has for it."""
+        """Return the value that JSON stands for."""
         is_number = isinstance(value, int | float) and not isinstance(value, bool)
         return super().load(_as_json(value) if self.number and is_number else value)
 
     def schema(self) -> dict[str, Any]:
-        """Return what a JSON schema says of such a value."""
+        """Return the JSON schema for such a value."""
         return {"type": ["string", "number"] if self.number else "string"}
 
     def read(self, text: str) -> Any:
-        """Return the value of a text."""
+        """Return the value that a string stands for."""
         return self.reader(text)
 
     def from_afar(self) -> Kind | None:
@@ -337,12 +337,12 @@ class Named(Kind):
         return None if self.offers == "files" else self
 
     def words(self, value: Any) -> str:
-        """Return a value as it is typed."""
+        """Return a value in typed form."""
         return self.spelled(value)
 
 
 def _number_typed(value: Any) -> str:
-    """Return a number that JSON has as it is typed; refuse what is none."""
+    """Return a JSON number in typed form; reject anything else."""
     if isinstance(value, str):
         raise InputError("{value} is text. Leave out the quotes.", value=_as_json(value))
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -351,7 +351,7 @@ def _number_typed(value: Any) -> str:
 
 
 def _as_json(value: Any) -> str:
-    """Return a value as JSON has it: a text in quotes, which no number is."""
+    """Return a value in JSON form: a string in quotes, except for numbers."""
     try:
         import json
 

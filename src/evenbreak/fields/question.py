@@ -1,4 +1,4 @@
-"""What a question asks: a frozen dataclass whose annotations say all about each of its fields.
+"""A question's parameters: a frozen dataclass whose annotations describe each field completely.
 
 How to declare a question
 -------------------------
@@ -19,17 +19,17 @@ How to declare a question
             if self.games is None and self.race_to is None:
                 self.refuse("missing races: give {games} LO..HI or {race_to} N")
 
-The docstring is the help of the command. A field without a default must be given; None is the
-default of what may be left out, and `usual` says in words what applies then. A field of several
-questions is a name (`Seed`), declared once in `evenbreak.questions.common`; `Says` changes what
-it says in one question. Fields that go together are a dataclass that questions inherit. Fields
-are listed in the order of the bases, then those of the question itself, by `section`: `--help`
-explains those without a section and names the others; `rare` ones without a section come with
-`--help-all` only. `check` refuses what does not go together: in `refuse` and in helps, a name in
-braces that has no value is a parameter, which a face writes as its option or its label. The
-terminal makes a command of it with `@command_of(Fair)` (`evenbreak.cli.kit.asked`), a page reads
-it from a form with `asked_in` (`evenbreak.web.forms`), and the reference has a table of it
-between the marks `<!-- options: fair -->` (`docs/option_tables.py`).
+The docstring is the command's help. A field without a default is required; None is the default for
+optional fields, and `usual` says in words what applies then. A field shared by several questions
+has a name (`Seed`), declared once in `evenbreak.questions.common`; `Says` changes its description
+in one question. Fields that go together form a dataclass that questions inherit. Fields are listed
+in the order of the bases, then the question's own, by `section`: `--help` explains fields without a
+section and names the others; `rare` fields without a section appear only with `--help-all`. `check`
+rejects contradictory fields: in `refuse` and in help texts, a name in braces without a value is a
+parameter, which is written as its option or its label. The terminal makes a command from it with
+`@command_of(Fair)` (`evenbreak.cli.kit.asked`), a page reads it from a form with `asked_in`
+(`evenbreak.web.forms`), and the reference has a table of it between the marks `<!-- options: fair
+-->` (`docs/option_tables.py`).
 """
 
 from __future__ import annotations
@@ -47,15 +47,15 @@ from evenbreak.words import Parameter, Sentence, say
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """What an annotation says of a field.
+    """What an annotation says about a field.
 
-    `usual` is the default in words, where the value doesn't show it; `section` is the heading in
-    help texts, `rare` shows it only with `--help-all`; `formats` are the tournament formats that
-    have it, by default all. `argument` values are typed without the name of an option; `many`:
+    `usual` is the default in words, if the value doesn't show it; `section` is the heading in help
+    texts, and `rare` fields are shown only with `--help-all`; `formats` are the tournament formats
+    that have it, by default all. `argument` values are typed without an option name; `many`:
     several values, or a repeated option; `words` make up one value. `option` is the terminal's
-    name, where different, with a short form after a slash; `old` names are accepted for one
-    version, with a note. `label` is for forms, `titles` for the words of a choice ('': none
-    chosen), `more` for the reference, in Markdown.
+    name, if different, with a short form after a slash; `old` names are accepted for one version,
+    with a note. `label` is for forms, `titles` for the words of a choice ('': none chosen), and
+    `more` for the reference, in Markdown.
     """
 
     kind: Kind
@@ -76,7 +76,7 @@ class Field:
 
 
 class Says:
-    """What a field says in one question in place of what its declaration says."""
+    """A field's description in one question, replacing the one in its declaration."""
 
     def __init__(self, help: str | None = None, **changes: Any) -> None:  # noqa: A002
         self.changes = changes if help is None else {"help": help, **changes}
@@ -84,7 +84,7 @@ class Says:
 
 @dataclass(frozen=True)
 class Declared:
-    """A field of a question: its name, what is said of it, and its default."""
+    """A field in a question: its name, its description, and its default."""
 
     name: str
     field: Field
@@ -97,37 +97,37 @@ class Declared:
 
     @property
     def kind(self) -> Kind:
-        """The kind of its values."""
+        """Its value type."""
         return self.field.kind
 
     @property
     def option(self) -> str:
-        """The option that sets it, or for an argument its name."""
+        """The option that sets it, or an argument's name."""
         if self.field.argument:
             return self.metavar.strip("[]")
         return "--" + (self.field.option or self.name).partition("/")[0].replace("_", "-")
 
     @property
     def short(self) -> str:
-        """The short form of the option, or ''."""
+        """The option's short form, or ''."""
         return self.field.option.partition("/")[2]
 
     @property
     def metavar(self) -> str:
-        """What stands for a value in help texts."""
+        """The placeholder for a value in help texts."""
         if self.field.metavar:
             return self.field.metavar
         return "|".join(self.kind.of) if isinstance(self.kind, Choice) else self.kind.metavar
 
     @property
     def usual(self) -> str:
-        """What applies if it is left out, as it is typed or in words; '' if nothing does."""
+        """The default, in typed form or in words; '' if there is none."""
         if self.field.usual or self.required or self.default is None or self.default == ():
             return self.field.usual
         return "" if isinstance(self.kind, Flag) else self.kind.words(self.default)
 
     def load(self, value: Any) -> Any:
-        """Return its value of what JSON has for it; refuse what `schema` forbids."""
+        """Return the value that JSON stands for; reject what `schema` forbids."""
         return _each(value, self._load_one) if self.field.many else self._load_one(value)
 
     def _load_one(self, value: Any) -> Any:
@@ -136,7 +136,7 @@ class Declared:
         return self.kind.load(value)
 
     def schema(self) -> dict[str, Any]:
-        """Return what a JSON schema says of it."""
+        """Return its JSON schema."""
         one: dict[str, Any] = self.kind.schema()
         if self.field.words > 1:
             n = self.field.words
@@ -158,11 +158,11 @@ def _each(value: Any, load: Callable[[Any], Any], many: int | None = None) -> tu
 
 
 class AskedError(InputError):
-    """What is asked contradicts itself, or lacks something."""
+    """Raised if a question contradicts itself, or lacks something."""
 
 
 def worded(template: str, **values: Any) -> Sentence:
-    """Return a text in which each name in braces that has no value is a parameter.
+    """Return text in which each name in braces without a value is a parameter.
 
     >>> worded("{games} is {n}", n=7).values["games"]
     'games'
@@ -172,18 +172,18 @@ def worded(template: str, **values: Any) -> Sentence:
 
 
 def refuse(template: str, /, **values: Any) -> NoReturn:
-    """Refuse what is asked; a name in braces without a value is a parameter."""
+    """Reject the question; a name in braces without a value is a parameter."""
     raise AskedError(worded(template, **values))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Question:
-    """The base of all questions; see the head of this module."""
+    """The base of all questions; see the module's docstring."""
 
     examples: ClassVar[str] = ""
-    """What the help of its command ends with."""
+    """The end of its command's help."""
     old_words: ClassVar[tuple[str, ...]] = ()
-    """The options whose values were once typed without them; accepted for a version."""
+    """Options whose values used to be typed without them; accepted for one version."""
 
     def __post_init__(self) -> None:
         for check in _checks(type(self)):
@@ -191,7 +191,7 @@ class Question:
 
     @classmethod
     def split(cls, typed: dict[str, Any]) -> dict[str, Any]:
-        """Return what is typed, where words of several arguments were typed as one."""
+        """Return what was typed, separating arguments that were typed as one list."""
         return typed
 
     refuse = staticmethod(refuse)
@@ -208,7 +208,7 @@ class Question:
 
 
 def _checks(question: Any) -> Iterator[Callable[[Any], None]]:
-    """Yield the checks of the bases, then that of the question itself."""
+    """Yield the checks of the bases, then the question's own."""
     seen: dict[Any, None] = {}
     for base in question.__bases__:
         seen |= dict.fromkeys(_checks(base))
@@ -219,7 +219,7 @@ def _checks(question: Any) -> Iterator[Callable[[Any], None]]:
 
 @cache
 def declared(question: Any) -> tuple[Declared, ...]:
-    """Return the fields of a question in their order; those without a `Field` are no part of it."""
+    """Return a question's fields in order, ignoring any without a `Field`."""
     hints = get_type_hints(question, include_extras=True)
     defaults = {one.name: one.default for one in fields(question)}
     every = [(name, field_in(hints[name])) for name in dict.fromkeys(_names(question))]
@@ -227,12 +227,12 @@ def declared(question: Any) -> tuple[Declared, ...]:
 
 
 def declaration(question: type, name: str) -> Declared:
-    """Return the field of a question that has this name."""
+    """Return a question's field by name."""
     return next(one for one in declared(question) if one.name == name)
 
 
 def from_afar(question: type) -> tuple[Declared, ...]:
-    """Return the fields of a question that other computers may give: none names a file there."""
+    """Return a question's fields for other computers, where none names a file."""
     kinds = [(one, one.kind.from_afar()) for one in declared(question)]
     return tuple(
         replace(one, field=replace(one.field, kind=kind)) for one, kind in kinds if kind is not None
@@ -247,7 +247,7 @@ def _names(question: type) -> Iterator[str]:
 
 
 def field_in(hint: Any) -> Field | None:
-    """Return the `Field` in an annotation, with what `Says` changes, or None."""
+    """Return the `Field` in an annotation, with the changes from `Says`, or None."""
     if get_origin(hint) is Annotated:
         inner, *said = get_args(hint)
         result = field_in(inner)
@@ -261,7 +261,7 @@ def field_in(hint: Any) -> Field | None:
 
 
 def schema_of(question: type) -> dict[str, Any]:
-    """Return the JSON schema of a question."""
+    """Return a question's JSON schema."""
     every = declared(question)
     return {
         "title": question.__name__,

@@ -1,4 +1,4 @@
-"""What is read and written: results, rosters, charts and logs; encodings; atomic writing."""
+"""Reading and writing files: results, rosters, charts and logs; encodings; atomic writing."""
 
 import lazy_loader
 

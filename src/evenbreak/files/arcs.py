@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from evenbreak.chains.chain import Chain
 
 WEIGHT = "weight"
-"""What networkx and others call a probability; it counts where there is none of that name."""
+"""What networkx and others call a probability; used if no column has that name."""
 
 _STATE = say("the name of a state")
 _CHANCE = say("a probability such as 0.25")
@@ -54,12 +54,11 @@ SUM_TOLERANCE = 1e-9
 
 
 class ArcsFile(NamedTuple):
-    """The arcs of a file, in the order of the file.
+    """The arcs of a file, in file order.
 
-    `sources[k]` and `targets[k]` are positions in `states`, which come in the order in
-    which the file first names them; `probabilities[k]` is that of the target, given the
-    source. `start` is where the chain starts, if the file says so, and `winners` has the number of
-    the player who has won in a state, where it does.
+    `sources[k]` and `targets[k]` are positions in `states`, which are listed in order of first
+    appearance; `probabilities[k]` is P(target | source). `start` is the chain's first state, and
+    `winners` has the number of the player who has won in each state, if the file gives them.
     """
 
     states: list[str]
@@ -72,7 +71,7 @@ class ArcsFile(NamedTuple):
     winners: Mapping[str, int] = {}
 
     def chain(self, start: str | None = None) -> Chain:
-        """Return the chain from a state, or else from where the file starts, or its first state.
+        """Return the chain from a state; by default, from the file's start or first state.
 
         Raises
         ------
@@ -96,7 +95,7 @@ class ArcsFile(NamedTuple):
         )
 
     def graph(self, start: str | None = None) -> nx.DiGraph[Any]:
-        """Return the chain as a graph, as `evenbreak.game.graph_of` returns that of a game."""
+        """Return the chain as a graph like those from `evenbreak.game.graph_of`."""
         graph = self.chain(start).to_networkx()
         for state, node in graph.nodes.items():
             node["winner"] = self.winners.get(state)
@@ -106,14 +105,14 @@ class ArcsFile(NamedTuple):
 def read_arcs(path: str | Path) -> ArcsFile:
     r"""Read a chain from a CSV file of arcs; '-' is standard input.
 
-    The arcs out of a state, its self-loop included, must sum to 1 within 1e-9; a state
-    that is only a target absorbs.
+    The arcs out of a state, including its self-loop, must sum to 1 within 1e-9; a state that is
+    only a target is absorbing.
 
     Raises
     ------
     DataError
-        with all that is wrong in the file: missing columns, empty names, probabilities
-        that are none, arcs listed twice, sums that are not 1.
+        listing every problem in the file: missing columns, empty names, invalid probabilities, arcs
+        listed twice, sums that are not 1.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -140,7 +139,7 @@ def read_arcs(path: str | Path) -> ArcsFile:
 
 
 def _states(table: TextTable) -> tuple[list[str], NDArray[np.int64], NDArray[np.int64]]:
-    """Return the states as the file first names them, and the position of each arc's two."""
+    """Return the states in order of first appearance, and each arc's two positions."""
     arcs = zip(table.cells("source"), table.cells("target"), strict=True)
     states, places = Texts.of([name for arc in arcs for name in arc])
     return states, places[::2], places[1::2]
@@ -165,7 +164,7 @@ def _refuse_twice(
 def sum_problems(
     states: Sequence[str], sources: NDArray[np.int64], p: NDArray[np.float64]
 ) -> dict[int, Sentence]:
-    """Return what is wrong with the sums out of states, by the first arc out of each.
+    """Return the states whose arcs don't sum to 1 as problems, each at its first arc.
 
     >>> sum_problems(["S", "W"], np.array([0]), np.array([0.9]))[0][:32]
     "the arcs out of 'S' sum to 0.9, "

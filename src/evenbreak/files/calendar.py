@@ -1,4 +1,4 @@
-"""Fixtures as a calendar file, `.ics`: what RFC 5545 asks of it, and the same bytes every time.
+"""Fixtures as a calendar file, `.ics`: as RFC 5545 requires, with the same bytes every time.
 
 See docs/explanation/decisions/0025-calendar-files.md for why no library writes it.
 """
@@ -23,10 +23,10 @@ def calendar_bytes(
     start: time | None = None,
     minutes: int = 180,
 ) -> bytes:
-    """Return the fixtures that have a date as a calendar, of whole days without a `start`.
+    """Return the dated fixtures as a calendar; without `start`, they are all-day events.
 
-    An event keeps its UID when its date, time or table changes, so that calendars that already have
-    it move it. Times are local to the venue; `venue` is for fixtures without their own.
+    An event keeps its UID when its date, time or table changes, so calendars that already have the
+    event move it. Times are local to the venue; `venue` is for fixtures that name no venue.
     """
     dated = [one for one in fixtures if one.date is not None]
     stamp = min((one.date for one in dated if one.date), default=None)
@@ -69,7 +69,7 @@ def _times(one: Fixture, start: time | None, minutes: int) -> Iterator[str]:
 
 
 def _escaped(text: str) -> str:
-    r"""Return a text as a value of type TEXT (RFC 5545, 3.3.11).
+    r"""Return a string as a value of type TEXT (RFC 5545, 3.3.11).
 
     >>> _escaped("Corner, Main St; back\\room")
     'Corner\\, Main St\\; back\\\\room'
@@ -80,7 +80,7 @@ def _escaped(text: str) -> str:
 
 
 def _folded(line: str) -> Iterator[str]:
-    """Yield a line in parts of at most 75 octets, whole letters in each (3.1)."""
+    """Yield a line in parts of at most 75 octets, without splitting a character (3.1)."""
     part, size = "", 0
     for letter in line:
         wide = len(letter.encode())

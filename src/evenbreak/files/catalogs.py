@@ -1,8 +1,8 @@
-"""The languages that sentences are said in: one gettext catalog (`.po`) each.
+"""The languages for messages: one gettext catalog (`.po`) each.
 
-They lie in `evenbreak/words/locale/<language>/LC_MESSAGES/evenbreak.po`. More of them, or other
-words for a language (`en` too), may lie in the folder that `EVENBREAK_LOCALE` names, laid out the
-same way: no code knows which languages there are.
+They are in `evenbreak/words/locale/<language>/LC_MESSAGES/evenbreak.po`. More catalogs, or other
+wordings for a language (even `en`), can be put in the folder named by `EVENBREAK_LOCALE`, laid out
+the same way: no language is hard-coded.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
 
 OWN = Path(__file__).parent.parent / "words" / "locale"
 ELSEWHERE = "EVENBREAK_LOCALE"
-"""The variable that names a folder with more catalogs."""
+"""The environment variable that names a folder of additional catalogs."""
 
 FILE = Path("LC_MESSAGES", "evenbreak.po")
 
 
 def languages() -> dict[str, str]:
-    """Return each language by its code, with its name in itself; English first.
+    """Return each language's own name for itself, by language code; English first.
 
     >>> languages()["de"]
     'Deutsch'
@@ -42,7 +42,7 @@ def languages() -> dict[str, str]:
 
 
 def face_in(language: str) -> Face:
-    """Return how sentences are said in a language; a DataError if its catalog can't be used.
+    """Return the translations for a language; raise DataError if its catalog can't be used.
 
     >>> face_in("de").number(1234.5, ",.1f")
     '1.234,5'
@@ -51,7 +51,7 @@ def face_in(language: str) -> Face:
 
 
 def language_of(accepted: str) -> str:
-    """Return the language that a browser asks for first, of those that there are.
+    """Return the available language that a browser prefers.
 
     >>> language_of("xx-XX,de;q=0.8,en;q=0.5"), language_of("")
     ('de', 'en')
@@ -70,7 +70,7 @@ def _folders() -> tuple[Path, ...]:
 
 
 _OWN_NAMES = {"en": "English", "de": "Deutsch"}
-"""Of the languages that are here; for a name, Babel would take 4 MB and tenths of a second."""
+"""The languages' own names; getting these from Babel would take 4 MB and tenths of a second."""
 
 
 @cache
@@ -134,7 +134,7 @@ def _translations(place: Path) -> GNUTranslations:
 
 
 def read_catalog(place: Path) -> Catalog:
-    """Return the catalog in a file; a DataError if it isn't one."""
+    """Return the catalog in a file; raise DataError if it isn't a catalog."""
     from babel.messages.pofile import PoFileError, read_po
 
     try:
@@ -147,7 +147,7 @@ def read_catalog(place: Path) -> Catalog:
 
 
 def fields_of(template: str) -> set[str]:
-    """Return the names of the values that a template has a place for.
+    """Return the names of a template's placeholders.
 
     >>> sorted(fields_of("{player!r} needs {p:.1%}"))
     ['p', 'player']
@@ -156,7 +156,7 @@ def fields_of(template: str) -> set[str]:
 
 
 def problems_of(message: Message) -> Iterator[str]:
-    """Yield what is wrong with a translation: values that the English does not have."""
+    """Yield what is wrong with a translation: placeholders that the English doesn't have."""
     english = _all(message.id)
     for text in filter(None, _all(message.string)):
         try:

@@ -1,7 +1,7 @@
-"""A Markov chain as a file, read and written: arcs, GraphML, node-link JSON, Matrix Market.
+"""A Markov chain in a file, read and written: arcs, GraphML, node-link JSON, Matrix Market.
 
-`networkx.read_graphml`, `networkx.node_link_graph` and `scipy.io.mmread` read what is written
-here, and so does `read_chain`. Every number is written with the digits that give it back exactly.
+`networkx.read_graphml`, `networkx.node_link_graph` and `scipy.io.mmread` can read the files written
+here, and so can `read_chain`. Every number is written with enough digits to be read back exactly.
 """
 
 from __future__ import annotations
@@ -36,10 +36,10 @@ STATES = Schema(
     kind=Text(about="`start` for the state that the chain starts in"),
     winner=Text(about="the number of the player who has won there"),
 ) | Schema(**dict.fromkeys(("class", "class_kind", "period", "limit"), Text()))
-"""A list of states; those that `evenbreak chain` writes have more columns."""
+"""A list of states; the lists that `evenbreak chain` writes have more columns."""
 
 OTHER_FORMS = (".dot", ".gexf", ".gml", ".gv", ".gz", ".mat", ".net", ".npy", ".npz", ".pkl")
-"""What other programs write graphs and matrices to, and no table has for the end of its name."""
+"""File extensions that other programs use for graphs and matrices, and that tables never have."""
 
 MOST_MEGABYTES = 64
 """The largest graph: some 200,000 states with three arcs each, or a gigabyte of memory."""
@@ -48,27 +48,27 @@ MOST_MEGABYTES = 64
 def read_chain(
     path: str | Path, *, states: str | Path | None = None, rows: Rows | None = None
 ) -> ArcsFile:
-    r"""Read a chain; the end of the file's name shows its format.
+    r"""Read a chain; the file's extension shows its format.
 
     Parameters
     ----------
     path
         `.graphml`, `.json` (node-link), `.mtx` (Matrix Market), or a table of arcs (see
-        `read_arcs`), as '-', standard input, always is.
+        `read_arcs`). '-' is a table of arcs from standard input.
     states
-        a CSV file with the names of the states of a matrix, in its order; without it they are
+        a CSV file naming a matrix's states, in the matrix's order; without it, the states are
         numbered from 1.
     rows
         how to read a matrix. 'from': a row holds the chances out of its state. 'to': a row holds
         the chances into its state, so that the columns sum to 1, as in this package. None: 'to',
-        but a matrix whose rows alone sum to 1 is refused, and one whose rows and columns do is
-        read with a warning.
+        but a matrix whose rows sum to 1 and whose columns don't is rejected, and a matrix whose
+        rows and columns both sum to 1 is read with a warning.
 
     Raises
     ------
     DataError
-        with what is wrong in the file: its form, missing or wrong probabilities, arcs or states
-        listed twice, sums that are not 1.
+        listing what is wrong with the file: its format, missing or invalid probabilities, arcs or
+        states listed twice, sums that are not 1.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -202,7 +202,7 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
 
 
 def _winners(winners: Mapping[str, Any], source: str) -> dict[str, int]:
-    """Return the players who have won, without the states in which no one has."""
+    """Return the players who have won, leaving out states in which no one has won."""
     players = {}
     for state, winner in winners.items():
         if winner is None or winner == "":
@@ -317,7 +317,7 @@ def _square(content: bytes, source: str) -> csc_array[np.float64]:
 def _states(
     path: str | Path, n: int
 ) -> tuple[list[str], str | None, dict[str, int], tuple[str, ...]]:
-    """Return the names of n states, the one of the kind 'start', who has won, and warnings."""
+    """Return n state names, the start, the winners, and warnings."""
     table = STATES.text(path)
     table.problems.raise_any()
     names = table.cells("state")
@@ -342,7 +342,7 @@ States are numbered from 1, in the order of states.csv."""
 
 
 def graphml_bytes(graph: nx.DiGraph[Any]) -> bytes:
-    """Return a graph as GraphML; attributes that are None are left out, as GraphML has no such.
+    """Return a graph as GraphML, without attributes that are None, which GraphML can't store.
 
     >>> import networkx as nx
     >>> graph = nx.DiGraph([("S", "W", {"probability": 1.0})])

@@ -1,4 +1,4 @@
-"""Charts of races, by rating difference, skill level or points, and chip charts."""
+"""Charts of races by rating difference, skill level or points, and chip charts."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from evenbreak.tournaments.chips.chip_charts import CHIP_CHARTS, ChipChart, Chip
 from evenbreak.words import listed, say
 
 MOST_GAMES = 1000
-"""Games in the longest race."""
+"""The longest race, in games."""
 
 _DIFFERENCE = Whole(filled=True, write=say("points, such as 7"))
 _LEVEL = Whole(filled=True, write=say("a skill level, such as 4"))
@@ -72,7 +72,7 @@ POINTS = LEVELS.only("level") | Schema(
         "the points that a player at this level needs; more in each row than in the one above",
     )
 )
-"""A chart of points."""
+"""A points chart."""
 
 CHIPS = Schema(
     "rows",
@@ -98,11 +98,11 @@ CHIPS = Schema(
 """A chip chart."""
 
 MOST_MISSING = 20
-"""The most missing pairs of levels listed one by one."""
+"""How many missing pairs of levels are listed one by one."""
 
 
 def is_chart(path: str | Path) -> bool:
-    """Return whether a table has a column that charts have and other tables have not."""
+    """Return whether a table has a column that only charts have."""
     charts = DIFFERENCES.only("stronger_needs") | LEVELS | POINTS
     return bool({"stronger_needs", "opponent_level", "points"} & charts.text(path).found)
 
@@ -111,7 +111,7 @@ def is_chart(path: str | Path) -> bool:
 class ChartFile:
     """The content of a chart file, even if it is not a valid chart yet.
 
-    `problems`, such as gaps and overlaps, keep its rows from being a chart.
+    `problems`, such as gaps and overlaps, are what makes the chart invalid.
     """
 
     found: ChartDraft | LevelChart | PointsChart
@@ -120,7 +120,7 @@ class ChartFile:
 
     @property
     def chart(self) -> Chart | LevelChart | PointsChart:
-        """The chart; a DataError with all problems if it is not valid."""
+        """The chart; raises DataError with all problems if it isn't valid."""
         if self.problems:
             raise DataError(self.problems)
         return Chart(*self.found) if isinstance(self.found, ChartDraft) else self.found
@@ -129,7 +129,7 @@ class ChartFile:
 def read_chart_file(path: str | Path) -> ChartFile:
     """Read a chart file; gaps and overlaps are kept as problems, for `audit` to report.
 
-    It's a DataError if there is nothing to audit: missing columns, cells that aren't whole numbers,
+    Raises DataError if there is nothing to audit: missing columns, cells that aren't whole numbers,
     rows that end before they start, or an invalid chart by skill level.
     """
     table = (DIFFERENCES | LEVELS | POINTS).text(path)
@@ -150,12 +150,12 @@ def read_chart_file(path: str | Path) -> ChartFile:
 
 
 def _fitting(table: TextTable, chart: Schema) -> int:
-    """Return how many columns of a kind of chart a file has."""
+    """Return how many of a chart type's columns a file has."""
     return sum(column in table for column in chart.columns)
 
 
 def _read(table: TextTable, chart: Schema) -> TextTable:
-    """Return a chart with its cells read; missing columns or rows are noted as problems."""
+    """Return a chart from its cells, noting missing columns or rows as problems."""
     if not table.found:
         table.problems.add(
             None,
@@ -173,7 +173,7 @@ def _read(table: TextTable, chart: Schema) -> TextTable:
 
 
 def _rows(table: TextTable) -> tuple[ChartRow, ...]:
-    """Return the rows as they are."""
+    """Return the rows unchanged."""
     columns = (table[name].tolist() for name in DIFFERENCES.columns)
     ends = table.read["difference_to"].stated.tolist()
     return tuple(
@@ -183,7 +183,7 @@ def _rows(table: TextTable) -> tuple[ChartRow, ...]:
 
 
 def _levels(table: TextTable, name: str) -> LevelChart:
-    """Return a chart by skill level; a DataError with all problems where there is none."""
+    """Return a chart by skill level; raise DataError with all problems if it isn't valid."""
     own, other, needs, theirs = (table[column].tolist() for column in LEVELS.columns)
     table.problems.raise_any()
     races: dict[tuple[int, int], tuple[int, int]] = {}
@@ -220,7 +220,7 @@ def _levels(table: TextTable, name: str) -> LevelChart:
 
 
 def _points(table: TextTable, name: str) -> PointsChart:
-    """Return a chart of points; a DataError with all problems where there is none."""
+    """Return a points chart; raise DataError with all problems if it isn't valid."""
     table.problems.raise_any()
     try:
         return PointsChart(name, table["level"].tolist(), table["points"].tolist())
@@ -237,7 +237,7 @@ def _note(
     games: int,
     row: int,
 ) -> None:
-    """Note what one level needs against another, or that an earlier row says otherwise."""
+    """Note what one level needs against another, or that an earlier row says something else."""
     before, earlier = races.setdefault(pair, (games, row))
     if before != games:
         table.note(
@@ -255,12 +255,12 @@ def _note(
 def read_chart(path: str | Path) -> Chart | LevelChart | PointsChart:
     r"""Read a chart by rating difference or by skill level from a CSV file; '-' is stdin.
 
-    The columns decide which of the two it is; the chart is named after the file.
+    The columns decide which kind of chart it is; the chart is named after the file.
 
     Raises
     ------
     DataError
-        with all problems of the file: missing columns, cells that are not whole numbers, gaps
+        listing every problem in the file: missing columns, cells that are not whole numbers, gaps
         and overlaps between rows, pairs of levels that are missing or contradict each other.
 
     >>> import tempfile, pathlib
@@ -274,14 +274,14 @@ def read_chart(path: str | Path) -> Chart | LevelChart | PointsChart:
 
 
 def find_chart(name_or_path: str | Path) -> Chart | LevelChart | PointsChart:
-    """Return the chart of this name, ours or an installed package's, or the one in this file.
+    """Return the chart with this name, ours or an installed package's, or the chart in this file.
 
     Raises
     ------
     DataError
-        if there is neither, or as for `read_chart`.
+        if there is no such chart or file, or as for `read_chart`.
     InputError
-        if the package's chart breaks a law.
+        if the package's chart breaks a rule for charts.
 
     >>> find_chart("NPL-10").race(12)
     (5, 4)
@@ -290,7 +290,7 @@ def find_chart(name_or_path: str | Path) -> Chart | LevelChart | PointsChart:
 
 
 def find_chart_file(name_or_path: str | Path) -> ChartFile:
-    """Return a chart of this name, ours or an installed package's, or the content of a file."""
+    """Return a chart by name, ours or an installed package's, or a file's content."""
     name = str(name_or_path)
     if name == "-" or (catalog_name(name) not in EVERY_CHART and _exists(name)):
         return read_chart_file(name_or_path)
@@ -318,7 +318,7 @@ def _exists(path: str | Path) -> bool:
 def chart_table(
     chart: Chart | LevelChart | PointsChart,
 ) -> tuple[list[str], list[tuple[int | None, ...]]]:
-    """Return a chart as the columns and rows of a file that `read_chart` reads.
+    """Return a chart as columns and rows for a file that `read_chart` reads.
 
     >>> chart_table(find_chart("npl_8"))[1][-1]
     (49, None, 6, 2)
@@ -336,13 +336,12 @@ def chart_table(
 def read_chip_chart(path: str | Path) -> ChipChart:
     r"""Read a chip chart from a CSV file; '-' is standard input.
 
-    It has a row for each band of ratings: the rating from which it holds, empty for the weakest
-    players, and the chips.
+    Each row is a band of ratings: its lowest rating, empty for the weakest players, and the chips.
 
     Raises
     ------
     DataError
-        with the problems of the file.
+        listing the problems in the file.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -363,7 +362,7 @@ def read_chip_chart(path: str | Path) -> ChipChart:
 
 
 def chip_chart_of(name_or_path: str) -> ChipChart:
-    """Return a chip chart that comes with the package, or one from a file.
+    """Return a chip chart: a built-in chart by name, or a chart from a file.
 
     >>> chip_chart_of("hoboken").rows[-1]
     ChipRow(rating_from=601.0, chips=4)

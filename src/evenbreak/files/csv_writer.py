@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 DECIMALS = 6
 FORMULA_STARTS = "=+-@\uff1d\uff0b\uff0d\uff20\ufe66\ufe62\ufe63\ufe6b\u2212"
-"""Text that begins with one of these may be run as a formula by a spreadsheet.
+"""Text that starts with one of these may be run as a formula by a spreadsheet.
 
-Besides those on every keyboard they are the full-width and the small ones, and the minus sign.
+These are the signs on every keyboard, their full-width and small forms, and the minus sign.
 """
 
 # A spreadsheet that splits cells at semicolons or tabs takes no notice of quotes within a cell.
@@ -26,7 +26,7 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.A
 
 
 def to_csv(frame: pd.DataFrame, *, excel: bool = False) -> bytes:
-    r"""Return a frame as CSV, without its index, as `csv_lines` writes it.
+    r"""Return a frame as CSV without its index, in the format of `csv_lines`.
 
     Parameters
     ----------
@@ -58,10 +58,10 @@ def rows_of(frame: pd.DataFrame) -> list[tuple[Any, ...]]:
 
 
 def csv_lines(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Iterator[str]:
-    r"""Yield a header and rows as lines of CSV, each with its line end.
+    r"""Yield a header and rows as lines of CSV, each with its line ending.
 
-    Floats have six decimals, whole numbers none; True is yes and False is no; None, NaN and
-    infinities are empty cells; dates are ISO. Text is as `text_cell` writes it.
+    Floats have six decimals and whole numbers have none; True is yes and False is no; None, NaN and
+    infinities are empty cells; dates are ISO. Text is passed through `text_cell`.
 
     >>> list(csv_lines(["race_a", "p_win_a"], [[7, 0.5], [8, None]]))
     ['race_a,p_win_a\n', '7,0.500000\n', '8,\n']
@@ -94,12 +94,12 @@ def _number(value: float) -> str:
 
 
 def text_cell(text: str) -> str:
-    r"""Return text as a CSV cell that no spreadsheet takes for a formula.
+    r"""Return text as a CSV cell that no spreadsheet will run as a formula.
 
-    An apostrophe comes before all that a spreadsheet might run: what starts with one of
-    `FORMULA_STARTS` or a control character, also after a semicolon, a tab or a line end, where
-    a spreadsheet of another country starts a new cell. Numbers stay as they are. `undefused`
-    removes the apostrophes again.
+    Anything that a spreadsheet might run gets an apostrophe in front: text that starts with one of
+    `FORMULA_STARTS` or a control character, even after a semicolon, a tab or a line break, where a
+    spreadsheet set to another country starts a new cell. Numbers are unchanged. `undefused` removes
+    the apostrophes again.
 
     >>> text_cell("@SUM(A1)"), text_cell("Ann-Marie"), text_cell('5" ball'), text_cell("-1")
     ("'@SUM(A1)", 'Ann-Marie', '"5"" ball"', '-1')
@@ -115,7 +115,7 @@ def text_cell(text: str) -> str:
 
 
 def undefused(text: str) -> str:
-    """Return text as it was before `text_cell` put apostrophes into it.
+    """Return text as it was before `text_cell` added apostrophes.
 
     >>> undefused("'@SUM(A1)"), undefused("'t Hooft"), undefused("Bo;'=1+1")
     ('@SUM(A1)', "'t Hooft", 'Bo;=1+1')

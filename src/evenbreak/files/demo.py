@@ -1,4 +1,4 @@
-"""The demo: made-up files to try the commands on, and an evening that is half played."""
+"""The demo: made-up files for trying the commands, and a half-played evening."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ DEMO: Mapping[str, str] = {
     "practice_shots.csv": "practice on individual shots",
     "league.toml": "the league's file, which sets defaults for commands run in the folder",
 }
-"""The files of the demo: what each holds."""
+"""The demo's files, and what each contains."""
 
 EVENING = "demo_evening.csv"
-"""What has happened on the evening that is half played."""
+"""The events of the half-played evening."""
 
 
 def write_demo(folder: str | Path) -> list[str]:
-    """Write the demo's files into a folder; return the names of those that are new.
+    """Write the demo's files to a folder, and return the names of the new files.
 
-    It's a DataError if another file has one of their names; nothing is written then.
+    Raises DataError, and writes nothing, if a different file already has one of their names.
     """
     there = Path(folder)
     content = {name: _place(name).read_bytes() for name in DEMO}
@@ -64,7 +64,7 @@ def write_demo_evening(path: str | Path, now: datetime) -> Evening:
 
 
 def _place(name: str) -> Path:
-    """Return where a file of the demo is: in the installed package, or next to it in a checkout."""
+    """Return the path of a demo file: in the installed package, or next to it in a checkout."""
     installed = Path(str(files("evenbreak") / "demo_data" / name))
     checkout = Path(__file__).resolve().parents[3] / "data" / name
     return installed if installed.exists() else checkout

@@ -1,4 +1,4 @@
-"""Practice files: the attempts at a drill, and the scores of drills."""
+"""Practice files: attempts at a drill, and drill scores."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ WORDS = {
         ("no", "n", "false", "f", "0", "missed", "miss", "failed", "fail", "failure"), False
     ),
 }
-"""The words for a success and for a miss."""
+"""The words for success and for a miss."""
 
 _MARKS = {"x": True, "-": False, "\N{EN DASH}": False}
 
 
 class Outcome(YesNo):
-    """Whether a shot was made: words, or where a column has only these, x for made and -."""
+    """Whether a shot was made: words, or if a column has only these marks, x for made and -."""
 
     def read(self, table: TextTable, name: str) -> Values:
-        """Read a column; an x next to other words may mean a miss, and is not read."""
+        """Read a column; an x mixed with words may mean a miss, so it is rejected."""
         return super(Outcome, self.as_in(table, name)).read(table, name)
 
     def as_in(self, table: TextTable, name: str) -> Self:
@@ -47,7 +47,7 @@ class Outcome(YesNo):
         return replace(self, values=_MARKS) if len(texts) > 1 and texts <= _MARKS.keys() else self
 
     def meaning(self, text: str) -> bool | None:
-        """Return whether it was made."""
+        """Return whether the shot was made."""
         return self.values.get(letters(text) or text)
 
 
@@ -127,7 +127,7 @@ SHOTS = Schema(
     ),
     date=Day(_DAY, "the day"),
 )
-"""A log of single shots: a row for each shot of each day, or for each try."""
+"""A log of single shots: a row for each shot on each day, or for each try."""
 
 NAMED = 6
 """How many drills a message names."""
@@ -136,7 +136,7 @@ NAMED = 6
 def rows_of_drill(
     table: TextTable, drill: str | None, *, as_above: bool = False
 ) -> NDArray[np.int64]:
-    """Return the rows of one drill (None: the only one); a problem is noted where they're unclear.
+    """Return the rows for one drill (None: the only one), noting unclear rows as problems.
 
     With `as_above`, an empty cell means the drill of the cell above it.
     """
@@ -182,7 +182,7 @@ def rows_of_drill(
 
 
 def source_of(table: TextTable, drill: str | None) -> str:
-    """Return what the rows of a drill are called in messages."""
+    """Return what messages call a drill's rows."""
     return table.source if drill is None else f"{table.source}, drill {quoted(drill)}"
 
 
@@ -193,11 +193,11 @@ class DrillLogFile:
     Parameters
     ----------
     log
-        in the order of the file.
+        in file order.
     source
-        the name of the file in messages.
+        the file's name in messages.
     warnings
-        one per line: the file can be used all the same.
+        one per line; the file can be used anyway.
     """
 
     log: DrillLog
@@ -211,22 +211,22 @@ def read_drill_log(
     r"""Read the attempts of a progressive drill from a CSV file; '-' is standard input.
 
     Encoding, separator and header are handled by `evenbreak.files.tables.table`; the columns are
-    those of `DRILL_LOG`, with one row for each attempt, in the order in which they
-    were made. A new session starts where session, date or drill differ from the row above; an
-    empty cell means the same as the cell above. A row that breaks the rule of the drill within a
-    session counts as a new start, with a warning.
+    those of `DRILL_LOG`, with one row per attempt, in the order they were made. A new session
+    starts wherever the session, date or drill differs from the row above; an empty cell repeats the
+    cell above. A row that breaks the drill's rule within a session counts as a new start, with a
+    warning.
 
     Parameters
     ----------
     levels
-        of the drill; None: the highest one in the file.
+        the drill's levels; None: the highest level in the file.
     drill
         needed if the file has several drills.
 
     Raises
     ------
     DataError
-        with every problem of the file, one per line.
+        listing every problem in the file, one per line.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -251,7 +251,7 @@ def read_drill_log(
 
 
 def _sessions(table: TextTable) -> NDArray[np.int64]:
-    """Return a number for each row that changes where the session or the date does."""
+    """Return a number for each row, which changes whenever the session or the date does."""
     changes = np.zeros(len(table), dtype=bool)
     for name in ("session", "date", "drill"):
         codes, stated = table.columns[name].codes, table.read[name].stated
@@ -282,9 +282,9 @@ def _jump_warning(table: TextTable, log: DrillLog, rows: NDArray[np.int64]) -> l
 
 
 class ScoresFile(NamedTuple):
-    """The scores of a file, in the order of its rows.
+    """A file's scores, in row order.
 
-    `dates` has the day of each score; it is None unless every score has a date.
+    `dates` has each score's date; it is None unless every score has one.
     """
 
     scores: NDArray[np.float64]
@@ -294,7 +294,7 @@ class ScoresFile(NamedTuple):
 
 
 class ShotsFile(NamedTuple):
-    """The log of single shots in a file, the name of the file, and what to check in it."""
+    """A file's log of single shots, the file's name, and anything to check in it."""
 
     log: ShotLog
     source: str
@@ -306,7 +306,7 @@ def read_practice(
 ) -> ScoresFile | ShotsFile:
     """Read practice scores, or a log of single shots with the columns made and tried.
 
-    A log of shots has no drills. The DataError has all problems of the file.
+    A log of shots has no drills. Raises DataError listing every problem in the file.
     """
     shots, scores = (
         schema.but(
@@ -335,7 +335,7 @@ def read_practice(
 
 
 def _outcomes_in(table: TextTable) -> str | None:
-    """Return the column that says of each try whether it was made; None if that is not the log."""
+    """Return the column that says whether each try was made; None if the file isn't such a log."""
     for name in () if {"made", "tried"} <= table.found else ("score", "outcome", "made"):
         if name not in table:
             continue
@@ -351,7 +351,7 @@ def _outcomes_in(table: TextTable) -> str | None:
 
 
 def _counted(table: TextTable, name: str, schema: Schema) -> TextTable:
-    """Return a table with a row for each try as one with what was made of how many."""
+    """Return a table with a row per try as a table of shots made and tried."""
     title = table.titles[name]
     table = replace(table, columns={**table.columns, title: table.columns[name]})
     made = OUTCOME.read(replace(table, found=table.found | {title}), title)
@@ -395,14 +395,15 @@ def read_scores(
 ) -> ScoresFile:
     """Read practice scores from a CSV file, one score per row; '-' is standard input.
 
-    `drill` chooses among several; `dates`, 'mdy' or 'dmy', settles the order in dates such as
-    9/3/2024 if no date of the file shows it. The DataError has all problems of the file.
+    `drill` chooses one drill if there are several; `dates`, 'mdy' or 'dmy', gives the order in
+    dates such as 9/3/2024 if no date in the file shows it. Raises DataError listing every problem
+    in the file.
     """
     return _scores(SCORES.but(date={"order": dates}).read(path), drill)
 
 
 def _scores(table: TextTable, drill: str | None) -> ScoresFile:
-    """Return the scores in a table, or raise all the problems found in it."""
+    """Return a table's scores, or raise all the problems found in it."""
     scores, days = table["score"], table["date"]
     rows = rows_of_drill(table, drill)
     table.problems.raise_any()
@@ -417,7 +418,7 @@ def _scores(table: TextTable, drill: str | None) -> ScoresFile:
 
 
 def _undated(table: TextTable, rows: NDArray[np.int64], scores: int) -> list[str]:
-    """Return a warning if some scores have a date and others, those of `rows`, do not."""
+    """Return a warning if some scores have a date and others, in `rows`, don't."""
     if "date" not in table or rows.size == scores:
         return []
     missing = say_count(

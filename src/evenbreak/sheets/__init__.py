@@ -1,4 +1,4 @@
-"""Paper and pages, made from answers: PDF, HTML, workbook."""
+"""Paper and pages made from answers: PDF, HTML, workbooks."""
 
 import lazy_loader
 

@@ -1,8 +1,8 @@
-"""A bracket as a drawing, in units of its own: boxes, lines, headings; whole, or in parts.
+"""A bracket as a drawing, in its own units: boxes, lines, headings; whole, or in parts.
 
 One unit across is a round, one unit down a match. Pages, pictures and paper scale the same drawing.
-A match stands between those whose winners come to it; losers are below the winners, round under
-round, and the line of the last of them comes up to the final.
+A match is drawn between the matches whose winners go to it; the losers' side is below the winners',
+round under round, and the line from its last match goes up to the final.
 """
 
 from __future__ import annotations
@@ -14,23 +14,23 @@ from typing import NamedTuple, TypeAlias
 from evenbreak.answers.tournament.bracket_view import Box, Panel
 
 HEADING = 0.62
-"""The height of headings."""
+"""The headings' height."""
 
 GAP = 0.25
-"""What is free below a part of the bracket."""
+"""The space below a part of the bracket."""
 
 BOX_WIDE, BOX_HIGH = 0.85, 0.86
-"""The part of a round's width and of a match's height that its box takes, at the right."""
+"""The share of a round's width and of a match's height that its box takes, at the right."""
 
 _FINALS_APART = 1.62  # between a final and the one above or below it
 
 
 Corners: TypeAlias = tuple[tuple[float, float], ...]
-"""The corners of a line."""
+"""A line's corners."""
 
 
 class Placed(NamedTuple):
-    """A match and where the middle of its box's left side is."""
+    """A match, and the middle of its box's left side."""
 
     box: Box
     x: float
@@ -38,7 +38,7 @@ class Placed(NamedTuple):
 
 
 class Heading(NamedTuple):
-    """A heading, the left end of its line, and whether it is that of a part."""
+    """A heading, the left end of its line, and whether it is a part's heading."""
 
     text: str
     x: float
@@ -50,8 +50,8 @@ class Heading(NamedTuple):
 class Drawing:
     """A bracket, or a part of one, as a drawing; `wide` and `high` in rounds and matches.
 
-    `lines` are by corners; `onward` are the ends of lines that lead out of it, with the match's
-    number.
+    `lines` are given by corners; `onward` are the ends of lines that lead out of it, with the
+    match's number.
     """
 
     wide: float
@@ -63,7 +63,7 @@ class Drawing:
 
 
 def rows(panel: Panel) -> dict[str, float]:
-    """Return how many matches below the top of its part the middle of each match is.
+    """Return the distance from the top of its part to each match's middle, in matches.
 
     >>> from evenbreak.answers.tournament.bracket_view import Line, Round
     >>> nobody = Line("", False), Line("", False)
@@ -91,12 +91,12 @@ def rows(panel: Panel) -> dict[str, float]:
 
 
 def height(panel: Panel) -> float:
-    """Return how many matches high a part of the bracket is, without its headings."""
+    """Return the height of a part of the bracket in matches, without its headings."""
     return max(rows(panel).values(), default=0.5) + 0.5
 
 
 def drawing(panels: Sequence[Panel]) -> Drawing:
-    """Return a drawing of parts of a bracket: sides below each other, small groups side by side."""
+    """Return a drawing of a bracket's parts: sides below each other, small groups side by side."""
     across = max([len(panel.rounds) for panel in panels], default=1)
     parts: list[list[Placed]] = []
     headings: list[Heading] = []
@@ -127,7 +127,7 @@ def drawing(panels: Sequence[Panel]) -> Drawing:
 
 
 def _headings(panel: Panel, placed: list[Placed], left: float) -> Iterator[Heading]:
-    """Return the headings of rounds, above them, and of finals, right above their boxes."""
+    """Return round headings, above the rounds, and headings for finals, right above their boxes."""
     top = min((p.y for p in placed if not p.box.title), default=0.5)
     for k, one in enumerate(panel.rounds):
         column = [p for p in placed if p.box.column == k and not p.box.title]
@@ -140,7 +140,7 @@ def _headings(panel: Panel, placed: list[Placed], left: float) -> Iterator[Headi
 
 
 def _lines(parts: list[list[Placed]]) -> tuple[list[Corners], list[tuple[float, float, int]]]:
-    """Return the lines to the matches that winners go to, and those that lead elsewhere."""
+    """Return the lines to winners' next matches, and the lines that lead elsewhere."""
     everywhere = {one.box.match: one for part in parts for one in part}
     lines: list[Corners] = []
     onward = []
@@ -166,7 +166,7 @@ def _lines(parts: list[list[Placed]]) -> tuple[list[Corners], list[tuple[float, 
 
 
 def pages(panels: Sequence[Panel], high: float, wide: int) -> list[list[Panel]]:
-    """Return the parts of a bracket that go on each page of so many matches and rounds.
+    """Return the parts of a bracket for each page, given its size in matches and rounds.
 
     Headings count as matches.
     """
@@ -184,7 +184,7 @@ def pages(panels: Sequence[Panel], high: float, wide: int) -> list[list[Panel]]:
 
 
 def _split(panel: Panel, high: float, wide: int) -> list[Panel]:
-    """Return parts of a part of the bracket that are small enough, the earlier rounds first."""
+    """Return a part of the bracket split into small enough parts, earlier rounds first."""
     panel = _without_empty(panel)
     if height(panel) <= high and len(panel.rounds) <= wide:
         return [panel]
@@ -219,7 +219,7 @@ def _blocks(panel: Panel, high: float, wide: int) -> list[Panel]:
 
 
 def _trees(panel: Panel, cut: int) -> list[Panel]:
-    """Return the matches of the first rounds, those that lead to one match together."""
+    """Return the first rounds' matches, keeping together those that lead to the same match."""
     early = [box for box in panel.boxes if box.column < cut]
     names = {box.match: box for box in early}
     ends: dict[str, list[Box]] = {}
@@ -236,7 +236,7 @@ def _some(panel: Panel, boxes: Sequence[Box]) -> Panel:
 
 
 def _without_empty(panel: Panel) -> Panel:
-    """Return a part of the bracket without rounds that have no match."""
+    """Return a part of the bracket without empty rounds."""
     used = sorted({box.column for box in panel.boxes})
     place = {column: k for k, column in enumerate(used)}
     boxes = tuple(replace(box, column=place[box.column]) for box in panel.boxes)

@@ -1,7 +1,7 @@
-"""A bracket on a page: one drawing on a laptop or a wall, a round at a time on a phone.
+"""A bracket on a page: one drawing on a laptop or a wall, one round at a time on a phone.
 
-Both are made here as text, for they are drawn again with every score. Pages bring the look
-(bracket.css), and say the words in their reader's language.
+Both are made here as text, because they are redrawn with every score. Pages supply the look
+(bracket.css) and phrase the words in their reader's language.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from evenbreak.sheets.html_page import Section, html_page, own_file, shown_name
 from evenbreak.words import Figure, say
 
 COLUMN, ROW = 232.0, 49.0
-"""The width of a round and the height of a match, in the drawing's own pixels."""
+"""A round's width and a match's height, in the drawing's own pixels."""
 
 LETTERS = 18.5
 """The size of names."""
@@ -37,7 +37,7 @@ SHAPES = {
     "two": ("", "M5.5 0 11 5.5 5.5 11 0 5.5z"),
     "forfeit": ("open", "M1 1l9 9M10 1l-9 9"),
 }
-"""The state of a match as a shape, 11 by 11: whether it is only an outline, and its outline."""
+"""A match's state as a shape, 11 by 11: whether it is only an outline, and its outline."""
 
 _ON_WHITE = {
     "paper": "#fff",
@@ -62,14 +62,14 @@ _WORD = 7.5  # the width of the longest word on a small card, in sizes of its le
 _FEW = 8.0  # rounds that fit on a laptop
 
 Words = Callable[[str], object]
-"""What says a sentence in the reader's language."""
+"""Phrases a sentence in the reader's language."""
 
 Link = Callable[[Box], str]
-"""The address of a match; '' for none."""
+"""A match's address; '' for none."""
 
 
 def no_link(_: Box) -> str:
-    """Return no address: what a page without links has."""
+    """Return no address, for pages without links."""
     return ""
 
 
@@ -81,9 +81,9 @@ def bracket_svg(
     chosen: str = "",
     within: float = 0.0,
 ) -> Markup:
-    """Return the drawing of a bracket as inline SVG, with each match linked and one chosen.
+    """Return a bracket's drawing as inline SVG, with each match linked and one selected.
 
-    `within` is the width by the height of the space to fill; 0: as wide as usual.
+    `within` is the aspect ratio (width divided by height) of the space to fill; 0: the usual width.
 
     >>> "<svg" in bracket_svg([Panel("winners", "", (), ())])
     True
@@ -116,7 +116,7 @@ def bracket_svg(
 
 
 def _written(panels: Sequence[Panel], column: float) -> dict[str, str]:
-    """Return how names are written in the drawing: alike everywhere."""
+    """Return how names are written throughout the drawing."""
     room = (column * BOX_WIDE - 2 * _EDGE - _SCORE) / LETTERS
     return short_names(_names(panels), lambda text: rough_width(text, bold=True) <= room)
 
@@ -127,12 +127,12 @@ def _text(kind: str, x: float, y: float, text: str, size: float = 0.0) -> str:
 
 
 def _at(place: float) -> str:
-    """Return a coordinate in few letters."""
+    """Return a coordinate in as few characters as possible."""
     return f"{place:.1f}".removesuffix(".0")
 
 
 class _Page:
-    """How matches are drawn on a page."""
+    """How to draw matches on a page."""
 
     def __init__(
         self, column: float, words: Words, link: Link, written: dict[str, str], chosen: str
@@ -176,7 +176,7 @@ class _Page:
         return f'<a {kind} href="{escape(address)}">{"".join(parts)}</a>'
 
     def line(self, box: Box, k: int, line: Line, x: float, y: float) -> str:
-        """Return a player of a match."""
+        """Return a match's player."""
         middle = y + (k - 0.5) * 0.5 * _HIGH + 0.36 * LETTERS
         text = self.written.get(line.text, line.text) if line.known else str(self.words(line.text))
         right, parts = x + self.wide - _EDGE, []
@@ -199,7 +199,7 @@ class _Page:
 
 
 def _kind(box: Box, chosen: str) -> str:
-    """Return the classes of a match: its state, whether it is on a table, whether it was tapped."""
+    """Return a match's CSS classes: its state, whether it is on a table, whether it was tapped."""
     on = " is-on" if box.table else ""
     return f"m {box.state}{on}{' chosen' if box.match == chosen else ''}"
 
@@ -214,7 +214,7 @@ def bracket_rounds(
 ) -> Markup:
     """Return a bracket for a phone: one round at a time.
 
-    With `sight` the next round is in sight, which takes a third more bytes.
+    With `sight`, the next round is visible too, which takes a third more bytes.
     """
     say_it = partial(_said, words)
     card = partial(_card, words=words, chosen=chosen, written=_small(panels))
@@ -248,7 +248,7 @@ def bracket_rounds(
 
 
 def _small(panels: Sequence[Panel]) -> dict[str, str]:
-    """Return names for the small cards of the next round, where words are not divided."""
+    """Return names for the next round's small cards, where words aren't broken."""
 
     def fits(text: str) -> bool:
         return max(rough_width(word, bold=True) for word in re.split(r"[ -]", text)) <= _WORD
@@ -265,7 +265,7 @@ def _said(words: Words, text: str) -> str:
 
 
 def _nav(kind: str, label: str, links: Sequence[tuple[str, str]], here: str) -> str:
-    """Return links within the page; the one to where they stand is marked."""
+    """Return links within the page, marking the one to the current place."""
     text = [f'<div class="{kind}" role="group" aria-label="{label}">']
     for to, word in links:
         current = ' aria-current="true"' if to == here else ""
@@ -274,14 +274,14 @@ def _nav(kind: str, label: str, links: Sequence[tuple[str, str]], here: str) -> 
 
 
 def _round_now(panel: Panel) -> int:
-    """Return the first round that is not over; the last if all are."""
+    """Return the first unfinished round; the last if all are finished."""
     over = ("done", "forfeit")
     still = [box.column for box in panel.boxes if box.state not in over and box.beside >= 0]
     return min(still, default=max((box.column for box in panel.boxes), default=0))
 
 
 def _round(panel: Panel, column: int, card: Callable[..., str], *, sight: bool) -> list[str]:
-    """Return the matches of a round, those that lead to one match together with it."""
+    """Return a round's matches, each with the others that lead to the same match."""
     names = {box.match: box for box in panel.boxes}
     groups: dict[str, list[Box]] = {}
     for box in panel.columns[column]:
@@ -305,7 +305,7 @@ def _card(
     written: Mapping[str, str],
     small: bool = False,
 ) -> str:
-    """Return a match as a card; a small one has short names."""
+    """Return a match as a card; a small card has short names."""
     lines = []
     over = box.state in ("done", "forfeit")
     for one in box.lines:
@@ -353,14 +353,14 @@ def bracket_both(
     chosen: str = "",
     sight: bool = True,
 ) -> Markup:
-    """Return the drawing of a bracket and its rounds; the style shows one of them, by the width."""
+    """Return a bracket's drawing and its rounds; the stylesheet shows one of them, by width."""
     drawn = bracket_svg(panels, words=words, link=link, chosen=chosen)
     rounds = bracket_rounds(panels, words=words, link=link, chosen=chosen, sight=sight)
     return Markup('<div class="bracket">{}{}</div>').format(drawn, rounds)
 
 
 def _on_white() -> str:
-    """Return the colors of a drawing that brings its own, dark letters on white."""
+    """Return the colors for a standalone drawing, dark letters on white."""
     colors = "".join(f"--{name}:{color};" for name, color in _ON_WHITE.items())
     return f"{colors}background:#fff;color:#0e151d;"
 
@@ -369,7 +369,7 @@ _TITLE, _ABOUT = 50.0, 18.0  # heights above the drawing, the line below the tit
 
 
 def bracket_picture(panels: Sequence[Panel], title: str = "", about: str = "") -> bytes:
-    """Return the drawing of a bracket as an SVG file, dark letters on white."""
+    """Return a bracket's drawing as an SVG file, dark letters on white."""
     above = _TITLE * bool(title) + _ABOUT * bool(about)
     style = (
         f"svg{{{_on_white()}font-family:system-ui,'Segoe UI',Roboto,'Noto Sans',"

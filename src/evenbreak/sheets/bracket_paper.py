@@ -1,6 +1,7 @@
-"""A bracket on paper, and as a picture: names in full, a box for each score, numbers at the left.
+"""A bracket on paper, and as a picture: full names, a box for each score, numbers at the left.
 
-A pen can finish the night on it: the small /4 in a score box is the games that the player needs.
+The night can be completed on it by hand: the small /4 in a score box is the games that the player
+needs.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 LARGEST = 13.0
-"""The largest size of a name, in points."""
+"""The largest font size for names, in points."""
 
 _MARGIN = 0.3
 _HEAD, _FOOT = 0.62, 0.18  # above and below the bracket, in inches
@@ -45,8 +46,8 @@ _TWO_LINES = 2.0 * _LINE * SMALLEST / (0.97 * 0.5 * BOX_HIGH * POINTS)  # of one
 class Sheet(NamedTuple):
     """What surrounds a bracket on paper.
 
-    `champion` is '' to leave a line for the name, None for neither; `live` is the address of the
-    live page, as a QR code.
+    `champion` is '' to leave a line for the name, or None for neither; `live` is the live page's
+    address, shown as a QR code.
     """
 
     title: str
@@ -57,16 +58,16 @@ class Sheet(NamedTuple):
 
 
 def bracket_pdf(panels: Sequence[Panel], sheet: Sheet, *, paper: str = "a4") -> bytes:
-    """Return the bracket as a PDF, on one page if its names can be read there, else on more.
+    """Return the bracket as a PDF, on one page if its names are readable there, else on more.
 
-    No name is cut or shortened: it is written smaller, down to 8 points, or on two lines, and
+    No name is cut or shortened: names are written smaller, down to 8 points, or on two lines, and
     otherwise the bracket takes more pages. The paper is 'a4' or 'letter'.
     """
     return pdf_bytes(bracket_pages(panels, sheet, paper), sheet.title)
 
 
 def bracket_pages(panels: Sequence[Panel], sheet: Sheet, paper: str = "a4") -> list[Figure]:
-    """Return the pages of `bracket_pdf`."""
+    """Return the pages for `bracket_pdf`."""
     wide, high = PAPERS[paper]
     room_wide, room_high = wide - 2 * _MARGIN, high - 2 * _MARGIN - _HEAD - _FOOT
     parts = _parts(panels, room_wide, room_high)
@@ -100,7 +101,7 @@ def bracket_figure(panels: Sequence[Panel], sheet: Sheet) -> Figure:
 
 
 def _onward(drawn: Drawing) -> float:
-    """Return the width that the numbers of matches elsewhere take next to the last round."""
+    """Return the width taken by the numbers of matches elsewhere, next to the last round."""
     return _ONWARD if any(number for *_, number in drawn.onward) else 0.0
 
 
@@ -109,7 +110,7 @@ def _lines(panels: Sequence[Panel]) -> Iterator[Line]:
 
 
 def _parts(panels: Sequence[Panel], wide: float, high: float) -> list[list[Panel]]:
-    """Return the parts for each page, so that they are few and all names can be read."""
+    """Return the parts for each page, using few pages and keeping all names readable."""
     names = {one.text for one in _lines(panels)}
     best: list[list[Panel]] = []
     whole = max(len(panel.rounds) for panel in panels)
@@ -136,14 +137,14 @@ def _parts(panels: Sequence[Panel], wide: float, high: float) -> list[list[Panel
 
 @lru_cache(maxsize=1024)
 def _halves(name: str) -> tuple[str, str]:
-    """Return a name on two lines of much the same width, divided after a space or a hyphen."""
+    """Return a name on two lines of similar width, divided after a space or a hyphen."""
     cuts = [match.end() for match in re.finditer(r"[\s-]+", name) if match.end() < len(name)]
     both = [(name[:cut].rstrip(), name[cut:]) for cut in cuts]
     return min(both, key=lambda one: max(len(one[0]), len(one[1])), default=(name, ""))
 
 
 class _Scale(NamedTuple):
-    """Where a drawing starts, and how wide a round and how high a match is, in inches."""
+    """Where a drawing starts, a round's width and a match's height, in inches."""
 
     left: float
     top: float
@@ -151,12 +152,12 @@ class _Scale(NamedTuple):
     row: float
 
     def at(self, x: float, y: float) -> tuple[float, float]:
-        """Return a place of the drawing on paper; what is free at its left is cut off."""
+        """Return the drawing's position on paper, cutting off the space at its left."""
         return self.left + x * self.column, self.top + y * self.row
 
 
 def _around(page: Paper, sheet: Sheet, number: str) -> None:
-    """Write what stands around the bracket."""
+    """Write what surrounds the bracket."""
     right = page.wide - _MARGIN
     if sheet.live:
         page.code(right - 0.62, _MARGIN - 0.08, 0.62, sheet.live)
@@ -210,7 +211,7 @@ def _box(page: Paper, placed: Placed, scale: _Scale) -> None:
 
 
 def _line(page: Paper, line: Line, x: float, y: float, wide: float, high: float) -> None:
-    """Write a player of a match, and the score or the games needed."""
+    """Write a match's player, with the score or the games needed."""
     middle = x + wide - 0.5 * _SCORE
     if line.score:
         score = "w/o" if line.score == "forfeit" else line.score
@@ -225,7 +226,7 @@ def _line(page: Paper, line: Line, x: float, y: float, wide: float, high: float)
 
 
 def written(line: Line, room: float, high: float) -> list[tuple[str, float, float]]:
-    """Return a name as written in a space (inches): lines with offset from the middle, and size."""
+    """Return a name fitted to a space (inches): lines with offsets from the middle, and size."""
     largest = min(LARGEST if line.known else 9.0, _ON_ONE_LINE * high * POINTS)
     text, size = fitted(line.text, largest, room, bold=line.won)
     halves = _halves(line.text)

@@ -1,8 +1,7 @@
-"""All HTML pages: one frame and style, a policy that allows nothing else; any answer as a page.
+"""All HTML pages: a shared frame and style, a strict content policy; any answer as a page.
 
-A page says what its answer says, in that order, in one file that fetches nothing from elsewhere. A
-sheet may draw the tables of its answer in another way, and add drawings; it adds no sentence of its
-own.
+A page says what its answer says, in the same order, in one file that fetches nothing from
+elsewhere. A sheet may draw its answer's tables differently, and add drawings; it adds no sentences.
 """
 
 import base64
@@ -32,9 +31,9 @@ def html_page(
 ) -> bytes:
     """Return a self-contained HTML page in UTF-8; the same values give the same bytes.
 
-    Its Content-Security-Policy allows its own style and, if there is one, its own script, which
-    `search` for players needs. `more_style` follows that of all pages; `drawings` may have styles
-    of their own. Every text is escaped.
+    Its Content-Security-Policy allows its own style and, if there is one, its own script, which the
+    player `search` needs. `more_style` follows the shared style; `drawings` may have their own
+    styles. All text is escaped.
     """
     style = own_file("sheet.css") + more_style
     script = own_file("search.js") if search else ""
@@ -45,11 +44,11 @@ def html_page(
 
 
 OF_DRAWINGS = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
-"""The policy of a page whose drawings bring styles of their own: no script, no other host."""
+"""The policy for a page whose drawings have their own styles: no script, no other host."""
 
 
 def policy(style: str, script: str = "", *, images: str = "") -> str:
-    """Return the policy of a page: its own style, its own script and some images, nothing else."""
+    """Return a page's policy: its own style, its own script and some images, nothing else."""
     allowed = ["default-src 'none'", f"style-src '{_digest(style)}'"]
     allowed += [f"script-src '{_digest(script)}'"] if script else []
     allowed += [f"img-src {images}"] if images else []
@@ -57,14 +56,14 @@ def policy(style: str, script: str = "", *, images: str = "") -> str:
 
 
 def drawn(macro: str, *values: Any) -> "Markup":
-    """Return a piece of a page: what a macro of parts.html makes of these values."""
+    """Return a piece of a page: the output of a macro in parts.html for these values."""
     parts = environment("evenbreak.sheets").get_template("parts.html").module
     made: Markup = getattr(parts, macro)(*values)
     return made
 
 
 def shown_name(name: str) -> str:
-    r"""Return a name with a mark for each control character, which HTML cannot hold.
+    r"""Return a name with a mark for each control character, which HTML can't contain.
 
     >>> shown_name("Bo\x1b") == "Bo\ufffd"
     True
@@ -77,7 +76,7 @@ def shown_name(name: str) -> str:
 
 @cache
 def environment(room: str) -> "Environment":
-    """Return what fills the templates of a room."""
+    """Return an environment for the templates of a package."""
     from jinja2 import Environment, FunctionLoader, StrictUndefined
 
     environment = Environment(
@@ -97,12 +96,12 @@ def _digest(text: str) -> str:
 
 
 def own_file(name: str, room: str = "evenbreak.sheets") -> str:
-    """Return the text of a file among the templates of a room."""
+    """Return the text of a file in a package's templates."""
     return files(room).joinpath("templates", name).read_text("utf-8")
 
 
 class Section(NamedTuple):
-    """A section of a page: where links lead, its heading, and what is in it."""
+    """A section of a page: its link target, its heading, and its content."""
 
     id: str
     title: str
@@ -133,11 +132,11 @@ def drawn_page(
     made_of: str,
     file: ResultsFile | RosterFile,
 ) -> bytes:
-    """Return an answer as a page whose tables are drawn in their own way.
+    """Return an answer as a page with custom drawings of its tables.
 
-    What precedes a table belongs to its section; what follows the last one comes last, with the
-    remarks of the details and the warnings. The other details are at the foot of the page. `notes`
-    is the last section: its id, its title, and its text if there is nothing else.
+    Anything in front of a table belongs to its section; anything after the last table comes last,
+    with the remarks in the details and the warnings. The other details are at the foot of the page.
+    `notes` is the last section: its id, its title, and its text if there is nothing else.
     """
     tables = iter(drawings)
     sections, said = [], Markup()
@@ -169,5 +168,5 @@ def _parts(parts: Iterable[Part]) -> Markup:
 
 
 def _markup(lines: Iterator[str]) -> Markup:
-    """Return lines that are HTML already, with every text in them escaped."""
+    """Return lines that are already HTML, with all text in them escaped."""
     return Markup("".join(f"{line}\n" for line in lines))  # noqa: S704

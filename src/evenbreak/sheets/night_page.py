@@ -1,4 +1,4 @@
-"""A finished night as one page that can be sent on: places, prizes, bracket, story, results."""
+"""A finished night as one page to share: places, prizes, bracket, story, results."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def night_html(
 ) -> bytes:
     """Return a night as one self-contained page of HTML in UTF-8.
 
-    Places have names and pay; `name` is for a plan without one.
+    Places have names and prizes; `name` is for a plan without one.
     """
 
     def said(text: str) -> str:

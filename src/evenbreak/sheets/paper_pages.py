@@ -1,4 +1,4 @@
-"""Lists and cards to print: the draw, each player with their first match; and score cards."""
+"""Lists and cards to print: the draw, with each player's first match, and score cards."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _TOP = MARGIN + 0.75
 
 
 class FirstMatch(NamedTuple):
-    """A player of the draw list; `match` is 0 without a first match, `table` '' before the call."""
+    """A player on the draw list; `match` is 0 without a first match, `table` '' before the call."""
 
     name: str
     seed: int
@@ -26,7 +26,7 @@ class FirstMatch(NamedTuple):
 def draw_list_pdf(
     players: Sequence[FirstMatch], event: str, about: str = "", *, paper: str = "a4"
 ) -> bytes:
-    """Return the draw as a PDF of upright pages ('a4' or 'letter'), the players by name.
+    """Return the draw as a PDF of portrait pages ('a4' or 'letter'), players sorted by name.
 
     >>> draw_list_pdf([FirstMatch("Ann", 1, 1, "Bo", "3")], "Tuesday")[:5]
     b'%PDF-'
@@ -66,7 +66,7 @@ def _row(page: Paper, first_match: FirstMatch, top: float, high: float, *, gray:
 
 _GAP = 0.25
 MOST_BOXES = 15
-"""Games in boxes to tick; a longer race gets a field for the score."""
+"""The most games with a box each to check; a longer race gets a field for the score."""
 
 
 def score_cards_pdf(
@@ -80,8 +80,8 @@ def score_cards_pdf(
 ) -> bytes:
     """Return score cards as a PDF, 1 or 4 per page ('a4' or 'letter').
 
-    A player's code claims a phone for them; after `address`, such as 'http://192.168.1.7:8000/c/',
-    it opens on it.
+    A player's code claims a phone for them; it follows `address`, such as
+    'http://192.168.1.7:8000/c/'.
 
     >>> card = Card(1, "winners’ side, round 1", ("Ann", "Bo"), (7, 5), "3", "")
     >>> score_cards_pdf([card], "Tuesday")[:5]
@@ -104,7 +104,7 @@ def score_cards_pdf(
 
 
 _Claims: TypeAlias = Mapping[str, tuple[str, str]]
-"""Each player's code, and the address that claims a phone by it."""
+"""Each player's code, and the address where it claims a phone."""
 
 
 def _card(

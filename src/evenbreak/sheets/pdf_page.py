@@ -1,4 +1,4 @@
-"""A page for text and lines, in inches from its top left corner; A4 landscape unless said."""
+"""A page for text and lines, in inches from its top left corner; A4 landscape by default."""
 
 import io
 import locale
@@ -27,24 +27,24 @@ class Size(NamedTuple):
 
     @property
     def upright(self) -> "Size":
-        """The same sheet, turned."""
+        """The same sheet in portrait."""
         return Size(self.high, self.wide)
 
 
 PAPERS = {"a4": Size(11.69, 8.27), "letter": Size(11.0, 8.5)}
-"""What people print on, by name."""
+"""Paper sizes by name."""
 
 _LETTER = frozenset(
     ["US", "CA", "MX", "PH", "CL", "CO", "VE", "CR", "GT", "NI", "PA", "SV", "DO", "PR", "BO"]
 )
-"""Where that is letter (the Unicode CLDR has the list)."""
+"""Countries that use letter paper (the Unicode CLDR has the list)."""
 
 _LETTER_BY_NAME = ("United States", "Canada", "Mexico", "Philippines", "Chile", "Colombia")
-"""The same as Windows calls them."""
+"""The same countries as Windows names them."""
 
 
 def usual_paper() -> str:
-    """Return the paper that is usual where this computer is, by its locale: 'letter' or 'a4'."""
+    """Return this computer's usual paper size, by its locale: 'letter' or 'a4'."""
     named = (os.environ.get(name) for name in ("LC_ALL", "LC_PAPER", "LANG"))
     place = next(filter(None, named), None) or locale.getlocale(locale.LC_CTYPE)[0] or ""
     territory = place.partition(".")[0].partition("@")[0].partition("_")[2]
@@ -52,22 +52,22 @@ def usual_paper() -> str:
 
 
 MARGIN = 0.5
-"""What printers leave white, with room for a pin."""
+"""The margin that printers leave white, with room for a pin."""
 
 POINTS = 72.0
-"""In an inch."""
+"""How many points make an inch."""
 
 SMALLEST = 8.0
-"""The smallest letters on paper, in points: smaller ones are hard to read on a wall."""
+"""The smallest font size on paper, in points: smaller text is hard to read on a wall."""
 
 UNKNOWN = "\N{WHITE SQUARE}"
-"""Stands for a letter that the font lacks."""
+"""The replacement for a character that the font lacks."""
 
 
 class Paper:
     """One page: text, lines and bands, all in inches to the right and down.
 
-    Text is set as it is: dollar signs and backslashes mean nothing.
+    Text is set literally: dollar signs and backslashes have no special meaning.
 
     >>> page = Paper()
     >>> page.text(0.5, 0.5, "Ann $ Bo", size=11)
@@ -86,7 +86,7 @@ class Paper:
     def text(
         self, x: float, y: float, text: str, *, size: float, bold: bool = False, **style: Any
     ) -> None:
-        """Write text on the line at y; `style` is that of matplotlib's texts."""
+        """Write text on the line at y; `style` has matplotlib text properties."""
         style = {"va": "baseline", "ha": "left", "color": "black", **style}
         plain: Any = {"parse_math": False, "usetex": False}
         self._axes.text(
@@ -94,16 +94,16 @@ class Paper:
         )
 
     def centered(self, x: float, y: float, text: str, *, size: float, **style: Any) -> None:
-        """Write text whose digits have their middle at (x, y)."""
+        """Write text whose digits are vertically centered at (x, y)."""
         # Half the height of a digit: matplotlib's own centering moves with the letters.
         self.text(x, y + 0.365 * size / POINTS, text, size=size, **{"ha": "center", **style})
 
     def slanted(self, x: float, y: float, text: str, *, size: float, angle: float) -> None:
-        """Write text that starts at (x, y) and rises by an angle in degrees."""
+        """Write text that starts at (x, y) and rises at an angle in degrees."""
         self.text(x, y, text, size=size, rotation=angle, rotation_mode="anchor")
 
     def line(self, x: Sequence[float], y: Sequence[float], **style: Any) -> None:
-        """Draw a line through points; `style` is that of matplotlib's lines."""
+        """Draw a line through points; `style` has matplotlib line properties."""
         self._axes.plot(x, y, **{"color": "black", "lw": 0.5, **style})
 
     def band(self, left: float, top: float, width: float, height: float, *, gray: str) -> None:
@@ -113,7 +113,7 @@ class Paper:
     def frame(
         self, left: float, top: float, width: float, height: float, *, thick: float = 0.5
     ) -> None:
-        """Draw the outline of a rectangle."""
+        """Draw a rectangle's outline."""
         self._axes.add_patch(
             Rectangle((left, top), width, height, fill=False, ec="black", lw=thick)
         )
@@ -138,7 +138,7 @@ class Paper:
 
 
 def pdf_bytes(pages: Sequence[Figure], title: str) -> bytes:
-    """Return pages as one PDF document, the same bytes every time.
+    """Return pages as one PDF document, with the same bytes every time.
 
     >>> pdf_bytes([Paper().figure], "Empty")[:5]
     b'%PDF-'
@@ -154,7 +154,7 @@ def pdf_bytes(pages: Sequence[Figure], title: str) -> bytes:
 
 
 def drawable(text: str) -> str:
-    """Return text with a white square for every letter that the page's font lacks.
+    """Return text with a white square for every character that the page's font lacks.
 
     >>> drawable("Zoë 選手")
     'Zoë □□'
@@ -171,7 +171,7 @@ def drawable(text: str) -> str:
 
 
 def width_of(text: str, size: float, *, bold: bool = False) -> float:
-    """Return how wide a text is, in inches.
+    """Return a string's width, in inches.
 
     >>> round(width_of("7:4", 72), 1)
     1.6
@@ -181,7 +181,7 @@ def width_of(text: str, size: float, *, bold: bool = False) -> float:
 
 @lru_cache(maxsize=8192)
 def _width(text: str, bold: bool) -> float:
-    """Return how wide a text is in letters of one point, in inches: widths grow with the size."""
+    """Return a string's width at one point, in inches: widths are proportional to the size."""
     font = _font(bold).copy()
     font.set_size(POINTS)
     width, _, _ = text_to_path.get_text_width_height_descent(drawable(text), font, ismath=False)
@@ -189,7 +189,7 @@ def _width(text: str, bold: bool) -> float:
 
 
 def shortened(text: str, size: float, width: float) -> str:
-    """Return text, or as much of its beginning as fits a width in inches, and an ellipsis.
+    """Return text, or as much of its beginning as fits a width in inches, plus an ellipsis.
 
     >>> shortened("Ann Lee", 10, 2.0), shortened("A name without end", 10, 0.8)
     ('Ann Lee', 'A name…')
@@ -203,7 +203,7 @@ def shortened(text: str, size: float, width: float) -> str:
 
 
 def fitted(text: str, size: float, width: float, *, bold: bool = False) -> tuple[str, float]:
-    """Return a text, never cut, and the size, in points, at which it fits a width in inches.
+    """Return a string, never cut, and the size in points at which it fits a width in inches.
 
     >>> fitted("Ann Lee", 10, 2.0), fitted("Maximiliane Lee", 10, 0.5)[1] < 6.0
     (('Ann Lee', 10.0), True)

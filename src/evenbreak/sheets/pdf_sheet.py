@@ -48,27 +48,27 @@ from evenbreak.sheets.race_blocks import (
 
 MOST_ON_A_PAGE = 28
 LARGEST = 13.0
-"""The largest letters of the table, in points: larger ones look lost on the page."""
+"""The table's largest font size, in points: larger letters look lost on the page."""
 
 LONGEST_NAME, LONGEST_RATING = 1.75, 1.5
 WIDEST_CELL, HIGHEST_ROW = 0.7, 0.5
 WIDEST_BARS, NARROW_BARS, NARROWEST_BARS = 3.2, 1.6, 0.75
 GAP, CELL_EDGE = 0.12, 0.035
 HEADING, TICKS = 1.08, 0.45
-"""Heights of what is above the slanted names and below the table."""
+"""Heights above the slanted names and below the table."""
 
 SLANT = 45
 GROUP, NOTE = "group", 8.0
-"""What stands above the column of groups, and the size of notes, in points."""
+"""The heading of the group column, and the font size of notes, in points."""
 
 
 @dataclass(frozen=True)
 class PageSizes:
-    """Sizes that all pages share: inches, and points for letters.
+    """Sizes shared by all pages: inches, and points for letters.
 
-    `wide` is the width of the page; `place`, `name`, `rating` and `group` are the widths of those
-    columns, the last 0 if all players are of one group; `cell` and `row` are the size of a race's
-    cell; `top` is where the table starts; `columns` is how many opponents a page has.
+    `wide` is the page's width; `place`, `name`, `rating` and `group` are the widths of those
+    columns, the last being 0 if all players are in one group; `cell` and `row` are the size of a
+    race's cell; `top` is where the table starts; `columns` is how many opponents a page has.
     """
 
     wide: float
@@ -86,15 +86,15 @@ class PageSizes:
 
     @property
     def left(self) -> float:
-        """Where the first race stands."""
+        """Where the first race is."""
         return MARGIN + self.place + self.name + 2 * GAP
 
     def right(self, across: int) -> float:
-        """Where the last of so many races ends."""
+        """Where the last of this many races ends."""
         return self.left + self.cell * across
 
     def bars(self, across: int) -> tuple[float, float]:
-        """Where the axis of the bars starts and ends."""
+        """Where the axis for the bars starts and ends."""
         start = self.right(across) + 3 * GAP + self.rating
         return start, min(start + WIDEST_BARS, self.wide - MARGIN - self.group)
 
@@ -102,7 +102,7 @@ class PageSizes:
 def page_sizes(
     lines: Sequence[PlayerLine], races: Races, room: float, wide: float = PAPERS["a4"].wide
 ) -> PageSizes:
-    """Return how large all can be, so that names, table and ticks have the height `room`."""
+    """Return how large everything can be for names, table and ticks to have the height `room`."""
     rows = len(parts_of(lines, MOST_ON_A_PAGE)[0])
     size = min(LARGEST, max(SMALLEST, 0.64 * POINTS * (room - 1.2) / rows))
 
@@ -145,7 +145,7 @@ def page_sizes(
 
 
 def longest_name(size: float) -> float:
-    """Return the width that a name may have, in inches: more where few players leave room."""
+    """Return the width available for a name, in inches: more if few players leave room."""
     return LONGEST_NAME if size < LARGEST else 2.6
 
 
@@ -155,21 +155,21 @@ def rating_text(line: PlayerLine) -> str:
 
 
 def group_text(line: PlayerLine) -> str:
-    """Return the group that a player's rating compares in; empty if that is not to be said."""
+    """Return the group in which a player's rating is comparable; '' if that isn't shown."""
     return str(line.group or "")
 
 
 def slanted_name(line: PlayerLine, size: float) -> str:
-    """Return what stands above a player's column."""
+    """Return the heading of a player's column."""
     return f"{line.place}  {shortened(line.name, size, longest_name(size))}"
 
 
 LEADING = 1.45
-"""The height of a line of text, for each point of its size."""
+"""The line height, per point of font size."""
 
 
 def sheet_pdf(sheet: Sheet, paper: str = "a4") -> bytes:
-    """Return the sheet as a PDF document, the same bytes every time."""
+    """Return the sheet as a PDF document, with the same bytes every time."""
     title = sheet.title or f"Fair races from {file_name(sheet.file)}"
     with our_look():
         return pdf_bytes(sheet_pages(sheet, paper), title)
@@ -178,10 +178,10 @@ def sheet_pdf(sheet: Sheet, paper: str = "a4") -> bytes:
 def sheet_pages(sheet: Sheet, paper: str = "a4") -> list[Figure]:
     """Return the sheet as pages to be printed, on 'a4' or 'letter'.
 
-    Each line is a player: the fairest race against each opponent, the rating, and a bar of
-    two standard errors of it either way. A league too large for a page is cut into blocks,
-    each a page; of more than `MOST_ON_SHEET` paired players the first of the list are on paper.
-    White squares stand for letters that the font lacks.
+    Each line is a player: the fairest race against each opponent, the rating, and a bar of two
+    standard errors either way. A league too large for one page is divided into blocks, one per
+    page; if there are more than `MOST_ON_SHEET` paired players, only the first ones on the list are
+    on paper. White squares replace characters that the font lacks.
 
     >>> from evenbreak.answers.league.roster_matchups import OfferedRaces
     >>> from evenbreak.files.results.results_file import ResultsFile
@@ -252,7 +252,7 @@ def _about_names(lines: Sequence[PlayerLine], rated: int) -> Iterator[str]:
 
 
 def _broken(wide: float, notes: Sequence[str]) -> list[str]:
-    """Return notes as lines, those that are wider than the page broken."""
+    """Return notes as lines, wrapping those wider than the page."""
     letters = int((wide - 2 * MARGIN) * POINTS / NOTE / 0.58)
     return [part for note in notes for part in textwrap.wrap(note, letters)]
 
@@ -264,7 +264,7 @@ def _lines(page: Paper, y: float, lines: Sequence[str]) -> None:
 
 @dataclass(frozen=True)
 class _Table:
-    """The part of the sheet that is on one page: some players against some others."""
+    """The part of the sheet on one page: some players against some others."""
 
     page: Paper
     sizes: PageSizes

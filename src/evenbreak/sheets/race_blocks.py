@@ -14,14 +14,14 @@ from evenbreak.handicaps.charts.gap import Gap
 from evenbreak.ratings.scale import Scale
 
 NOT_OVER_THE_EDGE = (4, 96)
-"""A label nearer to an end of the axis would hang over it."""
+"""A label closer than this to an end of the axis would extend beyond it."""
 
 
 class PlayerLine(NamedTuple):
     """A player's rating, and a bar of two standard errors either way, in percent of the axis.
 
-    The rating has ~ before it if it is provisional, and the place P.
-    An error that is not stated is empty; counts are None where they are not stated.
+    A provisional rating has ~ in front, and its place has P. An error that isn't stated is empty;
+    counts that aren't stated are None.
     """
 
     place: str
@@ -38,14 +38,14 @@ class PlayerLine(NamedTuple):
 
 
 class Tick(NamedTuple):
-    """A mark on an axis, at percent of its length."""
+    """A mark on an axis, at a percentage of its length."""
 
     at: float
     label: str
 
 
 class Bars:
-    """The axis that the bars of some ratings share; standard errors are NaN where not stated."""
+    """The axis shared by the bars of some ratings; standard errors not stated are NaN."""
 
     def __init__(self, rated: pd.DataFrame) -> None:
         error = rated["standard_error"].fillna(0.0)
@@ -55,7 +55,7 @@ class Bars:
         self.low, self.high = low - edge, high + edge
 
     def place(self, rating: float) -> float:
-        """Return where a rating stands, in percent."""
+        """Return a rating's position, in percent."""
         return round(100 * (rating - self.low) / (self.high - self.low), 2)
 
     def ticks(self) -> list[Tick]:
@@ -84,11 +84,11 @@ def player_lines(
     grouped: bool,
     places: Sequence[str] | None = None,
 ) -> list[PlayerLine]:
-    """Return the lines of a list of ratings, in its order.
+    """Return the lines of a ratings list, in order.
 
     `rated` has the columns player, rating, standard_error (NaN: not stated), games (below 0: not
     stated), component (0: not stated) and provisional; perhaps won and lost. `grouped` shows a
-    player's group; `places` are those in a longer list, by row.
+    player's group; `places` are the places in a longer list, by row.
     """
     places = places_in_list(rated["provisional"]) if places is None else places
     # Ratings in whole points are shown as the league knows them.
@@ -119,14 +119,14 @@ WIDTH, HEIGHT = 360, 230
 _LEFT, _RIGHT, _TOP, _BOTTOM = 40, 350, 12, 188
 _STEPS = 12
 _NAME = 26
-"""A band narrower than this has no room for the name of its race."""
+"""A band narrower than this has no room for its race's name."""
 
 
 class Plot(NamedTuple):
     """The plot in units of its own box, 360 wide and 230 high.
 
     `curves` are the stronger player's chance over each band of the chart, as points of a polyline;
-    `names` the races of bands wide enough, with x and y.
+    `names` has the races of bands that are wide enough, with x and y.
     """
 
     curves: Sequence[str]
@@ -141,9 +141,9 @@ class Plot(NamedTuple):
 
 
 def evenness_plot(bands: Sequence[Band], pairs: Sequence[SurePair], typical: Gap) -> Plot:
-    """Return P(the stronger wins) against the rating difference: the chart, and each pair.
+    """Return P(the stronger wins) by rating difference: the chart's, and each pair's.
 
-    The chart's chances are those of a pair that is known as well as the `typical` one.
+    The chart's chances are for a pair as well known as the `typical` one.
     """
     chances = [p for band in bands for p in (band.p_first, band.p_after)]
     chances += [pair.p_win for pair in pairs]
@@ -177,14 +177,14 @@ def evenness_plot(bands: Sequence[Band], pairs: Sequence[SurePair], typical: Gap
 
 
 Races = Mapping[tuple[str, str], str]
-"""The race of each two players, from the side of the first."""
+"""The race between each two players, from the first player's side."""
 
 _ROOM, _FIGURE, _EDGE = 144.0, 1.5, 2.2
-"""Millimeters: for the columns of a printed table, for a figure in it, and around a race."""
+"""In millimeters: for a printed table's columns, for a digit in it, and around a race."""
 
 
 class Block(NamedTuple):
-    """Columns of the table of races, and each player's races in them; None against oneself."""
+    """The columns of the table of races, and each player's races in them; None against oneself."""
 
     across: Sequence[PlayerLine]
     rows: Sequence[tuple[PlayerLine, Sequence[str | None]]]
@@ -198,7 +198,7 @@ class RaceCard(NamedTuple):
 
 
 def race_blocks(lines: Sequence[PlayerLine], races: Races, most: int | None = None) -> list[Block]:
-    """Return the table of races in blocks of columns, all of nearly one size.
+    """Return the table of races in blocks of columns, all of nearly the same size.
 
     `most` is how many columns fit; None: as many as fit on a printed web page.
     """
@@ -224,7 +224,7 @@ def race_blocks(lines: Sequence[PlayerLine], races: Races, most: int | None = No
 
 
 def parts_of(lines: Sequence[PlayerLine], most: int) -> list[Sequence[PlayerLine]]:
-    """Return a list cut into parts as equal as can be, of so many lines at most."""
+    """Return a list divided as equally as possible into parts of at most this many lines."""
     size = math.ceil(len(lines) / math.ceil(len(lines) / most))
     return [lines[first : first + size] for first in range(0, len(lines), size)]
 
@@ -234,7 +234,7 @@ def _race(races: Races, player: PlayerLine, opponent: PlayerLine) -> str:
 
 
 def race_cards(lines: Sequence[PlayerLine], races: Races, paired: pd.DataFrame) -> list[RaceCard]:
-    """Return each player's races, for a page that is too narrow for the table of them."""
+    """Return each player's races, for a page too narrow for the table of races."""
     chances: dict[tuple[str, str], str] = {}
     rows: Any = paired.dropna(subset=["race_a"]).itertuples(index=False)
     for pair in rows:

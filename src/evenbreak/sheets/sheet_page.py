@@ -1,4 +1,4 @@
-"""The fair-race sheet as one HTML file: for a phone, a screen, a printer and a screen reader."""
+"""The fair-race sheet as one HTML file, for a phone, a screen, a printer and a screen reader."""
 
 from collections import defaultdict
 from collections.abc import Sequence
@@ -37,22 +37,22 @@ from evenbreak.sheets.race_blocks import (
 from evenbreak.words import Parameter, race, say
 
 MOST_LISTED = 500
-"""Players in the list of ratings; the CSV files hold all."""
+"""The most players in the ratings list; the CSV files have all of them."""
 
 
 def sheet_html(sheet: Sheet) -> bytes:
-    """Return the sheet as one HTML file that asks no other host for anything.
+    """Return the sheet as one HTML file that loads nothing from any other host.
 
     Its Content-Security-Policy allows its own style, the script of its search box, and nothing
-    else. A wide page and paper show the table of races, a narrow one each player's races. The first
-    500 players are listed, and the races of the first `MOST_ON_SHEET` of those who are paired. All
-    else is what `report_answer` says.
+    else. A wide page and paper show the table of races, and a narrow page shows each player's
+    races. The first 500 players are listed, with the races of the first `MOST_ON_SHEET` paired
+    players. Everything else is from `report_answer`.
 
     Returns
     -------
     bytes
-        UTF-8; the same sheet gives the same bytes. A control character in a name is shown
-        as a mark, since HTML cannot hold it.
+        UTF-8; the same sheet gives the same bytes. A control character in a name is shown as a
+        mark, because HTML can't contain it.
 
     >>> from evenbreak.answers.league.roster_matchups import OfferedRaces
     >>> from evenbreak.files.results.results_file import ResultsFile
@@ -91,18 +91,18 @@ def sheet_html(sheet: Sheet) -> bytes:
 
 
 MOST_ACROSS = 48
-"""The most players whose races against each other stand on a page."""
+"""The most players whose races against each other are on a page."""
 
 MOST_MATCHES = 500
-"""The most matches of a list on a page."""
+"""The most matches from a list on a page."""
 
 
 def round_html(tonight: Round, *, warnings: Sequence[str] = ()) -> bytes:
-    """Return the races of a round as one self-contained HTML file.
+    """Return a round's races as one self-contained HTML file.
 
     A list of matches becomes a table with the races in large letters and space for the scores; all
-    pairs of a roster become a table with names on both sides, on a narrow page each player's races,
-    and the ratings below it. Everything else is from `matchups_answer`.
+    pairs on a roster become a table with names on both sides (on a narrow page, each player's
+    races), with the ratings below it. Everything else is from `matchups_answer`.
 
     Parameters
     ----------
@@ -112,8 +112,8 @@ def round_html(tonight: Round, *, warnings: Sequence[str] = ()) -> bytes:
     Returns
     -------
     bytes
-        UTF-8; the same input gives the same bytes. A control character in a name is shown
-        as a mark, since HTML cannot hold it.
+        UTF-8; the same input gives the same bytes. A control character in a name is shown as a
+        mark, because HTML can't contain it.
 
     Raises
     ------
@@ -173,7 +173,7 @@ def _check(tonight: Round, players: int) -> None:
 
 
 def _rated(tonight: Round) -> pd.DataFrame:
-    """Return the players who are on the page, in the order of a list."""
+    """Return the players who are on the page, in list order."""
     roster = tonight.roster
     order = roster.strongest_first(np.unique(tonight.pairs))
     columns = ("rating", "standard_error", "games", "component", "provisional")

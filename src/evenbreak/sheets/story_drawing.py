@@ -1,8 +1,7 @@
-"""The story of a night as a picture: the title odds as steps, a line for each player.
+"""A night's story as a picture: the title odds as steps, one line per player.
 
-It is a drawing for pages, whose colors are those of the page around it, and complete by itself as a
-file. Five lines are named at their ends; the others are gray. Notes are only where something
-happened.
+On a page, the drawing uses the page's colors; as a file, it is self-contained. Five lines are named
+at their ends; the others are gray. Notes appear only where something happened.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from evenbreak.tournaments.evening.story import Step, Story
 from evenbreak.words import PYTHON, Face, in_face
 
 LINES = 5
-"""How many players have a line of their own color."""
+"""How many players' lines have their own color."""
 
 _LETTER = 0.6  # the width of a letter at the most, on average, in sizes of type
 _SHORTEST = timedelta(minutes=10)  # of a night that was not typed in afterward
@@ -59,10 +58,9 @@ def story_svg(
     letters: float = 17.0,
     alone: bool = True,
 ) -> str:
-    """Return the title odds of a night, with a draw, as an SVG that fills its box.
+    """Return a night's title odds, after the draw, as an SVG that fills its box.
 
-    Size and letters are in units of the drawing; `alone`, it brings its colors along
-    (`story_style`).
+    Sizes are in the drawing's units; with `alone`, it includes its colors (`story_style`).
     """
     style = f"<style>{story_style()}</style>" if alone else ""
     return _Drawing(story, face, size, letters, style).svg() if story.steps else ""
@@ -70,7 +68,7 @@ def story_svg(
 
 @cache
 def story_style() -> str:
-    """Return the colors and lines of the drawing, for the style sheet of a page."""
+    """Return the drawing's colors and lines, for a page's stylesheet."""
     sheet = files("evenbreak.sheets").joinpath("templates", "story.css")
     return sheet.read_text(encoding="utf-8")
 
@@ -95,7 +93,7 @@ class _Drawing:
         self.by_clock = self.at[-1] - self.at[0] >= _SHORTEST
 
     def x(self, step: int) -> float:
-        """Return where a step is: by the clock, or by number if all was typed in afterward."""
+        """Return a step's position: by the clock, or by number if all was entered afterward."""
         if self.by_clock:
             share = (self.at[step] - self.at[0]) / (self.at[-1] - self.at[0])
         else:
@@ -177,7 +175,7 @@ class _Drawing:
         return found
 
     def _ends(self, shown: Sequence[str]) -> str:
-        """Return the names at the ends of the lines, one below the other."""
+        """Return the names at the ends of the lines, one below another."""
         last = self.story.steps[-1].title
         apart = 1.45 * self.letters
         places: list[float] = []
@@ -207,7 +205,7 @@ class _Drawing:
         return "".join(made)
 
     def _notes(self, shown: Sequence[str]) -> str:
-        """Return what happened, where there is room for it near where it did."""
+        """Return what happened, placed close to where it did if there is room."""
         steps = self.story.steps
         told = [one for one in (self.story.turn, self.story.upset) if one and one.result]
         lines = [self._points(name) for name in shown]

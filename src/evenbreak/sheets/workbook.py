@@ -1,6 +1,6 @@
-"""The tables of a report as one workbook, a sheet for each.
+"""A report's tables as one workbook, with a sheet for each.
 
-Needs XlsxWriter, which the extra `excel` installs.
+This needs XlsxWriter, which the extra `excel` installs.
 """
 
 import datetime as dt
@@ -17,17 +17,17 @@ from evenbreak.answers.league.sheet import NO_RACE, Sheet
 from evenbreak.errors import InputError
 
 MOST_ROWS, MOST_COLUMNS = 1_048_576, 16_384
-"""What a sheet of a workbook can hold, the header included."""
+"""What a sheet in a workbook can hold, including the header."""
 
 _DECIMALS = 6
 _WIDEST = 40
 _LONGEST_TEXT = 32_767
 _WRITTEN = dt.datetime(2000, 1, 1)
-"""The creation date of every workbook, so that the same tables give the same bytes."""
+"""Every workbook's creation date, so that the same tables give the same bytes."""
 
 
 def check_workbook() -> None:
-    """Refuse (InputError), before any work, if XlsxWriter is not installed."""
+    """Raise InputError, before any work, if XlsxWriter isn't installed."""
     _xlsxwriter()
 
 
@@ -43,16 +43,16 @@ def _xlsxwriter() -> Any:
 
 
 def workbook_bytes(tables: Mapping[str, pd.DataFrame]) -> bytes:
-    """Return tables as one workbook (.xlsx), a sheet for each, the same bytes every time.
+    """Return tables as one workbook (.xlsx), a sheet for each, with the same bytes every time.
 
-    Text stays text even if it starts with = or looks like a date, and no cell is a link.
-    Numbers are rounded to six decimals, as in our CSV files; what is missing, NaN or infinite
-    is an empty cell. The header is bold, stays in view and is printed on each page.
+    Text stays text even if it starts with = or looks like a date, and no cell is a link. Numbers
+    are rounded to six decimals, as in our CSV files; missing values, NaN and infinities become
+    empty cells. The header is bold, stays in view and is printed on each page.
 
     Parameters
     ----------
     tables
-        by the names of their sheets, in order; the index is left out.
+        by sheet name, in order; the index is left out.
 
     Raises
     ------
@@ -104,7 +104,7 @@ def _write(sheet: Any, table: pd.DataFrame, header: Any, decimal: Any) -> None:
 
 
 def _value(cell: Any) -> str | float | None:
-    """Return what a cell holds: text, a number that is finite, or nothing."""
+    """Return a cell's content: text, a finite number, or nothing."""
     if cell is None:
         return None
     if isinstance(cell, str):
@@ -116,13 +116,13 @@ def _value(cell: Any) -> str | float | None:
 
 
 def report_tables(sheet: Sheet) -> dict[str, pd.DataFrame]:
-    """Return the tables of a report by the names of their sheets.
+    """Return a report's tables by sheet name.
 
     Returns
     -------
     dict of str to pandas.DataFrame
-        Ratings; Races, a row and a column for each player; Pairs, a row for each two
-        players; Chart, where the races make one; Left out; About.
+        Ratings; Races, with a row and a column for each player; Pairs, with a row for each pair;
+        Chart, if the races make one; Left out; About.
     """
     tables = {"Ratings": sheet.rated, "Races": race_table(sheet), "Pairs": _with_errors(sheet)}
     if sheet.bands:
@@ -143,10 +143,10 @@ def report_tables(sheet: Sheet) -> dict[str, pd.DataFrame]:
 
 
 def race_table(sheet: Sheet) -> pd.DataFrame:
-    """Return the races of all paired players as a table: a row and a column for each.
+    """Return all paired players' races as a table: a row and a column for each.
 
-    The player of the row comes first, then the race against each opponent as text, the games
-    of the row's player first; '-' where there is none, empty against oneself.
+    The row's player comes first, then the race against each opponent as text, with the row player's
+    games first; '-' if there is no race, and empty against oneself.
     """
     names = sheet.listed["player"].tolist()
     rows = [
@@ -164,7 +164,7 @@ def race_table(sheet: Sheet) -> pd.DataFrame:
 
 
 def _with_errors(sheet: Sheet) -> pd.DataFrame:
-    """Return the pairs with what two standard errors of the difference do to the chance."""
+    """Return the pairs with the effect on the chance of two standard errors in the difference."""
     by_pair = {(pair.player_a, pair.player_b): pair for pair in sheet.sure}
     paired = sheet.paired
     pairs = [by_pair.get(key) for key in zip(paired["player_a"], paired["player_b"], strict=True)]

@@ -1,7 +1,7 @@
-"""The site's tables as files that can be compared week by week.
+"""The site's tables as files that can be compared from week to week.
 
-Their order is fixed, and no clock is in them: the same league gives the same bytes. The manifest
-has the version of the columns and the SHA-256 of each table.
+Their order is fixed, and they contain no timestamps: the same league gives the same bytes. The
+manifest has the columns' version and each table's SHA-256.
 """
 
 from __future__ import annotations
@@ -21,11 +21,12 @@ from evenbreak.site.league import PublishedLeague
 MANIFEST = "data/manifest.json"
 
 SCHEMA_VERSION = 1
-"""Counts up when a column is renamed, removed or changes its meaning; new ones come last."""
+"""Incremented when a column is renamed or removed or changes its meaning; new columns are added
+last."""
 
 
 def bundle(league: PublishedLeague, pages: Iterable[str]) -> dict[str, bytes]:
-    """Return the tables and their manifest by name; the manifest names the site's pages too."""
+    """Return the tables and their manifest by name; the manifest also lists the site's pages."""
     tables = {
         "standings.csv": _standings(league.standings),
         "matches.csv": _matches(league),
@@ -61,7 +62,7 @@ _OURS = re.compile(
 
 
 def files_of(manifest: bytes) -> set[str]:
-    """Return the files of the site to which a manifest belongs (ValueError: it is none).
+    """Return the site's files listed in a manifest (ValueError if it isn't a manifest).
 
     >>> sorted(files_of(b'{"files": {"races.csv": {}}, "pages": ["index.html", "../x.html"]}'))
     ['data/races.csv', 'index.html']
@@ -81,7 +82,7 @@ def _standings(table: LeagueTable) -> pd.DataFrame:
 
 
 def _matches(league: PublishedLeague) -> pd.DataFrame:
-    """Return the matches that count, the first one first."""
+    """Return the matches that count, in chronological order."""
     results, rows = league.results, league.rows[::-1]
     players = np.array(results.players, dtype=object)
     made = pd.DataFrame(

@@ -1,4 +1,4 @@
-"""A league as its site shows it, under public names alone: everything that pages are made from."""
+"""A league as its site shows it, with public names only: everything the pages are made from."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ from evenbreak.site.names import PublicNames, by_appearance, file_names
 from evenbreak.site.races import LeagueRaces
 
 MOST_POINTS = 24
-"""Dates at which the history of ratings is drawn."""
+"""How many dates the history of ratings is drawn for."""
 
 MOST_REFITS = 800
-"""Matches whose worth is worked out, each by rating the league without it; the last ones."""
+"""How many of the last matches get a worth, each calculated by rating the league without it."""
 
 RECENT = 8
-"""Matches that a player's form shows."""
+"""How many matches a player's form shows."""
 
 WEEK = np.timedelta64(7, "D")
 
 
 class Played(NamedTuple):
-    """A match from one player's side; `won` is None of one that ended level."""
+    """A match from one player's side; `won` is None if it ended level."""
 
     day: str
     opponent: str
@@ -54,7 +54,7 @@ class Played(NamedTuple):
 
 
 class Rated(NamedTuple):
-    """A player's line in the list of ratings; `place` is None of a provisional one."""
+    """A player's line in the ratings list; `place` is None for a provisional rating."""
 
     place: int | None
     player: str
@@ -68,8 +68,8 @@ class Rated(NamedTuple):
 class PublishedLeague:
     """A league whose players have their public names.
 
-    `accent` is the color if it isn't the usual one; `head_start` are points besides matches;
-    `count_games`: a team's score is the games of its players.
+    `accent` is the color if it isn't the usual one; `head_start` has points not from matches;
+    `count_games`: a team's score is its players' games.
     """
 
     title: str
@@ -85,7 +85,7 @@ class PublishedLeague:
 
     @cached_property
     def pages(self) -> dict[str, str]:
-        """The file of each player's page, of those who have one."""
+        """Each player's page file, for players who have a page."""
         order = [*by_appearance(self.results)]
         order += [name for name in self.races.roster.players if name not in set(order)]
         hidden = self.names.hidden
@@ -94,12 +94,12 @@ class PublishedLeague:
 
     @cached_property
     def decimals(self) -> int:
-        """The decimals of ratings."""
+        """How many decimals ratings have."""
         return decimals_of(self.ratings.scale)
 
     @cached_property
     def days(self) -> list[np.datetime64]:
-        """The days of matches that count, each once, the first one first."""
+        """The dates of matches that count, each once, in order."""
         dates = self.results.date
         if dates is None:
             return []
@@ -108,12 +108,12 @@ class PublishedLeague:
 
     @cached_property
     def rated(self) -> list[Rated]:
-        """The list of ratings, provisional ones last."""
+        """The ratings list, provisional ratings last."""
         return list(_rated(self.ratings))
 
     @cached_property
     def winner(self) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
-        """Who won each match: 1, 2, or 0 where it ended level."""
+        """Who won each match: 1, 2, or 0 if it ended level."""
         won = who_won(self.results)
         if self.results.winner is not None:
             won = np.where(self.results.winner > 0, self.results.winner, won)
@@ -121,7 +121,7 @@ class PublishedLeague:
 
     @cached_property
     def rows(self) -> list[int]:
-        """The matches that count, the latest first."""
+        """The matches that count, latest first."""
         rows = np.flatnonzero(self.results.counted)
         if self.results.date is not None:
             rows = rows[np.argsort(self.results.date[rows], kind="stable")]
@@ -129,7 +129,7 @@ class PublishedLeague:
 
     @cached_property
     def matches(self) -> dict[str, list[Played]]:
-        """Each player's matches, the latest first, with what the last ones are worth."""
+        """Each player's matches, latest first, with the worth of the last few."""
         results, worth = self.results, self._worth
         found: dict[str, list[Played]] = {name: [] for name in results.players}
         for row in self.rows:
@@ -151,7 +151,7 @@ class PublishedLeague:
         return found
 
     def day_of(self, row: int) -> str:
-        """Return the day of a match, '' where it is not known."""
+        """Return a match's date, '' if unknown."""
         dates = self.results.date
         return "" if dates is None or np.isnat(dates[row]) else str(dates[row])
 
@@ -164,7 +164,7 @@ class PublishedLeague:
 
     @cached_property
     def _worth(self) -> dict[int, tuple[float, float]]:
-        """The value of each of the last matches to its two players' ratings."""
+        """How much each of the last matches was worth to its two players' ratings."""
         again = rated_alike(self.ratings, self.results)
         everything, worth = np.arange(len(self.results)), {}
         for row in self.rows[:MOST_REFITS]:
@@ -176,7 +176,7 @@ class PublishedLeague:
 
     @cached_property
     def history(self) -> list[tuple[str, Ratings]]:
-        """The ratings as they were on some days of the season, the last one as they are."""
+        """The ratings on some dates in the season, the last ones being current."""
         days = self.days
         chosen = np.unique(np.linspace(0, len(days) - 1, MOST_POINTS).round().astype(int))
         earlier = [days[k] for k in chosen[:-1]] if len(days) > 1 else []
@@ -185,12 +185,12 @@ class PublishedLeague:
 
     @cached_property
     def week_before(self) -> Ratings | None:
-        """The ratings a week before the last match; None if there was none by then."""
+        """The ratings a week before the last match; None if there were none by then."""
         days = self.days
         return self._on(days[-1] - WEEK) if days and days[0] <= days[-1] - WEEK else None
 
     def _on(self, day: np.datetime64) -> Ratings:
-        """Return the ratings of a day, with the same prior as today's."""
+        """Return a date's ratings, with the same prior as today's."""
         ratings, results = self.ratings, self.results
         played = np.zeros(len(results), bool) if results.date is None else results.date <= day
         return fit(
@@ -204,7 +204,7 @@ class PublishedLeague:
         )
 
     def one_more(self, player: str, opponent: str) -> list[OneMore]:
-        """Return what one more match of two players would change; none where a chart decides."""
+        """Return what one more match between two players would change; none if a chart decides."""
         offered = self.races.rule
         if not isinstance(offered, OfferedRaces):
             return []
@@ -217,12 +217,12 @@ class PublishedLeague:
 
     @cached_property
     def standings(self) -> LeagueTable:
-        """The standings of the players."""
+        """The players' standings."""
         return self._table(player_matches(self.results))
 
     @cached_property
     def team_standings(self) -> LeagueTable | None:
-        """The standings of the teams; None where there are none."""
+        """The teams' standings; None if there are no teams."""
         teams = self.results.team_a
         if teams is None or not (teams != "").any():
             return None
@@ -264,7 +264,7 @@ class PublishedLeague:
 
 
 def _rated(ratings: Ratings) -> Iterator[Rated]:
-    """Yield the players of a list of ratings who have played, provisional ones last."""
+    """Yield the players on a ratings list who have played, provisional ones last."""
     order = [k for k in ratings.strongest_first() if not ratings.idle[k]]
     for place, k in zip(places_in_list(ratings.provisional[order]), order, strict=True):
         yield Rated(

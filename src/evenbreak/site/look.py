@@ -1,7 +1,8 @@
-"""The colors of pages, a venue's own among them, and its logo: what is readable.
+"""The colors of pages, including a venue's own, and its logo: what is readable.
 
-The colors are those of `common.css`, which all pages share. The contrast of two is that of WCAG
-2.2: (L1 + .05) / (L2 + .05), with the relative luminances L, the larger one above. Text needs 4.5.
+The colors are those of `common.css`, which all pages share. The contrast between two colors is
+defined as in WCAG 2.2: (L1 + .05) / (L2 + .05), where L are the relative luminances and L1 is the
+larger. Text needs 4.5.
 """
 
 from __future__ import annotations
@@ -18,10 +19,10 @@ CONTRAST = 4.5
 """The contrast that text needs."""
 
 BEHIND = ("paper", "card", "sunk", "live-tint", "call-tint", "stop-tint")
-"""What text is read on; the accent's own tint is made for it."""
+"""The backgrounds behind text; the accent's own tint is made for it."""
 
 MOST_LOGO_BYTES = 200_000
-"""The largest logo; a phone loads it with the first page."""
+"""The largest logo, in bytes; a phone loads it with the first page."""
 
 _LOGOS = {
     b"\x89PNG\r\n\x1a\n": "png",
@@ -31,7 +32,7 @@ _LOGOS = {
 
 
 class Accent(NamedTuple):
-    """A color by day and by night, what is written on it, and whether it had to be changed."""
+    """A color for light and dark mode, its text color, and whether it had to be changed."""
 
     light: str
     dark: str
@@ -56,7 +57,7 @@ class Accent(NamedTuple):
 
 @cache
 def tokens(*, dark: bool) -> dict[str, str]:
-    """Return the colors that pages are made of, by day or by night, as #rrggbb.
+    """Return the pages' base colors, for light or dark mode, as #rrggbb.
 
     >>> tokens(dark=False)["card"], tokens(dark=True)["card"]
     ('#ffffff', '#14181e')
@@ -68,9 +69,9 @@ def tokens(*, dark: bool) -> dict[str, str]:
 
 
 def accent(color: str) -> Accent:
-    """Return a color that can be read on all pages: darker by day, lighter by night.
+    """Return a color that is readable on all pages: darker in light mode, lighter in dark mode.
 
-    An InputError if it is not a color like #1b6e53.
+    Raises InputError if it isn't a color like #1b6e53.
 
     >>> accent("#1b6e53").light, accent("#ffee00").light, accent("#ffee00").changed
     ('#1b6e53', '#736b00', True)
@@ -84,9 +85,9 @@ def accent(color: str) -> Accent:
 
 
 def plate_style(*, accent: str = "", ink: str = "", back: str = "") -> str:
-    """Return the style of plates over a picture, in a venue's colors; "" for the usual one.
+    """Return the style for plates over a picture, in a venue's colors; "" for the usual colors.
 
-    What is written on another background is white or black unless it is given too.
+    Text on a custom background is white or black unless its color is given too.
 
     >>> plate_style(back="#ffffff")[:46]
     '[data-theme=dark] { --card: #ffffff; --sunk: #'
@@ -102,7 +103,7 @@ def plate_style(*, accent: str = "", ink: str = "", back: str = "") -> str:
 
 
 def contrast(one: str, other: str) -> float:
-    """Return the contrast of two colors, 1 to 21.
+    """Return the contrast between two colors, 1 to 21.
 
     >>> round(contrast("#ffffff", "#000000"), 6), round(contrast("#777777", "#ffffff"), 2)
     (21.0, 4.48)
@@ -121,7 +122,7 @@ def _parts(color: str) -> list[float]:
 
 
 def _toward(color: str, end: str, behind: tuple[str, ...]) -> str:
-    """Return the color, mixed with as little of the end as makes it readable on these."""
+    """Return the color, mixed with just enough of another to be readable on these backgrounds."""
     for step in range(101):
         mixed = _mixed(color, end, step)
         if all(contrast(mixed, one) >= CONTRAST for one in behind):
@@ -130,7 +131,7 @@ def _toward(color: str, end: str, behind: tuple[str, ...]) -> str:
 
 
 def _mixed(color: str, other: str, percent: int) -> str:
-    """Return a color with some percent of another in it."""
+    """Return a color mixed with a percentage of another."""
     parts = zip(_parts(color), _parts(other), strict=True)
     return "#" + "".join(f"{round(255 * (a + (b - a) * percent / 100)):02x}" for a, b in parts)
 
@@ -140,9 +141,9 @@ def _on(color: str) -> str:
 
 
 def logo_name(content: bytes, source: str) -> str:
-    r"""Return a logo's name on a site, by its content: logo.png, logo.jpg or logo.webp.
+    r"""Return a logo's name on a site, judging by its content: logo.png, logo.jpg or logo.webp.
 
-    An InputError, with the remedy, if it is no such picture, or too large.
+    Raises InputError, with the remedy, if it isn't such a picture, or is too large.
 
     >>> logo_name(b"\x89PNG\r\n\x1a\n...", "club.png")
     'logo.png'

@@ -1,7 +1,7 @@
-"""What a site calls each player, and the file of their page.
+"""A site's name for each player, and the file of their page.
 
 A site is for everyone, so each player may be named in full, by initials or not at all. Names are
-exchanged before anything is made from the results; no page is ever made from the others.
+replaced before anything is made from the results; no page is ever made from private names.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from evenbreak.ratings.results import Results
 
 _LONGEST = 48  # letters of a file's name
 _RESERVED = {"con", "prn", "aux", "nul", *(f"{d}{n}" for d in ("com", "lpt") for n in range(10))}
-"""What Windows takes for a device, whatever the ending."""
+"""Names that Windows takes for a device, whatever the extension."""
 
 
 @dataclass(frozen=True)
 class PublicNames:
-    """What a site calls players: the public name by the private one.
+    """A site's names for players: public names by private name.
 
-    `means` are names by other spellings (see `same_name`); `stranger` is the way to name a player
-    in none of the league's lists, such as a tournament's guest.
+    `means` has names by other spellings (see `same_name`); `stranger` is how to name a player who
+    isn't on any of the league's lists, such as a guest at a tournament.
 
     >>> names = PublicNames.of(["Ann Lee", "Bo Diaz", "Al Lum"], by_player={"Bo Diaz": "hidden"})
     >>> names["Ann Lee"], names["bo  diaz"]
@@ -52,11 +52,11 @@ class PublicNames:
         aliases: Mapping[str, str] | None = None,
         where: str = "",
     ) -> PublicNames:
-        """Return the public names of players, in an order that new players do not change.
+        """Return players' public names, in an order that new players don't change.
 
-        Names that differ only in case or blanks are one player's; `where` is where `by_player` is,
-        for errors. A DataError if one of its names is no one's: a typo would show what should be
-        hidden.
+        Names that differ only in case or spacing belong to one player; `where` is the location of
+        `by_player`, for errors. Raises DataError if one of its names is unknown, because a typo
+        would reveal a name that should be hidden.
         """
         others = {same_name(name): meant for name, meant in (aliases or {}).items()}
         means: dict[str, str] = {}
@@ -87,7 +87,7 @@ class PublicNames:
         return cls(names, ways, means, strictest)
 
     def __getitem__(self, name: str) -> str:
-        """Return what a player is called; a stranger is named as the strictest rule has it."""
+        """Return a player's public name; a stranger is named by the strictest rule."""
         meant = name if name in self.names else self.means.get(same_name(clean_name(name)), "")
         if meant in self.names:
             return self.names[meant]
@@ -95,22 +95,22 @@ class PublicNames:
 
     @property
     def private(self) -> bool:
-        """Whether anyone is not named in full."""
+        """Whether anyone isn't named in full."""
         return any(way != "full" for way in self.ways.values())
 
     @property
     def hidden(self) -> set[str]:
-        """The public names of those who are not named at all: they have no page."""
+        """The public names of players who aren't named at all: they have no page."""
         return {self.names[name] for name, way in self.ways.items() if way == "hidden"}
 
     def results(self, results: Results) -> Results:
-        """Return results in which everyone has their public name, and no other text."""
+        """Return results with everyone's public name, and no other text."""
         public = tuple(self[name] for name in results.players)
         return replace(results, players=public, event=None)
 
 
 def by_appearance(results: Results) -> list[str]:
-    """Return the players of results in the order of their first match.
+    """Return the results' players in the order of their first match.
 
     >>> by_appearance(Results.from_names(["Zoe", "Ann"], ["Bo", "Zoe"], [7, 7], [5, 4]))
     ['Zoe', 'Bo', 'Ann']
@@ -131,7 +131,7 @@ def _short(name: str, way: Shown, number: int) -> str:
 
 
 def _unlike(name: str, taken: set[str]) -> str:
-    """Return a name that no one has yet, and take it."""
+    """Return an unused name, and mark it as used."""
     tried, number = name, 1
     while tried.casefold() in taken:
         number += 1
@@ -141,9 +141,9 @@ def _unlike(name: str, taken: set[str]) -> str:
 
 
 def file_names(players: Iterable[str]) -> dict[str, str]:
-    """Return for each public name that of a file, without its ending; each safe and unlike others.
+    """Return a file name, without extension, for each public name; each is safe and distinct.
 
-    A player keeps it as long as those before stay in front.
+    A player keeps it as long as the players before them stay the same.
 
     >>> file_names(["Nguyễn Văn An", "../etc", "Ann/Lee", "ann lee", "李小龙", "Con"]).values()
     dict_values(['nguyen-van-an', 'etc', 'ann-lee', 'ann-lee-e49591', 'p-535320', 'con-3b6f52'])
@@ -169,4 +169,4 @@ def _words(name: str) -> Iterator[str]:
 
 
 _LETTERS = str.maketrans("øØłŁđĐ", "oOlLdD")
-"""Letters that have no parts."""
+"""Letters that can't be decomposed."""

@@ -1,7 +1,7 @@
-"""The pages of a league's site, and all of its files.
+"""The pages of a league's site, and all its files.
 
-A page fetches nothing from elsewhere, and works from a disk or a stick: its style and its script
-are in it, and links are relative. The same league gives the same bytes.
+A page loads nothing from elsewhere, and works from a disk or a USB stick: its style and script are
+included, and links are relative. The same league gives the same bytes.
 """
 
 from __future__ import annotations
@@ -33,10 +33,11 @@ from evenbreak.words import ordinal, race
 
 ROOM = "evenbreak.site"
 MOST_BYTES = 60_000
-"""The largest page."""
+"""The largest page, in bytes."""
 
 MOST_ROWS, MOST_LISTED = 100, 80
-"""Players on a page, and matches on a player's; the others are on the next or in the tables."""
+"""The most players on a page, and the most matches on a player's; the rest are on further pages or
+in the tables."""
 
 _ROUND_A_BRACKET = 14_000  # bytes of a bracket's page besides
 
@@ -55,7 +56,7 @@ def site_files(
     tournaments: Sequence[Tournament] = (),
     fixtures: Sequence[Fixture] = (),
 ) -> dict[str, bytes]:
-    """Return every file of a site by its name, the tables and their manifest among them."""
+    """Return every file on a site by name, including the tables and their manifest."""
     maker = _Pages(league, tournaments, fixtures)
     written = {**maker.standings(), **maker.ratings()}
     written |= {"races.html": maker.races(), "season.html": maker.season()}
@@ -74,7 +75,7 @@ def site_files(
 
 
 class _Pages:
-    """What all pages of a site share."""
+    """What all of a site's pages share."""
 
     def __init__(
         self,
@@ -123,7 +124,7 @@ class _Pages:
         }
 
     def standings(self) -> dict[str, bytes]:
-        """Return the first page, and more where there are too many players for one."""
+        """Return the first page, and more if there are too many players for one."""
         league = self.league
         players = self._table(league.standings, "Player", players=True)
         teams = []
@@ -146,7 +147,7 @@ class _Pages:
         return made
 
     def _table(self, table: LeagueTable, who: str, *, players: bool) -> dict[str, Any]:
-        """Return a table of players or teams as its template takes it."""
+        """Return a table of players or teams for its template."""
         drawn, matches = bool(table.drawn.any()), self.league.matches
         rows = []
         for k, name in enumerate(table.names):
@@ -177,7 +178,7 @@ class _Pages:
         return {"day": day, "matches": matches, "more": len(rows) - len(matches)}
 
     def ratings(self) -> dict[str, bytes]:
-        """Return the page of ratings, and more where there are too many players for one."""
+        """Return the ratings page, and more if there are too many players for one."""
         league = self.league
         decimals = league.decimals
         changed = {}
@@ -205,7 +206,7 @@ class _Pages:
         }
 
     def races(self) -> bytes:
-        """Return the page on which two taps give a race."""
+        """Return the page where two taps show a race."""
         data = self.league.races.for_script(self.league.names.hidden)
         text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
         return self._page(
@@ -218,7 +219,7 @@ class _Pages:
         )
 
     def _tonight(self) -> dict[str, Any] | None:
-        """Return the races of the next night, where its players are known."""
+        """Return the next night's races, if its players are known."""
         days = sorted(
             {str(one.date) for one in self.fixtures if one.date and str(one.date) > self.last}
         )
@@ -240,7 +241,7 @@ class _Pages:
         }
 
     def fixture_list(self) -> bytes:
-        """Return the page of fixtures, night by night."""
+        """Return the fixtures page, night by night."""
         days: dict[str, list[dict[str, str]]] = {}
         for one in self.fixtures:
             days.setdefault(str(one.date or ""), []).append(self._to_play(one))
@@ -257,7 +258,7 @@ class _Pages:
         return self._page("fixtures.html", "Fixtures", here="fixtures.html", nights=nights)
 
     def season(self) -> bytes:
-        """Return the season in pictures."""
+        """Return the page with pictures of the season."""
         league = self.league
         games = int(league.ratings.won.sum())
         hill = _decided_late(league)
@@ -311,7 +312,7 @@ class _Pages:
         )
 
     def _races_of(self, name: str) -> list[tuple[str, str, str]]:
-        """Return the race against everyone; of very many the last opponents, then the others."""
+        """Return the race against everyone; in a large league, recent opponents come first."""
         races, met = self.league.races.by_pair, self.league.matches.get(name, [])
         others = dict.fromkeys([*(one.opponent for one in met), *self.league.pages])
         chosen = [one for one in others if one in self.league.pages and (name, one) in races]
@@ -322,7 +323,7 @@ class _Pages:
         ]
 
     def _why(self, name: str) -> tuple[str, list[str]] | None:
-        """Return why the race against the last opponent is what it is, and what would change it."""
+        """Return the reason for the race against the last opponent, and what would change it."""
         league = self.league
         opponent = next((one.opponent for one in league.matches.get(name, ())), "")
         found = league.races.by_pair.get((name, opponent))
@@ -369,7 +370,7 @@ class _Pages:
         )
 
     def tournament(self, one: Tournament) -> dict[str, bytes]:
-        """Return a tournament with its bracket: a page, or one for each side of a large one."""
+        """Return a tournament with its bracket: one page, or one per side if it is large."""
         whole = bracket_both(one.panels)
         if len(whole) < MOST_BYTES - _ROUND_A_BRACKET:
             return {one.file: self._bracket(one, [("bracket", "Bracket", whole)], [], one.file)}
@@ -398,7 +399,7 @@ class _Pages:
         )
 
     def about(self) -> bytes:
-        """Return what the site is made from, how people are named and why, and the tables."""
+        """Return the page about the site: its sources, how players are named, the tables."""
         league = self.league
         return self._page(
             "about.html",
@@ -442,7 +443,7 @@ def _names_words(ways: Mapping[str, str]) -> str:
 
 
 def _decided_late(league: PublishedLeague) -> str:
-    """Return the share of races in which both players were one game away, '' where not known."""
+    """Return the share of races in which both players needed one more game; '' if unknown."""
     race_a, race_b = league.results.races
     rows = [row for row in league.rows if race_a[row] and race_b[row] and league.winner[row]]
     if not rows:
@@ -457,12 +458,12 @@ def _sentence(words: str) -> str:
 
 
 def _percent(p: float) -> str:
-    """Return a chance, '' where it is not known."""
+    """Return a chance as text; '' if it isn't known."""
     return "" if math.isnan(p) else f"{100 * p:.0f}%"
 
 
 def signed(points: float, decimals: int) -> str:
-    """Return a change with its sign, in typography.
+    """Return a change with a typographic sign.
 
     >>> signed(-3.24, 0), signed(2.0, 1), signed(0.04, 1)
     ('−3', '+2.0', '0.0')
@@ -478,7 +479,7 @@ def _arrow(change: Any, decimals: int) -> str:
 
 @cache
 def _style(accent: Accent | None, *, bracket: bool) -> str:
-    """Return the style of a page: what all pages of evenbreak share, the site's, and the color."""
+    """Return a page's style: what all evenbreak pages share, the site's, and the color."""
     drawn = own_file("bracket.css") if bracket else ""
     color = accent.style() if accent else ""
     return own_file("common.css", ROOM) + drawn + own_file("site.css", ROOM) + color

@@ -1,4 +1,4 @@
-"""The site's pictures: what a small SVG of its template needs, a few hundred bytes each."""
+"""The site's pictures: the values for a small SVG in its template, a few hundred bytes each."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _BANDS = ((0.0, 0.25), (0.25, 0.5), (0.5, 0.75), (0.75, 1.0))
 
 
 class Axis(NamedTuple):
-    """From which value to which a picture goes, and the values named next to it."""
+    """The range of values in a picture, and the values labeled next to it."""
 
     low: float
     high: float
@@ -27,7 +27,7 @@ class Axis(NamedTuple):
 
     @classmethod
     def around(cls, low: float, high: float) -> Axis:
-        """Return an axis with a few round values that holds all between two."""
+        """Return an axis with a few round values that includes everything between two values."""
         span = max(high - low, 1e-9)
         unit = 10.0 ** math.floor(math.log10(span / 3.0))
         step = next(unit * k for k in (1, 2, 5, 10, 20) if span / (unit * k) <= 4.0)
@@ -37,14 +37,14 @@ class Axis(NamedTuple):
         return cls(ticks[0], ticks[-1], ticks)
 
     def y(self, value: float) -> float:
-        """Return how far from the top a value is."""
+        """Return a value's distance from the top."""
         share = (value - self.low) / (self.high - self.low)
         return round(TOP + (1.0 - share) * (HEIGHT - TOP - BELOW), 1)
 
 
 @dataclass(frozen=True)
 class Chart:
-    """A picture: its label for those who do not see it, and its parts in units of the drawing."""
+    """A picture: its label for screen readers, and its parts in the drawing's units."""
 
     label: str
     ticks: Sequence[tuple[float, str]]
@@ -59,7 +59,7 @@ class Chart:
 
 
 def short_day(day: str, *, year: bool = False) -> str:
-    """Return a day as people write it.
+    """Return a date as people write it.
 
     >>> short_day("2025-11-24"), short_day("2025-11-24", year=True), short_day("")
     ('Nov 24', 'Nov 24, 2025', '')
@@ -72,7 +72,7 @@ def short_day(day: str, *, year: bool = False) -> str:
 
 
 def history(league: PublishedLeague, player: str) -> Chart | None:
-    """Return the picture of a player's rating over the season; None with fewer than two days."""
+    """Return a picture of a player's rating over the season; None with fewer than two dates."""
     seat = league.results.players.index(player)
     known = [(day, then) for day, then in league.history if not then.idle[seat]]
     if len(known) < 2:
@@ -100,7 +100,7 @@ def history(league: PublishedLeague, player: str) -> Chart | None:
 
 
 def season(league: PublishedLeague) -> list[tuple[str, Chart, str]]:
-    """Return the pictures of a season, each with its title and what it shows in a sentence."""
+    """Return a season's pictures, each with its title and what it shows in a sentence."""
     made = [_by_week(league), _spread(league), _evenness(league)]
     return [one for one in made if one is not None]
 
@@ -158,7 +158,7 @@ def _spread(league: PublishedLeague) -> tuple[str, Chart, str] | None:
 
 
 def _evenness(league: PublishedLeague) -> tuple[str, Chart, str] | None:
-    """Return how often the stronger player won the races as they were played."""
+    """Return how often the stronger player won the races that were played."""
     results, ratings = league.results, league.ratings
     race_a, race_b = results.races
     rows = [row for row in league.rows if league.winner[row] and race_a[row] and race_b[row]]

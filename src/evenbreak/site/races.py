@@ -1,4 +1,4 @@
-"""The race of every pair of a league, as a table and as what the site's script works with."""
+"""The race for every pair in a league, as a table and as data for the site's script."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ from evenbreak.ratings.scale import Scale
 class LeagueRaces:
     """How a league sets its races.
 
-    With a chart of skill levels, the roster has levels, and `skills` their strengths. `rule` is the
-    races among which the fairest is taken, or the chart. `form` is the standard deviation of a
+    With a chart by skill level, the roster has levels, and `skills` has their strengths. `rule` is
+    the chart, or the races from which the fairest is chosen. `form` is the standard deviation of a
     game's log-odds from match to match.
     """
 
@@ -40,7 +40,7 @@ class LeagueRaces:
 
     @property
     def in_words(self) -> str:
-        """How a race is found, in a sentence."""
+        """How a race is determined, in a sentence."""
         if isinstance(self.rule, OfferedRaces):
             if (needs := self.rule.race_to) is None:
                 return self.rule.in_words
@@ -59,15 +59,15 @@ class LeagueRaces:
 
     @property
     def levels(self) -> dict[str, int]:
-        """Everyone's skill level, with a chart of levels."""
+        """Everyone's skill level, with a chart by skill level."""
         if isinstance(self.rule, (OfferedRaces, Chart)):
             return {}
         return dict(zip(self.roster.players, self._points.tolist(), strict=True))
 
     def gap(self, a: Ints, b: Ints) -> Gap | None:
-        """Return how far apart pairs of players are, by their places in the roster.
+        """Return how far apart pairs of players are, given their places in the roster.
 
-        None with a chart of points: it does not say who wins a game.
+        Return None with a points chart, which doesn't say who wins a game.
         """
         rating = self.roster.rating
         if isinstance(self.rule, PointsChart):
@@ -79,7 +79,7 @@ class LeagueRaces:
 
     @cached_property
     def frame(self) -> pd.DataFrame:
-        """The race of each pair, in the order of the list, the stronger first.
+        """Each pair's race, in list order, stronger player first.
 
         Its columns are player_a, player_b, race_a, race_b, p_win_a, difference (in points) and
         difference_error. Pairs that no chain of opponents links have no race.
@@ -134,7 +134,7 @@ class LeagueRaces:
         return found
 
     def for_script(self, without: Collection[str] = ()) -> dict[str, Any]:
-        """Return what race.js needs, for all but some of the players, by name."""
+        """Return the data that race.js needs, for all but some of the players, by name."""
         roster, error = self.roster, np.nan_to_num(self.roster.standard_error)
         seats = sorted(
             (k for k, name in enumerate(roster.players) if name not in without),

@@ -25,7 +25,7 @@ class Tournament(NamedTuple):
 def tournament_of(name: str, state: Evening, names: PublicNames) -> Tournament | None:
     """Return a tournament under public names; None unless it is over and has a bracket.
 
-    Guests of the tournament are named as the strictest rule has it.
+    The tournament's guests are named by the strictest rule.
     """
     if not state.drawn or state.plan.form == "chips" or state.standing.to_play:
         return None

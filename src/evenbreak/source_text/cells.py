@@ -1,4 +1,4 @@
-"""The tables of the package, and numbers and tables as files: the same bytes on every machine."""
+"""The package's tables, and numbers and tables as files: the same bytes on every machine."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ Records: TypeAlias = Iterator[Mapping[str, Any]]
 """Rows, computed one at a time."""
 
 Rows: TypeAlias = Sequence[Mapping[str, Any]]
-"""The rows of a table, each by the names of its columns; a cell may be missing."""
+"""A table's rows, each a mapping from column names; a cell may be missing."""
 
 Tables: TypeAlias = Mapping[str, Rows]
-"""Tables by the name of their file, without `.csv`."""
+"""Tables by file name, without `.csv`."""
 
 
 def number_cell(value: Any) -> Decimal:
@@ -32,7 +32,7 @@ def number_cell(value: Any) -> Decimal:
 
 
 def difference_cell(computed: Any, printed: Decimal) -> Decimal:
-    """Return computed - printed to ten decimals; machines disagree only beyond that.
+    """Return computed - printed to ten decimals; machines differ only beyond that.
 
     >>> difference_cell(0.1 + 0.2, Decimal("0.3")), difference_cell(0.25, Decimal("0.2"))
     (Decimal('0'), Decimal('0.05'))
@@ -42,7 +42,7 @@ def difference_cell(computed: Any, printed: Decimal) -> Decimal:
 
 
 def fixed_cell(value: Any) -> Decimal:
-    """Return a number with six decimals, ties rounded alike on every machine.
+    """Return a number with six decimals, with ties rounded the same way on every machine.
 
     >>> fixed_cell(2**-7), fixed_cell(2**-7 + 1e-18)
     (Decimal('0.007812'), Decimal('0.007812'))
@@ -51,9 +51,9 @@ def fixed_cell(value: Any) -> Decimal:
 
 
 def record(inputs: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a point of a curve as a row: its inputs exactly, its values with six decimals.
+    """Return a point on a curve as a row: its inputs exactly, its values with six decimals.
 
-    Text and None are kept as they are.
+    Text and None are unchanged.
 
     >>> record({"line": "a", "p": 0.1}, {"w": 1 / 3})
     {'line': 'a', 'p': Decimal('0.1'), 'w': Decimal('0.333333')}
@@ -73,7 +73,7 @@ def csv_bytes(rows: Rows) -> bytes:
 
 
 def packaged_rows(path: str) -> list[list[str]]:
-    """Return the rows of a CSV file of this package, without its header.
+    """Return the rows of one of this package's CSV files, without its header.
 
     >>> packaged_rows("section5/diagram_arcs.csv")[0]
     ['figure_5_2', 'S1', 'W1', 'p_1']
@@ -87,7 +87,7 @@ def _cell(value: Any, shown: Any) -> Any:
 
 
 def _sure(value: Any) -> Decimal:
-    """Return the digits that are the same on every machine: a tie is rounded from these."""
+    """Return the digits that are the same on every machine; ties are rounded from these."""
     number = float(value)
     return Decimal(f"{number:.14g}") if abs(number) >= 1e-14 else Decimal(0)
 
@@ -101,7 +101,7 @@ def _plain(value: Decimal) -> Decimal:
 
 
 def markdown_table(header: Sequence[str], rows: Iterable[Sequence[Any]], *, left: int = 1) -> str:
-    """Return a table in Markdown, the first `left` columns flush left, the others right.
+    """Return a table in Markdown, with the first `left` columns flush left and the others right.
 
     >>> print(markdown_table(["p", "W"], [["1/2", 0.5]]))
     | p | W |
@@ -118,7 +118,7 @@ def _line(cells: Iterable[Any]) -> str:
 
 
 def rounded(value: Decimal, decimals: int) -> str:
-    """Return a number to that many decimals, with halves rounded up as in the text.
+    """Return a number with that many decimals, with halves rounded up as in the text.
 
     >>> rounded(Decimal("0.0625"), 3), rounded(Decimal(-2), 1)
     ('0.063', '-2.0')
@@ -136,7 +136,7 @@ def short(value: float | Decimal) -> str:
 
 
 def beside(computed: Decimal, printed: Decimal | None, decimals: int) -> str:
-    """Return a computed number, and the printed one if it is not the same when rounded.
+    """Return a computed number, followed by the printed one if they differ when rounded.
 
     >>> beside(Decimal("15.97"), Decimal("15.9"), 1), beside(Decimal("2.33"), Decimal("2.3"), 1)
     ('16.0 (text: 15.9)', '2.3')

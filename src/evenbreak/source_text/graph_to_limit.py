@@ -1,6 +1,6 @@
-"""The page "From graph to limit": the graph, the leading eigenvalues and the limit of each game.
+"""The page "From graph to limit": each game's graph, leading eigenvalues and limit.
 
-Its prose is in `templates/graph_to_limit.md`, the numbers come from the tables.
+Its prose is in `templates/graph_to_limit.md`, and its numbers come from the tables.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ from evenbreak.source_text.cells import Rows, Tables, markdown_table, short
 from evenbreak.source_text.pages import filled
 
 LEADING = 6
-"""Eigenvalues listed of each game."""
+"""How many eigenvalues are listed for each game."""
 
 PLACES = 10
-"""Decimals of the limits: rounding differs between machines only beyond that."""
+"""How many decimals limits have: rounding differs between machines only beyond that."""
 
 
 class Asked(NamedTuple):
-    """A game, and a question about it, which `answer` answers by each method (`via`)."""
+    """A game, and a question about it, which `answer` answers with each method (`via`)."""
 
     words: str
     game: Game
@@ -113,17 +113,17 @@ def _games() -> Iterator[tuple[str, Asked]]:
 
 
 GAMES: dict[str, Asked] = dict(_games())
-"""The games by the name of their file."""
+"""The games by file name."""
 
 
 @cache
 def roads() -> dict[str, Road]:
-    """Return the road of each game."""
+    """Return each game's path from graph to limit."""
     return {name: road_of(asked.game) for name, asked in GAMES.items()}
 
 
 def game_tables() -> Tables:
-    """Return the tables of all games, and the limit of each game by its own."""
+    """Return the tables for all games, with each game's limit in a separate table."""
     limits = {f"game_{name}": limit_rows(road) for name, road in roads().items()}
     return {
         "game_graphs": [_graph_row(name, road) for name, road in roads().items()],
@@ -134,7 +134,7 @@ def game_tables() -> Tables:
 
 
 def _graph_row(name: str, road: Road) -> dict[str, Any]:
-    """Return the row of a game: its states, arcs, classes, period and gap."""
+    """Return a game's row: its states, arcs, classes, period and gap."""
     structure, pairs = road.chain.structure, road.spectrum
     assert pairs is not None  # noqa: S101  each of these games has eigenvectors
     complete = len(pairs.values) == len(road.chain)
@@ -152,7 +152,7 @@ def _graph_row(name: str, road: Road) -> dict[str, Any]:
 
 
 def eigenvalue_rows() -> Rows:
-    """Return the eigenvalues of largest modulus of each game, at most six."""
+    """Return each game's eigenvalues with the largest modulus, at most six."""
     rows = []
     for name, road in roads().items():
         assert road.spectrum is not None  # noqa: S101  as above
@@ -171,7 +171,7 @@ def eigenvalue_rows() -> Rows:
 
 
 def answer_rows() -> Rows:
-    """Return the number that is asked of each game by every way, and how far they are apart."""
+    """Return the requested number for each game from every method, and how much they differ."""
     rows = []
     for name, asked in GAMES.items():
         by_way: dict[str, float] = {way: asked.answer(via=way) for way in WAYS}
@@ -188,7 +188,7 @@ def answer_rows() -> Rows:
 
 
 def limit_rows(road: Road) -> Rows:
-    """Return the limit of each state by every way; empty where a way has none for the chain."""
+    """Return each state's limit from every method; empty if a method has none for the chain."""
     return [
         {
             "state": state,
@@ -205,7 +205,7 @@ def limit_rows(road: Road) -> Rows:
 
 
 def places(value: float, decimals: int = PLACES) -> Decimal:
-    """Return a number with so many decimals, zero without a sign.
+    """Return a number with this many decimals, zero without a sign.
 
     >>> places(2 / 3, 4), places(-1e-15)
     (Decimal('0.6667'), Decimal('0'))
@@ -214,7 +214,7 @@ def places(value: float, decimals: int = PLACES) -> Decimal:
 
 
 def small(value: float, decimals: int = PLACES) -> Decimal | str:
-    """Return a number that may be zero but for rounding errors.
+    """Return a number that may be zero except for rounding errors.
 
     >>> small(3e-16), small(0.25, 2)
     ('below 1e-12', Decimal('0.25'))
@@ -282,7 +282,7 @@ def _matrix(name: str) -> str:
 
 
 def _pairs(name: str) -> str:
-    """Return the eigenvalues with their left vectors on the start, and their right vectors."""
+    """Return the eigenvalues with their left vectors at the start, and their right vectors."""
     pairs = roads()[name].spectrum
     assert pairs is not None  # noqa: S101  each of these games has eigenvectors
     chain = pairs.chain

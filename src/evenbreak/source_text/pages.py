@@ -1,8 +1,8 @@
-"""The pages that show the text: prose from `templates`, numbers, slips and figures from here.
+"""The pages that show the text: prose from `templates`; numbers, slips and figures from here.
 
-In the prose, `{{numbers P5.7}}` or `{{numbers 3.6 3.9}}` stands for the numbers of a problem or of
-all from P3.6 to P3.9, `{{slips ...}}` for the slips and remarks there, `{{figure 3.1 ...}}` for a
-figure with its caption, and the other names for tables. 3.0 is what section 3 says before its first
+In the prose, `{{numbers P5.7}}` or `{{numbers 3.6 3.9}}` stands for the numbers in one problem or
+in all from P3.6 to P3.9, `{{slips ...}}` for the slips and remarks there, `{{figure 3.1 ...}}` for
+a figure with its caption, and other names stand for tables. 3.0 is section 3 up to its first
 problem.
 """
 
@@ -28,12 +28,12 @@ from evenbreak.source_text.section5 import page_tables
 _PLACE = re.compile(r"\{\{(\w+)(?:\s([^}]*))?\}\}")
 
 Blocks = Mapping[str, Callable[[str], str]]
-"""The function that fills each place of a template, by the first word of the place; it gets the
-other words."""
+"""The functions that fill the places in a template, by each place's first word; they get the other
+words."""
 
 
 def filled(section: str, blocks: Blocks) -> str:
-    """Return the page of a section, its template with every `{{place}}` filled in."""
+    """Return a section's page, with every `{{place}}` in its template filled in."""
     template = files("evenbreak.source_text").joinpath(f"templates/{section}.md").read_text("utf-8")
     page = _PLACE.sub(lambda place: blocks[place[1]](place[2] or ""), template)
     # A problem without slips leaves an empty paragraph.
@@ -41,7 +41,7 @@ def filled(section: str, blocks: Blocks) -> str:
 
 
 def contents(page: str) -> str:
-    r"""Return links to the sections of a page.
+    r"""Return links to a page's sections.
 
     >>> print(contents("# Top\n\n## Was it luck? P5.19\n\n### Not this\n\n## Runs\n"))
     - [Was it luck? P5.19](#was-it-luck-p519)
@@ -64,9 +64,9 @@ def verdicts_table(findings: Iterable[Finding]) -> str:
 
 
 def compared(finding: Finding) -> list[str]:
-    """Return what the text prints, what is computed and the verdict, as cells of a table.
+    """Return what the text prints, the computed value and the verdict, as table cells.
 
-    What the text has only as a formula or in words stands in parentheses.
+    If the text has only a formula or words, the value is in parentheses.
     """
     computed, verdict = finding.computed, finding.verdict
     text = printed_text(finding.published.printed)
@@ -78,7 +78,7 @@ def compared(finding: Finding) -> list[str]:
 
 
 def printed_text(number: Decimal | None) -> str:
-    """Return a number as printed: with its digits, or as a fraction where it is one.
+    """Return a number as printed: with its digits, or as a fraction if it is one.
 
     >>> printed_text(Decimal("28.10")), printed_text(Decimal("-0.7142857142857143"))
     ('28.10', '-5/7')
@@ -91,7 +91,7 @@ def printed_text(number: Decimal | None) -> str:
 
 
 def errata_table(slips: Iterable[Erratum], class_: str) -> str:
-    """Return all slips of a class, or all remarks, as a table."""
+    """Return all slips in a class, or all remarks, as a table."""
     rows = [
         [slip.where, slip.printed, slip.correct, slip.kind, slip.why]
         for slip in slips
@@ -102,7 +102,7 @@ def errata_table(slips: Iterable[Erratum], class_: str) -> str:
 
 
 def slip_blocks(slips: Sequence[Erratum], *, placed: bool = False) -> str:
-    """Return slips as block quotes; `placed` adds where in the text each is."""
+    """Return slips as block quotes; `placed` adds each one's place in the text."""
     return "\n>\n".join(_slip_block(slip, f"{slip.where}. " if placed else "") for slip in slips)
 
 
@@ -118,7 +118,7 @@ _SHOWN_ELSEWHERE = {"mean of two", "W(1/2;n,n)", "W infinite look-ahead", "W two
 
 
 def section_5_page(findings: Sequence[Finding], tables: Tables) -> str:
-    """Return the page in Markdown, from all printed numbers and the tables by file name."""
+    """Return the page in Markdown, given all printed numbers and the tables by file name."""
     return filled("section5", _blocks(findings, tables))
 
 
@@ -177,7 +177,7 @@ def _numbers(findings: Sequence[Finding], problem: str) -> str:
 
 
 def _in_a_table(row: PublishedNumber) -> bool:
-    """Return whether a number is shown in a table of its own."""
+    """Return whether a number is shown in a separate table."""
     if row.problem.startswith("Table"):
         return " less " not in row.quantity
     of_the_ladder = row.problem == "NPL" and row.inputs.startswith("chart")
@@ -199,7 +199,7 @@ _PROBLEM = re.compile(r"(\d)\.(\d+)")
 
 
 def physics_page(findings: Sequence[Finding], tables: Iterable[str]) -> str:
-    """Return the page in Markdown, from all numbers and names of tables of sections 1 to 4."""
+    """Return the page in Markdown, given all numbers and table names in sections 1 to 4."""
     names, slips = list(tables), physics_errata()
     return filled(
         "physics",
@@ -216,7 +216,7 @@ def physics_page(findings: Sequence[Finding], tables: Iterable[str]) -> str:
 
 
 def place_of(where: str) -> tuple[int, int]:
-    """Return the section and the number of the first problem that a place names.
+    """Return the section and number of the first problem named in a place.
 
     >>> place_of("P4.3 and P4.10"), place_of("Section 2"), place_of("Exercise 2.1")
     ((4, 3), (2, 0), (2, 2))
@@ -244,7 +244,7 @@ def _physics_numbers(findings: Sequence[Finding], span: str) -> str:
 
 
 def _figure(place: str, tables: Sequence[str]) -> str:
-    """Return a figure with its caption and links, from its number and the caption."""
+    """Return a figure with its caption and links, given its number and the caption."""
     number, *words = place.split()
     name, caption = f"figure_{number.replace('.', '_')}", " ".join(words)
     behind = [f"{table}.csv" for table in tables if table.startswith(name)]

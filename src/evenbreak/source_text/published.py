@@ -1,7 +1,7 @@
-"""What the source text prints, its numbers and errata, and how it compares with what is computed.
+"""What the source text prints: its numbers and errata, and how they compare with computed values.
 
 The numbers come with the package. Each has inputs, such as `winner breaks p1=.9` or `alpha=30deg
-V_0=36in/s`, from which it is computed again.
+V_0=36in/s`, from which it is recomputed.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from evenbreak.source_text.cells import difference_cell, number_cell, packaged_r
 
 
 class PublishedNumber(NamedTuple):
-    """One number of the text, and how close a computed number should come to it.
+    """One number in the text, and how close a computed number should come to it.
 
     Parameters
     ----------
@@ -29,8 +29,8 @@ class PublishedNumber(NamedTuple):
     printed
         the number with its printed digits; None if nothing is printed.
     tolerance
-        how far a computed number may be from it. An erratum may be within its tolerance and
-        is wrong all the same.
+        how far a computed number may be from it. An erratum may be within its tolerance and still
+        be wrong.
     verdict
         'agrees'; 'erratum' if the text is off by more than half its last place, see the note;
         'derived' if it prints nothing, or nothing legible. Sections 1 to 4 have two more:
@@ -55,13 +55,13 @@ class PublishedNumber(NamedTuple):
 
 
 class Erratum(NamedTuple):
-    """An error of the text, a remark on it, or a gap in the copy that was read.
+    """An error in the text, a remark on it, or a gap in our copy.
 
     Parameters
     ----------
     class_
-        'slip' if the text is wrong; 'remark' if it is right but easy to misread; 'copy' for
-        what is missing from the copy that was read.
+        'slip' if the text is wrong; 'remark' if it is right but easy to misread; 'copy' if
+        something is missing from our copy.
     printed
         in short.
     correct
@@ -81,7 +81,7 @@ class Erratum(NamedTuple):
 
 
 def published_numbers() -> list[PublishedNumber]:
-    """Return the numbers of section 5 in the order of the text, a table after its problem.
+    """Return the numbers in section 5 in the order of the text, each table after its problem.
 
     >>> [number] = [row for row in published_numbers() if row.quantity == "P(run>=100)"]
     >>> number.problem, number.inputs, number.printed
@@ -91,7 +91,7 @@ def published_numbers() -> list[PublishedNumber]:
 
 
 def physics_numbers() -> list[PublishedNumber]:
-    """Return the numbers of sections 1 to 4, the physics of the table, in the order of the text.
+    """Return the numbers in sections 1 to 4, the physics, in the order of the text.
 
     >>> [number] = [row for row in physics_numbers() if row.quantity == "alpha_crit, deg"]
     >>> number.problem, number.printed, number.value_is, number.verdict
@@ -101,7 +101,7 @@ def physics_numbers() -> list[PublishedNumber]:
 
 
 def physics_errata() -> list[Erratum]:
-    """Return the slips of sections 1 to 4, with remarks, in the order of the text.
+    """Return the slips in sections 1 to 4, with remarks, in the order of the text.
 
     >>> [slip.correct for slip in physics_errata() if slip.where == "P4.15"]
     ['28.126']
@@ -110,7 +110,7 @@ def physics_errata() -> list[Erratum]:
 
 
 def errata() -> list[Erratum]:
-    """Return the slips of section 5, with remarks, in the order of the text.
+    """Return the slips in section 5, with remarks, in the order of the text.
 
     >>> [(slip.class_, slip.kind) for slip in errata() if slip.where == "P5.7"]
     [('slip', 'last digit')]
@@ -138,10 +138,10 @@ _UNITS = {"deg": DEGREE, "in": INCH, "in/s": INCH, "oz": OUNCE}
 
 @dataclass
 class Inputs:
-    """The inputs of a quantity, by name.
+    """A quantity's inputs, by name.
 
-    Numbers are exact, in the units in which they are written; `;` and `:` separate several of one
-    name, and "" names those that follow none. `units` has the factors to SI units or radians, where
+    Numbers are exact, in the units in which they are written; `;` and `:` separate several with the
+    same name, and "" names those without a name. `units` has the factors to SI units or radians, if
     not 1; `words` have no value.
     """
 
@@ -151,16 +151,16 @@ class Inputs:
     words: list[str] = field(default_factory=list)
 
     def all(self, name: str = "") -> tuple[Fraction, ...]:
-        """Return the numbers of a name, without rounding."""
+        """Return a name's numbers, without rounding."""
         return self.numbers[name]
 
     def one(self, name: str = "") -> Fraction:
-        """Return the one number of a name, without rounding."""
+        """Return a name's only number, without rounding."""
         (value,) = self.numbers[name]
         return value
 
     def __getitem__(self, name: str) -> Any:
-        """Return the one number of a name as a float in SI units or radians, or its text."""
+        """Return a name's only number as a float in SI units or radians, or its text."""
         if name in self.texts:
             return self.texts[name]
         return float(self.one(name)) * self.units.get(name, 1.0)
@@ -175,7 +175,7 @@ Answers: TypeAlias = Mapping[tuple[str, str], Callable[[Inputs], Any]]
 
 
 def parse_inputs(text: str) -> Inputs:
-    """Return the numbers, texts and words of inputs.
+    """Return the numbers, texts and words in an input string.
 
     >>> found = parse_inputs("half ball b/R=1/2 V_0=2in/s balls=pool 1:5")
     >>> found["b/R"], found["V_0"], found["balls"], found.words
@@ -205,7 +205,7 @@ def parse_inputs(text: str) -> Inputs:
 
 
 class Finding(NamedTuple):
-    """A printed number, what is computed in its place, and the verdict.
+    """A printed number, its computed value, and the verdict.
 
     `computed` is None if the library has no such number. The verdict is 'agrees', 'formula',
     'given', 'erratum' or 'derived' as for `PublishedNumber`; or 'differs', which should never
@@ -218,7 +218,7 @@ class Finding(NamedTuple):
 
 
 def find(rows: Iterable[PublishedNumber], answers: Answers) -> Iterator[Finding]:
-    """Yield each number with what is computed in its place."""
+    """Yield each number with its computed value."""
     for row in rows:
         computed = None
         if row.verdict != "given" or (row.problem, row.quantity) in answers:
@@ -230,8 +230,8 @@ def find(rows: Iterable[PublishedNumber], answers: Answers) -> Iterator[Finding]
 def verdict_of(published: PublishedNumber, computed: float | None) -> str:
     """Return the verdict on a printed number, given the computed one.
 
-    Within `deciding_tolerance` the verdict of the package data stands, except that a supposed
-    erratum agrees. Outside it the verdict is 'differs', unless the number is an erratum.
+    Within `deciding_tolerance`, the package data's verdict stands, except that a supposed erratum
+    agrees. Outside it, the verdict is 'differs', unless the number is an erratum.
     """
     if published.printed is None:
         return "derived"
@@ -246,7 +246,7 @@ def verdict_of(published: PublishedNumber, computed: float | None) -> str:
 def deciding_tolerance(published: PublishedNumber) -> Decimal:
     """Return the largest difference at which a printed and a computed number agree.
 
-    That is the tolerance of the number. A known erratum agrees only within half of its last printed
+    This is the number's tolerance. A known erratum agrees only within half of its last printed
     place, as rounding would leave it.
 
     >>> known = PublishedNumber("P5.17", "", "", Decimal("0.457"), Decimal("0.0006"), "erratum", "")
@@ -259,7 +259,7 @@ def deciding_tolerance(published: PublishedNumber) -> Decimal:
 
 
 def differing(findings: Iterable[Finding]) -> Iterator[str]:
-    """Yield a line for each number that does not have the expected verdict."""
+    """Yield a line for each number that doesn't have the expected verdict."""
     for row, computed, verdict in findings:
         if verdict != row.verdict:
             number = "nothing" if computed is None else f"{computed:.10g}"
@@ -270,7 +270,7 @@ def differing(findings: Iterable[Finding]) -> Iterator[str]:
 
 
 def physics_row_of(finding: Finding) -> dict[str, Any]:
-    """Return a number of sections 1 to 4 as a row, with what its value is.
+    """Return a number from sections 1 to 4 as a row, with what its value is.
 
     >>> number = PublishedNumber("P2.2", "q", "", Decimal(2), Decimal(0), "formula", "", "formula")
     >>> list(physics_row_of(Finding(number, 2.0, "formula")).items())[3:5]
@@ -286,7 +286,7 @@ def physics_row_of(finding: Finding) -> dict[str, Any]:
 
 
 def row_of(finding: Finding) -> dict[str, Any]:
-    """Return a number as a row of a table."""
+    """Return a number as a table row."""
     row, computed = finding.published, finding.computed
     difference = None
     if computed is not None and row.printed is not None:
@@ -314,13 +314,13 @@ class Row(NamedTuple):
 
 
 Derived: TypeAlias = Mapping[str, Callable[[], Iterable[Row]]]
-"""The rows of each problem, as functions that make them."""
+"""Each problem's rows, as functions that make them."""
 
 
 def formulas(problem: str) -> list[Row]:
     """Return the formulas that answer a problem, and its matrices entry by entry.
 
-    An entry is the chance of the arrow from one state to another, q = 1 - p.
+    An entry is the chance on the arrow from one state to another, with q = 1 - p.
 
     >>> formulas("P5.9")[1]
     Row(quantity='formula: mean', inputs='', computed='N p', note='')

@@ -30,12 +30,12 @@ if TYPE_CHECKING:
 
 
 def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, bytes]:
-    """Return every file by name: the same bytes each time.
+    """Return every file by name, with the same bytes each time.
 
     Parameters
     ----------
     say
-        is called with a line about each step.
+        a function that is called with a line about each step.
     """
     say("Computing the tables and problems")
     statistics, physics, games = section_5_tables(), physics_tables(), game_tables()
@@ -55,7 +55,7 @@ def reproduction(say: Callable[[str], None] = lambda _: None) -> Mapping[str, by
 
 
 def section_5_tables() -> Tables:
-    """Return the tables of section 5."""
+    """Return the tables in section 5."""
     findings = section_5_findings()
     return {
         **{f"table_5_{n}": tables.table_rows(findings, f"Table 5.{n}") for n in range(1, 6)},
@@ -72,7 +72,7 @@ def section_5_tables() -> Tables:
 
 
 def physics_tables() -> Tables:
-    """Return the tables of sections 1 to 4."""
+    """Return the tables in sections 1 to 4."""
     return {
         "published_physics": list(map(physics_row_of, physics_findings())),
         "errata_physics": _errata_rows(physics_errata()),
@@ -84,8 +84,8 @@ def physics_tables() -> Tables:
 def figures() -> Mapping[str, Callable[[], Figure]]:
     """Return every figure by name, each as a function that draws it.
 
-    Source: Figs. 1.1 to 5.11 and the diagrams of problem P5.24. In sections 1 to 4 only Figs. 3.1
-    to 3.4, 4.4, 4.5, 4.7 and 4.8 are plots, the others sketches;
+    Source: Figs. 1.1 to 5.11 and the diagrams in problem P5.24. In sections 1 to 4, only Figs. 3.1
+    to 3.4, 4.4, 4.5, 4.7 and 4.8 are plots, and the others are sketches;
     `evenbreak.source_text.physics.section_3_plots` and `section_4_plots` have the values chosen
     where the text lost its own.
 
@@ -126,7 +126,7 @@ def _figure(draw: Callable[[], Axes | Figure]) -> Figure:
 
 
 def all_findings() -> tuple[Finding, ...]:
-    """Return every number of the text with the computed one."""
+    """Return every number in the text with the computed one."""
     return (*physics_findings(), *section_5_findings())
 
 

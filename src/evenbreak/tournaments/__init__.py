@@ -1,4 +1,4 @@
-"""Tournaments: brackets, exact title odds, chips, how long the evening takes, the money."""
+"""Tournaments: brackets, exact title odds, chips, how long the evening takes, prizes."""
 
 import lazy_loader
 

@@ -1,1 +1,1 @@
-"""The page on the director's phone and the venue's screen: questions in forms, answers as pages."""
+"""The page on the director's phone and the venue's screen: questions as forms, answers as pages."""

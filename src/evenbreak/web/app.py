@@ -1,9 +1,9 @@
-"""The application: its routes, and what is answered when something is refused or fails.
+"""The application: its routes, and its responses to errors.
 
-Each form is taken once, and only in the tournament whose page it was on. A second tap on its button
-adds nothing, and is answered as the first: a double tap from memory; what comes in later, or after
-a restart, is known by the number that the file keeps with the entry, and is told that it was taken
-before.
+Each form is accepted once, and only for the tournament whose page it was on. A second tap on its
+button adds nothing. A double tap gets the first tap's response from memory; a form that comes in
+later, or after a restart, is recognized by the number that the file stores with the entry, and the
+user is told that it was accepted before.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ _HTTP = {
 
 
 def make_app(site: Site, *, streams: int = 500) -> Starlette:
-    """Return the application that serves a site to at most so many streams at once."""
+    """Return the application that serves a site, with a limit on simultaneous streams."""
     watch = Watch(site.path, streams)
     app = Starlette(
         routes=[
@@ -128,9 +128,9 @@ def make_app(site: Site, *, streams: int = 500) -> Starlette:
 
 
 def cookie_name(site: Site) -> str:
-    """Return the name of the sessions' cookie, another one for each file.
+    """Return the name of the session cookie, different for each file.
 
-    Cookies know no ports: two pages on one computer would overwrite each other's sessions.
+    Cookies ignore ports, so two pages on one computer would overwrite each other's sessions.
     """
     return f"evenbreak-{hashlib.sha256(site.cookie_key.encode()).hexdigest()[:8]}"
 
@@ -147,7 +147,7 @@ async def _style(request: Request) -> Response:
 def _shown(
     request: Request, why: Exception, status: int, headers: Mapping[str, str] | None = None
 ) -> Response:
-    """Return why something is refused: as a page, or to a program as a problem."""
+    """Return why something is rejected: as a page, or for a program as a problem."""
     if is_asked(request):
         return problem(request, why, status, headers)
     return refused(request, why, status)
@@ -178,7 +178,7 @@ async def _http(request: Request, error: Exception) -> Response:
 
 
 async def _disk(request: Request, error: Exception) -> Response:
-    """Say that the disk is full or fails; where, is said to whoever has the computer."""
+    """Say that the disk is full or failing; only this computer is told where."""
     if not isinstance(error, OSError) or isinstance(error, TimeoutError | ConnectionError):
         raise error
     _LOG.error("%s: %s", request.url.path, error)
@@ -209,14 +209,14 @@ class _Answer(NamedTuple):
 
 
 _Answers: TypeAlias = OrderedDict[str, asyncio.Future[_Answer | None]]
-"""By the key of a form; None: it was refused or asked back, and may come in again."""
+"""By form key; None means the form was rejected or needs confirming, and may come in again."""
 
 
 def once_each(routes: Sequence[Route]) -> list[Route]:
-    """Return routes whose forms are taken once each.
+    """Return routes whose forms are each accepted once.
 
-    Those that only change the session, such as the choice of a language, stay as they are, and
-    those of a team night, which tell a second tap themselves by what the file keeps.
+    Routes that only change the session, such as choosing a language, are left alone, and so are a
+    team night's, which recognize a second tap themselves from the file.
     """
     answers: _Answers = OrderedDict()
 
@@ -262,7 +262,7 @@ async def _taken(request: Request, route: Route, answers: _Answers) -> Response:
 
 
 def _again(request: Request, first: _Answer) -> Response:
-    """Answer a form as it was answered the first time; much later, say that it was taken then."""
+    """Answer a form as it was the first time; much later, say that it was accepted then."""
     if time.monotonic() - first.at > _DOUBLE_TAP:
         return _told(request, first.to)
     request.session.update(first.session)

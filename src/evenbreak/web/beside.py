@@ -1,4 +1,4 @@
-"""A thread next to the pages, for what takes long."""
+"""A background thread for work that takes long."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _MOST_REST = 3.0  # seconds
 
 
 class Beside:
-    """One thread that works things out, one after another; the end of the program ends it too.
+    """A thread that does one calculation after another; it ends with the program.
 
-    It is always the same thread: each new one would keep memory of its own. After long work it
-    rests as long, for a page waits whenever it is the thread's turn.
+    It is always the same thread, because each new thread would keep its own memory. After long work
+    it rests just as long, because pages wait while the thread runs.
     """
 
     def __init__(self) -> None:
@@ -29,7 +29,7 @@ class Beside:
         self._thread: threading.Thread | None = None
 
     async def run(self, work: Callable[[], Found], by: str = "") -> Found:
-        """Return what a function returns, or raise what it raises; `by` is who waits for it."""
+        """Return what a function returns, or raise what it raises; `by` is who is waiting."""
         if self._thread is None:
             self._thread = threading.Thread(target=self._serve, daemon=True)
             self._thread.start()
@@ -66,14 +66,14 @@ class Beside:
 
 
 class _StopError(BaseException):
-    """Raised in a thread from outside, between two steps of Python; nothing there expects it."""
+    """Raised in a thread from outside, between two Python steps; nothing there expects it."""
 
 
 class Limited:
-    """Work limited to some seconds of processor time (of the clock, where threads have none).
+    """Work limited to some seconds of processor time (clock time if threads have none).
 
-    A TimeoutError ends it wherever it is; but a step in C, such as the solution of one system of
-    equations, ends first.
+    A TimeoutError ends it wherever it is, but only after the current step in C, such as solving one
+    system of equations.
 
     >>> Limited(lambda: 7, 1.0)()
     7
@@ -84,7 +84,7 @@ class Limited:
         self._done, self._lock = threading.Event(), threading.Lock()
 
     def __call__(self) -> Any:
-        """Return what the work returns."""
+        """Return the work's result."""
         self._thread = threading.get_ident()
         self._begun = self._now()
         threading.Thread(target=self._watch, daemon=True).start()
@@ -118,20 +118,20 @@ class Limited:
 
 
 def _raise_in(thread: int, error: type[BaseException] | None) -> None:
-    """Raise an error in a thread at its next step of Python; None: take back one on its way."""
+    """Raise an error in a thread at its next Python step; None cancels a pending error."""
     what = None if error is None else ctypes.py_object(error)
     ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), what)
 
 
 class Made:
-    """Files that take long to make, each made once of what it shows, one after another."""
+    """Files that take long to make, made one at a time and once for each state they show."""
 
     def __init__(self) -> None:
         self._beside = Beside()
         self._made: dict[str, tuple[object, asyncio.Future[bytes]]] = {}
 
     async def file(self, name: str, of: object, make: Callable[[], bytes]) -> bytes:
-        """Return a file, which is made again only when the object `of` is another one."""
+        """Return a file, remaking it only if the object `of` is a different one."""
         made = self._made.get(name)
         if made is None or made[0] is not of:
             made = self._made[name] = of, asyncio.ensure_future(self._beside.run(make))

@@ -1,7 +1,7 @@
-"""A player's short code: it is typed, or scanned from the score card, and claims their phone.
+"""A player's short code, typed or scanned from the score card to claim their phone.
 
-It is drawn from the file's secret and from the entry with which the player came, so that it stays
-the same after a restart, on another laptop, and when the name is corrected.
+It is derived from the file's secret and the player's first entry, so it stays the same after a
+restart, on another laptop, and when the name is corrected.
 """
 
 from __future__ import annotations
@@ -13,15 +13,16 @@ from collections.abc import Mapping
 from evenbreak.tournaments.evening.fold import Evening
 
 LETTERS = "CDFGHJKMNPQRTVWXY3469"
-"""No letter that looks like another or like a digit, and no vowel: a code is no word."""
+"""No letters that look like another letter or a digit, and no vowels, so that no code is a word."""
 
 LENGTH = 5
 
 
 def codes_of(state: Evening, key: str, before: Mapping[str, str] | None = None) -> dict[str, str]:
-    """Return the code of each player in the tournament, drawn from the secret key.
+    """Return each player's code in the tournament, derived from the secret key.
 
-    `before` has the codes of other events of the night: a player in one of them has a code already.
+    `before` has the codes from the night's other events: a player in one of these already has a
+    code.
 
     >>> from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan, Renamed
     >>> from evenbreak.tournaments.evening.fold import evening
@@ -49,7 +50,7 @@ def codes_of(state: Evening, key: str, before: Mapping[str, str] | None = None) 
 
 
 def code_in(text: str) -> str:
-    """Return a code as it was typed, in the letters of codes.
+    """Return a typed code in the alphabet of codes.
 
     >>> code_in(" fk7-q2 ")
     'FK7Q2'

@@ -37,7 +37,7 @@ _ARENAS, _TRIM, _APART = -8, -1, -3  # of malloc.h: M_ARENA_MAX, M_TRIM_THRESHOL
 
 
 def serve(asked: Serve, league: LeagueFile | None) -> None:
-    """Serve the page until Ctrl+C; its forms start with the rules of a league."""
+    """Serve the page until Ctrl+C; its forms start with a league's rules."""
     if not asked.open or asked.demo:
         _serve(asked, _demo() if asked.demo else Path(asked.file or "tonight.db"), league)
         return
@@ -112,13 +112,13 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
 
 
 def _read(path: Path) -> None:
-    """Read the night of a file; refuse one that is damaged, or none of a night."""
+    """Read a file's night; reject a damaged file, or one that isn't a night's."""
     if holds(path, TOURNAMENT) or not read_team_events(path):
         read_tournament(path)
 
 
 def _instead(path: Path) -> str:
-    """Return what to open instead of a file that cannot be read."""
+    """Return what to open instead of a file that can't be read."""
     for copy in sorted(path.parent.glob(f"{glob.escape(path.stem)}-*.backup.db"), reverse=True):
         with suppress(EvenbreakError, OSError):
             _read(copy)
@@ -135,13 +135,13 @@ def _instead(path: Path) -> str:
 
 
 def _say(site: Site, line: str) -> None:
-    """Say something of this start in the window and on the desk."""
+    """Show a message about this start in the window and on the desk."""
     click.echo(line, err=True)
     site.since_start.append(line)
 
 
 def _room_again(site: Site, port: int) -> list[str]:
-    """Return the addresses at which phones are let in again, as before this start."""
+    """Return the addresses where phones are let in again, as before this start."""
     if not site.phones_in or not goes_on(site.path):
         return []
     there = [one for one in addresses() if not _taken(one, port)]
@@ -152,9 +152,9 @@ def _room_again(site: Site, port: int) -> list[str]:
 
 
 def _port(asked: Serve, last: int) -> int:
-    """Return the port that is asked for; for a browser that is opened on it, the next free one.
+    """Return the requested port, or if a browser will be opened on it, the next free one.
 
-    The last one of the night comes first, because phones know it.
+    The night's last port is tried first, because phones know it.
     """
     if asked.open and last and asked.port == Serve.port and not _taken("127.0.0.1", last):
         return last
@@ -169,7 +169,7 @@ def _port(asked: Serve, last: int) -> int:
 
 
 def _room(asked: Serve, port: int) -> list[str]:
-    """Return the addresses at which phones are let in from the start; none without --lan."""
+    """Return the addresses where phones are let in from the start; none without --lan."""
     if not asked.lan:
         return []
     there = addresses()
@@ -192,9 +192,9 @@ def _refuse(asked: Serve, why: str) -> None:
 
 
 def _give_memory_back() -> None:
-    """Have what was used for odds and pictures returned to the system, where glibc is its library.
+    """Have memory used for odds and pictures returned to the system, if its library is glibc.
 
-    It would keep a heap for each thread, and all that was once large.
+    Otherwise glibc would keep a heap for each thread, and everything that was once large.
     """
     with suppress(OSError, AttributeError):
         mallopt = ctypes.CDLL("libc.so.6").mallopt
@@ -203,7 +203,7 @@ def _give_memory_back() -> None:
 
 
 def _demo() -> Path:
-    """Write the demo's evening to a folder of its own, and return its file."""
+    """Write the demo's evening to a separate folder, and return its file."""
     path = Path(mkdtemp(prefix="evenbreak-demo-"), "evening.db")
     write_demo_evening(path, datetime.now())
     click.echo(f"The demo: {path}, which you may delete", err=True)
@@ -211,7 +211,7 @@ def _demo() -> Path:
 
 
 def _taken(host: str, port: int) -> str:
-    """Return why a port cannot be used; '' if it can."""
+    """Return why a port can't be used; '' if it can."""
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
         if sys.platform != "win32":  # there it would let two programs have one port
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

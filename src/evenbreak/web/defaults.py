@@ -1,4 +1,4 @@
-"""What forms start with, from the league's file in the folder where the page runs."""
+"""Initial form values from the league's file in the folder where the page runs."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ def of_league(
     charts: Collection[str],
     orders: Collection[str] = (),
 ) -> dict[str, str]:
-    """Return the initial values of a form's fields, by name: the league's rules.
+    """Return the initial values of a form's fields by name, based on the league's rules.
 
-    A chart or an order of the league must be among `charts` or `orders`; another order is a
-    pattern, and another chart is left out.
+    The league's chart or order must be among `charts` or `orders`; any other order is a pattern,
+    and any other chart is left out.
     """
     if league is None:
         return {}

@@ -1,4 +1,4 @@
-"""What the director sees: tables, disputes, calls, what was just entered, a match with its acts."""
+"""What the director sees: tables, disputes, calls, the last entry, a match with its actions."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ from evenbreak.words import Sentence, joined, listed, say, say_count, tally
 
 
 class Side(NamedTuple):
-    """A player of a match; `short` is the first name where no one else tonight has it.
+    """A player in a match; `short` is the first name if no one else tonight has it.
 
     `behind`: they need more games than the other, or have lost.
     """
@@ -61,11 +61,11 @@ class Side(NamedTuple):
 class DeskMatch:
     """A match as the director sees it.
 
-    `part` is the side of the bracket, or the round; `places` has in words where unknown players
+    `part` is the side of the bracket, or the round; `places` says in words where unknown players
     come from. The state is waits, ready, called, playing, hill, sent, two, done or forfeit;
-    `minutes` count from the call. `sent` has each player's games, by the player whose phone sent
-    them; `agreed`: both sent the same, maybe from one phone. `tag` is its event, '' if there is
-    only one.
+    `minutes` are counted from the call. `sent` has both players' games, by the player whose phone
+    sent them; `agreed`: both sent the same score, maybe from one phone. `tag` is its event, '' if
+    there is only one.
     """
 
     name: str
@@ -83,7 +83,7 @@ class DeskMatch:
 
     @property
     def key(self) -> str:
-        """What it is known by on a page: no other match of the night is."""
+        """Its key on a page, unique among the night's matches."""
         return self.name if self.event == 1 else f"{self.event}-{self.name}"
 
     @property
@@ -93,7 +93,7 @@ class DeskMatch:
 
     @property
     def scored(self) -> bool:
-        """Whether a game of it has been entered."""
+        """Whether any of its games has been entered."""
         return any(side.won for side in self.sides)
 
 
@@ -150,7 +150,7 @@ def desk_match(
 
 
 def _from(state: Evening, slot: int | Source) -> Sentence | str:
-    """Return where a player comes from who is not known yet, such as 'winner of 22'."""
+    """Return where an unknown player will come from, such as 'winner of 22'."""
     if not isinstance(slot, Source):
         return say("to be drawn")
     return source_words(slot, state.match_numbers)
@@ -168,7 +168,7 @@ _SIDES = {
 
 
 def part_words(state: Evening, name: str) -> Sentence | str:
-    """Return where in the bracket a match is."""
+    """Return a match's position in the bracket."""
     match = state.bracket.match(name)
     return _SIDES.get(match.side, say("round {n}", n=match.round))
 
@@ -198,9 +198,9 @@ def progress(state: Evening) -> tuple[int, int]:
 class LastAct(NamedTuple):
     """The last entry, which stays on the desk until it is read.
 
-    `lines` are its effects; `undo` is '' if something depends on it; `match` is 0 if it is about
-    none; `over`: it is a result. `by` is the phones or the tablet, '' for the director; `absent`
-    forfeited it and haven't gone home.
+    `lines` are its effects; `undo` is '' if something depends on it; `match` is 0 if it isn't about
+    a match; `over`: it is a result. `by` is the phones or the tablet, '' for the director; `absent`
+    players forfeited the match and haven't gone home.
     """
 
     event: int
@@ -216,7 +216,7 @@ class LastAct(NamedTuple):
 
 
 def last_act(state: Evening, read: int) -> LastAct | None:
-    """Return what was entered last, if that is after the entry that the director read last."""
+    """Return the last entry, if the director hasn't read it yet."""
     entries = list(zip(state.numbers, state.events, strict=True))
     told = (one for one in entries[:0:-1] if not one[1].by.startswith(BY_ITSELF))
     last = next((one for one in told if _is_act(one[1]) or one[1].by_directors), None)
@@ -255,7 +255,7 @@ def _absent(state: Evening, event: Event) -> str:
 def shouts(
     states: Mapping[int, Evening], read: Mapping[int, int], last: LastAct | None
 ) -> list[Sentence]:
-    """Return what to call out, by table: the matches called by the last act, not started."""
+    """Return what to announce, by table: matches called by the last action and not started."""
     found = []
     for n, state in states.items():
         its = zip(state.numbers, state.events, strict=True)
@@ -270,7 +270,7 @@ def shouts(
 
 
 def _came_with(n: int, number: int, event: Event, last: LastAct, acted: Evening) -> bool:
-    """Return whether an entry is of the last act, or came with it or after it."""
+    """Return whether an entry belongs to the last action, or came with it or after it."""
     events = dict(zip(acted.numbers, acted.events, strict=True))
     first = _first_with(acted, last.number)
     if n == last.event:
@@ -281,7 +281,7 @@ def _came_with(n: int, number: int, event: Event, last: LastAct, acted: Evening)
 
 
 def _first_with(state: Evening, number: int) -> int:
-    """Return the first entry of an act: each table called by one tap is an entry of its own."""
+    """Return an action's first entry: each table called with one tap is a separate entry."""
     events = dict(zip(state.numbers, state.events, strict=True))
     act = events[number]
     while (one := events.get(number - 1)) and (one.at, one.by) == (act.at, act.by):
@@ -290,7 +290,7 @@ def _first_with(state: Evening, number: int) -> int:
 
 
 def _is_act(event: Event) -> bool:
-    """Return whether an entry stays on the desk until it is read: what is about matches."""
+    """Return whether an entry stays on the desk until it is read: entries about matches do."""
     if event.by_phones:
         return isinstance(event.what, Result)
     return isinstance(event.what, Result | Called | CalledBack | Waits | Dropped)
@@ -298,7 +298,7 @@ def _is_act(event: Event) -> bool:
 
 @lru_cache(maxsize=4)
 def _told(state: Evening, number: int) -> tuple[Sentence | str, tuple[Sentence | str, ...]]:
-    """Return what an entry was, and what followed from it."""
+    """Return what an entry was, and its effects."""
     k = state.numbers.index(number)
     event = state.events[k]
     before, after = evening(state.events[:k]), evening(state.events[: k + 1])
@@ -324,7 +324,7 @@ def _told(state: Evening, number: int) -> tuple[Sentence | str, tuple[Sentence |
 
 
 def undo_words(state: Evening, event: Event) -> Sentence:
-    """Return what is taken back, as its button says it."""
+    """Return what is taken back, as shown on its button."""
     what = event.what
     if isinstance(what, Result) and not what.forfeit:
         won, lost = what.games[what.winner], what.games[what.loser]
@@ -342,7 +342,7 @@ def undo_words(state: Evening, event: Event) -> Sentence:
 
 
 class Late(NamedTuple):
-    """A match that is let wait, and who is missing."""
+    """A match allowed to wait, and who is missing."""
 
     match: DeskMatch
     absent: tuple[str, ...]
@@ -352,7 +352,7 @@ class Late(NamedTuple):
 
 
 def waiting(state: Evening, now: str) -> tuple[list[Late], list[Late]]:
-    """Return the matches past their waiting time, and those that are still let wait."""
+    """Return the matches past their waiting time, and those still allowed to wait."""
     over: list[Late] = []
     still: list[Late] = []
     for name, waits in state.waiting_for.items():
@@ -368,13 +368,13 @@ def waiting(state: Evening, now: str) -> tuple[list[Late], list[Late]]:
 
 
 def chance(state: Evening, one: DeskMatch, means: Mapping[str, float]) -> float:
-    """Return the chance of a match's first player, from its score on."""
+    """Return the chances of a match's first player from the current score on."""
     both, needs, won = zip(*((side.name, side.needs, side.won) for side in one.sides), strict=True)
     return win_chance(state, both, needs, won, means)
 
 
 def next_words(state: Evening, name: str) -> list[Sentence]:
-    """Return where the winner and the loser of a match go."""
+    """Return where a match's winner and loser go."""
     found = []
     played = state.bracket.match(name)
     to = {
@@ -395,7 +395,7 @@ def next_words(state: Evening, name: str) -> list[Sentence]:
 
 
 def waits_words(state: Evening, one: DeskMatch) -> Sentence | str:
-    """Return which matches decide who plays a match."""
+    """Return which matches decide who plays in a match."""
     seats, slots = state.standing.seats[one.name], state.bracket.match(one.name).slots
     numbers = [
         str(state.number_of(slot.match))
@@ -408,7 +408,7 @@ def waits_words(state: Evening, one: DeskMatch) -> Sentence | str:
 def soon(
     states: Mapping[int, Evening], now: str, order: Sequence[tuple[int, str]], most: int = 6
 ) -> list[DeskMatch]:
-    """Return the matches that come next: those ready, then those that wait for another one."""
+    """Return the upcoming matches: first those ready, then those waiting for another match."""
     ready = night_queue(states, order)
     open_ones = [
         (n, name)
@@ -426,7 +426,7 @@ def soon(
 
 
 class Lost(NamedTuple):
-    """A match that was played on a result that is corrected, with its score."""
+    """A match played on a result that is being corrected, with its score."""
 
     number: int
     table: int | None
@@ -436,7 +436,7 @@ class Lost(NamedTuple):
 
 
 class Corrected(NamedTuple):
-    """A result that is corrected: who won before and wins now, each with the score."""
+    """A result being corrected: who won before and who wins now, each with the score."""
 
     number: int
     was: tuple[str, str]
@@ -445,7 +445,7 @@ class Corrected(NamedTuple):
 
 
 def corrected(before: Evening, after: Evening, match: str) -> Corrected:
-    """Return what is asked about when a result is corrected that others have played on."""
+    """Return what to ask when a result is corrected that later matches were played on."""
 
     def scored(state: Evening) -> tuple[str, str]:
         result = state.counted[match]

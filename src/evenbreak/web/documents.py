@@ -1,4 +1,4 @@
-"""What a double click needs: tonight's file in the documents, one page at a time, a browser."""
+"""For a double click: tonight's file in the documents folder, one page at a time, a browser."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ from evenbreak.files.store.tournament import night_of, read_night
 from evenbreak.tournaments.evening.later_draws import can_draw
 
 _LONGEST = timedelta(days=3)
-"""How long a tournament or a team night may go on."""
+"""How long a tournament or a team night may last."""
 _DAY = re.compile(r"\d{4}-\d\d-\d\d")
 _FAR = 1 << 20  # a byte beyond the address: on Windows what is locked cannot be read
 _STARTING = 10.0  # seconds in which the other program says where its page is
 
 
 def documents() -> Path:
-    """Return the folder of the user's events, made if need be."""
+    """Return the folder for the user's events, creating it if needed."""
     folder = platformdirs.user_documents_path() / "evenbreak"
     folder.mkdir(parents=True, exist_ok=True)
     return folder
 
 
 def tonights_file(folder: Path, today: date) -> Path:
-    """Return the file of today, or that of the days before in which something is not over yet."""
+    """Return today's file, or that of an earlier day if something in it isn't over yet."""
     of_today = folder / f"{today}.db"
     if not of_today.exists():
         earliest = f"{today - _LONGEST}"
@@ -49,7 +49,7 @@ def tonights_file(folder: Path, today: date) -> Path:
 
 
 def goes_on(path: Path) -> bool:
-    """Return whether the night of a file is not over yet; False: it cannot be read."""
+    """Return whether a file's night is still going on; False if it can't be read."""
     with suppress(DataError):  # it is left for whoever can mend it
         teams = team_night_of(path, read_team_events(path))
         if teams is not None and not teams.over:
@@ -62,10 +62,10 @@ def goes_on(path: Path) -> bool:
 
 
 class Alone:
-    """Lets one program at a time have tonight's page; a second one learns where it is.
+    """Lets only one program at a time serve tonight's page; a second one learns where it is.
 
-    The system ends the lock with the program, however that ends. `running` and `of` are the address
-    of the other program's page and the file of its night, '' if there is none.
+    The system releases the lock when the program ends, however it ends. `running` and `of` are the
+    address of the other program's page and its night's file, '' if there is none.
     """
 
     def __init__(self, path: Path | None = None) -> None:
@@ -74,7 +74,7 @@ class Alone:
         self.file: IO[str] | None = None
 
     def __enter__(self) -> Alone:
-        """Take the turn, or find out where the page of the other program is."""
+        """Take the lock, or find out where the other program's page is."""
         with suppress(OSError):  # where no file can be kept, nobody learns of another
             self.path.parent.mkdir(parents=True, exist_ok=True)
             self.file = self.path.open("a+", encoding="utf-8")
@@ -90,12 +90,12 @@ class Alone:
         error: BaseException | None,
         at: TracebackType | None,
     ) -> None:
-        """Leave the turn to the next."""
+        """Release the lock."""
         if self.file is not None:
             self.file.close()
 
     def keep(self, address: str, path: Path) -> None:
-        """Keep where the page of which file is, for a second start."""
+        """Store the page's address and its file, for a second start."""
         if self.file is not None and not self.running:
             self.file.write(f"{address}\n{path.resolve()}")
             self.file.flush()
@@ -108,7 +108,7 @@ class Alone:
 
 
 def _lock(file: IO[str]) -> bool:
-    """Return whether a file is locked for this program now; False: another has it."""
+    """Return whether this program could lock a file; False if another program has it."""
     try:
         if sys.platform == "win32":
             import msvcrt
@@ -125,7 +125,7 @@ def _lock(file: IO[str]) -> bool:
 
 
 def show(address: str) -> None:
-    """Open the browser on a page, if there is a screen."""
+    """Open the browser on a page, if there is a display."""
     on_screen = {"DISPLAY", "WAYLAND_DISPLAY", "BROWSER"} & os.environ.keys()
     if sys.platform != "linux" or on_screen:
         webbrowser.open(address)

@@ -1,6 +1,6 @@
-"""What a move enters and brings with it, and what is asked about first: one way in for all faces.
+"""What a move enters and triggers, and what needs confirming: one way in for every client.
 
-The pages' forms and the programs of others both come through here.
+Both the pages' forms and other programs' requests come through here.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ _LONGEST_NAME = 80
 def asked_of(question: type, values: Mapping[str, Any]) -> Any:
     """Return a question with these values.
 
-    A RefusalError for a text too long; an InputError for a name that can't be printed, or values
-    that the question refuses.
+    Raises RefusalError if a string is too long, and InputError for a name that can't be printed, or
+    values that the question rejects.
     """
     found = dict(values)
     for one in declared(question):
@@ -63,7 +63,7 @@ def asked_of(question: type, values: Mapping[str, Any]) -> Any:
 class Entered:
     """An entry, made or proposed, with the states before and after it.
 
-    A form with several matches has several questions; `already` is what is said of those already
+    A form with several matches has several questions; `already` is what to say about those already
     done.
     """
 
@@ -74,7 +74,7 @@ class Entered:
     already: Sequence[str] = ()
 
     def said(self, *, brief: bool = False) -> list[str]:
-        """Return what the move says of it, and what may be wrong with it; if brief, only that."""
+        """Return the move's message, and anything that may be wrong; if brief, only the latter."""
         if self.already:
             return [*self.already]
         both = self.before, self.after
@@ -84,25 +84,25 @@ class Entered:
 
     @property
     def would(self) -> list[str]:
-        """What it would do and take away, in words."""
+        """What it would do and remove, in words."""
         words = self.move.would(self.before, self.after) if self.move.would else ()
         return [*words, *self.lost] or self.said()
 
     @property
     def lost(self) -> list[str]:
-        """What it takes away, in words."""
+        """What it removes, in words."""
         return [*lost_words(self.before, self.after)]
 
     @property
     def name(self) -> str:
-        """What a question about it is known by: the matches that it is about, and those in play."""
+        """The key of a question about it: the matches that it is about, and the matches in play."""
         lost = sorted((one.match, *sorted(one.players)) for one in losses(self.before, self.after))
         text = repr(lost or sorted(matches_of(self.before, self.after)))
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 class SureError(Exception):
-    """The entry takes something away, or must be confirmed in any case."""
+    """Whether the entry removes something, or needs confirming in any case."""
 
     def __init__(self, would: Entered) -> None:
         self.would = would
@@ -121,13 +121,13 @@ async def enter(
     everywhere: bool = False,
     check: Callable[[Evening], None] | None = None,
 ) -> Entered:
-    """Enter what is asked, with the calls that a result makes by itself.
+    """Enter what was requested, with the calls that a result makes automatically.
 
-    `by` is the author as stored; a form or request, by its `key`, is taken once. `sure`: what it
-    takes away is meant, if the question answered was `named` ('': any); if by now something else
-    would be lost, it is asked again. `everywhere`: a player who goes home does so in all events.
-    `check` gets the state before; an error from it enters nothing. A SureError if it isn't sure; a
-    TakenBeforeError if the form was taken before.
+    `by` is the author as stored; a form or request is accepted once, by its `key`. `sure`: the loss
+    has been confirmed, if the question answered was `named` ('': any); if something else would be
+    lost by now, it must be confirmed again. `everywhere`: a player who goes home does so in all
+    events. `check` gets the state before; if it raises an error, nothing is entered. Raises
+    SureError if confirmation is needed, and TakenBeforeError if the form was accepted before.
     """
     at, already = site.clock(), list[str]()
 
@@ -160,6 +160,6 @@ async def enter(
 
 
 def other_events(state: Evening, player: str) -> list[int]:
-    """Return the other events of the night in which a player is who goes home."""
+    """Return the night's other events that a player who is going home is in."""
     events = [one for one in state.beside if player in one.entrants]
     return [one.event for one in events if player not in one.dropped]

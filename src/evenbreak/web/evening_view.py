@@ -20,7 +20,7 @@ _WALKING = timedelta(minutes=5)  # since the call, that a match without a score 
 
 @dataclass(frozen=True)
 class MatchView:
-    """A match that can be played or is being played; `table` is None if none is free."""
+    """A match that can be played or is in play; `table` is None if none is free."""
 
     name: str
     players: tuple[str, str]
@@ -34,8 +34,9 @@ class MatchView:
 class EveningView:
     """An evening as the pages show it.
 
-    `calls` can be called now, `waiting` matches wait for a table or a player; `finish` is early,
-    middle and late, such as 22:15. `older`: odds and finish are from before the last entry.
+    `calls` can be called now, and `waiting` matches are waiting for a table or a player; `finish`
+    is early, middle and late, such as 22:15. `older`: the odds and finish time are from before the
+    last entry.
     """
 
     state: Evening
@@ -51,23 +52,23 @@ class EveningView:
 
     @property
     def provisional(self) -> Collection[str]:
-        """Whose ratings are marked as provisional."""
+        """The players whose ratings are marked as provisional."""
         return provisional_in(self.state)
 
     @property
     def over(self) -> bool:
-        """Whether all has been played."""
+        """Whether everything has been played."""
         return self.state.drawn and not self.state.standing.to_play and not can_draw(self.state)
 
 
 def provisional_in(state: Evening) -> Collection[str]:
-    """Return whose ratings are provisional; no one's if all are, as where no one has a rating."""
+    """Return whose ratings are provisional; no one's if all are, as when no one has a rating."""
     few = {name for name, entrant in state.entrants.items() if entrant.provisional}
     return few if len(few) < len(state.entrants) else ()
 
 
 def view_of(state: Evening, known: Known | None) -> EveningView:
-    """Return an evening as the pages show it; `known` may be of an earlier state."""
+    """Return an evening as the pages show it; `known` may be for an earlier state."""
     if not state.drawn:
         return EveningView(state, _races(state), [], [], [], [], None, [], False)
     data: dict[str, Any] = known.data if known else {}
@@ -110,7 +111,7 @@ def _races(state: Evening) -> str:
 
 
 def match_view(state: Evening, name: str, table: int | None = None) -> MatchView:
-    """Return a match that can be played now, on its table or the one to call it to."""
+    """Return a match that can be played now, on its table or the table to call it to."""
     pair, since = state.pair(name), ""
     if name in state.on_tables:
         table = state.on_tables[name].call.table
@@ -128,7 +129,7 @@ def is_hill(needs: tuple[int, int], won: tuple[int, int]) -> bool:
 
 
 def progress_of(state: Evening, name: str, now: str) -> str:
-    """Return how far a match on a table is: called, playing or hill."""
+    """Return how far along a match on a table is: called, playing or hill."""
     won = score_of(state, name) or (0, 0)
     if is_hill(state.needed(name, state.pair(name)), won):
         return "hill"
@@ -137,7 +138,7 @@ def progress_of(state: Evening, name: str, now: str) -> str:
 
 
 class Favorite(NamedTuple):
-    """A player's chance of the title; of a player without a rating where it may lie."""
+    """A player's title odds; for a player without a rating, the range they may be in."""
 
     name: str
     p: float
@@ -147,8 +148,8 @@ class Favorite(NamedTuple):
 class PlayerView(NamedTuple):
     """A player as the page shows them; '' and None where something is unknown or over.
 
-    `match` and `other` are the match that they play now or next, and the opponent; `starts` is
-    when: early, middle and late, such as 20:40.
+    `match` and `other` are their current or next match, and the opponent; `starts` is when: early,
+    middle and late, such as 20:40.
     """
 
     name: str
@@ -165,7 +166,7 @@ class PlayerView(NamedTuple):
 
 
 def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
-    """Return the players by rating, the highest first, provisional ratings last."""
+    """Return the players by rating, highest first, provisional ratings last."""
     titles = {one.name: one for one in favorites_of(known)}
     calls = {name: at for at, name in known.calls} if known and known.of is state else {}
     places: Mapping[str, Place] = {}
@@ -201,7 +202,7 @@ def player_views(state: Evening, known: Known | None) -> list[PlayerView]:
 
 
 def favorites_of(known: Known | None) -> list[Favorite]:
-    """Return who wins it; a player without a rating comes where the low end of the band is."""
+    """Return who will win; a player without a rating is placed by the low end of their range."""
     rows = known.data.get("odds", []) if known else []
     found = []
     for row in rows:

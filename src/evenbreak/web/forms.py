@@ -1,4 +1,4 @@
-"""The fields of a form and the files that come with it, checked as they come in."""
+"""A form's fields and files, checked as they come in."""
 
 from __future__ import annotations
 
@@ -33,24 +33,24 @@ _WORKBOOK = b"PK\x03\x04"
 _MOST_UNPACKED = 50 << 20
 LONGEST_LIST = 200_000
 LONGEST = 200
-"""Characters of a field, if nothing else is said."""
+"""The default limit for a field, in characters."""
 
 EVEN, FAIR = "even", "fair"
 RACES = {
     EVEN: say("Even: same race for both"),
     FAIR: say("Handicapped: the weaker player gets games"),
 }
-"""The races that are not those of a chart, with their words."""
+"""The races that don't come from a chart, and their labels."""
 
 Fields: TypeAlias = ImmutableMultiDict[str, str | bytes]
-"""The fields of a form by name: a text, or what is in a file."""
+"""A form's fields by name: a string, or a file's content."""
 
 CHOOSE_IT = say("Choose the rating scale.")
-"""What to do about ratings that do not show their scale."""
+"""What to do about ratings that don't show their scale."""
 
 
 class Form:
-    """The fields of a form, and what is in the files that came with it.
+    """A form's fields, and the content of its files.
 
     >>> form = Form(Fields([("race", "7"), ("name", " Ann ")]))
     >>> form.whole("race", 1, 100), form.text("name"), form.whole("tables", 1, 9, default=4)
@@ -61,7 +61,7 @@ class Form:
         self.fields = fields
 
     def text(self, name: str, *, longest: int = LONGEST) -> str:
-        """Return a text without the spaces around it; '' if it was left empty."""
+        """Return a string without surrounding spaces; '' if it was left empty."""
         value = self.fields.get(name, "")
         if not isinstance(value, str):
             raise RefusalError("{field} isn't text.", field=Parameter(name))
@@ -74,22 +74,22 @@ class Form:
         return value.strip()
 
     def content(self, name: str) -> bytes:
-        """Return what is in the file of a field; nothing if no file was chosen."""
+        """Return the file content in a field; nothing if no file was chosen."""
         value = self.fields.get(name, b"")
         return value if isinstance(value, bytes) else b""
 
     def texts(self, name: str) -> list[str]:
-        """Return the texts of all fields of a name, without the spaces around them."""
+        """Return all fields with a name, without surrounding spaces."""
         given = self.fields.getlist(name)
         return [Form(Fields([(name, one)])).text(name) for one in given]
 
     def whole(self, name: str, low: int, high: int, *, default: int | None = None) -> int:
-        """Return a whole number between two others."""
+        """Return a whole number within limits."""
         text = self.text(name)
         return default if not text and default is not None else whole(name, text, low, high)
 
     def above_0(self, name: str, high: float = 1e6) -> float | None:
-        """Return a number above 0, with a point or a comma; None if the field was left empty.
+        """Return a positive number, with a point or a comma; None if the field was left empty.
 
         >>> Form(Fields([("cap", "22,5")])).above_0("cap")
         22.5
@@ -107,9 +107,9 @@ class Form:
         return number
 
     def key(self, *more: str) -> str:
-        """Return what a form is known by if it comes in again; refuse one without a number.
+        """Return the key that identifies a form if it comes in again; reject one without a number.
 
-        Someone who goes back and changes a field sends another form.
+        Going back and changing a field makes it a different form.
 
         >>> forms = [Form(Fields([("once", "7"), ("race", race)])) for race in ("5", "5", "6")]
         >>> [form.key() == forms[0].key() for form in forms]
@@ -136,7 +136,7 @@ class Form:
 
 
 def whole(name: str, text: str, low: int, high: int) -> int:
-    """Return the whole number in a field, between two others.
+    """Return the whole number in a field, within limits.
 
     >>> whole("race", "07", 1, 100)
     7
@@ -160,7 +160,7 @@ def whole(name: str, text: str, low: int, high: int) -> int:
 
 
 def scale_in(form: Form) -> Scale | None:
-    """Return the scale that a form states; None: the ratings show it.
+    """Return the scale stated in a form; None: the ratings show it.
 
     >>> scale_in(Form(Fields([("scale", "")]))), scale_in(Form(Fields([("scale", "npl")]))).name
     (None, 'npl')
@@ -169,7 +169,7 @@ def scale_in(form: Form) -> Scale | None:
 
 
 async def form_of(request: Request) -> Form:
-    """Read a form of this session with its files; refuse one that it was not given."""
+    """Read a form with its files; reject a form that wasn't given to this session."""
     read: Form | None = getattr(request.state, "form", None)
     if read is not None:
         return read
@@ -183,7 +183,7 @@ async def form_of(request: Request) -> Form:
 
 
 async def directors_form(request: Request) -> Form:
-    """Read a form of a director's session; refuse everyone else's."""
+    """Read a form from a director's session; reject everyone else's."""
     form = await form_of(request)
     check_director(request)
     return form
@@ -203,7 +203,7 @@ async def _read(request: Request) -> Form:
 
 
 class FormField(NamedTuple):
-    """A field of a form; its words are sentences, translated by the page.
+    """A field in a form; its words are sentences, translated by the page.
 
     The shape is flag, choice, whole, number or text; without `formats`, all have it.
     """
@@ -218,7 +218,7 @@ class FormField(NamedTuple):
 
 
 def form_fields(fields: Sequence[Declared]) -> list[FormField]:
-    """Return fields of a question as those of a form.
+    """Return a question's fields as form fields.
 
     >>> from evenbreak.tournaments.evening.format import Format
     >>> form_fields(declared(Format))[0].choices
@@ -246,18 +246,18 @@ def _form_field(one: Declared) -> FormField:
 
 
 def name_of(one: Declared) -> str:
-    """Return what a form calls a field of a question: as the terminal calls it."""
+    """Return a form's name for a question's field: the same as on the terminal."""
     return one.name if one.field.argument else one.option.removeprefix("--").replace("-", "_")
 
 
 def asked_in(question: type[Asked], form: Form, fields: Sequence[Declared], **values: Any) -> Asked:
-    """Return the question that a form asks; empty fields have their defaults."""
+    """Return the question asked by a form; empty fields get their defaults."""
     read = {one.name: value_of(one, form) for one in fields if form.text(name_of(one))}
     return question(**read, **values)
 
 
 def value_of(one: Declared, form: Form, name: str = "") -> Any:
-    """Return the value of a field, its default if it is left empty; `name` is that of the form."""
+    """Return a field's value, its default if left empty; `name` is the form's name for it."""
     name = name or name_of(one)
     if not form.text(name) and not one.required:
         return one.default
@@ -271,13 +271,13 @@ def value_of(one: Declared, form: Form, name: str = "") -> Any:
 
 
 def fields_named(question: type, *names: str) -> list[Declared]:
-    """Return the fields of a question with these names."""
+    """Return a question's fields with these names."""
     by_name = {one.name: one for one in declared(question)}
     return [by_name[name] for name in names]
 
 
 def entered_name(form: Form, field: str = "name") -> str:
-    """Return the name in a form, as it is read from a list; '': the field was left empty."""
+    """Return the name in a form, read as in a list; '' if the field was left empty."""
     name = clean_name(form.text(field, longest=80))
     if name and not is_name(name):
         raise RefusalError("The name {value!r} can't be printed. Type it again.", value=name)
@@ -285,7 +285,7 @@ def entered_name(form: Form, field: str = "name") -> str:
 
 
 def entered_rating(form: Form) -> float | None:
-    """Return the rating in a form; None: the field was left empty."""
+    """Return the rating in a form; None if the field was left empty."""
     stated = form.text("rating", longest=12).replace(",", ".")
     if not stated:
         return None
@@ -301,12 +301,12 @@ def entered_rating(form: Form) -> float | None:
 
 
 def list_of(form: Form, text: str, file: str, *, longest: int = LONGEST_LIST) -> bytes:
-    """Return the file that came in a field of a form, or else the text of another field."""
+    """Return the file in a form's field, or else the text in another field."""
     return form.content(file) or form.text(text, longest=longest).encode()
 
 
 def ending_of(content: bytes) -> str:
-    """Return what a file of this content is called at its end.
+    """Return the file extension for this content.
 
     >>> ending_of(b"player,rating")
     'csv'
@@ -315,9 +315,9 @@ def ending_of(content: bytes) -> str:
 
 
 def read_upload(content: bytes, read: Callable[[Path], Read]) -> Read:
-    """Return what a reader of files makes of a content; its problems name the line alone.
+    """Return a file reader's result for some content; its problems name only the line.
 
-    The file is read from a temporary place whose name is ours.
+    The file is read from a temporary path whose name we choose.
 
     >>> read_upload(b"a,b", lambda path: path.read_text())
     'a,b'
@@ -335,18 +335,18 @@ def read_upload(content: bytes, read: Callable[[Path], Read]) -> Read:
 
 
 def warnings_of(file: RosterFile, name: str = "") -> list[str]:
-    """Return the warnings about a list that came in, with its name instead of the file's."""
+    """Return the warnings about a submitted list, using its name instead of the file's."""
     return [_nameless(of_list(text, name), file.source, name) for text in file.warnings]
 
 
 def _nameless(text: str, place: object, name: str = "") -> str:
-    """Return a text that may still name the file that it was read from, with the list's name."""
+    """Return a message that may still name the temporary file, using the list's name."""
     source = str(place)
     return text.replace(source, name or say("the list")) if source in text else text
 
 
 def _check_size(content: bytes) -> None:
-    """Refuse a workbook that unpacks to far more than was sent."""
+    """Reject a workbook that unpacks to far more than was sent."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
             size = sum(one.file_size for one in packed.infolist())

@@ -1,6 +1,6 @@
-"""What every request passes: its Host, the size and the time of its body; headers of every page.
+"""Checks for every request: its Host, the size and time of its body; headers for every page.
 
-What is refused, here or by a page, is a `RefusalError`: one line in the reader's language.
+Rejections, here or by a page, are a `RefusalError`: one line in the reader's language.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from evenbreak.errors import EvenbreakError
 
 ROOT = "/api"
-"""Where the addresses of the interface begin: all below it is answered in JSON."""
+"""The prefix of the API's addresses: everything below it is answered in JSON."""
 
 MOST_BYTES = 2 << 20
 """The largest body: a season of results, pasted or uploaded."""
 
 MOST_HEAD = 32 << 10
-"""Bytes of the lines above a body, with the address that is asked for."""
+"""The most bytes in the header lines, including the address."""
 
 PATIENCE = 15.0
-"""Seconds in which a body must have arrived."""
+"""How many seconds a body may take to arrive."""
 
 
 def headers(script_hash: str) -> list[tuple[bytes, bytes]]:
-    """Return the headers of every answer: nothing from elsewhere, no other script, no frame."""
+    """Return the headers for every answer: nothing from elsewhere, no other script, no frame."""
     policy = "; ".join(
         [
             "default-src 'none'",
@@ -56,10 +56,10 @@ def headers(script_hash: str) -> list[tuple[bytes, bytes]]:
 
 
 class Guard:
-    """Refuses wrong hosts, and bodies too large or too slow, before anything is read.
+    """Rejects wrong hosts, and bodies too large or too slow, before anything is read.
 
     Any other host may be a page elsewhere whose own name leads here (DNS rebinding). `script_hash`
-    is of the one script that pages may run.
+    is the hash of the only script that pages may run.
     """
 
     def __init__(self, app: ASGIApp, *, hosts: Collection[str], script_hash: str) -> None:
@@ -68,7 +68,7 @@ class Guard:
         self.headers = headers(script_hash)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer or refuse a request."""
+        """Answer or reject a request."""
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
@@ -124,7 +124,7 @@ class _TooLargeError(Exception):
 
 
 class _Body:
-    """The body of a request, counted and timed while it arrives."""
+    """A request's body, counted and timed as it arrives."""
 
     def __init__(self, receive: Receive) -> None:
         self.receive = receive
@@ -149,7 +149,7 @@ class _Body:
 async def turn_away(
     scope: Scope, send: Send, status: int, words: str, more: Sequence[tuple[bytes, bytes]] = ()
 ) -> None:
-    """Refuse a request before anything of it is read: its language is not known either."""
+    """Reject a request before anything in it is read, so its language isn't known either."""
     kind, body = "text/plain; charset=utf-8", f"{words}\n"
     if f"{scope['path']}/".startswith(f"{ROOT}/"):
         told = {"title": HTTPStatus(status).phrase, "status": status, "detail": words}
@@ -160,7 +160,7 @@ async def turn_away(
 
 
 class RefusalError(EvenbreakError):
-    """A refused request; template and values are those of `evenbreak.words.say`."""
+    """A rejected request; template and values are as for `evenbreak.words.say`."""
 
     def __init__(self, template: str, /, *, status: int = 400, **values: Any) -> None:
         super().__init__(template, **values)
@@ -168,4 +168,4 @@ class RefusalError(EvenbreakError):
 
 
 class MovedOnError(RefusalError):
-    """A tap on a page that shows an older score than there is."""
+    """A tap on a page that shows an outdated score."""

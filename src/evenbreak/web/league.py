@@ -1,9 +1,9 @@
-"""The league's results next to the tournament's file: kept there, rated in a thread, shown.
+"""The league's results, stored next to the tournament's file, rated in a thread, and shown.
 
-The results are a plain file, such as tonight.league.csv beside tonight.db, so that commands read
-it too. Whoever puts it there by hand has it read at the next start. Evenings that were added since
-are files next to it, such as tonight.league-20250301-193000.csv. What reads and rates it is
-loaded only then: a page without a league needs half the memory.
+The results are a plain file, such as tonight.league.csv next to tonight.db, so that commands can
+read it too. A file put there by hand is read at the next start. Evenings added later are files next
+to it, such as tonight.league-20250301-193000.csv. The code for reading and rating is loaded only
+when needed: a page without a league uses half the memory.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _LOG = logging.getLogger(__name__)
 
 @dataclass
 class Progress:
-    """How far the work is: what is done now, and how much of it."""
+    """Progress: the current step, and how much of it is done."""
 
     step: Sentence = say("Reading the results…")
     done: int = 0
@@ -44,7 +44,7 @@ class Progress:
 
 @dataclass(eq=False)
 class League:
-    """A league: its results, and what is made of them, in files named like the tournament's."""
+    """A league: its results, and the files calculated from them, named after the tournament's."""
 
     beside: Path
     sheet: Sheet | None = None
@@ -56,7 +56,7 @@ class League:
 
     @property
     def paths(self) -> list[Path]:
-        """The files of results: the league's, if there is one, and the evenings added since."""
+        """The results files: the league's, if there is one, and the evenings added later."""
         return self._given + self._evenings
 
     @property
@@ -70,7 +70,7 @@ class League:
         return sorted(folder.glob(f"{glob.escape(self.beside.stem)}.league-*.csv"))
 
     def add_evening(self, content: bytes, begun: datetime) -> None:
-        """Add an evening's results, replacing those before; a DataError has all problems."""
+        """Add an evening's results, replacing earlier ones; DataError lists all problems."""
         from evenbreak.files.results.results_file import read_results
 
         read_upload(content, read_results)
@@ -78,10 +78,10 @@ class League:
         write_files(self.beside.parent, {name: content})
 
     def keep(self, content: bytes, scale: str, race: int) -> None:
-        """Store results, and how they are shown, instead of earlier ones.
+        """Store results, and how they are shown, in place of earlier ones.
 
-        Those before stay in files that end in .replaced. A DataError has every problem; nothing
-        changes then.
+        Earlier files are kept with the extension .replaced. Raises DataError listing every problem;
+        nothing changes then.
         """
         from evenbreak.files.results.results_file import read_results
 
@@ -97,7 +97,7 @@ class League:
             evening.replace(evening.with_suffix(".replaced"))
 
     def known(self, name: str) -> tuple[str, float, float, bool] | None:
-        """Return what a tournament needs of a player (see `Entrant`); None: not in the league."""
+        """Return a player's data for a tournament (see `Entrant`); None if not in the league."""
         if self.sheet is None:
             return None
         ratings, wanted = self.sheet.ratings, " ".join(name.split()).casefold()
@@ -110,9 +110,9 @@ class League:
     async def why(
         self, pair: tuple[int, int], work: Callable[[Sheet, tuple[int, int]], Answer], wait: float
     ) -> Answer | None:
-        """Return what is calculated about two players of the sheet; None: not ready yet.
+        """Return what is calculated for two players on the sheet; None if not ready yet.
 
-        Only a few pairs wait at once, so that whoever asks for many does not hold up the ratings.
+        Only a few pairs can wait at once, so that asking for many doesn't hold up the ratings.
         """
         sheet = self.sheet
         assert sheet is not None  # noqa: S101 - asked of a sheet that is shown
@@ -126,7 +126,7 @@ class League:
         return self._whys[pair].result() if self._whys[pair].done() else None
 
     def begin(self) -> None:
-        """Read and rate the results, next to the pages; an earlier run no longer counts."""
+        """Read and rate the results in the background; an earlier run no longer counts."""
         self._asked += 1
         self.problem, self.progress = "", Progress()
         task = asyncio.create_task(self._run(self._asked))
@@ -149,7 +149,7 @@ class League:
             self.problem, self.progress = problem, None
 
     def _rated(self, asked: int) -> Sheet:
-        """Return the sheet; the steps are told to whoever looks meanwhile."""
+        """Return the sheet; the steps are shown to anyone looking meanwhile."""
         from evenbreak.answers.league.roster_matchups import OfferedRaces
         from evenbreak.answers.league.sheet import MOST_ON_SHEET, Sheet, most_active
         from evenbreak.files.results.seasons import read_seasons
@@ -179,7 +179,7 @@ class League:
         return Sheet.of(file, ratings, offered, most_active(ratings, MOST_ON_SHEET), choice)
 
     def _shown(self) -> tuple[Scale, int]:
-        """Return the scale of the ratings, and to what the stronger player races."""
+        """Return the ratings' scale, and the stronger player's target."""
         try:
             shown = json.loads(self._named("json").read_text(encoding="utf-8"))
             return scale_of(shown["scale"]), int(shown["race"])

@@ -1,4 +1,4 @@
-"""A player's night as their own page shows it: what comes next, why, and the way so far."""
+"""A player's night as shown on their own page: what comes next, why, and the path so far."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _FINALS = "final", "second final", "third place"
 
 
 class Step(NamedTuple):
-    """A match on a player's way: 'done' (won), 'forfeit' (lost) or 'playing' (next).
+    """A match on a player's path: 'done' (won), 'forfeit' (lost) or 'playing' (next).
 
     `score` has the player's own games first, or is the starting time.
     """
@@ -49,13 +49,13 @@ class After(NamedTuple):
 
 @dataclass(frozen=True)
 class MyMatch:
-    """The match that a player plays, or plays next.
+    """A player's current or next match.
 
     `seat` is 0 if the player is the first of the two. `pair` is None while the opponent is unknown;
     `needs` and `score` have the first player's games first. `table` is None until the call.
     `starts` is early, middle and late; `middle` is where the middle is between the other two, in
-    percent. `last` is whose game can be taken back, 0 or 1; both where it isn't known who won the
-    last one.
+    percent. `last` is whose game can be taken back, 0 or 1; both if it isn't known who won the last
+    game.
     """
 
     name: str
@@ -80,12 +80,12 @@ class MyMatch:
 
     @property
     def seen(self) -> str:
-        """The score that the page shows, by which a tap is known to be up to date."""
+        """The score shown on the page, used to check that a tap is up to date."""
         return "{}:{}".format(*self.score)
 
 
 def match_of(state: Evening, name: str, known: Known | None) -> MyMatch | None:
-    """Return the match that a player plays or plays next; None: there is none to be seen yet."""
+    """Return a player's current or next match; None if there is nothing to show yet."""
     if not state.drawn or name not in state.order:
         return None
     seat = state.order.index(name)
@@ -128,12 +128,12 @@ def shown_match(state: Evening, match: str, name: str, known: Known | None) -> M
 
 
 def match_at(state: Evening, match: str) -> MyMatch:
-    """Return a match that can be played as its table sees it."""
+    """Return a playable match as seen from its table."""
     return shown_match(state, match, state.pair(match)[0], None)
 
 
 def _under_way(state: Evening, match: str, mine: int, known: Known | None) -> dict[str, Any]:
-    """Return what there is to see of a match whose players are known."""
+    """Return what can be shown for a match whose players are known."""
     pair = state.pair(match)
     on = state.on_tables.get(match)
     calls = {one: table for table, one in known.calls} if known and known.of is state else {}
@@ -150,7 +150,7 @@ def _under_way(state: Evening, match: str, mine: int, known: Known | None) -> di
 
 
 def _last_games(state: Evening, match: str, pair: tuple[str, str]) -> tuple[int, ...]:
-    """Return who won the last game of a match in play; both if that is not known."""
+    """Return who won the last game in a match in play; both if that isn't known."""
     scores: list[dict[str, int]] = []
     for event in state.events:
         what = event.what
@@ -163,7 +163,7 @@ def _last_games(state: Evening, match: str, pair: tuple[str, str]) -> tuple[int,
 
 
 def step_of(state: Evening, me: str, mine: MyMatch | None, phones: Phones) -> str:
-    """Return which of its faces a player's page has now."""
+    """Return the current view of a player's page."""
     if mine is None:
         return "before" if not state.drawn else "rests"
     if mine.pair is None or mine.name not in state.standing.to_play:
@@ -179,16 +179,16 @@ def step_of(state: Evening, me: str, mine: MyMatch | None, phones: Phones) -> st
 
 
 def _goes(state: Evening, me: str, mine: MyMatch, phones: Phones) -> bool:
-    """Return whether a player who has been called is on the way, or at the table already."""
+    """Return whether a called player is on the way or already at the table."""
     return state.plan.form == "chips" or phones.answer(me, mine.name, mine.since) == 0
 
 
 def chances(
     state: Evening, mine: MyMatch, means: Mapping[str, float]
 ) -> tuple[float, float, tuple[float, float] | None]:
-    """Return the player's chance of the match now, and after a lost game.
+    """Return the player's chances in the match now, and after losing a game.
 
-    And the band in which it lies in eight of ten cases, if a rating of the two rests on little.
+    Also return the range it is in eight times out of ten, if either rating is based on few games.
     """
     pair = mine.pair or ("", "")
     me, other = pair[mine.seat], pair[1 - mine.seat]
@@ -208,7 +208,7 @@ def chances(
 
 
 def why_words(state: Evening, mine: MyMatch) -> Sentence | str:
-    """Return why a match is raced to what it is, such as '498 against 622: 2 games' start'."""
+    """Return the reason for a match's race, such as '498 against 622: 2 games' start'."""
     if state.plan.form == "chips" or mine.pair is None:
         return ""
     ours, theirs = mine.pair[mine.seat], mine.pair[1 - mine.seat]
@@ -248,7 +248,7 @@ def way_of(state: Evening, me: str, mine: MyMatch | None) -> list[Step]:
 
 
 def after(state: Evening, mine: MyMatch, outcome: str, known: Known | None) -> After | None:
-    """Return where a player goes who wins or loses a match; None: nowhere, or it is not known."""
+    """Return where a player goes after winning or losing a match; None if nowhere or unknown."""
     match, via = mine.name, mine.seat + 1
     if state.plan.form == "swiss":  # the next round is not drawn yet
         return None
@@ -283,7 +283,7 @@ def after(state: Evening, mine: MyMatch, outcome: str, known: Known | None) -> A
 def place_of(
     state: Evening, me: str, prizes: list[float], unit: float = 0.0
 ) -> tuple[str, float | None]:
-    """Return where a player finished, and their share of the prizes; '' while that is open."""
+    """Return where a player finished, and their share of the prizes; '' until that is known."""
     place = decided_places(state).get(me) if state.drawn else None
     if place is None:
         return "", None
@@ -301,12 +301,12 @@ def _from_words(state: Evening, slot: Source) -> Sentence | str:
 
 
 def sides_of(mine: MyMatch, phones: Phones) -> Sides | None:
-    """Return what both players of a match propose; None: they are not known yet."""
+    """Return what both players in a match propose; None if they aren't known yet."""
     return phones.sides(mine.name, mine.pair) if mine.pair else None
 
 
 def _times(known: Known | None, match: str) -> tuple[tuple[str, ...] | None, float]:
-    """Return when a match starts: early, in the middle and late; and the middle in percent."""
+    """Return when a match starts: early, middle and late; and the middle in percent."""
     if known is None or match not in known.starts:
         return None, 50.0
     early, middle, late = known.starts[match]

@@ -1,7 +1,7 @@
-"""The evening as the pages show it: its state, and what is calculated of it beside them.
+"""The evening as the pages show it: its state, and what is calculated from it in the background.
 
-The state is read again when the file has changed. Odds and finish are calculated in a thread; a
-page waits for them for a moment only, and shows what is known until then.
+The state is read again when the file has changed. Odds and finish time are calculated in a thread;
+a page waits for them only a moment, and shows what is known so far.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _WAIT = 0.03  # seconds that a page waits for what is being worked out
 
 
 def now() -> str:
-    """Return what time it is, such as 2025-03-01T19:30:00."""
+    """Return the current time, such as 2025-03-01T19:30:00."""
     return datetime.now().replace(microsecond=0).isoformat()
 
 
@@ -52,11 +52,11 @@ def now() -> str:
 class Known:
     """What has been calculated from a state.
 
-    `at` is in seconds of the event loop's clock. `data` is the evening's JSON answer, with `calls`,
-    pairs of table and match; `queue` has callable matches with their events, the best first.
-    `start` is in minutes after the midnight of `day`; `next_starts` and `starts` are early, middle
-    and late minutes since then, by player and by match. `means` are mean ratings given tonight's
-    games. `problem` is why none of this could be calculated.
+    `at` is in seconds on the event loop's clock. `data` is the evening's JSON answer, with `calls`,
+    pairs of table and match; `queue` has callable matches with their events, best first. `start` is
+    in minutes after the midnight of `day`; `next_starts` and `starts` are early, middle and late
+    minutes since then, by player and by match. `means` are mean ratings given tonight's games.
+    `problem` is why none of this could be calculated.
     """
 
     of: Evening
@@ -74,12 +74,12 @@ class Known:
 
     @property
     def order(self) -> tuple[str, ...]:
-        """The matches of this event that can be called, the best first."""
+        """The event's callable matches, best first."""
         return tuple(match for event, match in self.queue if event == self.of.event)
 
 
 class Night:
-    """An event of the night in a file; its number is 1 unless it was started next to others."""
+    """An event in a night's file; its number is 1 unless it was started alongside others."""
 
     def __init__(self, path: Path, event: int = 1, *, clock: Callable[[], str] = now) -> None:
         self.path = path
@@ -113,7 +113,7 @@ class Night:
         return self.state().events[0].at if self.exists else ""
 
     def state(self) -> Evening:
-        """Return the state of the evening: the same object until something happens."""
+        """Return the evening's state: the same object until something happens."""
         mark, read = mark_of(self.path), self._read
         if read is None or read[0] != mark:
             night = read_night(self.path, self.event)
@@ -133,7 +133,7 @@ class Night:
 
     @property
     def names(self) -> set[str]:
-        """Everyone who has entered, also under an earlier name, as far as the file was read."""
+        """Everyone who has entered, including earlier names, as of the last reading of the file."""
         events = self._read[1].get(self.event, []) if self._read else []
         begun = [
             entrant
@@ -146,14 +146,14 @@ class Night:
 
     @property
     def means(self) -> Mapping[str, float]:
-        """What ratings are on average, given tonight's games, as far as calculated."""
+        """The average ratings, given tonight's games, as far as calculated."""
         return self.known.means if self.known else {}
 
     def prizes(self) -> list[float]:
         """Return the money for first place, second, ...
 
-        None is known if the director has not kept it here, or the table has no row for so many.
-        The file is asked at most once in a while.
+        None is known if the director hasn't stored any, or the table has no row for this many
+        players. The file is only checked once in a while.
         """
         if time.monotonic() - self._money_at > _MONEY_STALE:
             self._know(kept_prizes(self.path, self.event))
@@ -166,11 +166,11 @@ class Night:
 
     @property
     def unit(self) -> float:
-        """What prizes are rounded down to, as `prizes` last read it."""
+        """What prizes are rounded down to, as of the last call to `prizes`."""
         return self._money.unit if self._money else 0.0
 
     def keep_prizes(self, money: PrizeMoney) -> None:
-        """Keep the prize money with the tournament."""
+        """Store the prize money with the tournament."""
         keep_prizes(self.path, money, self.event)
         self._know(money)
 
@@ -178,7 +178,7 @@ class Night:
         self._money, self._money_at = money, time.monotonic()
 
     async def outlook(self) -> Known | None:
-        """Return what is known of the odds and the finish; None: not yet, or no draw."""
+        """Return what is known about the odds and the finish; None: nothing yet, or no draw."""
         state = await asyncio.to_thread(self.state)
         if not state.drawn:
             return None
@@ -192,7 +192,7 @@ class Night:
         return self.known if same_tournament else None
 
     async def story(self) -> Story | None:
-        """Return the story of the night as far as it is calculated; None: of nothing yet."""
+        """Return the night's story as far as it is calculated; None if there is nothing yet."""
         state = await asyncio.to_thread(self.state)
         if not state.drawn:
             return None
@@ -202,7 +202,7 @@ class Night:
         return self._story
 
     async def _tell(self, state: Evening) -> None:
-        """Work the story out step by step, so that the odds of now are not kept waiting."""
+        """Calculate the story step by step, so that current odds don't have to wait for it."""
         try:
             while self._read and self._read[2] is state:
                 earlier = self._story
@@ -240,16 +240,16 @@ class Night:
 
 
 def problem_of(error: Exception) -> str:
-    """Return what a page says of an error in work that goes on next to it."""
+    """Return a page's message about an error in background work."""
     if isinstance(error, EvenbreakError):
         return error.sentence
     return say(str(error) or type(error).__name__)
 
 
 def match_chances(state: Evening, known: Known | None) -> dict[str, float]:
-    """Return the first player's chance in each match that can be played, from its score on.
+    """Return the first player's chances in each playable match, from its current score on.
 
-    It is by the ratings as far as they are known: no one waits for the odds of the whole night.
+    The ratings are used as far as they are known: no one waits for the whole night's odds.
     """
     if state.plan.form == "chips" or not state.drawn:
         return {}
@@ -275,10 +275,10 @@ def win_chance(
     *,
     off: float = 0.0,
 ) -> float:
-    """Return the first of two players' chance of a match, from its score on.
+    """Return the first of two players' chances in a match, from its current score on.
 
-    Their ratings are `means`, as tonight's games have moved them, or else as they were entered.
-    With `off` the first one's is so many points higher.
+    Their ratings are `means`, adjusted for tonight's games, or else the ratings entered. With
+    `off`, the first player's is that many points higher.
     """
     one, other = (means.get(name, state.entrants[name].rating) for name in pair)
     gap = state.scale.log_odds(one - other + off)
@@ -286,17 +286,17 @@ def win_chance(
 
 
 def score_of(state: Evening, match: str) -> tuple[int, int] | None:
-    """Return the games so far in a match in play; None: none was entered."""
+    """Return the score so far in a match in play; None if nothing has been entered."""
     return state.live[match].of(state.pair(match)) if match in state.live else None
 
 
 def means_of(night: Outlook) -> dict[str, float]:
-    """Return what each player's rating is on average, given tonight's games."""
+    """Return each player's average rating, given tonight's games."""
     return dict(zip(night.state.order, night.skills[0].tolist(), strict=True))
 
 
 def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
-    """Return when the next match of each player who does not play now starts."""
+    """Return the start of the next match of each player who isn't playing now."""
     if night.state.plan.form == "chips":
         return {}
     found, starts = night.as_things_are, {}
@@ -309,7 +309,7 @@ def _next_starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
 
 
 def _starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
-    """Return when each match starts that has not started."""
+    """Return the start of each match that hasn't started."""
     if night.state.plan.form == "chips":
         return {}
     found = night.as_things_are
@@ -318,10 +318,10 @@ def _starts(night: Outlook) -> dict[str, tuple[float, float, float]]:
 
 
 def mark_of(path: Path) -> tuple[int, int, int]:
-    """Return what changes whenever the file does: of the database and of its log.
+    """Return a stamp that changes whenever the database or its log does.
 
-    A file that has just been written may change again within one tick of its clock, so that this
-    is another one each time.
+    A file that has just been written may change again within one tick of its clock, so the stamp is
+    then different each time.
     """
     log = path.with_name(f"{path.name}-wal")
     try:

@@ -1,7 +1,7 @@
 """A page: a template filled in, in the reader's language.
 
-Where a sentence names a parameter, the page says its field; for a command, its form; and files have
-no folder.
+In sentences, parameters appear as the page's fields, commands as its forms, and files without their
+folder.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ from evenbreak.words import (
 _LANGUAGE = "language"
 _SAID = "said"
 _CSRF, _ONCE = (f"mark-{secrets.token_hex(12)}" for _ in range(2))
-"""What stands in a rendered page for the marks of its reader's forms."""
+"""Placeholders in a rendered page for its reader's form tokens."""
 _SCREENS = "wall", "overlay"
 _MOST_RENDERED = 100
 _MOST_SAID = 1500  # letters as JSON writes them: a cookie holds 4 KB
@@ -81,7 +81,7 @@ FIELDS = {
     "cap": say("the cap"),
     "doubling": say("the points that double the odds"),
 }
-"""What the pages call a parameter."""
+"""The pages' names for parameters."""
 
 FORMS = {
     "tournament correct": say("Correct a result"),
@@ -95,7 +95,7 @@ FORMS = {
     "tournament tiebreak": say("Break the ties"),
     "tournament undo": say("Undo"),
 }
-"""What is on the pages in place of a command."""
+"""The pages' equivalents of commands."""
 
 _TYPES = {
     "csv": "text/csv; charset=utf-8",
@@ -119,7 +119,7 @@ def _templates() -> jinja2.Environment:
 
 
 def _of_plain(how: Callable[..., Sentence]) -> Callable[..., Sentence]:
-    """Return say, or say_count, for templates: what a macro escaped is not escaped once more."""
+    """Return say, or say_count, for templates: text escaped by a macro isn't escaped again."""
 
     def sentence(*given: Any, **values: Any) -> Sentence:
         plain = {k: v.unescape() if isinstance(v, Markup) else v for k, v in values.items()}
@@ -130,22 +130,22 @@ def _of_plain(how: Callable[..., Sentence]) -> Callable[..., Sentence]:
 
 @jinja2.pass_context
 def _said(context: jinja2.runtime.Context, value: Any) -> Any:
-    """Return what a template prints: sentences as the reader's page says them."""
+    """Return what a template prints, with sentences as the reader's page phrases them."""
     return in_face(value, context["face"])
 
 
 @cache
 def own_file(name: str) -> str:
-    """Return the text of one of the templates' folder's own files."""
+    """Return the text of a file in the templates folder."""
     return files("evenbreak.web").joinpath("templates", name).read_text(encoding="utf-8")
 
 
 @cache
 def style(color: str | None = None, whose: str = "director") -> str:
-    """Return the style of all pages: what published sites have too, parts, and each screen.
+    """Return the stylesheet for all pages: what published sites share, parts, and screens.
 
-    Guests do without that of the desk: their first page is to be there at once. So do the wall
-    ("wall") and the overlays ("overlay"), which alone have their own.
+    Guests don't get the desk's styles, so that their first page loads at once. Neither do the wall
+    ("wall") and the overlays ("overlay"), which have their own.
     """
     common = files("evenbreak.site").joinpath("templates", "common.css")
     own = files("evenbreak.web").joinpath("templates", "css")
@@ -163,7 +163,7 @@ def style(color: str | None = None, whose: str = "director") -> str:
 
 
 def _short(text: str) -> str:
-    """Return a style without what only its readers need: comments, and blanks."""
+    """Return a stylesheet without comments and extra spaces."""
     plain = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
     bare = re.sub(r"\s*([{};,])\s*|\s*\n\s*|(:) ", lambda at: at[1] or at[2] or " ", plain)
     return bare.replace(";}", "}")
@@ -171,30 +171,30 @@ def _short(text: str) -> str:
 
 @cache
 def style_address(color: str | None, whose: str = "director") -> str:
-    """Return where the style is: elsewhere after each change, so that phones may keep it."""
+    """Return the stylesheet's address, which changes with its content so phones may cache it."""
     return f"/evenbreak.css?{whose}={hashlib.sha256(style(color, whose).encode()).hexdigest()[:8]}"
 
 
 def _style_order(sheet: Traversable) -> tuple[bool, bool, str]:
-    """Return where a style sheet comes: what all pages share first, then each page's by name."""
+    """Return a stylesheet's sort key: first what all pages share, then each page's by name."""
     return sheet.name != "parts.css", sheet.name != "forms.css", sheet.name
 
 
 @cache
 def script_hash() -> str:
-    """Return the hash of the one script, by which pages allow it."""
+    """Return the hash of the only script, which pages use to allow it."""
     digest = hashlib.sha256(own_file("live.js").encode()).digest()
     return base64.b64encode(digest).decode()
 
 
 def site_of(request: Request) -> Site:
-    """Return the site that a request is for."""
+    """Return a request's site."""
     site: Site = request.app.state.site
     return site
 
 
 def language(request: Request) -> str:
-    """Return the language of the reader: of the address, as chosen, or as the browser asks."""
+    """Return the reader's language: from the address, as chosen, or as the browser asks."""
     chosen = request.query_params.get(_LANGUAGE) or request.session.get(_LANGUAGE)
     if chosen in languages():
         return str(chosen)
@@ -202,13 +202,13 @@ def language(request: Request) -> str:
 
 
 def in_words(request: Request, text: str) -> str:
-    """Return a text as the reader's page says it."""
+    """Return a message in the wording of the reader's page."""
     said: str = in_face(text, page_face(language(request)))
     return without_folder(request, said)
 
 
 def choose_language(request: Request, code: str) -> None:
-    """Keep the language that the reader chose."""
+    """Store the language chosen by the reader."""
     if code in languages():
         request.session[_LANGUAGE] = code
 
@@ -225,9 +225,9 @@ def page(
 ) -> Response:
     """Return a page.
 
-    A `live` page follows the tournament; a `quick` one asks again after a second or two, for what
-    is being calculated. While the objects in `of` stay the same (or equal texts), a hundred phones
-    get what was rendered for the first.
+    A `live` page follows the tournament; a `quick` page reloads after a second or two, to get what
+    is being calculated. While the objects in `of` stay the same (or are equal strings), a hundred
+    phones get what was rendered for the first.
     """
     code = language(request)
     face = page_face(code)
@@ -295,16 +295,16 @@ def page(
 
 
 def _with(shown: str, own: Mapping[str, str]) -> str:
-    """Return a page with the marks of its reader's forms."""
+    """Return a page with its reader's form tokens filled in."""
     for mark, text in own.items():
         shown = shown.replace(mark, text)
     return shown
 
 
 def begun_at(request: Request) -> str:
-    """Return when tonight's tournament was begun: what its forms are known by; '' if there is none.
+    """Return when tonight's tournament was started, which identifies its forms; '' if none.
 
-    A file that cannot be read has none: its pages say why.
+    A file that can't be read has none: its pages say why.
     """
     try:
         return site_of(request).night.begun_at
@@ -315,21 +315,21 @@ def begun_at(request: Request) -> str:
 def asked_again(
     request: Request, template: str, form: Form, why: Exception, status: int = 400, **values: Any
 ) -> Response:
-    """Return a form that was refused as it was filled in, with the reason above it."""
+    """Return a rejected form as it was filled in, with the reason above it."""
     entered = {name: text for name, text in form.fields.items() if isinstance(text, str)}
     words = reason(request, why)
     return page(request, template, status=status, entered=entered, why=words, **values)
 
 
 def refused(request: Request, why: Exception, status: int) -> Response:
-    """Return why a request is refused, with the way back to the page that it came from."""
+    """Return why a request is rejected, with a link back to the page it came from."""
     words = reason(request, why)
     back = _came_from(request) or ("/desk" if is_director(request) else "/")
     return page(request, "refused.html", status=status, why=words, back=back)
 
 
 def _came_from(request: Request) -> str:
-    """Return the page of ours that a request came from; '' if it came from elsewhere."""
+    """Return our page that a request came from; '' if it came from elsewhere."""
     try:
         came = urllib.parse.urlsplit(request.headers.get("referer", ""))
     except ValueError:
@@ -341,19 +341,19 @@ def _came_from(request: Request) -> str:
 
 
 def can_be_opened(request: Request, path: str) -> bool:
-    """Return whether a path is that of a page, and not only of a form."""
+    """Return whether a path is a page's, and not only a form's."""
     asked = {"type": "http", "path": path, "method": "GET"}
     return any(route.matches(asked)[0] is Match.FULL for route in request.app.routes)
 
 
 def reason(request: Request, why: Exception) -> str:
-    """Return why something is refused, in the reader's language: one per line."""
+    """Return why something is rejected, in the reader's language, one reason per line."""
     text = why.sentence if isinstance(why, EvenbreakError) else str(why)
     return without_folder(request, capital_in_face(text, page_face(language(request))))
 
 
 def without_folder(request: Request, text: str) -> str:
-    """Return a sentence without the folder of the file: guests need not know where it is."""
+    """Return a sentence without the file's folder, which guests don't need to know."""
     folder = site_of(request).path.parent
     for part in {f"{folder.absolute()}{os.sep}", f"{folder}{os.sep}"} - {f".{os.sep}", os.sep}:
         text = text.replace(part, "")
@@ -363,7 +363,7 @@ def without_folder(request: Request, text: str) -> str:
 def answer_shown(request: Request, answer: Answer) -> Markup:
     """Return an answer in the reader's language, as a piece of a page.
 
-    Its tables may be wider than a phone: they can be scrolled, also by keys.
+    Its tables may be wider than a phone, so they can be scrolled, even with the keyboard.
     """
     shown = to_html(answer_in_face(brief(answer), page_face(language(request))))
     # Every text in it is escaped there.
@@ -371,7 +371,7 @@ def answer_shown(request: Request, answer: Answer) -> Markup:
 
 
 def _return_to(request: Request) -> str:
-    """Return where the reader comes back to who has chosen a language."""
+    """Return the page to go back to after choosing a language."""
     if request.method != "GET":
         return "/"
     asked = request.url.path + (f"?{request.url.query}" if request.url.query else "")
@@ -387,13 +387,13 @@ def _rating(value: float) -> Figure:
 
 
 def as_file(content: bytes, name: str, how: str = "attachment") -> Response:
-    """Return a file: to be kept ("attachment"), or to be looked at ("inline")."""
+    """Return a file, to be saved ("attachment") or displayed ("inline")."""
     head = {"content-disposition": f'{how}; filename="{name}"'}
     return Response(content, media_type=_TYPES[name.rpartition(".")[2]], headers=head)
 
 
 def done(request: Request, to: str, *said: str) -> Response:
-    """Return to a page after a form was taken, and say there what happened."""
+    """Redirect to a page after accepting a form, and say there what happened."""
     kept: list[str] = []
     for line in (in_words(request, one) for one in said):
         if len(json.dumps([*kept, line])) <= _MOST_SAID:
@@ -404,7 +404,7 @@ def done(request: Request, to: str, *said: str) -> Response:
 
 
 def page_face(language: str) -> Face:
-    """Return how the pages say a sentence in a language.
+    """Return how the pages phrase a sentence in a language.
 
     >>> from evenbreak.words import Parameter
     >>> say("{field} is blank", field=Parameter("tables")).said(page_face("en"))
@@ -424,6 +424,6 @@ def page_face(language: str) -> Face:
 
 
 def _whole(text: str) -> Markup:
-    """Return a text whose scores, such as 5-1, are not broken over lines."""
+    """Return text in which scores such as 5-1 aren't broken across lines."""
     shown = re.sub(r"\d+[-:]\d+", r"<b class=whole>\g<0></b>", str(escape(text)))
     return Markup(f"<span>{shown}</span>")  # noqa: S704

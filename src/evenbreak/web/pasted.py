@@ -1,4 +1,4 @@
-"""A list of entrants that comes in with a form, asked about line by line before it is taken."""
+"""A submitted list of entrants, with doubtful lines asked about before it is accepted."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from evenbreak.web.guard import RefusalError
 from evenbreak.words import Figure, say
 
 Known = Callable[[str], tuple[str, float, float, bool] | None]
-"""Finds a player in the league's results: the name there, the rating, its error, provisional."""
+"""Looks up a player in the league's results: the name there, the rating, its error, provisional."""
 
 
 class Row(NamedTuple):
-    """A player as entered; `counts` is "list" where the league's rating is not to count."""
+    """A player as entered; `counts` is "list" if the league's rating shouldn't be used."""
 
     name: str
     rating: str = ""
@@ -30,7 +30,7 @@ class Row(NamedTuple):
 
 
 class Choice(NamedTuple):
-    """What a line may mean: as its field sends it, and in words."""
+    """A possible meaning of a line: as its field sends it, and in words."""
 
     value: str
     words: str
@@ -38,7 +38,7 @@ class Choice(NamedTuple):
 
 @dataclass(frozen=True)
 class Line:
-    """A line of the list, how it is read, and what else it may mean."""
+    """A line in the list, how it is read, and what else it may mean."""
 
     number: int
     text: str
@@ -48,9 +48,9 @@ class Line:
 
 
 class ListError(Exception):
-    """A list has lines in doubt; `content` is the list as a field holds it.
+    """Raised if a list has doubtful lines; `content` is the list as a field holds it.
 
-    `stated` is whose ratings count, as answered before.
+    `stated` says whose ratings count, as answered before.
     """
 
     def __init__(self, lines: Sequence[Line], content: str, stated: Collection[str] = ()) -> None:
@@ -59,9 +59,9 @@ class ListError(Exception):
 
 
 def entered_list(content: bytes, form: Form, known: Known | None) -> tuple[bytes, frozenset[str]]:
-    """Return a list without doubts, and whose ratings count though the league has others.
+    """Return a list without doubts, and the players whose stated ratings count over the league's.
 
-    A ListError if the form leaves a question open.
+    Raises ListError if the form leaves a question open.
     """
     stated = frozenset(form.texts("stated"))
     typed = typed_lines(content, ENTRANTS)
@@ -79,7 +79,7 @@ def entered_list(content: bytes, form: Form, known: Known | None) -> tuple[bytes
 
 
 def lines_of(content: bytes) -> tuple[list[Line], str]:
-    """Return the lines of a list, and the list as a field can hold it."""
+    """Return a list's lines, and the list in the form a field can hold."""
     typed = typed_lines(content, ENTRANTS)
     lines = _table_lines(content) if typed is None else _typed(typed)
     return lines, _as_text(content, lines)
@@ -111,7 +111,7 @@ def _table_lines(content: bytes) -> list[Line]:
 
 
 def _with_league(line: Line, known: Known | None, stated: Collection[str]) -> Line:
-    """Ask which of two ratings counts, where the list and the league have another."""
+    """Ask which of two ratings counts, if the list's and the league's differ."""
     if line.why or known is None or len(line.rows) != 1:
         return line
     (row,) = line.rows
@@ -139,7 +139,7 @@ def _g(number: float) -> Figure:
 
 
 def _answer(line: Line, form: Form) -> list[Row]:
-    """Return what the form says of a line."""
+    """Return the form's answer about a line."""
     if not line.choices:
         if f"name-{line.number}" not in form.fields:
             return list(line.rows)
@@ -169,7 +169,7 @@ def _as_table(rows: Sequence[Row]) -> bytes:
 
 
 def _as_text(content: bytes, lines: Sequence[Line]) -> str:
-    """Return a list as a field can hold it: text as it is, a workbook as a table."""
+    """Return a list in the form a field can hold: text unchanged, a workbook as a table."""
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:

@@ -1,4 +1,4 @@
-"""Whether phones at the venue can open the page, and at which addresses of this computer."""
+"""Whether phones at the venue can open the page, and at which of this computer's addresses."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from evenbreak.web.guard import RefusalError
 
 _IOCTLS = {"linux": 0x8915, "darwin": 0xC0206921}  # SIOCGIFADDR: the address of an adapter
 _NO_ROOM = ("docker", "br-", "veth", "virbr", "tun", "utun", "wg", "tailscale")
-"""How adapters are named that lead to no phone: containers, machines in this one, tunnels."""
+"""Names of network adapters that no phone can reach: containers, virtual machines, tunnels."""
 
 
 class Listening(Protocol):
-    """What listens on an address, and stops."""
+    """Starts and stops listening on addresses."""
 
     async def listen_at(self, address: str) -> asyncio.Server:
-        """Listen on an address of this computer, too."""
+        """Also listen on this one of the computer's addresses."""
 
     def leave(self, at: str, server: asyncio.Server) -> None:
-        """Listen there no longer, and end the connections that came in there."""
+        """Stop listening there, and close the connections that came in there."""
 
 
 class Room:
-    """The addresses at which phones are let in: none until it is opened.
+    """The addresses where phones are let in: none until it is opened.
 
-    `asked_as` are this computer's names in requests, to which those for phones are added;
-    `found_at` is called with each new address of the page. `name` is by what phones find it (and at
-    which port) where not by these addresses, as in a container.
+    `asked_as` are this computer's names in requests, to which names for phones are added;
+    `found_at` is called with each new page address. `name` is where phones find the page (and at
+    which port) if not at these addresses, as in a container.
     """
 
     def __init__(
@@ -51,22 +51,22 @@ class Room:
 
     @property
     def here(self) -> str:
-        """Where this computer's own browser finds the page."""
+        """The page's address for this computer's own browser."""
         return f"http://127.0.0.1:{self.port}"
 
     @property
     def places(self) -> list[str]:
-        """Where phones find the page, the likeliest first."""
+        """The page's addresses for phones, likeliest first."""
         return places_of(self.open_at, self.port, self.name)
 
     async def open(self) -> None:
-        """Let phones in; a RefusalError without a network, or if the port is taken there."""
+        """Let phones in; raises RefusalError without a network, or if the port is taken there."""
         async with self._turn:
             self._close()  # the network may be another one by now
             await self._open()
 
     async def close(self) -> None:
-        """Let no one in but this computer."""
+        """Let only this computer in."""
         async with self._turn:
             self._close()
 
@@ -98,7 +98,7 @@ class Room:
 
 
 def places_of(there: Collection[str], port: int, name: str) -> list[str]:
-    """Return where phones find the page: by a name if it has one, else at each address.
+    """Return where phones find the page: under a name if it has one, else at each address.
 
     >>> places_of(["192.168.1.20"], 8000, ""), places_of(["172.17.0.2"], 8000, "pool.example")
     (['http://192.168.1.20:8000'], ['http://pool.example:8000'])
@@ -108,7 +108,7 @@ def places_of(there: Collection[str], port: int, name: str) -> list[str]:
 
 
 def addresses() -> list[str]:
-    """Return this computer's addresses in its networks, that of its way to the internet first."""
+    """Return this computer's network addresses, starting with the route to the internet."""
     found = [*_leading(), *_of_adapters(), *_of_name()]
     own = [one for one in dict.fromkeys(found) if _may_be_asked(one)]
     return [one for one in own if not IPv4Address(one).is_link_local] or own
@@ -120,14 +120,14 @@ def _may_be_asked(address: str) -> bool:
 
 
 def _leading() -> Iterator[str]:
-    """Yield the address from which this computer would ask one elsewhere; nothing is sent."""
+    """Yield the address this computer would use to reach the internet; nothing is sent."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe, suppress(OSError):
         probe.connect(("192.0.2.1", 9))
         yield str(probe.getsockname()[0])
 
 
 def _of_adapters() -> Iterator[str]:
-    """Yield the address of each adapter, where the system can be asked for it."""
+    """Yield each adapter's address, if the system can be asked for it."""
     if sys.platform == "win32" or sys.platform not in _IOCTLS:
         return
     from fcntl import ioctl
@@ -141,7 +141,7 @@ def _of_adapters() -> Iterator[str]:
 
 
 def _of_name() -> Iterator[str]:
-    """Yield the addresses that this computer's name has: on Windows, one for each adapter."""
+    """Yield the addresses for this computer's name: on Windows, one per adapter."""
     if sys.platform not in _IOCTLS:
         with suppress(OSError):
             yield from socket.gethostbyname_ex(socket.gethostname())[2]

@@ -1,8 +1,8 @@
-"""The server that the application runs in: its limits, and the ends of its connections.
+"""The server that the application runs in: its limits, and how connections are closed.
 
-A phone that opens connection after connection must not keep others out: each address may hold half
-of all, the last few are kept for this computer, and where there is no more room the connection that
-has been idle longest ends.
+A phone that opens connection after connection must not keep others out: each address may have half
+of all connections, the last few are reserved for this computer, and when none are left the
+connection that has been idle longest is closed.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from evenbreak.web.site import Site
 _LOG = logging.getLogger(__name__)
 
 KEPT = 16
-"""Connections that only this computer may have."""
+"""How many connections are reserved for this computer."""
 
 _MOST = 1000
 _WANTED = 4096  # descriptors
@@ -48,7 +48,7 @@ def server_of(
     name: str = "",
     then: Callable[[], object] | None = None,
 ) -> uvicorn.Server:
-    """Return a site's server, which listens on this computer, with `lan` for phones too.
+    """Return a site's server, which listens on this computer and, with `lan`, for phones.
 
     `name` is as for `Room`; `then` is called in a thread once it listens.
     """
@@ -78,10 +78,10 @@ def server_of(
 
 
 class _Server(uvicorn.Server):
-    """A server that ends the streams of its pages before it ends itself, and idle connections.
+    """A server that closes its pages' streams before it stops, and closes idle connections.
 
-    A phone that asks for nothing, or never finishes asking, would otherwise keep its connection
-    for as long as it likes, and so would one that has left the room.
+    Otherwise, a phone that requests nothing, or never finishes a request, would keep its connection
+    as long as it likes, and so would a phone that has left the venue.
     """
 
     def __init__(self, config: uvicorn.Config) -> None:
@@ -103,7 +103,7 @@ class _Server(uvicorn.Server):
             Thread(target=self.then, daemon=True).start()
 
     async def listen_at(self, address: str) -> asyncio.Server:
-        """Listen on another address of this computer."""
+        """Listen on another of this computer's addresses."""
         config = self.config
 
         def line() -> asyncio.Protocol:
@@ -121,7 +121,7 @@ class _Server(uvicorn.Server):
         return found
 
     def leave(self, at: str, server: asyncio.Server) -> None:
-        """Listen on an address no longer, and end the connections that came in there."""
+        """Stop listening on an address, and close the connections that came in there."""
         server.close()
         self.servers.remove(server)
         lines: set[Any] = self.server_state.connections
@@ -130,19 +130,19 @@ class _Server(uvicorn.Server):
                 line.transport.abort()
 
     async def on_tick(self, counter: int) -> bool:
-        """Look after the connections; called ten times a second."""
+        """Check the connections; called ten times a second."""
         if counter % _IDLE == 0:
             self._end_idle()
         return await super().on_tick(counter)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """End the streams, then all else."""
+        """Close the streams, then everything else."""
         app: Any = self.config.app
         app.state.watch.close()
         await super().shutdown(sockets)
 
     def _end_idle(self) -> None:
-        """End the connections that have asked for nothing since the last look, or read nothing."""
+        """Close connections that have requested or read nothing since the last check."""
         still: dict[Any, Any] = {}
         connections: set[Any] = self.server_state.connections
         for one in connections:
@@ -156,14 +156,14 @@ class _Server(uvicorn.Server):
 
 
 def _let_many_wait(servers: Iterable[asyncio.Server]) -> None:
-    """Let many connections wait at servers that let few in at a turn."""
+    """Let many connections wait on servers that accept few at a time."""
     for listening in (one for server in servers for one in server.sockets):
         with listening.dup() as same:
             same.listen(_QUEUE)
 
 
 def descriptors() -> int:
-    """Return how many files and connections this process may have, after asking for more."""
+    """Return how many files and connections this process may have, after requesting more."""
     if sys.platform == "win32":
         return _WANTED
     import resource
@@ -177,7 +177,7 @@ def descriptors() -> int:
 
 
 def room(limit: int) -> tuple[int, int]:
-    """Return how many connections fit into a limit of descriptors, and are let in at a turn.
+    """Return how many connections fit within a limit of descriptors, and are accepted at a time.
 
     >>> room(4096), room(1024), room(256)
     ((1000, 128), (656, 64), (128, 16))
@@ -187,7 +187,7 @@ def room(limit: int) -> tuple[int, int]:
 
 
 class Door:
-    """The open connections by address, limited apart from this computer's `own` addresses."""
+    """The open connections by address, with limits except for this computer's `own` addresses."""
 
     def __init__(self, most: int, own: Collection[str]) -> None:
         self.most = most
@@ -195,7 +195,7 @@ class Door:
         self.lines: dict[str, dict[Any, None]] = {}  # of each address, the longest idle first
 
     def lets_in(self, line: Any) -> bool:
-        """Take a new connection, in the place of an idle one if need be; False: no room."""
+        """Accept a new connection, replacing an idle one if needed; False if there is no room."""
         address = _address(line)
         its = self.lines.get(address, {})
         count, own = sum(map(len, self.lines.values())), address in self.own
@@ -216,13 +216,13 @@ class Door:
         return True
 
     def answered(self, line: Any) -> None:
-        """Count from now on how long a connection is idle."""
+        """Start counting how long a connection has been idle."""
         its = self.lines.get(_address(line), {})
         if line in its:
             its[line] = its.pop(line)
 
     def forgets(self, line: Any) -> None:
-        """Forget a connection that has ended."""
+        """Forget a closed connection."""
         its = self.lines.get(_address(line), {})
         its.pop(line, None)
         if not its:
@@ -230,7 +230,7 @@ class Door:
 
 
 def behind(door: Door) -> type[H11Protocol]:
-    """Return the protocol of connections that pass a door."""
+    """Return the protocol for connections that pass through a door."""
 
     class Line(H11Protocol):
         def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
@@ -250,9 +250,9 @@ def behind(door: Door) -> type[H11Protocol]:
 
 
 def in_few_lines(clock: Callable[[], float] = time.monotonic) -> Callable[..., None]:
-    """Return a handler of an event loop's errors that says once a minute that no more can connect.
+    """Return an event loop's error handler that reports once a minute that no more can connect.
 
-    Where the descriptors run out, each connection that waits is such an error, at each try.
+    When descriptors run out, each waiting connection causes such an error at each try.
     """
     said = -_SECONDS
 
@@ -272,5 +272,5 @@ def _address(line: Any) -> str:
 
 
 def _is_idle(line: Any) -> bool:
-    """Return whether a connection has not asked for anything that is not answered."""
+    """Return whether a connection has no unanswered request."""
     return line.cycle is None or bool(line.cycle.response_complete)

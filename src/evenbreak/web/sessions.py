@@ -1,6 +1,6 @@
-"""Who asks: a session in a signed cookie, the director's PIN, tokens against forged forms.
+"""Who is asking: signed session cookies, the director's PIN, tokens against forged forms.
 
-And who entered something: how it is kept with the entry, and what a page says of it.
+Also who entered something: how that is stored with the entry and shown on a page.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Tries:
         self.times: dict[str, deque[float]] = {}
 
     def count(self, address: str) -> None:
-        """Count one more try."""
+        """Count another try."""
         if len(self.times) > _MOST_ADDRESSES:
             self.times.clear()
         self.times.setdefault(address, deque(maxlen=self.most)).append(self.clock())
@@ -57,7 +57,7 @@ class Tries:
 
 
 class Ticket:
-    """What lets one browser in as the director without the PIN: once, within a minute.
+    """A ticket that logs one browser in as the director without the PIN, once, within a minute.
 
     >>> ticket = Ticket(clock=iter([0.0, 30.0, 31.0]).__next__)
     >>> drawn = ticket.draw()
@@ -70,17 +70,17 @@ class Ticket:
         self.drawn, self.until = "", 0.0
 
     def draw(self) -> str:
-        """Return a new one; an earlier one is good for nothing from then on."""
+        """Return a new ticket; earlier ones become invalid."""
         self.drawn, self.until = secrets.token_urlsafe(24), self.clock() + _SECONDS
         return self.drawn
 
     def is_good(self, text: str) -> bool:
-        """Return whether a text is the ticket, still unused and in time."""
+        """Return whether a string is the ticket, unused and not expired."""
         same = hmac.compare_digest(text.encode(), self.drawn.encode())
         return bool(self.drawn) and same and self.clock() <= self.until
 
     def take(self, text: str) -> bool:
-        """Return the same, and use the ticket up."""
+        """Return the same, and use up the ticket."""
         good = self.is_good(text)
         if good:
             self.drawn = ""
@@ -88,19 +88,19 @@ class Ticket:
 
 
 def form_token(request: Request) -> str:
-    """Return the token that each form of this session carries."""
+    """Return the token in each of this session's forms."""
     token: str = request.session.setdefault(_CSRF, secrets.token_urlsafe(16))
     return token
 
 
 def phone_of(request: Request) -> str:
-    """Return what this session is known by beside what it enters."""
+    """Return the key that identifies this session in its entries."""
     name: str = request.session.setdefault(_PHONE, secrets.token_urlsafe(6))
     return name
 
 
 def check_form(request: Request, token: str) -> None:
-    """Refuse a form that this session was not given."""
+    """Reject a form that wasn't given to this session."""
     known = request.session.get(_CSRF)
     if not known or not hmac.compare_digest(known.encode(), token.encode()):
         raise RefusalError(
@@ -110,19 +110,19 @@ def check_form(request: Request, token: str) -> None:
 
 
 def let_in(request: Request, role: str, mark: str) -> None:
-    """Keep that a PIN was entered in this session, for a visit of its own."""
+    """Store that a PIN was entered in this session, starting a new visit."""
     request.session[role] = f"{mark} {secrets.token_urlsafe(9)}"
 
 
 def let_out(request: Request, role: str) -> None:
-    """End a visit: a copy of its cookie is good for nothing from now on."""
+    """End a visit: copies of its cookie become invalid."""
     held = request.session.pop(role, None)
     if isinstance(held, str):
         request.app.state.site.end_visit(held.rpartition(" ")[2])
 
 
 def _is_in(request: Request, role: str, mark: str) -> bool:
-    """Return whether a PIN was entered in this session, and its visit goes on."""
+    """Return whether a PIN was entered in this session, and its visit isn't over."""
     held = request.session.get(role)
     if not isinstance(held, str):
         return False
@@ -137,15 +137,15 @@ def is_director(request: Request) -> bool:
 
 
 def check_director(request: Request) -> None:
-    """Refuse whoever has not entered the director's PIN."""
+    """Reject anyone who hasn't entered the director's PIN."""
     if not is_director(request):
         raise RefusalError("Only the director can do that. Enter the PIN first.", status=403)
 
 
 def captain_of(request: Request, night: int) -> int | None:
-    """Return the team whose captain's PIN was entered in this session; None: neither.
+    """Return the team whose captain's PIN was entered in this session; None if neither was.
 
-    `night` is the number of the event with which the team night started.
+    `night` is the number of the event that started the team night.
     """
     site = request.app.state.site
     return next(
@@ -154,9 +154,10 @@ def captain_of(request: Request, night: int) -> int | None:
 
 
 def check_tries(request: Request) -> None:
-    """Refuse another PIN where too many wrong ones have come in.
+    """Reject another PIN if too many wrong ones have come in.
 
-    The computer itself does not have to wait for others: whoever sits there may be the director.
+    The computer itself isn't held up by others' wrong PINs: the person sitting there may be the
+    director.
     """
     site = request.app.state.site
     if site.tries.full(address_of(request)) or (site.all_tries.full("") and not is_here(request)):
@@ -164,7 +165,7 @@ def check_tries(request: Request) -> None:
 
 
 def wrong_pin(request: Request) -> RefusalError:
-    """Count a wrong PIN, and return why it is refused."""
+    """Count a wrong PIN, and return why it is rejected."""
     site = request.app.state.site
     site.tries.count(address_of(request))
     site.all_tries.count("")
@@ -172,7 +173,7 @@ def wrong_pin(request: Request) -> RefusalError:
 
 
 def address_of(request: Request) -> str:
-    """Return where a request comes from."""
+    """Return the address a request comes from."""
     return request.client.host if request.client else ""
 
 
@@ -182,17 +183,17 @@ def is_here(request: Request) -> bool:
 
 
 def phones_of(players: Sequence[str]) -> str:
-    """Return whose phones entered something, as it is kept."""
+    """Return the phones that made an entry, as stored."""
     return ("phone: " if len(players) == 1 else _PHONES) + _BETWEEN.join(players)
 
 
 def tablet_of(table: str) -> str:
-    """Return the tablet of a table, as it is kept: it is the players' too."""
+    """Return a table's tablet, as stored: it counts as the players' too."""
     return _TABLET + table
 
 
 def captain_of_team(team: str) -> str:
-    """Return the captain of a team, as it is kept."""
+    """Return a team's captain, as stored."""
     return _CAPTAIN + team
 
 

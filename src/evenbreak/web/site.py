@@ -43,11 +43,11 @@ class Site:
     """One running page.
 
     The file at `path` need not exist yet. `hosts` are this computer's names and addresses in
-    requests, before a `Room` adds those for phones to `asked_as`; `address` is for phones, in QR
-    codes. `rules`, the league's file, fill in forms. `origins` are pages elsewhere that may use the
-    interface from a browser. The counters are of the last minute: wrong PINs by address and
-    overall, wrong codes of players likewise, taps by match, wrong tokens by address, entries by
-    program, questions by address.
+    requests, before a `Room` adds names for phones to `asked_as`; `address` is for phones, in QR
+    codes. `rules`, the league's file, fills in forms. `origins` are pages elsewhere that may use
+    the API from a browser. The counters cover the last minute: wrong PINs by address and overall,
+    wrong player codes in the same way, taps by match, wrong tokens by address, entries by program,
+    questions by address.
     """
 
     path: Path
@@ -91,7 +91,7 @@ class Site:
 
     @property
     def nights(self) -> list[Night]:
-        """The events of the night, which share its tables; a lone one if none has started."""
+        """The night's events, which share its tables; an empty one if none has started."""
         mark = mark_of(self.path)
         if mark != self._numbers[0]:
             with suppress(DataError):  # of a file that cannot be read, the pages say why
@@ -105,18 +105,18 @@ class Site:
 
     @property
     def begun(self) -> list[Night]:
-        """The events of the night; none where none has started."""
+        """The night's events; none if none has started."""
         return [night for night in self.nights if night.exists]
 
     @property
     def names(self) -> set[str]:
-        """Whoever plays tonight or is in the league: what no sentence is read for."""
+        """The names of everyone playing tonight or in the league; no sentence is expected there."""
         sheet = self.league.sheet
         tonight = {name for night in self._nights.values() for name in night.names}
         return {*tonight, *self.teams.names, *(sheet.ratings.players if sheet else ())}
 
     def rendered_of(self, what: Sequence[object]) -> dict[tuple[object, ...], Any]:
-        """Return the pages that were rendered of these: the same objects, or equal texts."""
+        """Return the pages rendered for these: the same objects, or equal strings."""
         for of, pages in self._rendered:
             if len(of) == len(what) and all(
                 a is b or (isinstance(a, str) and a == b) for a, b in zip(of, what, strict=True)
@@ -131,15 +131,15 @@ class Site:
         return not self.address.startswith("http://127.0.0.1:")
 
     def found_at(self, address: str) -> None:
-        """Take note of where phones find the page from now on."""
+        """Set the address where phones find the page from now on."""
         self.address = address
         self._rendered.clear()
 
     def keep_secrets(self) -> None:
-        """Keep the secrets in the file, if it is there, so that phones go on after a restart.
+        """Store the secrets in the file, if it exists, so that phones keep working after a restart.
 
-        They are read again whenever the file has changed: another server on it may have drawn
-        another PIN.
+        They are read again whenever the file has changed: another server on it may have generated a
+        new PIN.
         """
         if not is_there(self.path):
             return
@@ -153,7 +153,7 @@ class Site:
         return self._secrets[name]
 
     def end_visit(self, visit: str) -> None:
-        """Keep that a visit has ended, for every server on the file."""
+        """Store that a visit has ended, for every server on the file."""
         found = {f"{_ENDED} {visit}": ""}
         self._first |= found
         if is_there(self.path):
@@ -161,24 +161,24 @@ class Site:
                 change_secrets(self.path, found)
 
     def has_ended(self, visit: str) -> bool:
-        """Return whether whoever entered a PIN then has left since."""
+        """Return whether the visitor who entered a PIN at that time has left since then."""
         self.keep_secrets()
         return f"{_ENDED} {visit}" in self._first | self._secrets
 
     @property
     def tokens(self) -> dict[str, Token]:
-        """The tokens of other programs by their hashes, as the file has them now."""
+        """Other programs' tokens by hash, as currently in the file."""
         mark = mark_of(self.path)
         if mark != self._tokens[0]:
             self._tokens = mark, kept_tokens(self.path) if is_there(self.path) else {}
         return self._tokens[1]
 
     def change_pin(self) -> None:
-        """Draw another PIN of the director; whoever entered the earlier one is none any more."""
+        """Generate a new director's PIN; anyone who entered the earlier one is logged out."""
         self._keep({"pin": new_pin(), "director": _mark()})
 
     def _keep(self, found: Mapping[str, str]) -> None:
-        """Keep something else from now on, in the file as soon as it is there."""
+        """Store a new value, in the file as soon as it exists."""
         if is_there(self.path):
             change_secrets(self.path, found)
         self._first |= found
@@ -186,21 +186,21 @@ class Site:
 
     @property
     def phones_in(self) -> bool:
-        """Whether the director has let phones in, and has not shut them out since."""
+        """Whether the director has let phones in, and hasn't locked them out since."""
         return bool(self._secret(_PHONES))
 
     def let_phones(self, come_in: bool) -> None:
-        """Keep whether phones are let in, also by the next start."""
+        """Store whether phones are let in, including after the next start."""
         self._keep({_PHONES: "in" if come_in else ""})
 
     @property
     def last_port(self) -> int:
-        """The port at which the night was found last; 0: at none yet."""
+        """The port where the night was last found; 0 if none yet."""
         kept = self._secret(_PORT)
         return int(kept) if kept.isascii() and kept.isdigit() and len(kept) < 6 else 0
 
     def found_at_port(self, port: int) -> None:
-        """Keep at which port the night is found, for the next start to take the same."""
+        """Store the night's port, so that the next start uses the same one."""
         self.found_at(f"http://127.0.0.1:{port}")
         if port != self.last_port:
             with suppress(DataError):  # of a file that can only be read
@@ -208,23 +208,23 @@ class Site:
 
     @property
     def calls_itself(self) -> bool:
-        """Whether a result calls the next match to the table that it frees."""
+        """Whether a result automatically calls the next match to the freed table."""
         return self._secret(_CALLS) != _BY_HAND
 
     def let_call(self, itself: bool) -> None:
-        """Keep whether a result calls the next match."""
+        """Store whether a result calls the next match."""
         self._keep({_CALLS: "" if itself else _BY_HAND})
 
     @property
     def queue(self) -> Sequence[tuple[int, str]]:
-        """The matches of all events in the order that ends the night soonest, as calculated."""
+        """All events' matches in the order that ends the night soonest, as calculated."""
         known = [night.known for night in self.nights if night.known and night.known.queue]
         return max(known, key=lambda one: one.at).queue if known else ()
 
     def next_calls(
         self, before: Mapping[int, Evening], after: Mapping[int, Evening]
     ) -> Sequence[tuple[int, What]]:
-        """Return the calls that a result makes by itself, unless they are made by hand."""
+        """Return the calls that a result makes automatically, unless calls are made by hand."""
         return calls_after(before, after, self.queue) if self.calls_itself else []
 
     @property
@@ -238,16 +238,16 @@ class Site:
 
     @property
     def cookie_key(self) -> str:
-        """What sessions are signed with."""
+        """The key that signs sessions."""
         return self._secret("cookie")
 
     @property
     def director_mark(self) -> str:
-        """What the session of a director holds."""
+        """The value stored in a director's session."""
         return self._secret("director")
 
     def captain_pin(self, night: int, team: int) -> str:
-        """Return the PIN of a captain: another one each night, and none of the others' PINs."""
+        """Return a captain's PIN: a new one each night, different from the other PINs."""
         others = {self.pin} | ({self.captain_pin(night, 0)} if team else set())
         drawn = (
             f"{int(self.captain_mark(night, team, again), 16) % 10**6:06d}"
@@ -256,17 +256,17 @@ class Site:
         return next(pin for pin in drawn if pin not in others)
 
     def captain_lot(self, night: int, team: int, number: int) -> str:
-        """Return by what is drawn for a captain, if it is best to draw; a set has the same lot."""
+        """Return the key for a captain's random draws, if drawing is best; a set keeps its lot."""
         return self._token(f"lot {night} {team} {number}")
 
     def captain_mark(self, night: int, team: int, again: int = 0) -> str:
-        """Return what the session of a captain holds; with `again`, what their PIN is made of."""
+        """Return the value stored in a captain's session; with `again`, their PIN's seed."""
         return self._token(f"captain {night} {team} {again}")
 
     def player_codes(self) -> dict[str, str]:
-        """Return the code of each player of the night; `/c/CODE` claims their phone.
+        """Return each player's code for the night; `/c/CODE` claims their phone.
 
-        Whoever plays in two events has one, that of the first.
+        A player in two events has one code, from the first.
         """
         states = [night.state() for night in self.begun]
         if self._codes is None or list(map(id, self._codes[0])) != list(map(id, states)):
@@ -277,7 +277,7 @@ class Site:
         return self._codes[1]
 
     def player_code(self, name: str) -> str:
-        """Return the short code of a player; '' of someone who does not play tonight."""
+        """Return a player's short code; '' if they aren't playing tonight."""
         return self.player_codes().get(name, "")
 
     def _token(self, what: str) -> str:
@@ -285,12 +285,12 @@ class Site:
 
 
 def names_event(request: Request) -> bool:
-    """Return whether a request names an event of the night."""
+    """Return whether a request names one of the night's events."""
     return bool(_event_text(request))
 
 
 def event_of(request: Request) -> int:
-    """Return the number of the event that a request names in its form or address; 1 if none."""
+    """Return the event number in a request's form or address; 1 if none."""
     text = _event_text(request)
     return int(text) if text.isascii() and text.isdigit() and len(text) < 3 else 1
 
@@ -303,7 +303,7 @@ def _event_text(request: Request) -> str:
 
 
 def of_event(path: str, event: int) -> str:
-    """Return the address of a page of an event of the night.
+    """Return the address of a page for one of the night's events.
 
     >>> of_event("/desk?match=3#sheet", 2), of_event("/players", 1)
     ('/desk?match=3&event=2#sheet', '/players')
@@ -315,7 +315,7 @@ def of_event(path: str, event: int) -> str:
 
 
 def night_of(request: Request) -> Night:
-    """Return the event of a request, by form or address, else the first (RefusalError: none)."""
+    """Return a request's event, by form or address, else the first (RefusalError if none)."""
     nights: list[Night] = request.app.state.site.nights
     number = event_of(request)
     for night in nights:
@@ -325,14 +325,14 @@ def night_of(request: Request) -> Night:
 
 
 def begun(night: Night) -> Night:
-    """Return an event of the night; refuse one that has not started."""
+    """Return one of the night's events; raise an error if it hasn't started."""
     if not night.exists:
         raise RefusalError("No tournament is running yet.", status=404)
     return night
 
 
 async def drawn_state(request: Request) -> Evening:
-    """Return the state of the event that a request is about; refuse it if there is no draw."""
+    """Return the state of a request's event; raise an error if there is no draw."""
     state = await asyncio.to_thread(begun(night_of(request)).state)
     if not state.drawn:
         raise RefusalError("The draw hasn't been made yet.", status=404)
@@ -340,7 +340,7 @@ async def drawn_state(request: Request) -> Evening:
 
 
 def begun_nights(request: Request) -> list[Night]:
-    """Return the events of the night; refuse if none has started."""
+    """Return the night's events; raise an error if none has started."""
     site: Site = request.app.state.site
     return site.begun or [begun(site.night)]
 

@@ -1,7 +1,7 @@
-"""A tap of the score, from a player's phone or from a table's tablet, and what it enters.
+"""A tap on the score, from a player's phone or a table's tablet, and what it enters.
 
-A form counts from the score that its page showed: where someone has scored since, it is refused,
-so that a phone that was out of reach takes no game away.
+A form counts from the score that its page showed: if someone has scored since then, it is rejected,
+so that a phone that was offline can't take a game away.
 """
 
 from __future__ import annotations
@@ -28,9 +28,10 @@ from evenbreak.words import Sentence, say, tally
 
 @dataclass(frozen=True)
 class Tap:
-    """A tap, as the form of a page sends it.
+    """A tap, as sent by a page's form.
 
-    `score` is the new one, `seen` that on the page, the first player's games first.
+    `score` is the new score and `seen` is the one on the page, both with the first player's games
+    first.
     """
 
     match: str
@@ -41,17 +42,17 @@ class Tap:
 
     @property
     def games(self) -> dict[str, int]:
-        """The games of each player."""
+        """Each player's games."""
         return dict(zip(self.pair, self.score, strict=True))
 
     def ends(self, state: Evening) -> bool:
-        """Return whether the match is over with it."""
+        """Return whether it ends the match."""
         needs = state.needed(self.match, self.pair)
         return any(won == need for won, need in zip(self.score, needs, strict=True))
 
 
 def tap_in(request: Request, form: Form, state: Evening) -> Tap:
-    """Return the tap in a form; refuse one of a match that is over, or that others play now."""
+    """Return a form's tap; reject one for a match that is over or now has other players."""
     site, match = site_of(request), form.text("match")
     if site.taps.full(match):
         raise RefusalError("Too many taps. Wait a moment.", status=429)
@@ -70,7 +71,7 @@ def note(
     decide: Callable[[Phones], Act | None],
     by: str = "",
 ) -> Phones:
-    """Store what a phone does, or someone else (`by`), and return what is known after it.
+    """Store what a phone (or `by` someone else) does, and return the resulting state of phones.
 
     A form that comes in again, by its `key`, adds nothing.
     """
@@ -100,7 +101,7 @@ def score(request: Request, tap: Tap, by: str, check: Callable[[Evening], None])
 
 
 def result(request: Request, tap: Tap, by: str, check: Callable[[Evening], None]) -> None:
-    """Enter a result that is tapped for both players, by whom they all trust."""
+    """Enter a result tapped for both players by someone they both trust."""
 
     def decide(now: Evening) -> list[Event]:
         _check(now, tap)
@@ -116,7 +117,7 @@ def _result(request: Request, now: Evening, tap: Tap) -> list[Event]:
 
 
 def propose(request: Request, tap: Tap, me: str) -> str:
-    """Keep a proposed result, and enter it if the opponent proposed the same from elsewhere."""
+    """Store a proposed result, and enter it if the opponent proposed the same from elsewhere."""
     night, phone = night_of(request), phone_of(request)
     moves.result(night.state(), tap.match, tap.score)  # refuses what cannot be a result
 
@@ -145,9 +146,9 @@ def propose(request: Request, tap: Tap, me: str) -> str:
 
 
 def _check(now: Evening, tap: Tap) -> None:
-    """Refuse a form that was made before the score that there is now.
+    """Reject a form made for an earlier score.
 
-    It is asked while no one else can enter anything.
+    This is checked while no one else can enter anything.
     """
     _check_pair(now, tap.match, tap.pair)
     a, b = match_view(now, tap.match).score or (0, 0)
@@ -162,7 +163,7 @@ def _check(now: Evening, tap: Tap) -> None:
 
 
 def _check_pair(state: Evening, match: str, pair: tuple[str, str]) -> None:
-    """Refuse a form of a match that is over, or that others play now."""
+    """Reject a form for a match that is over or now has other players."""
     if not state.drawn or match not in state.standing.to_play:
         words: Sentence | str = state.match_words(match) if state.drawn else match
         raise MovedOnError("{match} isn't being played now.", status=409, match=words)

@@ -1,4 +1,4 @@
-"""The form that starts a team night: its fields, and the plan that they make."""
+"""The form that starts a team night: its fields, and the resulting plan."""
 
 from __future__ import annotations
 
@@ -52,19 +52,19 @@ from evenbreak.words import Sentence, say
 FIELDS = fields_named(
     Lineup, "sets", "order", "count", "doubles", "cap", "at_most", "times", "sure"
 )
-"""What the form asks as `evenbreak lineup` does."""
+"""What the form asks in the same way as `evenbreak lineup`."""
 
 TIMES = fields_named(OnTables, "discipline", "tables")
-"""What it asks to say when the night ends."""
+"""What it asks for to predict when the night ends."""
 
 
 def plan_of(
     form: Form, league: League, rules: LeagueFile | None = None
 ) -> tuple[NightPlan, list[str]]:
-    """Return the plan that a form asks for, and what its lists make doubtful.
+    """Return the plan that a form asks for, and what is doubtful about its lists.
 
-    Players without a rating have that of the league, if it knows them. What skill levels are worth
-    is seen in the results that the league's file names, as `evenbreak lineup` does.
+    Players without a rating get the league's, if it knows them. As in `evenbreak lineup`, the worth
+    of skill levels is estimated from the results that the league's file names.
     """
     names = [clean_name(form.text(f"team_{side}", longest=60)) for side in "ab"]
     if not all(names):
@@ -127,7 +127,7 @@ def plan_of(
 def _by_level(
     races: str, lists: list[TeamList], results: str | None
 ) -> tuple[list[TeamList], bool, LevelSkills | None, Sentence | None]:
-    """Return the lists with a chart's levels, whether and how chances come from those, and why."""
+    """Return the lists with a chart's levels, whether and how chances come from levels, and why."""
     if races not in LEVEL_CHARTS and races not in POINTS_CHARTS:
         return lists, False, None, None
     chart = level_chart(races) if races in LEVEL_CHARTS else points_chart(races)
@@ -145,7 +145,7 @@ def _by_level(
 
 
 def _read(content: bytes, name: str) -> TeamList:
-    """Read the players of a team; the problems of the list name the team."""
+    """Read a team's players; problems in the list name the team."""
     try:
         return read_upload(content, read_team)
     except DataError as error:
@@ -155,7 +155,7 @@ def _read(content: bytes, name: str) -> TeamList:
 
 
 def _with_league(read: TeamList, scale: Scale, league: League) -> TeamList:
-    """Return a team whose players without a rating have that of the league."""
+    """Return a team, taking missing ratings from the league."""
     if league.sheet is None or not league.sheet.ratings.scale.same_points(scale):
         return read
     roster = read.file.roster
@@ -169,7 +169,7 @@ def _with_league(read: TeamList, scale: Scale, league: League) -> TeamList:
 
 
 def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
-    """Return the scale of the ratings: as the form, the lists or the league states it."""
+    """Return the ratings' scale, as stated by the form, the lists or the league."""
     if points := form.above_0("doubling"):
         return scale_of(points)
     if any(one.file.levels for one in lists):
@@ -193,7 +193,7 @@ def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
 
 
 def _sheet(name: str, read: TeamList, scale: Scale, asked: Mapping[str, Any]) -> TeamSheet:
-    """Return a team; new players get the rating in the middle, and are very uncertain."""
+    """Return a team in which new players get an average rating with a large uncertainty."""
     if read.without_weight and (asked["cap"] or asked["at_most"]):
         raise RefusalError(
             "{name} has no skill level, and a cap needs one for every player.",

@@ -1,4 +1,4 @@
-"""The team night as the pages show it: its state, and what is calculated of it beside them."""
+"""The team night as the pages show it: its state, and what is calculated in the background."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _KEPT = 12  # answers, and solved nights
 
 
 class TeamNow(NamedTuple):
-    """The current team night, and the events of all in the file."""
+    """The current team night, and the events of all team nights in the file."""
 
     events: list[Event]
     state: TeamEvening
@@ -38,7 +38,7 @@ class TeamNow(NamedTuple):
 
 @dataclass(frozen=True)
 class Advised:
-    """A captain's advice; `found` is each pick, or sealed lineup, with its worth."""
+    """Advice for a captain; `found` is each pick, or sealed lineup, with its worth."""
 
     answer: Answer
     found: Advice | SealedNight
@@ -55,7 +55,7 @@ class TeamNights:
         self._sides: OrderedDict[tuple[int, int], Side] = OrderedDict()
 
     async def now(self) -> TeamNow | None:
-        """Return the night that is on, or was last; None if there is none."""
+        """Return the current or last night; None if there is none."""
         return await asyncio.to_thread(self._now)
 
     def _now(self) -> TeamNow | None:
@@ -68,13 +68,13 @@ class TeamNights:
 
     @property
     def names(self) -> set[str]:
-        """The teams and their players, as far as the file was read."""
+        """The teams and their players, as of the last reading of the file."""
         night = self._read[1] if self._read else None
         sheets = night.state.plan.teams if night else ()
         return {name for sheet in sheets for name in (sheet.name, *sheet.players)}
 
     async def chances(self, now: TeamNow) -> tuple[float, float] | None:
-        """Return both teams' chances of winning the night; None: they are being calculated."""
+        """Return both teams' chances of winning the night; None while they are being calculated."""
 
         def work() -> tuple[float, float]:
             ours = chance(self._side(now.state, 0), now.state)
@@ -84,7 +84,7 @@ class TeamNights:
         return found
 
     async def times(self, now: TeamNow, at: str) -> list[str]:
-        """Return when the next set starts and the night ends; nothing while it is calculated."""
+        """Return when the next set starts and the night ends; nothing while calculating."""
 
         def work() -> list[str]:
             seen = now.state.seen_by(EVERYBODY)  # the times must not give away an unseen pick
@@ -94,9 +94,9 @@ class TeamNights:
         return found or []
 
     async def advised(self, now: TeamNow, team: int) -> Advised | None:
-        """Return what a team's captain is advised; None: it is being calculated, or not known.
+        """Return the advice for a team's captain; None while it is being calculated or not known.
 
-        It is not known while the set is played whose winner or loser names first in the next one.
+        It isn't known during a set whose winner or loser names first in the next set.
         """
 
         def work() -> Advised:
@@ -114,7 +114,7 @@ class TeamNights:
         return found
 
     async def _worked_out(self, key: object, work: Callable[[], Any]) -> Any:
-        """Return what a function finds, once for each key; None: not yet."""
+        """Return what a function finds, once for each key; None if not ready yet."""
         if key not in self._tasks:
             self._tasks[key] = asyncio.create_task(self.beside.run(work))
             while len(self._tasks) > _KEPT:
@@ -124,7 +124,7 @@ class TeamNights:
         return task.result() if task.done() else None
 
     def _side(self, state: TeamEvening, team: int) -> Side:
-        """Return a night solved as a team sees it; only the thread beside asks."""
+        """Return the solved night as seen by a team; only called in the background thread."""
         key = state.began, team
         if key not in self._sides:
             found = self._side(state, 0).mirrored() if team else side_of(state)
@@ -135,7 +135,7 @@ class TeamNights:
 
 
 async def night_on(request: Request) -> TeamNow:
-    """Return the team night that a request is about; refuse it if there is none."""
+    """Return a request's team night; raise an error if there is none."""
     now: TeamNow | None = await request.app.state.site.teams.now()
     if now is None:
         raise RefusalError("No team night is running yet.", status=404)

@@ -1,4 +1,4 @@
-"""A team night as its page shows it; plain values, and only what the reader may see."""
+"""A team night as its page shows it, in plain values, with only what the reader may see."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ class SetView(NamedTuple):
 class OptionView(NamedTuple):
     """A pick that a captain can make.
 
-    `value` are the positions of its players in the squad, `worth` is the chance of winning the
-    night with it, `reply` the other side's best ('': none follows), `mix` its share where both
-    teams pick unseen, `counts` its weight under a cap.
+    `value` has its players' positions in the squad, `worth` is the chance of winning the night with
+    it, `reply` is the other side's best answer ('': none follows), `mix` is its share if both teams
+    pick unseen, and `counts` is its weight under a cap.
     """
 
     value: str
@@ -49,7 +49,7 @@ class OptionView(NamedTuple):
 
 
 def set_views(seen: TeamEvening) -> list[SetView]:
-    """Return all sets, of a state as the reader sees it."""
+    """Return all sets of a state, as the reader sees them."""
     return [
         SetView(
             line.number,
@@ -74,7 +74,7 @@ def pick_value(state: TeamEvening, team: int, pick: Pick) -> str:
 
 
 def _counts(state: TeamEvening, team: int, pick: Pick) -> str:
-    """Return what a pick counts under a cap."""
+    """Return how much a pick counts under a cap."""
     if state.plan.cap is None and state.plan.at_most is None:
         return ""
     sheet = state.plan.teams[team]
@@ -83,7 +83,7 @@ def _counts(state: TeamEvening, team: int, pick: Pick) -> str:
 
 
 def advised_options(state: TeamEvening, team: int, found: Advice) -> list[OptionView]:
-    """Return what a captain can pick, the best first."""
+    """Return what a captain can pick, best first."""
     return [
         OptionView(
             pick_value(state, team, option.names),
@@ -98,7 +98,7 @@ def advised_options(state: TeamEvening, team: int, found: Advice) -> list[Option
 
 
 def advised_line_ups(found: SealedNight) -> list[OptionView]:
-    """Return the lineups that a captain does well to hand in, the most frequent first."""
+    """Return the lineups that a captain does well to submit, most frequent first."""
     played = sorted((one for one in found.ours if one.mix > _RARE), key=lambda one: -one.mix)
     return [OptionView("", ", ".join(one.names), one.worth, "", one.mix) for one in played]
 
@@ -112,7 +112,7 @@ def drawn(options: Sequence[OptionView], lot: str) -> OptionView | None:
 
 
 def drawn_line_up(found: SealedNight, squad: Sequence[str], lot: str) -> list[str]:
-    """Return a lineup drawn by its share, in an order drawn too, as a form sends it."""
+    """Return a lineup drawn by its share, in random order, as a form sends it."""
     chance = Random(lot)  # noqa: S311 (keyed by the lot)
     names = list(chance.choices(found.ours, [one.mix for one in found.ours])[0].names)
     chance.shuffle(names)
@@ -120,7 +120,7 @@ def drawn_line_up(found: SealedNight, squad: Sequence[str], lot: str) -> list[st
 
 
 def plain_options(state: TeamEvening, team: int) -> list[OptionView]:
-    """Return what a team can pick, in the order of its list."""
+    """Return what a team can pick, in its list's order."""
     return [
         OptionView(
             pick_value(state, team, pick), names_words(pick), counts=_counts(state, team, pick)
@@ -134,7 +134,7 @@ def captain_values(
 ) -> dict[str, Any]:
     """Return what captain 0 (A) or 1 (B) sees: the advice, and the form for their choice.
 
-    `lot` draws a pick, where it is best to draw.
+    `lot` draws a pick if drawing is best.
     """
     state = whole.seen_by(captain)
     line = state.to_name

@@ -1,4 +1,4 @@
-"""What the wall and the page for everyone show of a night: tables, who is next, who wins it."""
+"""What the wall and the public page show for a night: tables, who is next, who will win."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _JUST_CALLED = timedelta(seconds=25)
 
 
 class TableView(NamedTuple):
-    """A table and what is on it, or is to be called to it.
+    """A table and the match on it, or to be called to it.
 
     The state is playing, hill, called, two (the players disagree, and no score is shown) or ready.
     `chance` is the first player's; `tag` is the event, if there are several.
@@ -48,9 +48,9 @@ class TableView(NamedTuple):
 
 
 class NextView(NamedTuple):
-    """A match that waits for a table, and about when it starts; '' if that is not known.
+    """A match that is waiting for a table, and about when it starts; '' if that isn't known.
 
-    Where there are several events, `tag` is what its own is called.
+    If there are several events, `tag` names the match's event.
     """
 
     match: MatchView
@@ -60,7 +60,7 @@ class NextView(NamedTuple):
 
 
 class Placed(NamedTuple):
-    """A place, who has it, and the money; 0 if there is none."""
+    """A place, who has it, and the prize; 0 if there is none."""
 
     place: str
     name: str
@@ -72,7 +72,7 @@ class WallView:
     """A night as everyone sees it.
 
     `favorites` start with the likeliest winner; `places` are those decided; `chances` are the first
-    player's, by match. `parts` are the events of a night with several, of which this is the whole.
+    player's, by match. `parts` are the separate events, if this is a whole night with several.
     """
 
     name: Sentence | str
@@ -90,12 +90,12 @@ class WallView:
 
     @property
     def players(self) -> int:
-        """How many play tonight."""
+        """How many are playing tonight."""
         return len({name for one in self.parts or [self] for name in one.state.entrants})
 
     @property
     def tag(self) -> Sentence | str:
-        """What its event is called, if there are several; else ''."""
+        """Its event's name, if there are several; else ''."""
         return event_name(self.state) if self.state.beside else ""
 
     @property
@@ -105,7 +105,7 @@ class WallView:
 
     @property
     def panels(self) -> tuple[Panel, ...]:
-        """The parts of the bracket, with the matches of which the players disagree."""
+        """The parts of the bracket, marking matches whose players disagree."""
         two = {one.match.name: "two" for one in self.tables if one.state == "two"}
         return bracket_panels(self.state, self.chances, two)
 
@@ -131,9 +131,9 @@ class WallView:
 
 
 def whole_night(views: Sequence[WallView]) -> WallView:
-    """Return all events of a night as one: its tables, who is next, when it ends.
+    """Return all the night's events as one: its tables, who is next, when it ends.
 
-    A table that is free has the match of the first event that would take it.
+    A free table has the match of the first event that would take it.
     """
     going = [one for one in views if one.state.drawn and not one.view.over]
     if len(views) < 2 or not going:
@@ -164,9 +164,9 @@ def wall_view(
     unit: float = 0.0,
     disputed: Collection[str] = (),
 ) -> WallView:
-    """Return a night as everyone sees it; `known` may be of an earlier state.
+    """Return a night as everyone sees it; `known` may be for an earlier state.
 
-    `unit` is what shared prizes are rounded down to; in `disputed` matches the players have sent
+    `unit` is what shared prizes are rounded down to; in `disputed` matches, the players have sent
     different scores.
     """
     view = view_of(state, known)
@@ -224,7 +224,7 @@ def _table(
 
 
 def pictures_of(view: WallView, *, told: int) -> list[str]:
-    """Return what the wall shows in turn: tables, bracket, story (`told` steps), end, check-in."""
+    """Return the wall's rotation: tables, bracket, story (`told` steps), end, check-in."""
     if not view.state.drawn:
         return ["check-in"]
     bracket = [] if view.state.plan.form == "chips" else ["bracket"]
@@ -235,7 +235,7 @@ def pictures_of(view: WallView, *, told: int) -> list[str]:
 
 
 def turn_at(now: str) -> tuple[int, int]:
-    """Return which turn it is, and for how many seconds still.
+    """Return the current item in the rotation, and how many seconds it has left.
 
     >>> turn_at("2025-03-01T00:00:31")
     (2, 14)

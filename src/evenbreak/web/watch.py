@@ -1,7 +1,7 @@
-"""One look at the file for all who follow it: pages, overlays and other programs.
+"""One check of the file for everyone who follows it: pages, overlays and other programs.
 
-While someone follows, the file is looked at five times a second by what the system says of it, and
-read only if that has changed. What is entered on a page of this process is seen at once.
+While someone is following, the file's metadata is checked five times a second, and the file is read
+only if that has changed. Entries made on this process's own pages are seen at once.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ from evenbreak.web.night import mark_of
 from evenbreak.web.sessions import address_of
 
 MOST = 1000
-"""Entries that are kept for those who come back; who missed more reads everything anew."""
+"""How many entries are kept for clients that reconnect; if more were missed, all is read anew."""
 
 ALIVE = 20.0
-"""Seconds after which something is sent in any case."""
+"""How many seconds until something is sent in any case."""
 
 _LOOK = 0.2  # seconds between two looks
 _LOG = logging.getLogger(__name__)
 
 
 class Watch:
-    """The last entry, and who waits for more; one address may have half of the `most` followers."""
+    """The last entry and its followers; one address may have half of the `most` followers."""
 
     def __init__(self, path: Path, most: int) -> None:
         self.path = path
@@ -49,11 +49,11 @@ class Watch:
 
     @property
     def last(self) -> str:
-        """What the last entry is known by; "0" if there is none."""
+        """The last entry's key; "0" if there is none."""
         return self.rows[-1].mark if self.rows else "0"
 
     def since(self, last: str) -> list[Row] | None:
-        """Return the entries after one; None if it is not of this file, or too long ago."""
+        """Return the entries after a given one; None if it isn't in this file, or too long ago."""
         if last == "0" and (not self.rows or self.rows[0].id == 1):
             return list(self.rows)
         number = last.partition("-")[0]
@@ -61,21 +61,21 @@ class Watch:
         return [*islice(self.rows, known[0] + 1, None)] if known else None
 
     def is_full(self, address: str) -> bool:
-        """Return whether no more can follow from an address."""
+        """Return whether no more followers are allowed from an address."""
         return self.followers.total() >= self.most or self.followers[address] >= self.most // 2
 
     def wake(self) -> None:
-        """Look at once: something may have been entered."""
+        """Check at once: something may have been entered."""
         self._woken.set()
 
     def close(self) -> None:
-        """Let all who follow go."""
+        """Release all followers."""
         self.closing = True
         self._changed.set()
 
     @asynccontextmanager
     async def following(self, address: str) -> AsyncIterator[None]:
-        """Follow from an address, beginning with what there is now."""
+        """Follow from an address, starting with the current state."""
         self.followers[address] += 1
         try:
             await self._look()
@@ -89,7 +89,7 @@ class Watch:
                 self._task = None
 
     async def after(self, last: str) -> None:
-        """Wait until the last entry is another one, but no longer than `ALIVE`."""
+        """Wait until there is a new last entry, but no longer than `ALIVE`."""
         if self.last == last and not self.closing:
             with suppress(TimeoutError):
                 await asyncio.wait_for(self._changed.wait(), ALIVE)
@@ -131,10 +131,10 @@ class Watch:
 def stream_of(
     request: Request, told: Callable[[str | None], Awaitable[bytes]], last: str | None = None
 ) -> Response:
-    """Stream server-sent events: one at once, and another after each entry.
+    """Stream server-sent events: one immediately, and another after each entry.
 
-    `told` returns the next, given its name of the last entry sent; it looks at everything after
-    that.
+    `told` returns the next event, given its name for the last entry sent; it considers everything
+    after that.
     """
     watch: Watch = request.app.state.watch
     here = address_of(request)
@@ -156,14 +156,14 @@ def stream_of(
 
 
 class Waking:
-    """Wakes followers as soon as anyone answered has entered something."""
+    """Wakes followers as soon as a request has entered something."""
 
     def __init__(self, app: ASGIApp, *, watch: Watch) -> None:
         self.app = app
         self.watch = watch
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer, and wake before the answer is sent."""
+        """Answer, and wake followers before the answer is sent."""
 
         async def answer(message: Message) -> None:
             if message["type"] == "http.response.start":

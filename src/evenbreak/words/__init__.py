@@ -1,23 +1,23 @@
-"""Sentences that keep their template and their values until a face says them.
+"""Sentences that keep their template and their values until an output format phrases them.
 
-How to say a sentence:
+How to phrase a sentence:
 
 - `say("{player} goes to {match}.", player=name, match=number)`: a template in plain English, never
-  an f-string, and values by name. It is a `str` (the English text) that also knows its parts.
-- A value is a name (any `str`: never translated, never looked into), a number, or a sentence.
-  Numbers are written as the template asks, in the reader's way: `{games:,}`, `{p:.1%}`;
-  `Figure(p, ".1%", sign="<")` is a number that is shown by itself.
-- `say_count("{n} game is left.", "{n} games are left.", n)` where a number decides the wording;
-  `say_as("heading", "race")` where one English word has several meanings.
+  an f-string, and named values. The result is a `str` (the English text) that also knows its parts.
+- A value is a name (any `str`: never translated, never parsed), a number, or a sentence. Numbers
+  are formatted as the template asks, in the reader's locale: `{games:,}`, `{p:.1%}`; `Figure(p,
+  ".1%", sign="<")` is a number shown by itself.
+- `say_count("{n} game is left.", "{n} games are left.", n)` if a number decides the wording;
+  `say_as("heading", "race")` if one English word has several meanings.
 - `tally((5, 4))` is a score, "5-4"; `race((7, 5))` a race, "7:5".
-- `listed(names)` is "a, b and c"; `joined(sentences, " ")` and `+` put texts one after another.
-  `" ".join` and f-strings give plain text, which stays English.
-- `Parameter("win_by")` names a parameter (`--win-by`, or the label of its field), as does a name
-  in braces that has no value: `say("{win_by} is {value}", value=3)`;
-  `Command("tournament result", "W1.2")` a command (or what a page has in its place),
-  `FilePath(path)` a file.
-- Errors take the same: `raise InputError("{scale} is {value}; ...", value=scale)`.
-- A face says it: `in_face(text, face)`; plain text stays as it is. Never parse a sentence.
+- `listed(names)` is "a, b and c"; `joined(sentences, " ")` and `+` concatenate texts. `" ".join`
+  and f-strings give plain text, which stays English.
+- `Parameter("win_by")` names a parameter (`--win-by`, or the label of its field), as does a name in
+  braces that has no value: `say("{win_by} is {value}", value=3)`; `Command("tournament result",
+  "W1.2")` a command (or a page's equivalent), `FilePath(path)` a file.
+- Errors work the same way: `raise InputError("{scale} is {value}; ...", value=scale)`.
+- To phrase it for an output format: `in_face(text, face)`; plain text is unchanged. Never parse a
+  sentence.
 """
 
 from evenbreak.words.faces import PYTHON, Face

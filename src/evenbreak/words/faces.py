@@ -1,4 +1,4 @@
-"""How one face writes: its language, its numbers, and its names for parameters and commands."""
+"""How an output format writes: its language, its numbers, its names for parameters and commands."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ def _command_line(name: str, words: Sequence[str]) -> str:
 
 @dataclass(frozen=True)
 class Face:
-    """How sentences are said in one place: a terminal, a page in German, Python.
+    """How sentences are phrased in one place: a terminal, a page in German, Python.
 
     `percent` has {n} for the number; `parameter` returns a name such as '--win-by' for 'win_by';
-    `command` what a reader does instead of a command, given its name and words; `file` a path's
-    name.
+    `command` returns what a reader does instead of a command, given its name and words; `file`
+    returns a path's name.
 
     >>> Face(decimal=",", group=".").number(1234.5, ",.2f")
     '1.234,50'
@@ -39,7 +39,7 @@ class Face:
     file: Callable[[str], str] = _itself
 
     def number(self, value: Any, spec: str = "") -> str:
-        """Return a number as this face writes it; `spec` is that of `format`."""
+        """Return a number formatted for this place; `spec` is as for `format`."""
         text = format(value, spec)
         digits = text.removesuffix("%") if spec.endswith("%") else text
         shown = digits.translate({ord("."): self.decimal, ord(","): self.group})
@@ -47,4 +47,4 @@ class Face:
 
 
 PYTHON = Face()
-"""Plain English, parameters and commands by their own names: what `str` of a sentence is."""
+"""Plain English, with parameters and commands under their own names: used for `str(sentence)`."""

@@ -14,14 +14,14 @@ NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 class _Values(dict[str, Any]):
-    """The values of a sentence by name; a name without a value is that of a parameter."""
+    """A sentence's values by name; a name without a value is a parameter's."""
 
     def __missing__(self, name: str) -> Parameter:
         return Parameter(name)
 
 
 class _Wording(NamedTuple):
-    """A template as the catalogs know it: what it means, and how it is said of several."""
+    """A template as in the catalogs: its meaning, its text, and its plural."""
 
     template: str
     many: str = ""
@@ -29,7 +29,7 @@ class _Wording(NamedTuple):
     meaning: str = ""
 
     def said(self, face: Face) -> str:
-        """Return the template in the language of a face."""
+        """Return the template in an output format's language."""
         words = face.translations
         if self.many and self.meaning:
             return words.npgettext(self.meaning, self.template, self.many, self.count)
@@ -41,17 +41,18 @@ class _Wording(NamedTuple):
 
 
 class Sentence(str):
-    """A text in English that keeps its parts, so that each output format can say it in its own way.
+    """A string in English that keeps its parts, so that each output format can phrase it.
 
-    `wording` is the template; a template of one and of many with the number that decides; its
-    meaning. Sentences among the values are said by the format too, all else stays.
+    `wording` is the template; or singular and plural templates with the number that decides; or
+    with its meaning. Values that are sentences are phrased by the format too; everything else is
+    unchanged.
     """
 
     wording: _Wording
     values: Mapping[str, Any]
 
     def __new__(cls, wording: _Wording, values: Mapping[str, Any] = NOTHING) -> Sentence:
-        """Return the sentence; its text is that of `PYTHON`."""
+        """Return the sentence; its text is phrased for `PYTHON`."""
         template = wording.said(PYTHON)
         filled = _Values(values)
         text = _ended(template, template.format_map(filled)) if values else template
@@ -65,14 +66,14 @@ class Sentence(str):
         return self.wording.template
 
     def said(self, face: Face) -> str:
-        """Return the text as a face says it."""
+        """Return the text phrased for an output format."""
         template = self.wording.said(face)
         if not self.values:
             return template
         return _ended(template, _InFace(face).vformat(template, (), self.values))
 
     def is_ours(self, face: Face) -> bool:
-        """Return whether it starts with a word of ours in a face, and not with a value."""
+        """Return whether it starts with a word of the template, not with a value."""
         template = self.wording.said(face)
         if not template.startswith("{") or not self.values:
             return True
@@ -81,50 +82,50 @@ class Sentence(str):
         return isinstance(value, Sentence) and value.is_ours(face)
 
     def __add__(self, after: str) -> Sentence:
-        """Return this sentence and what follows it."""
+        """Return this sentence followed by another text."""
         return Joined((self, after), "")
 
     def __radd__(self, before: str) -> Sentence:
-        """Return what comes before this sentence, and it."""
+        """Return another text followed by this sentence."""
         return Joined((before, self), "")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return what a copy in another process is made from."""
+        """Return the arguments for copying it to another process."""
         return type(self), (self.wording, dict(self.values))
 
 
 def _ended(template: str, text: str) -> str:
-    """Return a text with one period at its end where the last value, such as 'Jr.', has one too."""
+    """Return text with only one period at its end if the last value, such as 'Jr.', has one too."""
     dots = len(text) - len(text.rstrip("."))
     twice = template.endswith("}.") and dots in (2, 4)  # "Jr..", and "1, 2, ...."
     return text[:-1] if twice else text
 
 
 class _InFace(Formatter):
-    """Fill in a template; sentences, parameters and numbers are shown as a face has them."""
+    """Fill in a template, phrasing sentences, parameters and numbers for an output format."""
 
     def __init__(self, face: Face) -> None:
         self.face = face
 
     def format_field(self, value: Any, format_spec: str) -> str:
-        """Return a value as the face shows it."""
+        """Return a value as shown in an output format."""
         if isinstance(value, Number):
             return self.face.number(value, format_spec)
         return str(format(in_face(value, self.face), format_spec))
 
     def convert_field(self, value: Any, conversion: Any) -> Any:
-        """Return a value, with quotation marks around it where the template has `!r`."""
+        """Return a value, in quotation marks if the template has `!r`."""
         return super().convert_field(in_face(value, self.face), conversion)
 
 
 class Joined(Sentence):
-    """Texts one after another, some of which are sentences."""
+    """Concatenated texts, some of which are sentences."""
 
     parts: tuple[str, ...]
     between: str
 
     def __new__(cls, parts: Iterable[str], between: str) -> Joined:
-        """Return the parts, with `between` between any two."""
+        """Return the parts, with `between` in between."""
         kept = tuple(parts)
         sentence = str.__new__(cls, between.join(kept))
         sentence.wording, sentence.values = _Wording(""), NOTHING
@@ -132,27 +133,27 @@ class Joined(Sentence):
         return sentence
 
     def is_ours(self, face: Face) -> bool:
-        """Return whether it starts with a word of ours, and not with a value."""
+        """Return whether it starts with a word of ours, not with a value."""
         first = self.parts[0] if self.parts else ""
         return isinstance(first, Sentence) and first.is_ours(face)
 
     def said(self, face: Face) -> str:
-        """Return the text as a face says it."""
+        """Return the text phrased for an output format."""
         between: str = in_face(self.between, face)
         return between.join(in_face(part, face) for part in self.parts)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return what a copy in another process is made from."""
+        """Return the arguments for copying it to another process."""
         return type(self), (self.parts, self.between)
 
 
 class _Thing(Sentence):
-    """What a face has a name of its own for, or writes in its own way."""
+    """A value for which an output format has its own name or its own spelling."""
 
     arguments: tuple[Any, ...]
 
     def __new__(cls, *arguments: Any) -> Any:
-        """Return it, with the text that Python has for it."""
+        """Return it, with its text in Python."""
         sentence = str.__new__(cls, cls.shown(PYTHON, *arguments))
         sentence.wording, sentence.values = _Wording(""), NOTHING
         sentence.arguments = arguments
@@ -160,19 +161,19 @@ class _Thing(Sentence):
 
     @staticmethod
     def shown(face: Face, *arguments: Any) -> str:
-        """Return it as a face shows it."""
+        """Return it as shown in an output format."""
         raise NotImplementedError
 
     def is_ours(self, face: Face) -> bool:  # noqa: ARG002
-        """Return whether it starts with a word of ours, and not with a value."""
+        """Return whether it starts with a word of ours, not with a value."""
         return isinstance(self, Parameter)
 
     def said(self, face: Face) -> str:
-        """Return the text as a face says it."""
+        """Return the text phrased for an output format."""
         return self.shown(face, *self.arguments)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return what a copy in another process is made from."""
+        """Return the arguments for copying it to another process."""
         return type(self), self.arguments
 
 
@@ -190,13 +191,13 @@ class Figure(_Thing):
 
     @staticmethod
     def shown(face: Face, *arguments: Any) -> str:
-        """Return it as a face shows it."""
+        """Return it as shown in an output format."""
         value, spec, sign = arguments
         return f"{sign}{face.number(value, spec)}"
 
 
 class Parameter(_Thing):
-    """The name of a parameter: `--win-by` on a terminal, the label of its field on a page.
+    """A parameter's name: `--win-by` on a terminal, its field's label on a page.
 
     >>> Parameter("win_by")
     'win_by'
@@ -209,12 +210,12 @@ class Parameter(_Thing):
 
     @staticmethod
     def shown(face: Face, *arguments: Any) -> str:
-        """Return it as a face shows it."""
+        """Return it as shown in an output format."""
         return face.parameter(str(arguments[0]))
 
 
 class Command(_Thing):
-    """A command of the terminal, or what a page has in its place.
+    """A terminal command, or its equivalent on a page.
 
     >>> Command("tournament result", "W1.2", "5-3")
     'evenbreak tournament result W1.2 5-3'
@@ -227,13 +228,13 @@ class Command(_Thing):
 
     @staticmethod
     def shown(face: Face, *arguments: Any) -> str:
-        """Return it as a face shows it."""
+        """Return it as shown in an output format."""
         name, *words = (str(in_face(argument, face)) for argument in arguments)
         return face.command(name, words)
 
 
 class FilePath(_Thing):
-    """A file, by its path; a page that strangers read has its name alone.
+    """A file, by its path; on a page read by strangers, only its name is shown.
 
     >>> FilePath("club/results.csv")
     'club/results.csv'
@@ -246,12 +247,12 @@ class FilePath(_Thing):
 
     @staticmethod
     def shown(face: Face, *arguments: Any) -> str:
-        """Return it as a face shows it."""
+        """Return it as shown in an output format."""
         return face.file(str(arguments[0]))
 
 
 def in_face(text: Any, face: Face) -> Any:
-    """Return a text as a face says it; what is no sentence stays as it is.
+    """Return text phrased for an output format; anything but a sentence is unchanged.
 
     >>> comma = Face(decimal=",")
     >>> in_face(say("{player} needs {p}.", player="Tom and Jerry", p=0.5), comma)
@@ -263,7 +264,7 @@ def in_face(text: Any, face: Face) -> Any:
 
 
 def capital_in_face(text: str, face: Face) -> str:
-    """Return a text as a face says it; each line gets a capital unless it starts with a name.
+    """Return text phrased for an output format, with each line capitalized unless it is a name.
 
     >>> capital_in_face(say("match {match} is over", match="W1.1"), PYTHON)
     'Match W1.1 is over'
@@ -279,10 +280,10 @@ def capital_in_face(text: str, face: Face) -> str:
 
 
 def say(template: str, /, **values: Any) -> Sentence:
-    """Return a sentence, with what it holds filled in.
+    """Return a sentence with its values filled in.
 
-    A name that has no value is that of a parameter: `say("{games} is {n}", n=3)`. Without any value
-    the template is the text itself.
+    A name without a value is a parameter's: `say("{games} is {n}", n=3)`. Without any values, the
+    template is the text itself.
 
     >>> sentence = say("{player} goes to {match}.", player="Player and Son", match="W2.1")
     >>> sentence, sentence.template, dict(sentence.values)["player"]
@@ -292,7 +293,7 @@ def say(template: str, /, **values: Any) -> Sentence:
 
 
 def say_as(meaning: str, template: str, /, **values: Any) -> Sentence:
-    """Return a sentence whose English has several meanings, with the one that is meant.
+    """Return a sentence whose English has several meanings, stating which is meant.
 
     >>> say_as("heading of a column", "race")
     'race'
@@ -301,7 +302,7 @@ def say_as(meaning: str, template: str, /, **values: Any) -> Sentence:
 
 
 def say_count(one: str, many: str, n: Any, /, **values: Any) -> Sentence:
-    """Return a sentence whose wording depends on a number, which it has as `{n}`.
+    """Return a sentence whose wording depends on a number, which appears in it as `{n}`.
 
     >>> say_count("{n} game", "{n:,} games", 1), say_count("{n} game", "{n:,} games", 1200)
     ('1 game', '1,200 games')
@@ -310,7 +311,7 @@ def say_count(one: str, many: str, n: Any, /, **values: Any) -> Sentence:
 
 
 def joined(parts: Iterable[str], between: str = " ") -> Sentence:
-    """Return texts one after another, each said by the face.
+    """Return texts concatenated, each phrased by the output format.
 
     >>> joined([say("{n} players are drawn.", n=8), "Ann"])
     '8 players are drawn. Ann'
@@ -319,7 +320,7 @@ def joined(parts: Iterable[str], between: str = " ") -> Sentence:
 
 
 def ordinal(n: int) -> Sentence:
-    """Return a number that says which one is meant.
+    """Return an ordinal number.
 
     >>> ordinal(1), ordinal(12), ordinal(22), ordinal(103)
     ('1st', '12th', '22nd', '103rd')
@@ -330,7 +331,7 @@ def ordinal(n: int) -> Sentence:
 
 
 def tally(games: Iterable[Any]) -> Sentence:
-    """Return a score: how many games each of two has won, as the reader's language writes it.
+    """Return a score: the games each of two players has won, as written in the reader's language.
 
     >>> tally((5, 4))
     '5-4'
@@ -340,7 +341,7 @@ def tally(games: Iterable[Any]) -> Sentence:
 
 
 def race(needs: Iterable[Any]) -> str:
-    """Return a race: how many games each of two needs.
+    """Return a race: the games each of two players needs.
 
     >>> race((7, 5))
     '7:5'
@@ -349,7 +350,7 @@ def race(needs: Iterable[Any]) -> str:
 
 
 def listed(parts: Sequence[Any], last: str = "and") -> Sentence:
-    """Return a list as a sentence has it, with 'and' or 'or' before the last.
+    """Return a list for a sentence, with 'and' or 'or' before the last item.
 
     >>> listed(["Ann"]), listed(["Ann", "Bo"]), listed(["Ann", "Bo", "Cy"], "or")
     ('Ann', 'Ann and Bo', 'Ann, Bo or Cy')

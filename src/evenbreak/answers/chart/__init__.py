@@ -1,1 +1,1 @@
-"""Handicap charts: listed, shown, audited, designed."""
+"""Handicap charts: listing, showing, auditing and designing them."""

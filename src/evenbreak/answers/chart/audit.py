@@ -23,13 +23,13 @@ from evenbreak.ratings.scale import NAMES, SCALES, Scale
 from evenbreak.words import listed, race
 
 SAME_SCALE = 0.05
-"""Scales that differ by a smaller share are the same scale to a reader."""
+"""Scales whose relative difference is smaller count as the same."""
 
 SAME_CHANCE = 0.02
-"""A chart favors neither player if the mean chance is nearer to 1/2 than this."""
+"""A chart favors neither player if the mean chance is closer to 1/2 than this."""
 
 ROUGH = 0.25
-"""A fit that is off by more than this share of a band, on average, is none to a reader."""
+"""A fit that is off by more than this share of a band, on average, isn't reported."""
 
 _CHANCES = columns_of("p_win_low p_win_middle p_win_high")
 _OFF = column_of("off_by_chance")
@@ -82,7 +82,7 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
 
 
 def _favored(report: ChartAudit) -> Iterator[str]:
-    """Yield whom the chart favors as a whole, if any row has an end."""
+    """Yield who the chart favors overall, if any row has an end."""
     chances = report.p_win
     if not chances.size:
         return
@@ -103,7 +103,7 @@ def _favored(report: ChartAudit) -> Iterator[str]:
 
 
 def _beyond(report: ChartAudit) -> Iterator[str]:
-    """Yield how the stronger player does where the chart has no harder race."""
+    """Yield the stronger player's chances where the chart has no harder race."""
     last = report.rows[-1]
     if last.difference_to is not None:
         return
@@ -138,7 +138,7 @@ def _least_fair(report: ChartAudit) -> Iterator[str]:
 
 
 def _order(report: ChartAudit) -> Iterator[str]:
-    """Yield what is wrong with the order of the rows, or that nothing is."""
+    """Yield what is wrong with the order of the rows, or that nothing is wrong."""
     for count, spans in (("No race is", report.gaps), ("More than one race is", report.overlaps)):
         if spans:
             many = len(spans) > 1 or spans[0][0] != spans[0][1]
@@ -189,7 +189,7 @@ def _made_for(report: ChartAudit) -> Iterator[str]:
 
 
 def _rough(report: ChartAudit, fit: ChartFit) -> bool:
-    """Return whether the bands of a chart start far from where a fit would put them."""
+    """Return whether a chart's bands start far from where a fit would put them."""
     widths = [
         row.difference_to - row.difference_from + 1
         for row in report.rows
@@ -222,7 +222,7 @@ def level_audit_answer(
 ) -> Answer:
     """Return how fair a chart by skill level is, and the ratings that it implies.
 
-    `skills`, if they were measured, show how fair it is in fact.
+    If `skills` were measured, they show how fair it really is.
 
     >>> from evenbreak.handicaps import audit_levels, level_chart
     >>> print(level_audit_answer(audit_levels(level_chart("apa_8ball"))).sentences[0])
@@ -301,7 +301,7 @@ def _least_fair_levels(between: Sequence[LevelCell]) -> str:
 
 
 def _chances(between: Sequence[LevelCell], skills: LevelSkills) -> list[float]:
-    """Return P(the higher level wins) for each pair, by what its levels are worth."""
+    """Return P(the higher level wins) for each pair, from what its levels are worth."""
     pairs = np.array([(cell.level, cell.opponent_level) for cell in between]).T
     needs = np.array([(cell.needs, cell.opponent_needs) for cell in between]).T
     chances: list[float] = race_win_probability(skills.chance(*pairs), *needs).tolist()
@@ -329,11 +329,11 @@ def _level_order(cells: Sequence[LevelCell]) -> str:
 
 
 FEW, MANY = 15.0, 40.0
-"""The innings between which a reader sees how much the answer depends on them."""
+"""The numbers of innings used to show how much the answer depends on them."""
 
 
 def points_audit_answer(chart: PointsChart, *, warnings: Sequence[str] = ()) -> Answer:
-    """Return what a chart of points comes to, with the assumptions behind it.
+    """Return a points chart's audit, with the assumptions behind it.
 
     >>> from evenbreak.handicaps import points_chart
     >>> answer = points_audit_answer(points_chart("apa_9ball"))
@@ -378,7 +378,7 @@ def _even(report: PointsAudit) -> str:
 
 
 def _wrong_level(*reports: PointsAudit) -> str:
-    """Return what one level too low is worth, and how much that depends on the innings."""
+    """Return what being one level too low is worth, and how much that depends on the innings."""
     report, *others = (_as_next(one) for one in reports)
     if not report:
         return ""
@@ -396,7 +396,7 @@ def _as_next(report: PointsAudit) -> list[float]:
 
 
 _DRAWN_TOGETHER = 0.1
-"""Charts whose scales differ by a smaller share are drawn on the same scale."""
+"""Charts whose scales have a smaller relative difference are drawn on the same scale."""
 
 
 def audit(asked: questions.ChartAudit) -> Answer:
@@ -422,7 +422,7 @@ def audit(asked: questions.ChartAudit) -> Answer:
 
 
 def other_chart(chart: str, scale: Scale) -> handicaps.ChartAudit:
-    """Return the audit of the chart beside, on the same scale if it was made for about that."""
+    """Return the other chart's audit, on the same scale if the two scales are close."""
     draft = find_chart_file(chart).found
     if not isinstance(draft, handicaps.ChartDraft):
         refuse("{beside} names a chart by skill level, which has no rating differences to plot")

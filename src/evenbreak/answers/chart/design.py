@@ -1,4 +1,4 @@
-"""The fairest chart within limits, and other charts next to it."""
+"""The fairest chart within limits, compared with other charts."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
@@ -23,18 +23,18 @@ from evenbreak.ratings.scale import Scale
 from evenbreak.words import Parameter, Sentence, race, say
 
 MOST_LISTED = 10
-"""The most ranges with other races that a person is shown for one chart."""
+"""The most ranges with different races that are shown for one chart."""
 
 MOST_SHORTER = 4
 """The most charts with shorter matches that are listed."""
 
 SPREAD = 2
-"""How much the longest matches of a printed chart's races differ, in games."""
+"""How much the longest matches in a printed chart's races differ, in games."""
 
 
 @dataclass(frozen=True)
 class DesignTask:
-    """What is asked of a design; the fields are those of `evenbreak.handicaps.design`.
+    """What a chart design must meet; the fields are as in `evenbreak.handicaps.design`.
 
     Without `up_to`, the last difference that counts is the smallest `last_difference` of the charts
     compared with (`beside`).
@@ -49,7 +49,7 @@ class DesignTask:
     beside: tuple[Chart, ...] = ()
 
     def design(self) -> tuple[Chart, int]:
-        """Return the chart that fulfils the task, and the last difference that counts."""
+        """Return the chart that meets the requirements, and the last difference that counts."""
         up_to = self.up_to
         if up_to is None and self.beside:
             up_to = min(last_difference(chart, self.scale) for chart in self.beside)
@@ -58,7 +58,7 @@ class DesignTask:
         return made, int(races.points[-1])
 
     def heading(self, up_to: int) -> str:
-        """Return what is asked for, in two lines."""
+        """Return the requirements, in two lines."""
         low, high = self.limits.games
         words = [f"Races whose longest match has {low} to {high} games"]
         if self.limits.games_p90 is not None:
@@ -79,7 +79,7 @@ class DesignTask:
 
 
 def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
-    """Return a designed chart next to other charts; as CSV it is a chart file.
+    """Return a designed chart next to other charts; the CSV is a chart file.
 
     >>> from evenbreak.ratings import SCALES
     >>> task = DesignTask(SCALES["npl"], RaceLimits((7, 9), 5, 2), up_to=59)
@@ -132,7 +132,7 @@ def _in_words(found: ChartMeasure, target: float) -> str:
 
 
 class _Span(NamedTuple):
-    """A range of differences in which two charts have different races."""
+    """A range of differences for which two charts have different races."""
 
     first: int
     last: int
@@ -173,7 +173,7 @@ def _compared(chart: Chart, found: ChartMeasure, spans: Sequence[_Span], target:
 
 
 def _rows(task: DesignTask, made: Chart, up_to: int) -> Table:
-    """Return the chart with the chance and the length of its races."""
+    """Return the chart with the chances and lengths of its races."""
     rows = []
     for row in made.rows:
         last = up_to if row.difference_to is None else row.difference_to
@@ -196,7 +196,7 @@ def _other_races(chart: Chart, spans: Sequence[_Span]) -> Table:
 
 
 def _prices(task: DesignTask, made: Chart, up_to: int) -> Table | None:
-    """Return the designed chart beside those without each wish; None if they are all the same.
+    """Return the designed chart next to the charts without each wish; None if all are the same.
 
     Unfairness is measured from the target, whatever the tilt of the design.
     """
@@ -225,7 +225,7 @@ def _prices(task: DesignTask, made: Chart, up_to: int) -> Table | None:
 
 
 def _without_wishes(task: DesignTask) -> Iterator[tuple[str, Chart]]:
-    """Yield the charts of any number of rows, and of shorter and shorter matches."""
+    """Yield the charts with any number of rows, and with shorter and shorter matches."""
     if task.rows is not None:
         yield "any number of rows", replace(task, rows=None).design()[0]
     low, high = task.limits.games
@@ -239,7 +239,7 @@ def _without_wishes(task: DesignTask) -> Iterator[tuple[str, Chart]]:
 
 
 _FIELDS = {"rows": "most_rows", "weaker_least": "least", "stronger_least": "least"}
-"""What a parameter of a design is called in the question."""
+"""The question's names for a design's parameters."""
 
 
 def design(asked: ChartDesign) -> Answer:
@@ -261,7 +261,7 @@ def design(asked: ChartDesign) -> Answer:
 
 
 def _of_the_question(sentence: Sentence) -> Sentence:
-    """Return what is wrong with a design, with its parameters as the question calls them."""
+    """Return what is wrong with a design, using the question's parameter names."""
     values = {name: Parameter(field) for name, field in _FIELDS.items()}
     for name, value in sentence.values.items():
         is_one = isinstance(value, Parameter)

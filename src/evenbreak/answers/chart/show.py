@@ -1,4 +1,4 @@
-"""All charts and systems, and the races of a chart."""
+"""All charts and systems, and a chart's races."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from evenbreak.words import race
 
 
 def chart_list_answer(_: object = None) -> Answer:
-    """Return the charts, ours and those of installed packages, with their races.
+    """Return the charts, ours and installed packages', with their races.
 
     >>> [row["chart"] for row in chart_list_answer().to_dict()["charts"]][-1]
     'apa_9ball'
@@ -57,7 +57,7 @@ def chart_list_answer(_: object = None) -> Answer:
 
 
 def system_list_answer(_: object = None) -> Answer:
-    """Return the handicap systems, ours and those of installed packages.
+    """Return the handicap systems, ours and installed packages'.
 
     >>> system_list_answer().to_dict()["systems"][0]["name"]
     'npl'
@@ -91,7 +91,7 @@ def system_list_answer(_: object = None) -> Answer:
 def _added(
     kind: Kind, find: Callable[[str], Any], is_ours: Callable[[str], bool]
 ) -> tuple[dict[tuple[str, str], Any], list[str]]:
-    """Return what installed packages add, by name and package, and why some of it is left out."""
+    """Return what installed packages add, by name and package, and why any of it is left out."""
     found, warnings = {}, []
     for name, package in added(kind).items():
         if is_ours(name):
@@ -122,7 +122,7 @@ def _races(chart: Any) -> tuple[Any, ...]:
 def chart_show_answer(
     chart: Chart | LevelChart | PointsChart, *, warnings: Sequence[str] = ()
 ) -> Answer:
-    """Return the races of a chart; as CSV it is a chart file.
+    """Return a chart's races; the CSV is a chart file.
 
     >>> from evenbreak.handicaps import chart
     >>> print(chart_show_answer(chart("npl_8")).sentences[0])
@@ -145,7 +145,7 @@ def _parts(chart: Chart | LevelChart | PointsChart) -> list[Part]:
 
 
 def chart_rows(chart: Chart | LevelChart | PointsChart) -> Table:
-    """Return the rows of a chart as a file holds them, and as JSON does under `rows`."""
+    """Return a chart's rows as in a file, and as in JSON under `rows`."""
     columns, rows = chart_table(chart)
     return Table("rows", in_files(columns), rows)
 
@@ -186,7 +186,7 @@ def _by_level(chart: LevelChart) -> list[Part]:
 def team_handicap_answer(
     averages: tuple[float, float], found: TeamHandicap, *, match_ups: int, scale: Scale
 ) -> Answer:
-    """Return the handicap of a round between two teams of these average ratings.
+    """Return the handicap for a round between two teams with these average ratings.
 
     >>> from evenbreak.handicaps import team_handicap
     >>> from evenbreak.ratings import SCALES
@@ -246,13 +246,13 @@ def _how(found: TeamHandicap, match_ups: int) -> str:
 
 
 def show(asked: ChartShow) -> Answer:
-    """Return the races of a chart."""
+    """Return a chart's races."""
     file = find_chart_file(asked.chart)
     return chart_show_answer(file.chart, warnings=file.warnings)
 
 
 def team(asked: ChartTeam) -> Answer:
-    """Return the points that the weaker of two teams gets."""
+    """Return the points given to the weaker of two teams."""
     handicap = team_handicap(
         asked.average_1,
         asked.average_2,

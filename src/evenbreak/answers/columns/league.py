@@ -1,4 +1,4 @@
-"""Columns of a league: ratings, races, seasons, whether ratings hold, ladders, sandbagging."""
+"""Columns for a league: ratings, races, seasons, validation, ladders, sandbagging."""
 
 from evenbreak.answers.columns import shown
 from evenbreak.answers.columns.shown import detail, number, registry, text

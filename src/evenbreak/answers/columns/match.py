@@ -1,4 +1,4 @@
-"""Columns of a match, of a game as a graph, and of handicap charts."""
+"""Columns for a match, a game as a graph, and handicap charts."""
 
 from evenbreak.answers.columns import shown
 from evenbreak.answers.columns.shown import detail, number, registry, text

@@ -1,4 +1,4 @@
-"""Columns of practice, of shots and strokes, and of files that were written."""
+"""Columns for practice, shots and strokes, and files written."""
 
 from evenbreak.answers.columns import shown
 from evenbreak.answers.columns.shown import detail, number, registry, text

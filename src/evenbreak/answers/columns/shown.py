@@ -1,4 +1,4 @@
-"""How an entry of the registry is written, and how values are read where digits are not all."""
+"""How registry entries are declared, and how values are shown if plain digits aren't enough."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ _ROUNDING = 1e-14  # differences up to this vary from computer to computer
 
 
 def in_hundred(places: int) -> Show:
-    """Return how a share is shown where its heading says that it is of a hundred."""
+    """Return a share as shown under a heading that says percent."""
     return lambda value: f"{100.0 * value:.{places}f}"
 
 
 def signed_percent(change: float) -> str:
-    """Return a difference of chances, with its sign."""
+    """Return a difference in chances, with its sign."""
     return f"{100.0 * change:+.1f}%"
 
 
 def percent_or_blank(cost: float) -> str:
-    """Return a difference of chances, if it shows.
+    """Return a difference in chances, if it's large enough to show.
 
     >>> percent_or_blank(0.041), percent_or_blank(0.0)
     ('4.1%', '')
@@ -53,7 +53,7 @@ def amount(value: float) -> str:
 
 
 def evidence(e: float) -> str:
-    """Return a value of the evidence.
+    """Return the evidence, with as many digits as it needs.
 
     >>> evidence(0.0123), evidence(34.5), evidence(62_671.0), evidence(1.23e9)
     ('0.012', '34.5', '62,671', '1.2e+09')
@@ -99,7 +99,7 @@ def provisional_or_blank(truth: bool) -> str:
 
 
 def no_time(match: str) -> str:
-    """Return a match as CSV has it: a bare 9:5 is a time of day to a spreadsheet."""
+    """Return a match as written in CSV, because spreadsheets take a bare 9:5 for a time of day."""
     return f"race {match}" if match[0].isdigit() else match
 
 
@@ -114,12 +114,12 @@ def versus(levels: Sequence[Any]) -> str:
 
 
 def span(ends: tuple[int, int | None]) -> str:
-    """Return a range of differences, given by its ends."""
+    """Return a range of differences, given its ends."""
     return range_words(*ends)
 
 
 def even_race(ends: tuple[int, int] | None) -> str:
-    """Return the races of equal players, which a chart of points does not have."""
+    """Return the races for equal players, which a points chart doesn't have."""
     if ends is None:
         return "points"
     first, last = ends
@@ -127,24 +127,24 @@ def even_race(ends: tuple[int, int] | None) -> str:
 
 
 def points_or_new(rating: float) -> str:
-    """Return a rating as leagues print it; one that is not known is new."""
+    """Return a rating as leagues print it; an unknown rating is "new"."""
     if math.isnan(rating):
         return "new"
     return f"{rating:.0f}" if rating == round(rating) else f"{rating:.1f}"
 
 
 def signed_points(points: float) -> str:
-    """Return the change of a rating."""
+    """Return a change in rating."""
     return f"{points:+g}" if points else "0"
 
 
 def or_safe(points: float) -> str:
-    """Return the points that a team needs; 'safe' if it needs none."""
+    """Return the points a team needs; 'safe' if it needs none."""
     return "safe" if points == 0.0 else f"{points:g}"
 
 
 def moves(minutes: float) -> str:
-    """Return by how much the finish moves.
+    """Return how much later or earlier the evening ends.
 
     >>> moves(-72.0), moves(0.2)
     ('1 h 12 earlier', '0 min')
@@ -157,7 +157,7 @@ def moves(minutes: float) -> str:
 
 
 def pair(names: Sequence[str]) -> str:
-    """Return who plays who in a table.
+    """Return who plays who, for a table.
 
     >>> pair(["Ann", "Bo"])
     'Ann - Bo'
@@ -166,7 +166,7 @@ def pair(names: Sequence[str]) -> str:
 
 
 def later(minutes: float) -> str:
-    """Return by how much the finish moves, if that is worth saying."""
+    """Return how much later or earlier the evening ends, if it's worth mentioning."""
     if abs(minutes) < _WORTH_SAYING:
         return ""
     if minutes > 0:
@@ -175,7 +175,7 @@ def later(minutes: float) -> str:
 
 
 def with_range(digits: int, to: str = " to ") -> Show:
-    """Return how an estimate with its interval is shown."""
+    """Return an estimate with its interval."""
 
     def show(estimate: Sequence[float]) -> str:
         value, low, high = (f"{part:z.{digits}f}" for part in estimate)
@@ -185,12 +185,12 @@ def with_range(digits: int, to: str = " to ") -> Show:
 
 
 def interval(ends: tuple[float, float]) -> str:
-    """Return an interval of chances."""
+    """Return an interval for a chance."""
     return f"{ends[0]:.3f} to {ends[1]:.3f}"
 
 
 def percent_interval(ends: tuple[float, float]) -> str:
-    """Return an interval of chances, in percent.
+    """Return an interval for a chance, in percent.
 
     >>> percent_interval((0.482, 0.579))
     '48 to 58%'
@@ -204,22 +204,22 @@ Entry = tuple[str, Column]
 def number(
     key: str, words: str | None = None, show: Show | int = str, name: Any = None, **how: Any
 ) -> Entry:
-    """Return an entry of the registry: a column by its key.
+    """Return an entry in the registry: a column by its key.
 
-    `words` may have fields that only an answer fills in; without words the column is in files only.
-    A number as `show` is its decimals.
+    `words` may have fields that only an answer fills in; without words, the column is in files
+    only. If `show` is a number, it is the number of decimals.
     """
     reads = decimals(show) if isinstance(show, int) else show
     return key, Column(key if name is None else name, words, reads, **how)
 
 
 text = partial(number, left=True)
-"""An entry that a person finds flush left."""
+"""An entry that is shown flush left."""
 
 detail = partial(number, detail=True)
-"""An entry for those who ask for details."""
+"""An entry shown only with the details."""
 
 
 def registry(*entries: Entry, files_only: str = "") -> tuple[Entry, ...]:
-    """Return entries, and further ones that are names in files and nothing else."""
+    """Return entries, plus entries that are only names in files."""
     return (*entries, *(number(name) for name in files_only.split()))

@@ -1,4 +1,4 @@
-"""Columns of tournaments, and of team nights and team leagues."""
+"""Columns for tournaments, team nights and team leagues."""
 
 from evenbreak.answers.columns import shown
 from evenbreak.answers.columns.shown import detail, number, registry, text

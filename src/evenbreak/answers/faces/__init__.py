@@ -1,1 +1,1 @@
-"""The renderers of answers, one a face: text, CSV, JSON, HTML. None of them adds a word."""
+"""The renderers of answers, one per output format: text, CSV, JSON, HTML. None adds a word."""

@@ -16,7 +16,7 @@ Said = Callable[[Any], Any]
 
 
 def answer_in_face(answer: Answer, face: Face) -> Answer:
-    """Return an answer with all its texts as a face says them."""
+    """Return an answer with all its text as an output format phrases it."""
 
     def said(text: Any) -> Any:
         return in_face(text, face)
@@ -31,7 +31,7 @@ def answer_in_face(answer: Answer, face: Face) -> Answer:
 
 
 def brief(answer: Answer) -> Answer:
-    """Return an answer without what only those read who ask for details, and without warnings."""
+    """Return an answer without its details and warnings."""
     parts: list[Part] = []
     for part in answer.parts:
         if isinstance(part, Table):

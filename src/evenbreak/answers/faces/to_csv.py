@@ -1,4 +1,4 @@
-"""An answer as CSV: the one table, or the quantities, that go into a file or a pipe."""
+"""An answer as CSV: the one table, or the quantities, written to a file or a pipe."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from evenbreak.files.csv_writer import csv_lines
 
 
 def to_csv(answer: Content) -> Iterator[str]:
-    """Yield an answer's lines of CSV, each with its line end, so that none has to wait."""
+    """Yield an answer's lines of CSV, each with its line ending, so that none has to wait."""
     numbers = answer.for_files
     if isinstance(numbers, Quantities):
         yield from csv_lines(["quantity", "value"], ([one.name, one.value] for one in numbers.of))
@@ -19,13 +19,13 @@ def to_csv(answer: Content) -> Iterator[str]:
 
 
 def table_lines(table: Table) -> Iterator[str]:
-    """Yield a table's lines of CSV, each with its line end."""
+    """Yield a table's lines of CSV, each with its line ending."""
     cells = [repr if c.exact else c.cell for c in table.columns for _ in c.names]
     yield from csv_lines(table.names, _as_cells(table.records(), cells))
 
 
 def _as_cells(rows: Iterator[list[Any]], cells: list[Show | None]) -> Iterator[list[Any]]:
-    """Yield rows with the values of some columns as the text that CSV has for them."""
+    """Yield rows, converting some columns' values to their text in CSV."""
     if not any(cells):
         yield from rows
         return

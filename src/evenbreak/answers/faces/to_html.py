@@ -1,4 +1,4 @@
-"""An answer as a piece of HTML: headings, paragraphs and tables that a screen reader reads."""
+"""An answer as a piece of HTML: headings, paragraphs and tables that work in a screen reader."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from evenbreak.answers.kit.remarks import Remark, Remarks
 from evenbreak.files.tables.problems import printable
 
 _OTHERS = re.compile("[^\N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}]+")
-"""All but the spaces that some languages have within numbers."""
+"""All whitespace except the spaces that some languages use within numbers."""
 
 
 def to_html(answer: Content) -> str:
-    """Return an answer as a section of HTML, every text in it escaped; it has no style."""
+    """Return an answer as a section of HTML, with all text escaped and no styling."""
     return "\n".join(["<section>", *_lines(answer), "</section>"]) + "\n"
 
 
@@ -39,7 +39,7 @@ def body_lines(answer: Content) -> Iterator[str]:
 
 
 def part_lines(part: Part) -> Iterator[str]:
-    """Yield the HTML of a part of an answer."""
+    """Yield the HTML for a part of an answer."""
     match part:
         case Remarks():
             if part.above:
@@ -71,7 +71,7 @@ def part_lines(part: Part) -> Iterator[str]:
 
 
 def _remark(item: Remark) -> str:
-    """Return a remark as it reads elsewhere, each name in it by itself."""
+    """Return a remark as HTML, with each name in it isolated."""
     what = _text(item.what)
     if item.names:
         names = ", ".join(f"<bdi>{_text(name)}</bdi>" for name in item.shown_names)
@@ -81,7 +81,7 @@ def _remark(item: Remark) -> str:
 
 
 def _head(column: Column) -> str:
-    """Return the heading of a column; an empty one is none to a screen reader."""
+    """Return a column's heading; an empty heading would be missing in a screen reader."""
     if not column.words:
         return f"<td{_look(column.left)}></td>"
     return f'<th scope="col"{_look(column.left)}>{_text(column.words)}</th>'

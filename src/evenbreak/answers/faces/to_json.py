@@ -13,10 +13,10 @@ from evenbreak.answers.kit.parts import Content, Part, Quantities, Table
 
 
 def as_dict(answer: Content) -> dict[str, Any]:
-    """Return what the JSON of an answer holds.
+    """Return the content of an answer's JSON.
 
-    Quantities stand by their names, a table by its name as a list of objects; what is not a
-    finite number is null. Then come `heading`, `sentences`, `details` (the further sentences),
+    Quantities are stored by name, and a table is stored by name as a list of objects; a number that
+    isn't finite is null. Then come `heading`, `sentences`, `details` (the further sentences),
     `warnings` and `schema_version`.
     """
     found: dict[str, Any] = {}
@@ -33,7 +33,7 @@ def as_dict(answer: Content) -> dict[str, Any]:
 
 
 def to_json(answer: Content) -> str:
-    """Return an answer as JSON text."""
+    """Return an answer as a JSON string."""
     import json
 
     return json.dumps(as_dict(answer), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
@@ -49,7 +49,7 @@ def _numbers(part: Part) -> dict[str, Any]:
 
 
 def json_value(value: Any) -> Any:
-    """Return a value as JSON knows it: numpy's numbers as Python's, NaN and infinities as None.
+    """Return a value in JSON types: numpy's numbers as Python's, NaN and infinities as None.
 
     >>> json_value({"p": float("inf"), "rows": (1, 2.5)})
     {'p': None, 'rows': [1, 2.5]}

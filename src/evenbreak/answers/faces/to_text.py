@@ -9,24 +9,24 @@ from evenbreak.files.tables.problems import printable
 
 WIDTH = 80
 NARROWEST, LONGEST_NAME = 20, 30
-"""Where a table is too wide, words that stand flush left are broken so that it fits, if that
-leaves them as many columns as the first; else after as many as the second."""
+"""If a table is too wide, its flush-left columns are wrapped, if that leaves them at least as wide
+as the first number; otherwise, after the table is split, at least as wide as the second."""
 
 _GAP = 2
-"""Blanks between two columns."""
+"""How many spaces separate two columns."""
 
 
 def to_text(answer: Content, *, width: int = WIDTH, verbose: bool = False) -> str:
-    """Return an answer as text, without its warnings, which go elsewhere.
+    """Return an answer as text, without its warnings, which are printed elsewhere.
 
-    A table wider than `width` is split by columns; each part repeats those that are flush left.
+    A table wider than `width` is split by columns; each part repeats the flush-left columns.
     """
     parts = [answer.heading, *answer.parts, *(answer.details if verbose else ())]
     return "\n\n".join(filter(None, (_shown(part, width, verbose) for part in parts))) + "\n"
 
 
 def paragraph(text: str, width: int = WIDTH) -> str:
-    r"""Return text with its lines broken between words, in items too.
+    r"""Return text wrapped between words, including list items.
 
     >>> print(paragraph("Left out:\n- 11 forfeited matches: no games were played.", 32))
     Left out:
@@ -84,7 +84,7 @@ def _table(part: Table, width: int, verbose: bool) -> Iterator[str]:
 
 
 def _folded(rows: list[list[str]], flush: Sequence[int], width: int) -> list[list[str]]:
-    """Return rows of which words that stand flush left go on below, where that makes them fit."""
+    """Return rows whose flush-left cells are wrapped, if that makes them fit."""
     import textwrap
 
     wide = [max(map(text_width, column)) for column in zip(*rows, strict=True)]
@@ -114,7 +114,7 @@ def _folded(rows: list[list[str]], flush: Sequence[int], width: int) -> list[lis
 
 
 def _room(wide: Sequence[int], total: int) -> int:
-    """Return how wide columns may be at most, so that they are not wider than `total` together.
+    """Return the maximum width of each column so that together they are at most `total` wide.
 
     >>> _room([30, 10, 40], 60), _room([30, 40], 200)
     (25, 40)
@@ -126,7 +126,7 @@ def _room(wide: Sequence[int], total: int) -> int:
 
 
 def _blocks(cells: Sequence[Sequence[str]], names: int, width: int) -> list[list[int]]:
-    """Return the columns of each part of a table, the first `names` of them in all parts."""
+    """Return the columns in each part of a table; the first `names` of them are in every part."""
     wide = [_GAP + max(map(text_width, column)) for column in zip(*cells, strict=True)]
     room = width - sum(wide[:names])
     first, rest = list(range(names)), range(names, len(wide))
@@ -143,7 +143,7 @@ def _blocks(cells: Sequence[Sequence[str]], names: int, width: int) -> list[list
 
 
 def _heading_lines(headings: Sequence[str]) -> list[list[str]]:
-    r"""Return the lines of the headings, those of fewer lines at the bottom.
+    r"""Return the heading lines; shorter headings are aligned at the bottom.
 
     >>> _heading_lines(["shot", "you\nmake"])
     [['', 'you'], ['shot', 'make']]
@@ -159,7 +159,7 @@ def _heading_lines(headings: Sequence[str]) -> list[list[str]]:
 def aligned(
     rows: Sequence[Sequence[str]], *, left: int = 0, flush: Sequence[int] = ()
 ) -> Iterator[str]:
-    r"""Yield rows as lines of columns: the first `left` and those of `flush` stand flush left.
+    r"""Yield rows as aligned lines: the first `left` columns and those in `flush` are flush left.
 
     >>> print(*aligned([["hill-hill", "0.2"], ["shutout", "0.0123"]], left=1), sep="\n")
       hill-hill     0.2
@@ -177,7 +177,7 @@ def aligned(
 
 
 def text_width(text: str) -> int:
-    """Return how many columns of a terminal a text takes.
+    """Return the width of a string on a terminal, in columns.
 
     >>> text_width("Zoë"), text_width("🎱"), text_width("李娜")
     (3, 2, 4)

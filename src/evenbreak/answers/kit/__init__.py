@@ -1,1 +1,1 @@
-"""What answers are made of: the frozen value, its parts, its words, and how numbers are shown."""
+"""The building blocks of answers: the frozen value, its parts, its words, and number formats."""

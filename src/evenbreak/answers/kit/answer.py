@@ -1,4 +1,4 @@
-"""The answer to a question, for every face: it shows itself on a terminal and in a notebook."""
+"""The answer to a question, for every output format, including terminals and notebooks."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 class Answer(Content):
     """The answer to one question: its content, and how it is shown.
 
-    An `Answer` is made once, in one module a question, and shown by the renderers of
+    An `Answer` is made once, in one module per question, and shown by the renderers in
     `evenbreak.answers.faces`: on a terminal, as CSV, as JSON, as HTML. None of them adds a word.
-    Its parameters are those of `Content`.
+    Its parameters are the same as for `Content`.
 
     >>> from evenbreak.answers.kit.columns import quantity_of
     >>> win = quantity_of("p_win_a", 0.875, a="A")
@@ -37,11 +37,11 @@ class Answer(Content):
         return f"<Answer: {self.heading.partition(chr(10))[0]}>"
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what its JSON holds: plain numbers, words, lists and dicts."""
+        """Return the content of its JSON: plain numbers, words, lists and dicts."""
         return as_dict(self)
 
     def to_frame(self) -> pd.DataFrame:
-        """Return as a DataFrame what goes into a file: one table, or quantities with values."""
+        """Return its CSV as a DataFrame: one table, or quantities with values."""
         import pandas as pd
 
         match self.for_files:
@@ -53,9 +53,9 @@ class Answer(Content):
         return pd.DataFrame()
 
     def __str__(self) -> str:
-        """Return the answer as a terminal shows it."""
+        """Return the answer as shown on a terminal."""
         return to_text(self).rstrip("\n")
 
     def _repr_html_(self) -> str:
-        """Return the answer as a notebook shows it."""
+        """Return the answer as shown in a notebook."""
         return to_html(self)

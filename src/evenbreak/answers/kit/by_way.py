@@ -1,4 +1,4 @@
-"""The method behind an answer, and how far another seed would move a simulation."""
+"""The method behind an answer, and how far another seed would move a simulation's results."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ DEFECTIVE = (
 def by_way(
     via: Way | None, pairs: Iterable[tuple[Any, Any]], *, beside: Way = "kernel", note: str = ""
 ) -> list[Part]:
-    """Return what an answer adds when a method was asked for; nothing if none was.
+    """Return what an answer adds if a method was requested; nothing if none was.
 
-    Each of `pairs` is a number by this method and by the method `beside`.
+    Each of `pairs` is a number from this method and from the method `beside`.
     """
     if via is None:
         return []
@@ -47,7 +47,7 @@ def by_way(
 
 
 def error_of_share(share: float, runs: int) -> float:
-    """Return the standard error of a share of independent runs.
+    """Return the standard error of a proportion from independent runs.
 
     >>> error_of_share(0.5, 400)
     0.025
@@ -56,9 +56,9 @@ def error_of_share(share: float, runs: int) -> float:
 
 
 def luck_words(errors: Iterable[float], figures: str = "share") -> str:
-    """Return how far another seed would move the figures of a simulation, 19 times in 20.
+    """Return how far another seed would move a simulation's figures, 19 times in 20.
 
-    The standard errors are shares of 1.
+    The standard errors are for proportions.
 
     >>> luck_words([0.01, 0.02], "title odds")
     'other luck would move no title odds by more than about 4.0 percentage points'

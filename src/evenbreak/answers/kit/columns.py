@@ -1,4 +1,4 @@
-"""Columns and quantities by their keys in the registry, with what only an answer knows."""
+"""Columns and quantities by registry key, with details that only an answer knows."""
 
 from __future__ import annotations
 
@@ -46,10 +46,10 @@ def column_of(
     unit: str = "",
     **fields: Any,
 ) -> Column:
-    """Return a column by its key; with a hyphen before it the column is in files only.
+    """Return a column by its key; a hyphen in front means the column is in files only.
 
-    `fields` fill in its words and name; `show` and `detail` override the registry, `unit` ends the
-    name.
+    `fields` fill in its words and name; `show` and `detail` override the registry; `unit` is added
+    to the name.
     """
     entry = COLUMNS[key.removeprefix("-")]
     changes: dict[str, Any] = {}
@@ -80,14 +80,14 @@ def columns_of(keys: str, /, *, show: Mapping[str, Show] = NOTHING, **fields: An
 def in_files(
     names: Iterable[Any], *, exact: bool = False, cell: Show | None = None
 ) -> list[Column]:
-    """Return columns that are in files only, named as a record or a frame names them."""
+    """Return columns that are in files only, with the names in a record or a frame."""
     return [Column(str(name), exact=exact, cell=cell) for name in names]
 
 
 def table_by_column(
     name: str, values: Mapping[Any, Iterable[Any]], *, order: Iterable[int] | None = None
 ) -> Table:
-    """Return a table from its columns; one that needs no fields may be given by its key.
+    """Return a table from its columns; a column that needs no fields can be given by its key.
 
     >>> table_by_column("ratings", {"player": ["Ann", "Bo"], "rating": [1, 2]}, order=[1, 0]).rows
     [('Bo', 2), ('Ann', 1)]
@@ -106,7 +106,7 @@ def frame_table(name: str, frame: pd.DataFrame) -> Table:
 
 
 def quantity_of(key: str, value: Any, /, **fields: Any) -> Quantity:
-    """Return a quantity: a value, and the rest as for `column_of`.
+    """Return a quantity: a value, and otherwise as for `column_of`.
 
     >>> quantity_of("p_win_a", 0.5, a="Ann").words
     'Ann wins the match'
@@ -117,7 +117,7 @@ def quantity_of(key: str, value: Any, /, **fields: Any) -> Quantity:
 def quantities_of(
     values: Mapping[str, Any], /, *, notes: Mapping[str, str] = NOTHING, **fields: Any
 ) -> list[Quantity]:
-    """Return values by their keys as quantities; a note (an interval, say) follows the value.
+    """Return values as quantities by key; a note (an interval, say) follows the value.
 
     >>> [one.name for one in quantities_of({"mean": 4.5, "-sd": 1.5})]
     ['mean', 'sd']

@@ -1,4 +1,4 @@
-"""What an answer is made of: paragraphs, quantities and tables, and all of them together."""
+"""The parts of an answer: paragraphs, quantities and tables, and the answer as a whole."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ if TYPE_CHECKING:
 
 
 Show: TypeAlias = Callable[[Any], str]
-"""A value as a person reads it."""
+"""A value as shown to people."""
 
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table.
+    """A column in a table.
 
-    `name` is its name in files and JSON, with the unit in it; several names split what a person
-    reads as one, such as a race, and the values are then tuples. A column without a name, (), is
-    for people only, one without `words` for files only. `whole` keeps the words on one line, to be
-    copied; `detail` shows the column only on request; with `exact` CSV keeps all digits instead of
-    six decimals; `cell` is the value in CSV, such as 'yes' for True.
+    `name` is its name in files and JSON, including the unit; several names split something shown as
+    one column, such as a race, and the values are then tuples. A column without a name, (), is only
+    shown to people, and a column without `words` is only in files. `whole` keeps the words on one
+    line, for copying; `detail` shows the column only on request; with `exact`, CSV keeps all digits
+    instead of six decimals; `cell` is the value in CSV, such as 'yes' for True.
     """
 
     name: str | tuple[str, ...]
@@ -37,11 +37,11 @@ class Column:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names in files, of one column or several."""
+        """The names in files, for one column or several."""
         return (self.name,) if isinstance(self.name, str) else self.name
 
     def text(self, value: Any) -> str:
-        """Return a value as a person reads it."""
+        """Return a value as shown to people."""
         return "" if value is None else self.show(value)
 
 
@@ -49,8 +49,8 @@ class Column:
 class Table:
     """Rows of values with named columns.
 
-    Without a name it is a view of numbers that JSON holds elsewhere. People see the first `most`
-    rows, or all.
+    Without a name, it is a view of numbers that are elsewhere in the JSON. People see the first
+    `most` rows, or all of them.
     """
 
     name: str
@@ -61,11 +61,11 @@ class Table:
 
     @property
     def shown_rows(self) -> Iterator[Sequence[Any]]:
-        """The rows that a person reads."""
+        """The rows shown to people."""
         return islice(self.rows, self.most)
 
     def shown(self, *, verbose: bool = False) -> list[tuple[int, Column]]:
-        """Return the columns that a person reads, each with its place in a row."""
+        """Return the columns shown to people, each with its position in a row."""
         return [
             (k, column)
             for k, column in enumerate(self.columns)
@@ -78,7 +78,7 @@ class Table:
         return [name for column in self.columns for name in column.names]
 
     def records(self) -> Iterator[list[Any]]:
-        """Yield the rows as files hold them: a value for each of `names`."""
+        """Yield the rows as in files: a value for each of `names`."""
         wide = [len(column.names) for column in self.columns]
         for row in self.rows:
             record: list[Any] = []
@@ -90,11 +90,11 @@ class Table:
             yield record
 
     def to_dicts(self) -> list[dict[str, Any]]:
-        """Return the rows as JSON holds them."""
+        """Return the rows as in JSON."""
         return [dict(zip(self.names, record, strict=True)) for record in self.records()]
 
     def to_frame(self) -> pd.DataFrame:
-        """Return it as a DataFrame with the columns of its CSV."""
+        """Return it as a DataFrame with its CSV's columns."""
         import pandas as pd
 
         return pd.DataFrame(list(self.records()), columns=self.names)
@@ -102,7 +102,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Quantity:
-    """One number, or a plain word, with its name; not shown where the value is None."""
+    """A named number or plain word; not shown if the value is None."""
 
     column: Column
     value: Any
@@ -110,40 +110,40 @@ class Quantity:
 
     @property
     def name(self) -> str:
-        """Its key in JSON, its row in CSV."""
+        """Its key in JSON, and its row in CSV."""
         return self.column.names[0]
 
     @property
     def words(self) -> str | None:
-        """What a person calls it; None: it is in files only."""
+        """Its label; None if it is in files only."""
         return self.column.words
 
     @property
     def label(self) -> str:
-        """Its words in one line."""
+        """Its label on one line."""
         return (self.words or "").replace("\n", " ")
 
     @property
     def text(self) -> str:
-        """Its value as a person reads it."""
+        """Its value as shown to people."""
         return self.column.text(self.value)
 
     @property
     def detail(self) -> bool:
-        """Whether only those read it who ask for details."""
+        """Whether it is shown only with the details."""
         return self.column.detail
 
 
 @dataclass(frozen=True)
 class Quantities:
-    """Quantities, one per line; not `in_json` where JSON holds the numbers elsewhere."""
+    """Quantities, one per line; not `in_json` if the numbers are elsewhere in the JSON."""
 
     of: Sequence[Quantity]
     title: str = ""
     in_json: bool = True
 
     def shown(self, *, verbose: bool = False) -> list[Quantity]:
-        """Return those that a person reads."""
+        """Return the quantities that are shown to people."""
         return [
             one
             for one in self.of
@@ -156,16 +156,16 @@ Part: TypeAlias = str | Quantities | Table
 
 
 SCHEMA_VERSION = 1
-"""Of an answer's JSON; it changes when a key changes its meaning."""
+"""The version of an answer's JSON, which changes when a key changes its meaning."""
 
 
 @dataclass(frozen=True)
 class Content:
     """The answer to a question, whatever the output format.
 
-    People read `parts`, the first of which is the answer in words, and on request `details`. JSON
-    holds `data` in addition to their quantities and tables. `csv` is the table that goes into a
-    file or a pipe; by default, the first of `parts`. `drawn` is what a picture shows
+    People read `parts`, the first of which is the answer in words, and, on request, `details`. JSON
+    has `data` in addition to their quantities and tables. `csv` is the table written to a file or a
+    pipe; by default, the first table in `parts`. `drawn` is what a picture shows
     (`evenbreak.plots.asked`).
     """
 
@@ -180,11 +180,11 @@ class Content:
 
     @property
     def sentences(self) -> list[str]:
-        """The paragraphs, those of the details left out."""
+        """The paragraphs, except those in the details."""
         return [part for part in self.parts if isinstance(part, str)]
 
     @property
     def for_files(self) -> Quantities | Table | None:
-        """What goes into a file or a pipe."""
+        """The table or quantities written to a file or a pipe."""
         numbers = (part for part in (*self.parts, *self.details) if not isinstance(part, str))
         return self.csv if self.csv is not None else next(numbers, None)

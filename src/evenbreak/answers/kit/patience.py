@@ -1,4 +1,4 @@
-"""Long work is announced before it starts: a terminal prints a line, an interface refuses it."""
+"""Long work is announced before it starts: a terminal prints a line, an API rejects it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _TOLD: ContextVar[Told | None] = ContextVar("told", default=None)
 
 @contextmanager
 def told(whom: Told) -> Iterator[None]:
-    """Have what takes long told to a function, which may raise an error instead of waiting."""
+    """Announce long work to a function, which may raise an error instead of waiting."""
     before = _TOLD.set(whom)
     try:
         yield
@@ -22,7 +22,7 @@ def told(whom: Told) -> Iterator[None]:
 
 
 def takes_long(why: str) -> None:
-    """Tell that what starts now takes long, and why.
+    """Announce that the work starting now will take long, and why.
 
     >>> with told(print):
     ...     takes_long("this can take a minute")

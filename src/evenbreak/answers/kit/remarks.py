@@ -17,7 +17,7 @@ MOST_NAMES = 5
 
 
 class Remark(NamedTuple):
-    """Something worth knowing about an answer, and the players or pairs that it is about."""
+    """Something worth knowing about an answer, and the players or pairs it is about."""
 
     what: str
     why: str
@@ -25,17 +25,17 @@ class Remark(NamedTuple):
 
     @property
     def shown_names(self) -> Sequence[str]:
-        """The first of the names."""
+        """The first few names."""
         return self.names[:MOST_NAMES]
 
     @property
     def more_names(self) -> int:
-        """How many names there are besides."""
+        """How many more names there are."""
         return len(self.names) - len(self.shown_names)
 
     @property
     def heading(self) -> str:
-        """What it is about, with names."""
+        """The names it is about, as text."""
         return f"{self.what} ({some_of(self.names, MOST_NAMES)})" if self.names else self.what
 
     def __str__(self) -> str:
@@ -48,7 +48,7 @@ class Remark(NamedTuple):
 
 
 class Remarks(str):
-    """A paragraph that is a list of remarks.
+    """A paragraph consisting of a list of remarks.
 
     >>> print(Remarks([Remark("New players", "treated as 80", ["Ann"])], "Assumed"))
     Assumed:
@@ -68,12 +68,12 @@ class Remarks(str):
 
 
 def file_name(file: ResultsFile | RosterFile) -> str:
-    """Return the name of a file without its folders; the names of several, if they are one."""
+    """Return a file's name without its folders; all names if it stands for several files."""
     return listed([source.replace("\\", "/").rpartition("/")[2] for source, _ in _read(file)])
 
 
 def fingerprints(file: ResultsFile | RosterFile, digits: int = 64) -> str:
-    """Return the SHA-256 of a file, or of each of several, up to so many digits."""
+    """Return a file's SHA-256, or each file's, shortened to this many digits."""
     more = "…" if digits < 64 else ""
     return listed([f"{sha256[:digits]}{more}" for _, sha256 in _read(file)])
 
@@ -85,7 +85,7 @@ def _read(file: ResultsFile | RosterFile) -> tuple[tuple[str, str], ...]:
 def warnings_of(
     file: ResultsFile | RosterFile, warnings: Sequence[str] | None = None
 ) -> Iterator[Remark]:
-    """Yield warnings about a file, by default its own, without its folder, which is private."""
+    """Yield warnings about a file, without its folder, which is private."""
     for warning in file.warnings if warnings is None else warnings:
         text = warning.removeprefix(f"{file.source}:")
         if text == warning:

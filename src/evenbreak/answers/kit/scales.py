@@ -1,4 +1,4 @@
-"""Scales in words, doubts about a scale, and how much players vary from match to match."""
+"""Scales in words, warnings about a scale, and how much players vary from match to match."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def scale_words(scale: Scale) -> str:
 
 
 def like_scale_words(scale: Scale) -> str:
-    """Return the scale of estimated ratings: like a named one, but never that one itself.
+    """Return the scale of estimated ratings: similar to a named scale, but never the same one.
 
     >>> from evenbreak.ratings import scale_of
     >>> like_scale_words(scale_of("fargo"))
@@ -55,7 +55,7 @@ def _points(scale: Scale) -> Sentence:
 
 
 def decimals_of(scale: Scale) -> int:
-    """Return how many decimals of a rating a person needs: about a hundredth of a doubling.
+    """Return how many decimals a rating needs: about a hundredth of a doubling.
 
     >>> from evenbreak.ratings import scale_of
     >>> decimals_of(scale_of("npl")), decimals_of(scale_of("fargo"))
@@ -65,7 +65,7 @@ def decimals_of(scale: Scale) -> int:
 
 
 def points_on(scale: Scale, sign: str = "") -> Show:
-    """Return how a rating on a scale is shown; with the sign "+", how a change of it is.
+    """Return how to show a rating on a scale; with the sign "+", how to show a change.
 
     >>> from evenbreak.ratings import scale_of
     >>> points_on(scale_of("npl"))(81.26), points_on(scale_of("fargo"), "+")(12.4)
@@ -84,28 +84,29 @@ def game_chance(scale: Scale) -> str:
 
 
 USUAL = {"npl": (20, 130), "fargo": (200, 850)}
-"""Where most ratings of a scale lie."""
+"""Where most of a scale's ratings are."""
 
 FAR = 3.0
-"""Doublings of the odds; the average of a league is nearer to the middle of its scale."""
+"""In doublings of the odds: a league's average is closer than this to its scale's middle."""
 
 SCALE_OFF = 0.25
-"""How much the scale that a chart fits best may differ from that of the ratings."""
+"""How much a chart's best-fitting scale may differ from the ratings' scale."""
 
 APART = 6.0
-"""Doublings of the odds; every player is nearer to the average of the league: 64 games to 1."""
+"""In doublings of the odds: every player is closer than this to the league's average (64 games to
+1)."""
 
 
 AGAINST = 10.0
-"""By how much results must be likelier on another scale, as a logarithm: 22,000 times."""
+"""How much likelier results must be on another scale, as a logarithm: 22,000 times."""
 
 
 def contradiction(scale: Scale, roster: Roster, results: Results) -> str:
     """Return what results say against the scale of the ratings before them; '' if nothing.
 
-    The games are compared with what the rating differences mean on each known scale. Read on a
-    scale with too few points per doubling, everyone ahead is a clear favorite, and those who don't
-    win like one look like sandbaggers.
+    The games are compared with what the rating differences mean on each known scale. On a scale
+    with too few points per doubling, everyone who is ahead is a clear favorite, and players who
+    don't win like one look like sandbaggers.
 
     >>> from evenbreak.ratings import SCALES, Results, Roster
     >>> listed = Roster(["Ann", "Bo"], [540, 450])
@@ -153,9 +154,9 @@ def contradiction(scale: Scale, roster: Roster, results: Results) -> str:
 
 
 def two_ratings_doubts(scale: Scale, *ratings: float) -> list[str]:
-    """Return a warning if a few ratings look like those of another scale.
+    """Return a warning if these ratings look like another scale's.
 
-    Only their difference counts, so someone may give it as one rating and 0 as the other.
+    Only their difference counts, so someone may enter it as one rating, with 0 as the other.
 
     >>> from evenbreak.ratings import SCALES
     >>> two_ratings_doubts(SCALES["npl"], 612, 521)
@@ -287,9 +288,9 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
 
 
 def chart_doubts(chart: Any, scale: Scale) -> list[str]:
-    """Return a warning if the races of a chart fit another scale than that of the ratings.
+    """Return a warning if a chart's races fit a different scale than the ratings'.
 
-    What is not a chart of rating differences is not doubted.
+    Only charts of rating differences are checked.
     """
     from evenbreak.handicaps.charts.audit import audit
     from evenbreak.handicaps.charts.chart import Chart
@@ -312,7 +313,7 @@ def chart_doubts(chart: Any, scale: Scale) -> list[str]:
 
 
 def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
-    """Yield what day-to-day form is worth, where it is established.
+    """Yield the effect of day-to-day form, if there is evidence of it.
 
     >>> from evenbreak.ratings.estimates import Estimate
     >>> from evenbreak.ratings.fitted import DayForm
@@ -335,7 +336,7 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
 
 
 def form_details(form: DayForm | None, scale: Scale) -> Iterator[str]:
-    """Yield what was found out about day-to-day form, with its interval."""
+    """Yield the findings about day-to-day form, with its interval."""
     if form is None:
         return
     v, low, high = form.variance
@@ -348,7 +349,7 @@ def form_details(form: DayForm | None, scale: Scale) -> Iterator[str]:
 
 
 def form_used_words(form: float, scale: Scale | None = None) -> str:
-    """Return that an answer allows for day-to-day form; '' if there is none.
+    """Return the sentence that an answer allows for day-to-day form; '' if there is none.
 
     >>> form_used_words(0.35)
     'Day-to-day form is allowed for: from match to match the log-odds of a game vary by 0.35.'

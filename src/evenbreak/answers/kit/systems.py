@@ -1,4 +1,4 @@
-"""What questions share about ratings and play, and what of it does not go together.
+"""What questions about ratings and play share, and which settings contradict each other.
 
 The handicap system, its scale and its chart; new players; how fast matches are played.
 """
@@ -19,28 +19,28 @@ if TYPE_CHECKING:
 
 
 SAY_WHICH = worded("Add {scale} npl, {scale} fargo or {scale} elo.")
-"""What to do about ratings that do not show their scale."""
+"""What to do about ratings that don't show their scale."""
 
 CHART_OR_SCALE = worded(
     "Add {chart} apa_8ball or {chart} apa_9ball, or {scale} npl if they are ratings."
 )
-"""What to do about ratings that look like skill levels, where a chart can be by skill level."""
+"""What to do about ratings that look like skill levels, if a chart can be by skill level."""
 
 POINTS_OR_SCALE = worded(
     "Add {scale} npl if they are ratings, otherwise {scale} N, the number of levels that double "
     "the odds."
 )
-"""What to do about ratings that look like skill levels, where no chart can be by skill level."""
+"""What to do about ratings that look like skill levels, if no chart can be by skill level."""
 
 LEAVE_OUT = worded("Leave {scale} out, or correct the file.")
 """What to do about a stated scale that contradicts a file."""
 
 LEVELS_DOUBLE = worded("Add {scale} N, the number of levels that double the odds.")
-"""What to do about skill levels where ratings in points are needed."""
+"""What to do about skill levels when ratings in points are needed."""
 
 
 def on_scale(system: handicaps.StepSystem, scale: Scale | None) -> handicaps.StepSystem:
-    """Return a system on another scale (None: its own), or refuse what does not go together."""
+    """Return a system on another scale (None: its own), or reject a contradiction."""
     from dataclasses import replace
 
     if scale is None:
@@ -57,11 +57,11 @@ def on_scale(system: handicaps.StepSystem, scale: Scale | None) -> handicaps.Ste
 
 
 MOST_SD = 4.0
-"""Doublings of the odds by which the form of players varies at most."""
+"""The most that players' form can vary, in doublings of the odds."""
 
 
 def refuse_too_varying(asked: Question, system: handicaps.StepSystem, *names: str) -> None:
-    """Refuse form that varies by more than a ladder of this scale can hold."""
+    """Reject form that varies by more than a ladder on this scale can hold."""
     most = MOST_SD * system.scale.points_per_doubling
     for name in names:
         if getattr(asked, name) > most:
@@ -83,10 +83,10 @@ def refuse_other_scale(
     *,
     stated: bool = False,
 ) -> None:
-    """Refuse a list whose ratings are on another scale, look like it, or are skill levels.
+    """Reject a list whose ratings are, or look like they are, on another scale or skill levels.
 
-    A scale that the user stated isn't doubted, and may be of skill levels. `whose` says where the
-    scale comes from, `remedy` what to do.
+    A scale stated by the user isn't questioned, and may consist of skill levels. `whose` says where
+    the scale comes from, `remedy` what to do.
     """
     from evenbreak.answers.kit.scales import scale_words
     from evenbreak.files.lists.roster import refuse_to_read
@@ -107,7 +107,7 @@ def refuse_other_scale(
 
 
 def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
-    """Refuse a list that a system cannot move: levels or points, or points of another scale."""
+    """Reject a list that a system can't move: levels or points, or points on another scale."""
     import numpy as np
 
     whose = say("the system {name}", name=system.name)
@@ -144,7 +144,7 @@ SAY_LEVELS = worded(
 
 
 def refuse_levels(file: files.RosterFile | files.SeasonPlayers, remedy: str = SAY_LEVELS) -> None:
-    """Refuse a list of skill levels where ratings in points are needed."""
+    """Reject a list of skill levels when ratings in points are needed."""
     if file.levels:
         refuse(
             "the ratings of {file} are skill levels, and not points of a scale. {remedy}",
@@ -154,7 +154,7 @@ def refuse_levels(file: files.RosterFile | files.SeasonPlayers, remedy: str = SA
 
 
 def scale_of_list(file: files.RosterFile, stated: Scale | None, remedy: str = SAY_LEVELS) -> Scale:
-    """Return the scale of a list: stated, its own, or that of its ratings; refuse one of levels."""
+    """Return a list's scale: stated, its own, or implied by its ratings; reject skill levels."""
     if stated is not None:
         refuse_other_scale(file, stated, Parameter("scale"), LEAVE_OUT, stated=True)
     else:
@@ -163,7 +163,7 @@ def scale_of_list(file: files.RosterFile, stated: Scale | None, remedy: str = SA
 
 
 def chart_by_difference(name: str, parameter: str = "chart") -> handicaps.Chart:
-    """Return a chart of rating differences, or refuse one of skill levels."""
+    """Return a chart of rating differences; reject a chart by skill level."""
     found = files.find_chart(name)
     if not isinstance(found, handicaps.Chart):
         refuse(
@@ -177,9 +177,9 @@ def chart_by_difference(name: str, parameter: str = "chart") -> handicaps.Chart:
 def level_system(
     system: handicaps.System | None, chart: str | None
 ) -> handicaps.MarkovSystem | None:
-    """Return the system of levels in finitely many states that is meant; None for other kinds.
+    """Return the finite-state level system that is meant; None for other systems.
 
-    A chart of skill levels alone means `level-steps` by it.
+    A chart by skill level without a system means `level-steps` with that chart.
     """
     named = None if chart in (None, "-") else files.find_chart(str(chart))
     if system is None and isinstance(named, handicaps.LevelChart):
@@ -210,7 +210,7 @@ def chart_for(system: handicaps.StepSystem, name: str | None) -> tuple[handicaps
 
 
 def with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float | None) -> Roster:
-    """Return the roster with new players filled in."""
+    """Return the roster with ratings filled in for new players."""
     import numpy as np
 
     from evenbreak.handicaps.charts.gap import MOST_DOUBLINGS
@@ -235,7 +235,7 @@ def with_starters(roster: Roster, scale: Scale, starter: float | None, sd: float
 
 
 def stated_pace(discipline: str | None, minutes_per_game: float | None) -> Pace | str | None:
-    """Return the discipline or the pace that a question states, None if it states none."""
+    """Return the discipline or pace that a question states; None if it states none."""
     from evenbreak.matches.pace import own_pace
 
     if discipline is not None and minutes_per_game is not None:

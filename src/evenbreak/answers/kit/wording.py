@@ -1,4 +1,4 @@
-"""Numbers and lists as people read them: chances, decimals, counts, times, names."""
+"""Numbers and lists as shown to people: chances, decimals, counts, times, names."""
 
 from collections.abc import Sequence
 
@@ -7,7 +7,7 @@ from evenbreak.words import Figure, joined, say
 
 
 def chance(p: float) -> str:
-    """Return a probability, to four places, or to two digits where it is small.
+    """Return a probability with four decimals, or two digits if it is small.
 
     >>> chance(0.65263), chance(0.00101), chance(1.234e-9), chance(1 - 1e-9)
     ('0.6526', '0.0010', '1.2e-09', '1.0000')
@@ -16,10 +16,10 @@ def chance(p: float) -> str:
 
 
 def percent(p: float, left: float = 0.0) -> str:
-    """Return a probability in a sentence, in percent; never 0 or 100 where it is neither.
+    """Return a probability for a sentence, in percent; never 0 or 100 unless exactly so.
 
-    Beside a chance of 1e-18 for all else, which is `left`, a chance is 1 in every digit, and yet
-    not certain.
+    If the chance of anything else, `left`, is 1e-18, a chance is 1 in every digit and still not
+    certain.
 
     >>> percent(0.653), percent(0.0042), percent(0.99999), percent(1.0), percent(3e-9)
     ('65%', '0.4%', 'more than 99.9%', '100%', 'less than 0.1%')
@@ -40,7 +40,7 @@ def percent(p: float, left: float = 0.0) -> str:
 
 
 def share(p: float) -> str:
-    """Return a probability in a table, in percent to one decimal.
+    """Return a probability for a table, in percent to one decimal.
 
     >>> share(0.90701), share(0.08), share(3e-5), share(0.9999), share(0.0), share(1.0)
     ('90.7%', '8.0%', '<0.1%', '>99.9%', '0%', '100%')
@@ -53,7 +53,7 @@ def share(p: float) -> str:
 
 
 def share_at_a_glance(p: float) -> str:
-    """Return a probability in percent where there is little room, with two digits at most.
+    """Return a probability in percent for tight spaces, with two digits at most.
 
     >>> share_at_a_glance(0.90701), share_at_a_glance(0.0757), share_at_a_glance(3e-5)
     ('91%', '7.6%', '<0.1%')
@@ -62,7 +62,7 @@ def share_at_a_glance(p: float) -> str:
 
 
 def decimals(places: int) -> Show:
-    """Return how a number is shown with so many decimals; one that rounds to 0 has no sign.
+    """Return a number with this many decimals; a number that rounds to 0 has no sign.
 
     >>> decimals(2)(1.005), decimals(1)(-0.04), decimals(0)(1234.5)
     ('1.00', '0.0', '1,234')
@@ -75,7 +75,7 @@ def decimals(places: int) -> Show:
 
 
 def signed(places: int) -> Show:
-    """Return how a difference is shown: with its sign; one that rounds to 0 is never negative.
+    """Return a difference with its sign; one that rounds to 0 is never negative.
 
     >>> signed(4)(0.0521), signed(1)(-3.26), signed(1)(-0.04)
     ('+0.0521', '-3.3', '+0.0')
@@ -84,7 +84,7 @@ def signed(places: int) -> Show:
 
 
 def games(value: float) -> str:
-    """Return a number of games, racks or matches: whole as it is, else with two decimals.
+    """Return a number of games, racks or matches, with two decimals if it isn't whole.
 
     >>> games(13), games(10.2743), games(3.2e11)
     ('13', '10.27', '3.2e+11')
@@ -95,7 +95,7 @@ def games(value: float) -> str:
 
 
 def yes_or_no(truth: bool) -> str:
-    """Return a truth as a word.
+    """Return a truth value as a word.
 
     >>> yes_or_no(True), yes_or_no(False)
     ('yes', 'no')
@@ -104,7 +104,7 @@ def yes_or_no(truth: bool) -> str:
 
 
 def range_words(first: int, last: int | None) -> str:
-    """Return a range of whole numbers, which may be open-ended.
+    """Return a range of whole numbers, possibly open-ended.
 
     >>> range_words(7, 18), range_words(7, 7), range_words(49, None)
     ('7 to 18', '7', '49 and up')
@@ -115,7 +115,7 @@ def range_words(first: int, last: int | None) -> str:
 
 
 def count_of(number: int, one: str, many: str = "") -> str:
-    """Return a number with the noun that it counts; `many` is `one` with an s where not given.
+    """Return a number with the noun it counts; `many` defaults to `one` plus an s.
 
     >>> count_of(1, "game"), count_of(2599, "game"), count_of(2, "match", "matches")
     ('1 game', '2,599 games', '2 matches')
@@ -124,7 +124,7 @@ def count_of(number: int, one: str, many: str = "") -> str:
 
 
 def some_of(words: Sequence[str], most: int = 8) -> str:
-    """Return the first of many names, and how many more there are.
+    """Return the first few names, and how many more there are.
 
     >>> some_of(["Ann", "Bo", "Cy"], most=2)
     'Ann, Bo and 1 more'
@@ -147,7 +147,7 @@ def clock(minutes: float) -> str:
 
 
 def how_often(p: float) -> str:
-    """Return how often something of probability p happens.
+    """Return how often something with probability p happens.
 
     >>> how_often(0.012), how_often(0.3), how_often(1.0)
     ('about 1 time in 83', 'about 30 times in 100', 'nearly always')
@@ -162,7 +162,7 @@ def how_often(p: float) -> str:
 
 
 def luck_words(p: float) -> str:
-    """Return whether something is luck, if luck alone does it with probability p.
+    """Return whether something is luck, given the probability p that luck alone causes it.
 
     >>> luck_words(0.3), luck_words(0.02)
     ('this may well be luck', 'this is probably not luck')

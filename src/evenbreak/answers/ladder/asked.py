@@ -1,4 +1,4 @@
-"""From a question about the long run of ratings to its answer."""
+"""From a question about ratings in the long run to its answer."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 
 
 MANY_MOVES = 20
-"""With more different moves than this, nights of several matches take long."""
+"""With more different moves than this, nights with several matches take long to calculate."""
 
 MANY_POINTS = 500.0
-"""On a scale with more points to a doubling of the odds, the chain is large."""
+"""On a scale with more points per doubling of the odds, the chain is large."""
 
 MOST_APART = 20.0
-"""Doublings of the odds that an opponent may be from the player: a game in a million."""
+"""How far an opponent may be from the player, in doublings of the odds: a game in a million."""
 
 SAY_OTHERWISE = worded("{compare} is for NPL ratings. Leave it out and give {scale} for others.")
 
@@ -53,7 +53,7 @@ def ladder(asked: LadderErrors) -> Answer:
 
 
 def _ladder(asked: LadderErrors) -> tuple[handicaps.Ladder, str, list[str]]:
-    """Return the ladder that is asked for, the word for its opponents, and warnings."""
+    """Return the requested ladder, the term for its opponents, and warnings."""
     step = asked.step
     system = handicaps.steps_of(asked.system or ("npl" if step is None else f"step {step}"))
     system = on_scale(system, asked.scale)
@@ -83,7 +83,7 @@ def _ladder(asked: LadderErrors) -> tuple[handicaps.Ladder, str, list[str]]:
 
 
 def _of_levels(asked: LadderErrors, system: handicaps.MarkovSystem) -> Answer:
-    """Return the long run of a system of skill levels, against equals or the players of a list."""
+    """Return a skill-level system's long run, against equals or the players on a list."""
     import numpy as np
 
     from evenbreak.answers.ladder.levels import level_ladder_answer
@@ -110,7 +110,7 @@ def _of_levels(asked: LadderErrors, system: handicaps.MarkovSystem) -> Answer:
 
 
 def say_if_long(ladder: handicaps.Ladder) -> None:
-    """Say beforehand that nights of several matches take long where moves differ much."""
+    """Announce that nights with several matches take long if moves vary a lot."""
     moves = len(set(handicaps.match_table(ladder.system, ladder.chart).moves.ravel().tolist()))
     if ladder.matches_a_night > 1 and moves > MANY_MOVES:
         takes_long(
@@ -124,7 +124,7 @@ def say_if_long(ladder: handicaps.Ladder) -> None:
 
 
 def _question(ladder: handicaps.Ladder, asked: LadderErrors, opponents: str) -> LadderQuestion:
-    """Return what is asked of the ladder, or refuse what it cannot answer."""
+    """Return the requested ladder settings, or reject what can't be answered."""
     from evenbreak.answers.ladder.ladder import LadderQuestion
     from evenbreak.handicaps.ladders.comparison import NEAR
 
@@ -168,9 +168,9 @@ def _comparison(asked: LadderErrors) -> Answer:
 def _opponents(
     asked: LadderErrors, scale: Scale, remedy: str = SAY_WHICH
 ) -> tuple[handicaps.Opponents, str, list[str]]:
-    """Return the opponents asked for, the word for them, and warnings about their list.
+    """Return the requested opponents, the term for them, and warnings about their list.
 
-    `remedy` says what to do about a list of another scale.
+    `remedy` says what to do about a list on another scale.
     """
     if asked.league is not None:
         opponents, warnings = _of_league(asked, asked.league, scale, remedy)
@@ -185,7 +185,7 @@ def _opponents(
 def _of_league(
     asked: LadderErrors, path: str, scale: Scale, remedy: str
 ) -> tuple[handicaps.Opponents, list[str]]:
-    """Return opponents drawn from the rated players of a list, or refuse a skill far from them."""
+    """Return opponents drawn from a list's rated players; reject a skill that is far from them."""
     import numpy as np
 
     from evenbreak.answers.kit.scales import league_doubts

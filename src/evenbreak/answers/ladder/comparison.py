@@ -1,4 +1,4 @@
-"""Handicap systems side by side: how accurate, how fast, how fair, and which step is worth it."""
+"""Handicap systems side by side: accuracy, speed, fairness, and the best step size."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
@@ -18,23 +18,23 @@ from evenbreak.league.reestimate import Reestimated, reestimate
 from evenbreak.words import listed
 
 OTHERS = ("margin 2", "elo 4", "elo 16", "fixed 9")
-"""The other systems; those without a printed chart are played by a chart of their own."""
+"""The other systems; those without a printed chart use a chart of their own."""
 
 STEPS = (1, 2, 3, 4, 5, 6, 8, 10)
 """The step sizes compared."""
 
 NEWCOMERS = "npl new"
-"""The name of the row for a player who moves by the league's newcomer steps."""
+"""The row name for a player who moves by the league's newcomer steps."""
 
 REFITTED_PLAYERS, REFITTED_LEAGUES, REFITTED_SEED = 40, 8, 1
-"""The simulated leagues of equally good players whose ratings are refitted every week."""
+"""The simulated leagues of equally good players whose ratings are recalculated every week."""
 
 
 class LadderComparison(NamedTuple):
     """Systems and step sizes side by side.
 
-    `steps` has for each step size whether no other is better in both ways; `refitted` are ratings
-    refitted every week to all results, None if they were not simulated.
+    `steps` says for each step size whether no other is better in both respects; `refitted` are
+    ratings recalculated every week from all results, None if they weren't simulated.
     """
 
     chart: Chart
@@ -45,7 +45,7 @@ class LadderComparison(NamedTuple):
 
 
 def compare_ladders(chart: Chart, opponents: Opponents, name: str) -> LadderComparison:
-    """Return systems and steps side by side, against opponents of a kind of `OPPONENTS`."""
+    """Return systems and step sizes side by side, against a type of opponents in `OPPONENTS`."""
     rows = compare_systems([(f"step {step}", chart) for step in STEPS], opponents=opponents)
     front = on_front([(row.sd, row.settling_mean) for row in rows])
     refitted = _refitted(chart) if name == "equal skill" else None
@@ -54,7 +54,7 @@ def compare_ladders(chart: Chart, opponents: Opponents, name: str) -> LadderComp
 
 
 def _systems(chart: Chart, opponents: Opponents) -> list[SystemRow]:
-    """Return the National Pool League by all of its charts and by `chart`, and other systems."""
+    """Return the National Pool League with all of its charts and with `chart`, and others."""
     npl = steps_of("npl")
     charts = [printed(name) for name in npl.charts]
     if chart not in charts:
@@ -66,7 +66,7 @@ def _systems(chart: Chart, opponents: Opponents) -> list[SystemRow]:
 
 
 def _newcomer(row: SystemRow, chart: Chart, opponents: Opponents) -> SystemRow:
-    """Return the league's row on this chart if the player moves by its newcomer steps at first."""
+    """Return the league's row for this chart if the player starts with its newcomer steps."""
     ladder = Ladder("npl", chart, opponents=opponents)
     points = ladder.system.scale.points_per_doubling
     sooner = settling(ladder, -round(points), round(NEAR * points), newcomer=True)
@@ -75,7 +75,7 @@ def _newcomer(row: SystemRow, chart: Chart, opponents: Opponents) -> SystemRow:
 
 
 def _refitted(chart: Chart) -> Reestimated:
-    """Return how far off ratings stay that are refitted every week, in simulated leagues."""
+    """Return how far off ratings are that are recalculated every week, in simulated leagues."""
     return reestimate(
         [0.0] * REFITTED_PLAYERS,
         chart,
@@ -87,7 +87,7 @@ def _refitted(chart: Chart) -> Reestimated:
 
 
 def ladder_comparison_answer(found: LadderComparison, warnings: Sequence[str] = ()) -> Answer:
-    """Return systems and step sizes side by side; in files, a row for each of both."""
+    """Return systems and step sizes side by side; in files, one row for each."""
     shown = [*found.systems, *([] if found.refitted is None else [found.refitted.row])]
     beaten = [row.system for row, best in found.steps if not best]
     parts: list[Part] = [
@@ -140,7 +140,7 @@ def _view(rows: Sequence[SystemRow], title: str = "") -> Table:
 
 
 def _advice(found: LadderComparison) -> str:
-    """Return which change would help most, against the league's own rule on this chart."""
+    """Return the change that would help most, compared with the league's own rule on this chart."""
     systems, steps = found.systems, [row for row, _ in found.steps]
     own = next(row for row in systems if (row.system, row.chart) == ("npl", found.chart.name))
     new = next(row for row in systems if row.system == NEWCOMERS)
@@ -183,7 +183,7 @@ def _notes(found: LadderComparison) -> Iterator[str]:
 
 
 def _never_worth_it(steps: Sequence[str]) -> str:
-    """Return which steps another one beats.
+    """Return the steps for which some other step is better.
 
     >>> _never_worth_it(["step 6"])
     'Step 6 is never worth it: another step is both more accurate and faster.'

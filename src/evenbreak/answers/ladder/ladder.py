@@ -22,10 +22,10 @@ from evenbreak.stats.summary import Distribution
 
 QUANTILES = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
 AFTER = (10, 20, 50, 100, 200)
-"""The numbers of matches after which JSON says how many players have settled."""
+"""The numbers of matches for which JSON says how many players have settled."""
 
 SHARES = (0.5, 0.75, 0.9, 0.95, 0.99)
-"""The shares of the ratings whose largest error is shown."""
+"""The shares of ratings whose largest error is shown."""
 
 OPPONENTS = {
     "natural": "Opponents are as good as the player, with correct ratings.",
@@ -34,10 +34,10 @@ OPPONENTS = {
     "equal skill": "Opponents are as good as the player, with rating errors like the player's.",
     "league": "Opponents are drawn from the league, with rating errors like the player's.",
 }
-"""Who the opponents are, by the word for it."""
+"""A description of the opponents for each term."""
 
 _FEW, _ALL = 0.1, 0.995
-"""Chances below the first are written as one in so many, above the second as nearly all."""
+"""Chances below the first are written as one in N, and those above the second as nearly all."""
 
 
 def ladder_answer(found: LadderFindings, warnings: Sequence[str] = ()) -> Answer:
@@ -66,7 +66,7 @@ def _way(found: LadderFindings) -> list[Part]:
 
 
 def ladder_title(ladder: Ladder) -> str:
-    """Return chart and system in short."""
+    """Return the chart and system in short form."""
     return f"chart {ladder.chart.name}, system {ladder.system.name}"
 
 
@@ -248,7 +248,7 @@ def _quantiles(law: Distribution) -> dict[str, Any]:
 
 
 def _too(error: float, size: str) -> str:
-    """Return how a rating is wrong.
+    """Return in what direction a rating is wrong.
 
     >>> _too(-30.0, "30"), _too(1.0, "1")
     ('30 points too low', '1 point too high')
@@ -257,7 +257,7 @@ def _too(error: float, size: str) -> str:
 
 
 def of_100(chance: float) -> str:
-    """Return how often, in words.
+    """Return a frequency, in words.
 
     >>> of_100(0.2513), of_100(0.0142), of_100(0.0)
     ('25%', '1 in 70', 'none')
@@ -273,10 +273,10 @@ Found = TypeVar("Found")
 
 
 class LadderQuestion(NamedTuple):
-    """What is asked of a ladder in addition to its distribution of rating errors.
+    """What to calculate for a ladder besides its distribution of rating errors.
 
-    `start` is the error, in points, of the player whose settling is followed, by newcomer steps if
-    `newcomer`; an error of at most `within` points counts as settled.
+    `start` is the initial error, in points, of the player who is followed until they settle, with
+    newcomer steps if `newcomer`; an error of at most `within` points counts as settled.
     """
 
     start: int
@@ -287,7 +287,7 @@ class LadderQuestion(NamedTuple):
 
 
 class LadderFindings:
-    """The answers of a ladder; `missing` says why those that are None couldn't be calculated."""
+    """A ladder's results; `missing` says why those that are None couldn't be calculated."""
 
     def __init__(self, ladder: Ladder, question: LadderQuestion) -> None:
         self.ladder, self.question = ladder, question
@@ -295,17 +295,17 @@ class LadderFindings:
 
     @cached_property
     def law(self) -> Distribution:
-        """The distribution of the rating error in the long run, in points."""
+        """The long-run distribution of the rating error, in points."""
         return self.ladder.law(via=self.question.via)
 
     @cached_property
     def off(self) -> Distribution:
-        """The distribution of the size of the error."""
+        """The distribution of the error's size."""
         return Distribution.of(map(abs, self.law.values), self.law.probability)
 
     @cached_property
     def natural(self) -> Distribution | None:
-        """The same with correctly rated opponents and skills that stay; None where it is `law`."""
+        """The same with correctly rated opponents and constant skills; None if that is `law`."""
         ladder = self.ladder
         steady = not (ladder.day_sd or ladder.match_sd or ladder.drift)
         if steady and self.question.opponents == "natural":
@@ -314,7 +314,7 @@ class LadderFindings:
 
     @cached_property
     def favorite(self) -> Distribution:
-        """The distribution of the favorite's chance to win a match of the player."""
+        """The distribution of the favorite's chance of winning one of the player's matches."""
         return better_off(unfairness(self.ladder))
 
     @cached_property
@@ -324,12 +324,12 @@ class LadderFindings:
 
     @cached_property
     def newcomer_inflation(self) -> NewcomerInflation:
-        """What a newcomer with the error `start` does to the sum of the league's errors."""
+        """How a newcomer with the error `start` changes the sum of the league's errors."""
         return newcomer_inflation(self.ladder, self.question.start)
 
     @cached_property
     def settling(self) -> Settling | None:
-        """How long a player takes whose rating starts wrong."""
+        """How long it takes a player whose rating starts out wrong."""
         asked = self.question
         return self._unless_missing(
             lambda: settling(self.ladder, asked.start, asked.within, newcomer=asked.newcomer)
@@ -337,7 +337,7 @@ class LadderFindings:
 
     @cached_property
     def gap(self) -> float | None:
-        """1 less the largest eigenvalue below 1; -1 is set aside."""
+        """1 minus the largest eigenvalue below 1; -1 is set aside."""
         slow = "how fast old errors fade is not shown: they fade too slowly to be calculated"
         return self._unless_missing(lambda: ladder_gap(self.ladder), slow)
 
@@ -348,7 +348,7 @@ class LadderFindings:
         return self._unless_missing(lambda: ladder_mixing(self.ladder, self.question.start), slow)
 
     def _unless_missing(self, part: Callable[[], Found], why: str = "") -> Found | None:
-        """Return a part, or None after noting why there is none (`why`, or the error's words)."""
+        """Return a part, or None after noting why it is missing (`why`, or the error's words)."""
         try:
             return part()
         except (AccuracyError, InputError) as error:

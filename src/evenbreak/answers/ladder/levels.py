@@ -1,4 +1,4 @@
-"""Where players of known strength are published in the long run by a system of skill levels."""
+"""The levels that players of known strength have in the long run under a skill-level system."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ def level_ladder_answer(
     newcomer: int,
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return the long run of a system of levels, one row for players as strong as each level.
+    """Return a level system's long run, with a row for players as strong as each level.
 
-    `weights` are the numbers of opponents of each level; None: everyone meets their equals.
+    `weights` are the numbers of opponents at each level; None: everyone meets their equals.
 
     >>> from evenbreak.handicaps import system_of
     >>> answer = level_ladder_answer(system_of("level-steps"), None, 3)

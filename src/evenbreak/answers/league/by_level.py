@@ -1,4 +1,4 @@
-"""Which players a chart by skill level can pair, and what their chances come from."""
+"""The players that a chart by skill level can pair, and where their chances come from."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from evenbreak.words import FilePath, Parameter, Sentence, listed, say
 def by_level(
     file: RosterFile, chart: LevelChart | PointsChart, results: str | None = None
 ) -> tuple[RosterFile, LevelSkills | None]:
-    """Return a list with the levels that a chart reads, and the strengths of these levels.
+    """Return a list with the levels that a chart uses, and how strong these levels are.
 
-    Ratings in a list without a scale that are all levels of the chart are taken as levels. The
-    strengths are None where the list has ratings, which then give the chances, or where the chart
-    is one of points. A list without levels is an InputError.
+    If a list has no scale and its ratings are all levels in the chart, they are taken as levels.
+    The strengths are None if the list has ratings, which then give the chances, or if it's a points
+    chart. Raises InputError if the list has no levels.
     """
     roster = file.roster
     if np.isnan(roster.level).all():
@@ -49,14 +49,14 @@ def by_level(
 
 
 def skills_of(chart: LevelChart, results: str | None) -> LevelSkills:
-    """Return how strong the levels of a chart are, by the league's own results if they say it."""
+    """Return how strong a chart's levels are, from the league's own results if possible."""
     if results is None:
         return level_skills(chart)
     return level_skills(chart, read_seasons([results]).results)
 
 
 def levels_of(players: Sequence[str], roster: Roster | None, results: Results | None) -> Floats:
-    """Return the skill levels of players: on the league's list, else the last in its results.
+    """Return players' skill levels: on the league's list, or else the latest in its results.
 
     >>> sheet = Results.from_names(["Bo"], ["Ann"], [2], [1], level_a=["5"], level_b=["3"])
     >>> levels_of(["Ann", "Bo", "Cy"], Roster(["ann"], [np.nan], level=[4]), sheet)
@@ -72,14 +72,15 @@ def levels_of(players: Sequence[str], roster: Roster | None, results: Results | 
 
 
 MANY = 10
-"""Players with a rating and a level from which on it is seen how far a level is from a rating."""
+"""How many players with both a rating and a level are needed to see how well they agree."""
 
 
 def rated_by_level(roster: Roster, chart: LevelChart, scale: Scale) -> Roster:
-    """Return a roster in which players without a rating have that of their level.
+    """Return a roster in which unrated players get the rating of their level.
 
-    Levels lie where `level_skills` has them, shifted to the ratings of those who have both. Ratings
-    are off by as much as those are apart, or half of what doubles the odds where they are few.
+    A level's rating is the one in `level_skills`, shifted to fit the players who have both. The
+    error is the spread of those players' differences, or half a doubling of the odds if there are
+    few of them.
 
     >>> from evenbreak.handicaps import level_chart
     >>> from evenbreak.ratings import scale_of
@@ -103,7 +104,7 @@ def rated_by_level(roster: Roster, chart: LevelChart, scale: Scale) -> Roster:
 
 
 def with_level(file: RosterFile, starter: float | None) -> RosterFile:
-    """Return a list in which players without a level have that of a new player, if it is given."""
+    """Return a list in which players without a level get the new players' level, if given."""
     if starter is None:
         return file
     roster = file.roster
@@ -114,9 +115,9 @@ def with_level(file: RosterFile, starter: float | None) -> RosterFile:
 def with_known_level(
     file: RosterFile, starter: float | None, results: str | None
 ) -> tuple[RosterFile, list[Sentence]]:
-    """Return a list in which new players have the last level of the results, or a starter's.
+    """Return a list in which new players have their last level in the results, or the starter's.
 
-    With it, what to say of those players.
+    Also return what to say about those players.
     """
     roster, notes = file.roster, list[Sentence]()
     new = np.isnan(roster.level)

@@ -1,4 +1,4 @@
-"""Captains who hand in the best lineup that the cap allows, for a simulated league of teams."""
+"""Captains who submit the best lineup that the cap allows, for a simulated team league."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ _Numbers = tuple[float, ...]
 class SealedCaptains:
     """Captains who know only the published numbers and write their lineups unseen.
 
-    Both hand in a lineup of `sealed`, drawn from the mixture that no one can exploit; the pairs
-    are random. The team with more matches wins the night. A team whose weakest lineup is over the
-    cap plays that one.
+    Both submit a lineup from `sealed`, drawn from the mixture that no one can exploit; the pairs
+    are random. The team that wins more matches wins the night. A team whose weakest lineup is over
+    the cap plays that lineup.
     """
 
     sets: int
@@ -34,7 +34,7 @@ class SealedCaptains:
     def __call__(
         self, doublings: Doublings, ours: Floats, theirs: Floats, luck: Floats
     ) -> tuple[Ints, Ints]:
-        """Return who plays of both teams, as places among the published numbers of those there."""
+        """Return who plays for both teams, as places among the numbers of players present."""
         # Teams of the same numbers have the same lineups, whoever has them.
         orders = [np.argsort(side, kind="stable") for side in (ours, theirs)]
         sides = tuple(
@@ -63,13 +63,13 @@ class SealedCaptains:
         return night.ours, night.theirs
 
     def _squad(self, side: _Numbers, capped: bool) -> Squad:
-        """Return a team, whose numbers rise, with the cap that it can keep."""
+        """Return a team, with its numbers ascending, and the cap that it can keep."""
         cap = max(self.cap, sum(side[: self.sets])) if capped and self.cap is not None else None
         return Squad(tuple(map(str, range(len(side)))), caps_of(side, cap, None))
 
 
 def _drawn(line_ups: Sequence[SealedLineUp], x: float) -> Ints:
-    """Return the places of a lineup of a mixture, by a uniform number."""
+    """Return the places in a lineup drawn from a mixture with a uniform number."""
     reached = np.cumsum([line_up.mix for line_up in line_ups])
     chosen = line_ups[min(int(np.searchsorted(reached, x)), len(line_ups) - 1)]
     return np.array([int(name) for name in chosen.names])

@@ -1,4 +1,4 @@
-"""Handicap systems side by side for one league: which is fairer, by how much, and what it costs."""
+"""Handicap systems side by side for one league: fairness, differences and costs."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Comparison:
     systems: Sequence[System]
 
     def estimate(self, measure: Any, confidence: float = CONFIDENCE) -> Estimate:
-        """Return a measure of all systems, with intervals of a confidence."""
+        """Return a measure for all systems, with intervals at a confidence level."""
         cycle = math.lcm(*(getattr(system, "cycle", 1) for system in self.systems))
         free = np.array([not Doublings(system, self.world).fixed for system in self.systems])
         return estimate(
@@ -46,19 +46,19 @@ class Comparison:
 
     @cached_property
     def measures(self) -> Mapping[str, Estimate]:
-        """Every measure of one number."""
+        """All measures that are a single number."""
         return {name: self.estimate(measure) for name, measure in MEASURES.items()}
 
     @property
     def names(self) -> list[str]:
-        """What the systems are called."""
+        """The systems' names."""
         return [system.name for system in self.systems]
 
     @cached_property
     def signs(self) -> tuple[Ints, Bools]:
-        """Whether others have clearly more (1) or fewer (-1) even matches; whether by luck alone.
+        """Whether others have clearly more (1) or fewer (-1) even matches, beyond luck.
 
-        The best of several others is looked at, so each has to be clear by a stricter interval.
+        Because the best of several systems is picked, each has to pass a stricter interval.
         """
         strict = 1.0 - (1.0 - CONFIDENCE) / max(len(self.systems) - 1, 1)
         even, right, worth = (
@@ -69,7 +69,7 @@ class Comparison:
 
     @cached_property
     def best(self) -> int:
-        """The system with the most even matches, apart from the first: the fairer ones, if any."""
+        """The fairer system with the most even matches; None if none is fairer than the first."""
         even, by_luck = self.signs
         share = self.measures["p_even"].value[1:]
         fairer = (even > 0) & ~by_luck
@@ -86,7 +86,7 @@ def comparison_answer(
 ) -> Answer:
     """Return systems side by side; in files, one row per system and measure.
 
-    `settings` are other facts for the reader, such as the seed; `assumed` are sentences; without a
+    `settings` are other facts for the reader, such as the seed; `assumed` has sentences; without a
     pace, lengths are in games only.
     """
     world, contest = comparison.world, comparison.contest
@@ -179,7 +179,7 @@ def _minutes(comparison: Comparison, pace: Pace | str) -> Sentence:
 
 
 def _verdict(comparison: Comparison) -> Iterator[Sentence]:
-    """Yield which system is fairer, by how much, and what it costs."""
+    """Yield which system is fairer, by how much, and at what cost."""
     names, best = comparison.names, comparison.best
     even, right = comparison.measures["p_even"], comparison.measures["p_right"]
     more_even, by_luck = comparison.signs
@@ -291,11 +291,12 @@ _LONGER: Mapping[str, tuple[float, Sentence, Sentence]] = {
         say("newcomers' ratings settle {by:.1f} nights sooner"),
     ),
 }
-"""What a system costs or saves: the least that matters, and the words for more and for less."""
+"""What a system costs or saves: the smallest difference that matters, and words for more and
+less."""
 
 
 def _changes(comparison: Comparison, system: int) -> tuple[list[Sentence], list[Sentence]]:
-    """Return what is clearly more, and what is clearly less, with a system than with the first."""
+    """Return what there is clearly more of, and less of, with a system than with the first."""
     ways: tuple[list[Sentence], list[Sentence]] = [], []
     for name, (least, more, less) in _LONGER.items():
         of = comparison.measures[name]
@@ -333,13 +334,13 @@ class _Shown(NamedTuple):
     percent: bool = False
 
     def text(self, value: float) -> str | None:
-        """Return a value in words; None where there is none."""
+        """Return a value in words; None if it has none."""
         if math.isnan(value):
             return None
         return f"{value:.{self.places}{'%' if self.percent else 'f'}}"
 
     def difference(self, of: Estimate, place: int) -> str | None:
-        """Return a system's difference from the first with half of its interval."""
+        """Return a system's difference from the first, with its interval's half-width."""
         change, half = (
             float(x[place]) * (100.0 if self.percent else 1.0)
             for x in (of.change, of.change_margin)
@@ -362,18 +363,18 @@ _SHOWN: Mapping[str, _Shown] = {
     "mean_games": _Shown(2),
     "titles_strongest": _Shown(2),
 }
-"""The measures in the order of the table, and how each is shown."""
+"""The table's measures in order, and how each is shown."""
 
 _DETAILS: Sequence[Mapping[str, _Shown]] = (
     {"p_right": _SHARE, "p_doubling_wins": _SHARE, "p_better_wins": _SHARE,
      "titles_weakest": _Shown(2)},
     {"games_a_night": _Shown(1), "changes_a_season": _Shown(1), "drift": _Shown(3)},
 )  # fmt: skip
-"""The measures of further tables, for those who ask for details."""
+"""The measures of additional tables, shown with the details."""
 
 
 def _tables(comparison: Comparison, shown: Mapping[str, _Shown]) -> Iterator[Table]:
-    """Yield a table with the systems in rows, and one of their differences from the first."""
+    """Yield a table with a row per system, and a table of differences from the first."""
     measures, names = comparison.measures, comparison.names
     columns = columns_of("system_compared " + " ".join(f"compared_{key}" for key in shown))
     rows: list[tuple[Any, ...]] = [
@@ -397,9 +398,9 @@ def _tables(comparison: Comparison, shown: Mapping[str, _Shown]) -> Iterator[Tab
 
 
 def measures_frame(comparison: Comparison) -> pd.DataFrame:
-    """Return every measure of every system, with its difference from the first.
+    """Return every measure for every system, with its difference from the first.
 
-    `margin` and `difference_margin` are half of a 90 % interval; measures are the keys of
+    `margin` and `difference_margin` are half-widths of a 90% interval; measures are the keys of
     `MEASURES`.
     """
     rows = []
@@ -419,17 +420,17 @@ def measures_frame(comparison: Comparison) -> pd.DataFrame:
 
 
 def deciles_frame(comparison: Comparison) -> pd.DataFrame:
-    """Return the results of each part of a league under each system, the weakest players first.
+    """Return the results of each part of a league under each system, weakest players first.
 
     The columns p_even and p_win are the share of their matches that are even and their mean chance
-    of winning one; titles are multiples of an equal share, in a league of teams by the strength of
-    the team. Each has its standard error.
+    of winning one; titles are multiples of an equal share, and in a team league go by team
+    strength. Each has its standard error.
     """
     return _parts_frame(comparison, ("p_even", "p_win", "titles"), "part", 1)
 
 
 def nights_frame(comparison: Comparison) -> pd.DataFrame:
-    """Return the error of ratings by night (0: before the first), and newcomers' since they came.
+    """Return the rating errors by night (0: before the first), and newcomers' since they joined.
 
     Errors are root mean squares in doublings of the odds, over the cycle of nights that ends with
     this one; each has its standard error.
@@ -440,7 +441,7 @@ def nights_frame(comparison: Comparison) -> pd.DataFrame:
 def _parts_frame(
     comparison: Comparison, measures: Sequence[str], part: str, first: int
 ) -> pd.DataFrame:
-    """Return measures of parts: a row for each system and part, numbered from `first`."""
+    """Return the measures for parts: a row per system and part, numbered from `first`."""
     estimates = {name: comparison.estimate(PARTS[name]) for name in measures}
     rows = []
     for place, system in enumerate(comparison.names):
@@ -455,7 +456,7 @@ def _parts_frame(
 
 
 def players_frame(comparison: Comparison) -> pd.DataFrame:
-    """Return what share of their matches each player wins under each system."""
+    """Return the share of their matches that each player wins under each system."""
     of = comparison.estimate(PARTS["player"])
     players, many = comparison.world.players, len(comparison.world.players)
     names = players.names or [f"player {k}" for k in range(1, many + 1)]

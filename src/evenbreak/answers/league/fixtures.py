@@ -1,4 +1,4 @@
-"""Fixtures of a league: who plays who, where and when, or what is still to be played."""
+"""A league's fixtures: who plays who, where and when, or which are still to be played."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def fixtures_answer(
     only: str = "",
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return fixtures, which `who`, 'player' or 'team', plays; `only` is whose, '' for everyone's.
+    """Return fixtures, played by `who`, 'player' or 'team'; `only` is whose, '' for everyone's.
 
     >>> from evenbreak.league.tables.fixtures import fixtures
     >>> print(fixtures_answer(fixtures(["Ann", "Bo", "Cy", "Di"])).sentences[0])
@@ -44,7 +44,7 @@ def fixtures_answer(
 
 
 def fixtures_table(listed: Sequence[Fixture]) -> Table:
-    """Return the rows of fixtures, in files with all columns that lists of fixtures have."""
+    """Return rows for fixtures; in files, with all the columns that fixture lists have."""
     shown = {
         "fixture_date": any(one.date for one in listed),
         "venue": any(one.venue for one in listed),

@@ -1,4 +1,4 @@
-"""Which race each pair of a round plays, who wins it how often, and how long it takes."""
+"""The race for each pair in a round, who wins it how often, and how long it takes."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -30,10 +30,10 @@ from evenbreak.words import race
 
 
 def matchups_answer(tonight: Round, *, warnings: Sequence[str] = ()) -> Answer:
-    """Return the races of a round.
+    """Return a round's races.
 
-    Of more than 20,000 pairs the rows are calculated while they are read, and the sentences
-    are only those that do not depend on all of them.
+    With more than 20,000 pairs, the rows are calculated as they are read, and sentences that depend
+    on all of them are left out.
 
     >>> import numpy as np
     >>> from evenbreak.answers.league.roster_matchups import all_pairs
@@ -102,7 +102,7 @@ def _table(tonight: Round) -> Table:
 
 
 def _race_columns(tonight: Round, prefix: str, *, both: bool) -> list[Column]:
-    """Return the columns of the fair race, or of the chart's; less of each where there are both."""
+    """Return the columns for the fair race, or the chart's; fewer of each if there are both."""
     timed = tonight.pace is not None
     keys = [
         ("chart_race" if prefix else "fair_race_ab") if both else "race_pair",
@@ -122,7 +122,7 @@ def _race_columns(tonight: Round, prefix: str, *, both: bool) -> list[Column]:
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """The rows of the table, calculated each time they are read."""
+    """The table's rows, calculated each time they are read."""
 
     round: Round
     columns: Sequence[Column]
@@ -149,7 +149,7 @@ KINDS = {"chart": "By the chart", "best": "With the fairest races"}
 
 
 def races_of(frame: pd.DataFrame, prefix: str) -> pd.DataFrame:
-    """Return the races of one kind, named as `matchups_frame` names them."""
+    """Return the races of one kind, with the names used in `matchups_frame`."""
     names = ("race_a", "race_b", "p_win_a", "mean_games", "games_p90")
     columns = {"player_a": "player_a", "player_b": "player_b"}
     columns |= {prefix + name: name for name in names}
@@ -167,7 +167,7 @@ def which_races(tonight: Round, prefix: str) -> str:
 
 
 def least_even(paired: pd.DataFrame) -> str:
-    """Return which race favors one of the two most, of pairs as `races_of` names them.
+    """Return the most lopsided of the pairs in `races_of`.
 
     >>> import pandas as pd
     >>> pairs = {"player_a": ["Ann", "Cy"], "player_b": ["Bo", "Di"]}
@@ -201,7 +201,7 @@ def evening_words(end: EveningEnd) -> str:
 
 
 def about_time(tonight: Round) -> str:
-    """Return what the minutes assume, in a sentence; empty if there are none."""
+    """Return what the minutes assume, in a sentence; '' if there are no minutes."""
     if tonight.pace is None:
         return ""
     between = tonight.turnover.mean if tonight.evening else None
@@ -228,7 +228,7 @@ def time_words(pace: Pace, turnover: float | None = None) -> str:
 
 
 def about_pairs(frame: pd.DataFrame) -> Iterator[Remark]:
-    """Yield which pairs have no race, or none that is fair."""
+    """Yield the pairs that have no race, or no fair race."""
     apart = _pairs(frame[frame["p_game_a"].isna()])
     if apart:
         yield Remark(
@@ -249,7 +249,7 @@ def _pairs(rows: pd.DataFrame) -> list[str]:
 
 
 def about_players(tonight: Round) -> Iterator[Remark]:
-    """Yield whose rating or standard error was filled in or is missing, of those who meet."""
+    """Yield players in these pairs whose rating or standard error was filled in or is missing."""
     if tonight.levels is not None:
         return
     read, started = tonight.file.roster, tonight.roster
@@ -292,7 +292,7 @@ def _remark(tonight: Round, which: NDArray[np.bool_], what: str, why: str) -> Re
 
 
 def about_method(tonight: Round) -> Iterator[Remark]:
-    """Yield what the numbers rest on."""
+    """Yield what the numbers are based on."""
     if isinstance(tonight.chart, Chart):
         yield Remark(
             f"Chart {tonight.chart.name}", "looked up with ratings rounded to whole points"
@@ -324,7 +324,7 @@ def about_method(tonight: Round) -> Iterator[Remark]:
 
 
 def doubtful(tonight: Round) -> bool:
-    """Return whether the error of any rating is stated, or how far off levels may be is known."""
+    """Return whether any rating error is stated, or the levels' uncertainty is known."""
     if tonight.levels is not None:
         return tonight.levels.is_known
     return bool((tonight.roster.standard_error[np.unique(tonight.pairs)] > 0.0).any())
@@ -338,7 +338,7 @@ def ratings_words(tonight: Round) -> str:
 
 
 def levels_data(levels: LevelSkills) -> dict[str, Any]:
-    """Return what the chances rest on where they come from skill levels, for JSON."""
+    """Return what the chances are based on if they come from skill levels, for JSON."""
     off = [None if np.isnan(error) else float(error) for error in levels.standard_error]
     return {
         "chart": levels.chart.name,
@@ -351,7 +351,7 @@ def levels_data(levels: LevelSkills) -> dict[str, Any]:
 
 
 def game_model(tonight: Round) -> str:
-    """Return how a game's chance follows from two ratings, in a sentence."""
+    """Return how the chance of winning a game follows from two ratings, in a sentence."""
     alone = "independently of every other game"
     alone += " but for day-to-day form, whoever breaks." if tonight.form else ", whoever breaks."
     if tonight.levels is not None:
@@ -374,9 +374,10 @@ def game_model(tonight: Round) -> str:
 def points_matchups_answer(
     file: RosterFile, pairs: Ints, chart: PointsChart, *, warnings: Sequence[str] = ()
 ) -> Answer:
-    """Return the points that the players of each pair need, and each player's chance.
+    """Return the points that each pair's players need, and each player's chance.
 
-    All levels in the list are on the chart; pairs are places in its roster, shape (k, 2).
+    All levels in the list must be on the chart; pairs are places in the list's roster, shape (k,
+    2).
     """
     roster = file.roster
     known: dict[tuple[int, int], PointsOdds] = {}

@@ -1,4 +1,4 @@
-"""What ratings start from: the prior, levels and groups, and players without a rating."""
+"""What ratings start from: the prior, levels and groups, and unrated players."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -30,7 +30,7 @@ NAMES = {
     "half_life": "half-life",
     "brought_sd": "ratings from elsewhere",
 }
-"""What each thing that a search may add is called."""
+"""Names for what a search may add."""
 
 _SUBJECTS = {
     "joined": say("Joining late"),
@@ -91,7 +91,7 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
 
 
 def _beginning_words(ratings: Ratings) -> Iterator[str]:
-    """Yield how many players bring a rating along, and its assumed uncertainty."""
+    """Yield how many players bring a rating with them, and its assumed uncertainty."""
     beginning, off = ratings.levels.beginning, ratings.levels.brought_sd
     if beginning is None:
         return
@@ -122,7 +122,7 @@ def _group_words(group: Group) -> str:
 
 
 def _error(choice: PriorChoice | None, of: str, unit: float, show: Show, sign: str) -> str:
-    """Return how far off what was chosen may be, '' where that is not known."""
+    """Return how far off a choice may be; '' if that isn't known."""
     known = _error_of(choice, of)
     return "" if known is None else f" ± {show(unit * known)}{sign}"
 
@@ -157,7 +157,7 @@ def _field_words(share: float, error: float | None) -> Sentence:
 
 
 def prior_details(ratings: Ratings, choice: PriorChoice | None) -> Iterator[Part]:
-    """Yield the prior, how it was chosen, and what everything that was tried gained."""
+    """Yield the prior, how it was chosen, and how much each option tried gained."""
     yield prior_words(ratings)
     if choice is None or not choice.learned:
         return
@@ -167,7 +167,7 @@ def prior_details(ratings: Ratings, choice: PriorChoice | None) -> Iterator[Part
 
 
 def evidence_table(choice: PriorChoice) -> Table:
-    """Return what it gains to let newcomers, teams and so on count."""
+    """Return the gain from including newcomers, teams and so on."""
     columns = columns_of("of log_loss_gain used")
     rows = [(NAMES[found.of], found.gain, found.used) for found in choice.evidence]
     title = (
@@ -180,7 +180,7 @@ def evidence_table(choice: PriorChoice) -> Table:
 
 
 def groups_table(ratings: Ratings) -> Iterator[Table]:
-    """Yield how far each team and division is above the average one, if they count."""
+    """Yield how far each team and division is above the average one, if they are included."""
     if ratings.groups:
         columns = columns_of("group_kind group_name above standard_error")
         yield Table("", columns, list(ratings.groups))
@@ -192,7 +192,7 @@ def group_rows(ratings: Ratings) -> list[dict[str, Any]]:
 
 
 def levels_data(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
-    """Return the levels that count, in points, with their standard errors where known."""
+    """Return the included levels in points, with their standard errors where known."""
     levels, points = ratings.levels, ratings.scale.points
     errors = {found.of: found.standard_error for found in choice.evidence} if choice else {}
     newcomers, joined = errors.get("newcomers"), errors.get("joined")
@@ -213,7 +213,7 @@ def levels_data(ratings: Ratings, choice: PriorChoice | None) -> dict[str, Any]:
 
 
 def evidence_rows(choice: PriorChoice | None) -> list[dict[str, Any]]:
-    """Return what everything that was tried gained in log-loss a game."""
+    """Return each tried option's gain in log-loss per game."""
     return [] if choice is None else [_evidence(found) for found in choice.evidence]
 
 
@@ -232,7 +232,7 @@ def _evidence(found: Evidence) -> dict[str, Any]:
 
 
 def prior_words(ratings: Ratings) -> str:
-    """Return what was assumed about players before any result."""
+    """Return the assumptions about players before any result."""
     width = _ONE(ratings.scale.points(ratings.prior_sd))
     start = "average" if ratings.named else f"at {round(ratings.anchor, 1):g}"
     apart = ", apart from what is known about them," if ratings.levels else ""
@@ -263,14 +263,14 @@ def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
 def prior_warnings(
     file: ResultsFile, ratings: Ratings, choice: PriorChoice | None
 ) -> Iterator[str]:
-    """Yield a warning where the prior was to be chosen by too few results, or without groups."""
+    """Yield a warning if too few results, or no groups, are available for choosing the prior."""
     if choice is not None and not choice.learned:
         yield f"{file.source}: {too_few_for_prior_words(choice, ratings.scale)}"
     yield from groups_warnings(file, choice)
 
 
 def groups_warnings(file: ResultsFile, choice: PriorChoice | None) -> Iterator[Sentence]:
-    """Yield a warning where teams, or divisions, are too many to let them count."""
+    """Yield a warning if there are too many teams, or divisions, to include them."""
     if choice is None or not choice.learned:
         return
     for kind, many in too_many_groups(file.results).items():
@@ -283,7 +283,7 @@ def groups_warnings(file: ResultsFile, choice: PriorChoice | None) -> Iterator[S
 
 
 def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:
-    """Return that the results cannot choose a prior, and which one is used.
+    """Return that the results can't be used to choose a prior, and which prior is used.
 
     >>> from evenbreak.ratings import scale_of
     >>> few = PriorChoice(0.693, (0.1, 0.693), (0.6, 0.6), 22, 0.1, 0.693, False, 0.6)
@@ -298,7 +298,7 @@ def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:
 
 
 def starters_words(listed: Roster, filled: Roster) -> str:
-    """Return who has no rating on the list and what they are taken as; '' if no one.
+    """Return the unrated players on the list and what is assumed about them; '' if none.
 
     >>> listed = Roster(["Ann", "Bo"], [600, np.nan])
     >>> starters_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
@@ -314,7 +314,7 @@ def starters_words(listed: Roster, filled: Roster) -> str:
 
 
 def unrated_words(names: Sequence[str], rating: float, error: float) -> Sentence:
-    """Return what is assumed of players without a rating.
+    """Return what is assumed about players without a rating.
 
     >>> unrated_words(["Ann"], 80.0, 30.0)
     '1 player without a rating (Ann): assumed to be 80 ± 30.'

@@ -27,7 +27,7 @@ from evenbreak.words import listed
 NOT_LINKED = "no chain of opponents links the two"
 
 SIZES = 6
-"""How many groups of players are listed by their sizes."""
+"""How many groups of players are listed with their sizes."""
 
 _ONE = decimals(1)
 
@@ -40,18 +40,18 @@ def rate_answer(
     pairs: Sequence[tuple[int, int]] = (),
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return the ratings of a league, or the differences between the players of some pairs.
+    """Return a league's ratings, or the differences between the players in some pairs.
 
     Parameters
     ----------
     file, ratings
-        the results, and what `fit` made of them.
+        the results, and the ratings from `fit`.
     choice
         how the prior was chosen, if it was chosen by prediction.
     pairs
-        positions in `ratings.players`; the answer is about them if there are any.
+        positions in `ratings.players`; if given, the answer is about these pairs.
     warnings
-        what else may be wrong.
+        anything else that may be wrong.
 
     >>> from evenbreak.files.results.results_file import ResultsFile
     >>> from evenbreak.ratings import Results, fit
@@ -101,7 +101,7 @@ _ERRORS_IN_WORDS = (
 
 
 def _error_of_errors_in_words(ratings: Ratings) -> Iterator[str]:
-    """Yield how far off the standard errors are, where they are sampled."""
+    """Yield how far off the standard errors are, if they are sampled."""
     if ratings.error_of_errors:
         yield (
             "With this many players the standard errors are estimated from random draws: for every "
@@ -111,7 +111,7 @@ def _error_of_errors_in_words(ratings: Ratings) -> Iterator[str]:
 
 
 def _players_table(ratings: Ratings) -> Table:
-    """Return every player, group by group, the strongest of each first; then the provisional."""
+    """Return every player, group by group, strongest first; provisional players come last."""
     by_winner = bool(ratings.races_won.any() or ratings.races_lost.any())
     columns = [
         *columns_of("rating standard_error quasi_error", show={"rating": decimals(1)}),
@@ -171,9 +171,9 @@ def _highest_in_words(ratings: Ratings) -> str:
 
 
 def provisional_words(ratings: Ratings, mark: str = "") -> list[str]:
-    """Return which ratings are provisional, in a sentence; none if no rating is.
+    """Return which ratings are provisional, in a sentence; '' if none are.
 
-    `mark` is what lists have instead of a place.
+    `mark` is what lists show instead of a place.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Cy"], ["Bo", "Bo"], [50, 2], [40, 0])
@@ -193,7 +193,7 @@ def provisional_words(ratings: Ratings, mark: str = "") -> list[str]:
 
 
 def _counted(file: ResultsFile, ratings: Ratings) -> str:
-    """Return what the ratings rest on."""
+    """Return what the ratings are based on."""
     games, races = int(ratings.won.sum()), int(ratings.races_won.sum())
     made = [count_of(int((~ratings.idle).sum()), "player")]
     if games:
@@ -211,7 +211,7 @@ def _counted(file: ResultsFile, ratings: Ratings) -> str:
 
 
 def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
-    """Yield what the ratings rest on besides the results, where something was asked for."""
+    """Yield what the ratings are based on besides the results, if anything was requested."""
     yield from level_words(ratings, choice)
     if ratings.named:
         names = [f"{name} has {points:g}" for name, points in ratings.named]
@@ -233,7 +233,7 @@ def _fit_in_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]
 
 
 def unlinked_words(ratings: Ratings) -> Iterator[str]:
-    """Yield what to know about players that no chain of opponents links.
+    """Yield what to know about players who aren't linked by a chain of opponents.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["A", "C", "D"], ["B", "D", "E"], [7, 7, 7], [2, 3, 6])

@@ -1,4 +1,4 @@
-"""How a night changes a league's ratings by its own rule, and the list for next week."""
+"""How a night changes a league's ratings under its own rule, and the list for next week."""
 
 import math
 import re
@@ -37,10 +37,10 @@ from evenbreak.ratings.roster import NOT_STATED, Roster
 from evenbreak.words import Parameter, say
 
 Races: TypeAlias = Chart | System
-"""What sets the races of results that do not state them: a chart, or a system by its own rule."""
+"""What sets races that the results don't state: a chart, or a system by its own rule."""
 
 MOST_NAMES = 6
-"""How many players who gained, and who lost, the first sentence names."""
+"""How many gainers, and how many losers, the first sentence names."""
 
 
 def rating_changes_answer(
@@ -60,7 +60,7 @@ def rating_changes_answer(
     chart
         the chart that set the races, if any.
     found_chart
-        whether it was not given, but the only one that fits the scores.
+        whether the chart wasn't given, but is the only one that fits the scores.
     """
     order = _order(moves)
     csv = _list_for_files(moves, order, None if last.scale is None else last.scale.text)
@@ -96,7 +96,7 @@ def rating_changes_answer(
 
 
 def _heading(moves: RatingChanges, last: RosterFile, tonight: ResultsFile) -> str:
-    """Return by which rule the list was changed, and what was left out."""
+    """Return the rule by which the list was changed, and what was left out."""
     out = [count_of(tonight.skipped, "bad row")] if tonight.skipped else []
     out += [count_of(moves.forfeits, "forfeit")] if moves.forfeits else []
     out += [f"{moves.empty:,} at 0-0"] if moves.empty else []
@@ -112,7 +112,7 @@ def _heading(moves: RatingChanges, last: RosterFile, tonight: ResultsFile) -> st
 
 
 def _newcomers(moves: RatingChanges) -> str:
-    """Return how newcomers move, where the list has some and the system a rule for them."""
+    """Return how newcomers move, if the list has any and the system has a rule for them."""
     if not isinstance(moves.system, StepSystem):
         return ""
     steps, before = moves.system.newcomer_steps, moves.before.matches
@@ -154,14 +154,14 @@ def _numbers_of(moves: RatingChanges) -> tuple[NDArray[np.float64], NDArray[np.f
 
 
 def _order(moves: RatingChanges) -> list[int]:
-    """Return the players in the order of a list, those without a rating last."""
+    """Return the players in a list's order, unrated players last."""
     by_name = sorted(range(len(moves.after)), key=moves.after.players.__getitem__)
     order: list[int] = moves.after.strongest_first(by_name).tolist()
     return order
 
 
 def _list_for_files(moves: RatingChanges, order: Sequence[int], scale: str | None) -> Table:
-    """Return the list after a night as files hold it, a roster with more columns."""
+    """Return the list after a night as written to files: a roster with more columns."""
     after, why = moves.after, _reasons(moves)
     was, now = _numbers_of(moves)
     columns: dict[str, list[Any]] = {
@@ -189,7 +189,7 @@ def _stated(values: NDArray[Any]) -> list[Any]:
 
 
 def _numbers(values: NDArray[np.float64]) -> list[float | int | None]:
-    """Return points: whole ones as ints where all are whole, as leagues print them."""
+    """Return points as leagues print them: as ints if all are whole numbers."""
     known = values[~np.isnan(values)]
     whole = bool((known == np.floor(known)).all())
     return [None if math.isnan(one) else int(one) if whole else one for one in values.tolist()]
@@ -223,7 +223,7 @@ def _list_table(moves: RatingChanges, order: Sequence[int]) -> Table:
 
 
 def _reasons(moves: RatingChanges) -> dict[int, list[str]]:
-    """Return for the place of each player who played what each of their matches was."""
+    """Return descriptions of each player's matches, by player place."""
     players = moves.before.players
     reasons: dict[int, list[str]] = {}
     for match in moves.matches:
@@ -234,7 +234,7 @@ def _reasons(moves: RatingChanges) -> dict[int, list[str]]:
 
 
 def _score(match: MatchChange, turn: int) -> str:
-    """Return the score and race of a match, the winner's first (1) or the loser's (-1)."""
+    """Return a match's score and race, the winner's first (1) or the loser's (-1)."""
     text = ""
     if match.games is not None:
         mine, other = match.games[::turn]
@@ -263,7 +263,7 @@ def _matches(moves: RatingChanges) -> list[dict[str, Any]]:
 def _night_warnings(
     moves: RatingChanges, tonight: ResultsFile, chart: Races | None
 ) -> Iterator[str]:
-    """Yield the races that the chart does not have."""
+    """Yield the races that aren't in the chart."""
     if chart is None:
         return
     players = moves.before.players
@@ -289,9 +289,8 @@ def nights_of_files(
 ) -> list[PlayedNight]:
     """Return a season night by night, with the ratings after each night.
 
-    The chart sets races where the results have none; `stated` uses the levels of the results
-    instead of the system's. A DataError names every line that keeps the results from moving
-    ratings.
+    The chart sets races that the results don't state; `stated` uses the results' levels instead of
+    the system's. Raises DataError naming every line that keeps the results from moving ratings.
     """
     problems: dict[str, None] = {}
     first = replace(first, roster=listed(system, first.roster))
@@ -321,7 +320,7 @@ def nights_of_files(
 
 
 def _line(file: ResultsFile, row: int) -> int | None:
-    """Return the line of a match; None where several files were read, of which it is in one."""
+    """Return a match's line; None if several files were read, because lines are per file."""
     return int(file.lines[row]) if len(file.lines) else None
 
 
@@ -335,7 +334,7 @@ def _some(lines: NDArray[np.int64], rows: NDArray[np.int64]) -> NDArray[np.int64
 
 
 def has_levels(system: System, results: Results) -> bool:
-    """Return whether results state the levels that a system publishes, in every match."""
+    """Return whether results state the levels that a system publishes, for every match."""
     return system.publishes == "levels" and all(
         texts is not None and all(_NUMBER.fullmatch(text) for text in texts)
         for texts in (results.level_a, results.level_b)
@@ -346,7 +345,7 @@ _NUMBER = re.compile(r"\d{1,3}(\.\d+)?", re.ASCII)
 
 
 def _with_levels(list_: Roster, night: Results) -> Roster:
-    """Return a list with the levels that a night's results state."""
+    """Return a list with the levels stated in a night's results."""
     level, place = list_.level.copy(), {name: at for at, name in enumerate(list_.players)}
     for players, texts in ((night.player_a, night.level_a), (night.player_b, night.level_b)):
         for player, text in zip(players.tolist(), () if texts is None else texts, strict=True):
@@ -359,9 +358,10 @@ def _with_levels(list_: Roster, night: Results) -> Roster:
 def rating_changes_of_season(
     system: System, first: RosterFile, season: ResultsFile, *, chart: Races | None = None
 ) -> RatingChanges:
-    """Return how the results of one or several dates change the ratings of a list.
+    """Return how the results on one or several dates change a list's ratings.
 
-    The ratings after each date set the races of the next. Without dates all is one night.
+    The ratings after each date set the races on the next date. Without dates, everything is one
+    night.
 
     Parameters
     ----------
@@ -395,7 +395,7 @@ def rating_changes_of_season(
 
 
 def count_dates(results: Results) -> int:
-    """Return on how many dates there are matches, 0 without dates.
+    """Return how many dates have matches; 0 without dates.
 
     >>> count_dates(Results.from_names(["A"] * 2, ["B"] * 2, [5] * 2, [4] * 2))
     0
@@ -405,7 +405,7 @@ def count_dates(results: Results) -> int:
 
 
 def _once(problems: Iterable[str]) -> list[str]:
-    """Return problems without those that differ from an earlier one by their line only."""
+    """Return problems, leaving out those that differ from an earlier one only in their line."""
     first: dict[str, str] = {}
     for problem in problems:
         first.setdefault(problem.split(": ", 1)[-1], problem)
@@ -420,9 +420,9 @@ def rating_changes_of_files(
     chart: Races | None = None,
     so_far: SeasonSoFar | None = None,
 ) -> RatingChanges:
-    """Return how a night's results change the ratings of a list.
+    """Return how a night's results change a list's ratings.
 
-    A DataError names each line that prevents it: players not on the list, a match without a
+    Raises DataError naming each line that prevents it: players not on the list, a match without a
     winner.
     """
     results = tonight.results
@@ -449,7 +449,7 @@ def rating_changes_of_files(
 
 
 def _player_of(problem: Problem, results: Results) -> str:
-    """Return the player whom a problem is about, '' if it is about no single one."""
+    """Return the player that a problem is about, '' if it isn't about a single player."""
     if problem.column not in ("player_a", "player_b"):
         return ""
     sides = {"player_a": results.player_a, "player_b": results.player_b}
@@ -457,7 +457,7 @@ def _player_of(problem: Problem, results: Results) -> str:
 
 
 def _told_once(found: list[Problem], results: Results, unknown: Sequence[str]) -> list[Problem]:
-    """Return problems with one, at its first row, for all players who are not on the list."""
+    """Return problems, merging those about players not on the list into one at its first row."""
     which = [problem for problem in found if _player_of(problem, results) in unknown]
     if len(which) < 2:
         return found
@@ -468,13 +468,13 @@ def _told_once(found: list[Problem], results: Results, unknown: Sequence[str]) -
 
 
 def _needs_chart(problem: Problem, results: Results, chart: Races | None) -> bool:
-    """Return whether nothing in a row, and no chart, says who won."""
+    """Return whether neither a row nor a chart says who won."""
     stated = results.winner is not None and results.winner[problem.row] > 0
     return chart is None and problem.column == "winner" and not stated
 
 
 def _alike(strangers: set[str], known: Iterable[str]) -> dict[str, list[str]]:
-    """Return for each name that is not on the list those on it that may be the same player."""
+    """Return similar names on the list for each name that isn't on it."""
     if not strangers:
         return {}
     alike: dict[str, list[str]] = {name: [] for name in strangers}

@@ -20,7 +20,7 @@ from evenbreak.ratings.fitted import Ratings
 from evenbreak.words import race
 
 MOST_ACROSS = 30
-"""Players whose races are a table on a terminal; of more only the ratings are shown there."""
+"""The most players whose races are shown as a table on a terminal; otherwise, only ratings are."""
 
 
 def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None = None) -> Answer:
@@ -29,9 +29,9 @@ def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None
     Parameters
     ----------
     across
-        up to how many players the races are shown as a table.
+        the most players for which the races are shown as a table.
     listed
-        how many players the face lists with their ratings, if it lists others than those.
+        how many players the output lists with their ratings, if these are other players.
 
     >>> from evenbreak.answers.league.roster_matchups import OfferedRaces
     >>> from evenbreak.files.results.results_file import ResultsFile
@@ -109,7 +109,7 @@ NOTHING_LEFT_OUT = "Nothing: every match in the file was used, and every player 
 def left_out(
     sheet: Sheet, *, listed: int | None = None, in_table: int | None = None
 ) -> Iterator[Remark]:
-    """Yield what the numbers don't include; None instead of a number of players shown: all."""
+    """Yield what the numbers don't include; if the number of players shown is None, all are."""
     if skipped := sheet.file.skipped:
         yield Remark(count_of(skipped, "bad row"), "left out, as asked")
     yield from _uncounted_matches(sheet.ratings)
@@ -171,7 +171,7 @@ def _not_shown(sheet: Sheet, listed: int | None, in_table: int | None) -> Iterat
 
 
 def source_and_dates(sheet: Sheet) -> str:
-    """Return the name of the results file and the days of the first and last match rated."""
+    """Return the results file's name, and the dates of the first and last rated matches."""
     first, last = dates_of(sheet.file.results, sheet.ratings.as_of)
     days = f", {first}" if first else ""
     days += f" to {last}" if last != first else ""
@@ -179,12 +179,12 @@ def source_and_dates(sheet: Sheet) -> str:
 
 
 def heading(sheet: Sheet) -> list[str]:
-    """Return the title that was given, if any, and what the sheet is."""
+    """Return the title, if any, and what the sheet is."""
     return [*filter(None, [sheet.title]), f"Fair races from {source_and_dates(sheet)}"]
 
 
 def played(sheet: Sheet) -> str:
-    """Return how much was played, by how many."""
+    """Return how many games were played, and by how many players."""
     ratings = sheet.ratings
     return (
         f"{count_of(ratings.matches, 'match', 'matches')} between {int((~ratings.idle).sum()):,} "
@@ -193,7 +193,7 @@ def played(sheet: Sheet) -> str:
 
 
 def how_to_read(paired: pd.DataFrame) -> str:
-    """Return how the table of races is read, by the example of a race in it."""
+    """Return how to read the table of races, using one of its races as an example."""
     offered = paired.dropna(subset=["race_a"])
     uneven = offered[offered["race_a"] != offered["race_b"]]
     text = "Find your row and your opponent's column."
@@ -207,7 +207,7 @@ def how_to_read(paired: pd.DataFrame) -> str:
 
 
 def how_even(paired: pd.DataFrame) -> Iterator[str]:
-    """Yield how even and how long the races are, and which pairs have none."""
+    """Yield how even and how long the races are, and which pairs have no race."""
     offered = paired.dropna(subset=["race_a"])
     if len(offered):
         low, high = percent(offered["p_win_a"].min()), percent(offered["p_win_a"].max())
@@ -226,7 +226,7 @@ def how_even(paired: pd.DataFrame) -> Iterator[str]:
 
 
 def about_ratings(sheet: Sheet) -> Iterator[str]:
-    """Yield what the numbers of the ratings mean, and which of them mean less."""
+    """Yield what the ratings' numbers mean, and which ratings mean less."""
     ratings = sheet.ratings
     yield (
         f"Ratings are on {like_scale_words(ratings.scale)}, with a mean of "
@@ -240,7 +240,7 @@ def about_ratings(sheet: Sheet) -> Iterator[str]:
 
 
 def how_rated(sheet: Sheet) -> str:
-    """Return where ratings start, and what old matches count.
+    """Return where ratings start, and how much old matches count.
 
     >>> from evenbreak.answers.league.roster_matchups import OfferedRaces
     >>> from evenbreak.files.results.results_file import ResultsFile
@@ -289,7 +289,7 @@ def rating_model(sheet: Sheet) -> str:
 
 
 def version_and_source(sheet: Sheet) -> str:
-    """Return what the sheet was made by, and from which bytes."""
+    """Return what made the sheet, and the fingerprint of the data it came from."""
     from evenbreak import __version__
 
     return f"evenbreak {__version__}, from results with the SHA-256 {fingerprints(sheet.file, 12)}"

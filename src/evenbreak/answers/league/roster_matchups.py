@@ -1,4 +1,4 @@
-"""Which races players are offered, and the fairest of them."""
+"""The races offered to players, and the fairest of them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from evenbreak.words import Parameter, say
 
 @dataclass(frozen=True)
 class OfferedRaces:
-    """The races on offer: limited by their longest match, or by what the stronger player needs.
+    """The races on offer, limited by their longest match or by the stronger player's target.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class OfferedRaces:
             )
 
     def fairest(self, gap: Gap) -> tuple[Ints, Ints]:
-        """Return (m, n), the races nearest to even for each pair."""
+        """Return (m, n), the most nearly even races for each pair."""
         return gap.fair_races(games=self.games, race_to=self.race_to)
 
     @property
@@ -75,14 +75,14 @@ class OfferedRaces:
 
 
 FAIR_WITHIN = 0.1
-"""How far from 1/2 the chance of a fair race may be."""
+"""How far from 1/2 the chance in a fair race may be."""
 
 NOT_LINKED = "no race: no chain of opponents links the two"
-"""The note on a pair whose ratings cannot be compared."""
+"""The note on a pair whose ratings can't be compared."""
 
 
 def unfair(chances: Any) -> Any:
-    """Return for each of some chances to win whether it is further from 1/2 than `FAIR_WITHIN`.
+    """Return whether each of some chances is further from 1/2 than `FAIR_WITHIN`.
 
     >>> unfair(np.array([0.35, 0.55]))
     array([ True, False])
@@ -91,9 +91,9 @@ def unfair(chances: Any) -> Any:
 
 
 def all_pairs(roster: Roster) -> Ints:
-    """Return all pairs as places in the roster, the stronger player first.
+    """Return all pairs as places in the roster, stronger player first.
 
-    Pairs are in the order of the list of ratings, provisional ratings last; equal ratings keep the
+    Pairs are in the order of the ratings list, provisional ratings last; equal ratings keep the
     roster's order.
 
     >>> all_pairs(Roster(["Ann", "Bo", "Cy"], [70, 92, 81])).tolist()
@@ -103,9 +103,9 @@ def all_pairs(roster: Roster) -> Ints:
 
 
 def pairs_of(roster: Roster, order: ArrayLike) -> Ints:
-    """Return all pairs of some players, who are given in the order of a list.
+    """Return all pairs of some players, who are given in a list's order.
 
-    The stronger of each pair is the first of it, and the pairs come in the order of these.
+    The stronger player in each pair comes first, and pairs are ordered by their first players.
 
     >>> club = Roster(["Ann", "Bo", "Cy"], [70, 92, 99], games=[400, 300, 5])
     >>> pairs_of(club, club.strongest_first()).tolist()
@@ -121,10 +121,10 @@ def pairs_of(roster: Roster, order: ArrayLike) -> Ints:
 def check_roster(
     file: RosterFile, roster: Roster, chart: Any, scale: Scale, playing: ArrayLike | None = None
 ) -> None:
-    """Refuse ratings that aren't levels of the chart, and standard errors that are too large.
+    """Reject ratings that aren't levels in the chart, and standard errors that are too large.
 
-    `playing` are the places of those who play, repeats allowed; None: everyone. The DataError has
-    one line per player.
+    `playing` are the places of the players in the pairs, with repeats allowed; None: everyone.
+    DataError has one line per player.
     """
     most = MOST_DOUBLINGS * scale.points_per_doubling / 2.0
     plays = np.full(len(roster), playing is None)
@@ -166,12 +166,12 @@ def check_roster(
 
 @dataclass(frozen=True, eq=False)
 class Races:
-    """The race of each pair, who wins it and how long it lasts.
+    """Each pair's race, who wins it and how long it lasts.
 
     `p_win` is P(A wins | the ratings and their errors), `plug_in` P(A wins | the ratings are
-    right); `mean` and `p90` are the mean length and the games within which 90% of such races
-    end; `minutes` has the same two in minutes, if there is a pace, and `lengths` the distribution
-    of each race's length.
+    right); `mean` and `p90` are the mean length and the games within which 90% of such races end;
+    `minutes` has both in minutes, if there is a pace, and `lengths` has the distribution of each
+    race's length.
     """
 
     m: Ints
@@ -185,7 +185,7 @@ class Races:
 
     @classmethod
     def of(cls, gap: Gap, m: Ints, n: Ints, pace: Pace | None = None) -> Races:
-        """Return the races m:n of pairs."""
+        """Return the pairs' m:n races."""
         mean, p90 = np.zeros(len(m)), np.zeros(len(m), dtype=np.int64)
         minutes = np.zeros((2, len(m)))
         lengths: list[Length] = [Length([], [])] * len(m)
@@ -213,10 +213,10 @@ class Races:
 
 @dataclass(frozen=True, eq=False)
 class RosterMatchups:
-    """The races of pairs of players.
+    """Races for pairs of players.
 
-    `frame` is described by `roster_matchups`. Distributions of length leave out pairs not `linked`
-    by a chain of opponents, and are None for a kind not asked for.
+    `frame` is described by `roster_matchups`. Length distributions leave out pairs not `linked` by
+    a chain of opponents, and are None for races that weren't requested.
     """
 
     frame: pd.DataFrame
@@ -239,13 +239,13 @@ def roster_matchups(
     pace: Pace | None = None,
     form: float = 0.0,
 ) -> RosterMatchups:
-    """Return the races of pairs (places in the roster, shape (k, 2)), with chances and lengths.
+    """Return races for pairs (places in the roster, shape (k, 2)), with chances and lengths.
 
     In the frame, chances are averaged over the errors of the two ratings; a plug-in chance treats
     the ratings as exact, as does everything for a player without a standard error. Unfairness is
-    the distance of the chance from 1/2. `form` is the standard deviation of a game's log-odds from
-    match to match. Ratings are rounded to whole points to look up a chart, and a chart of skill
-    levels is looked up with the levels. It's an InputError if neither a chart nor races are
+    the chance's distance from 1/2. `form` is the standard deviation of a game's log-odds from match
+    to match. Ratings are rounded to whole points for looking them up in a chart, and a chart by
+    skill level is looked up with the levels. Raises InputError if neither a chart nor races are
     offered, a player has no rating, or the chart lacks a level.
     """
     if chart is None and offered is None:
@@ -291,14 +291,14 @@ def roster_matchups(
 
 
 def _linked(roster: Roster, a: Ints, b: Ints) -> NDArray[np.bool_]:
-    """Return which pairs can be compared; a new player's starter rating compares with anyone's."""
+    """Return which pairs can be compared; a new player's starter rating is always comparable."""
     group = np.where(roster.games == 0, 0, roster.component)
     linked: NDArray[np.bool_] = (group[a] == group[b]) | (group[a] == 0) | (group[b] == 0)
     return linked
 
 
 def cannot_be_compared(roster: Roster, a: int, b: int) -> bool:
-    """Return whether no chain of opponents links two players of a list."""
+    """Return whether two players on a list aren't linked by a chain of opponents."""
     return not _linked(roster, np.array([a]), np.array([b]))[0]
 
 
@@ -331,7 +331,7 @@ def _columns(prefix: str, races: Races) -> dict[str, Any]:
 
 
 def _notes(roster: Roster, pairs: Ints, linked: NDArray[np.bool_], best: Races | None) -> list[str]:
-    """Return the note on each pair: no link, no fair race, who is new."""
+    """Return the note on each pair: no link, no fair race, or who is new."""
     notes: list[list[str]] = [[] for _ in pairs]
     for row in np.flatnonzero(~linked).tolist():
         notes[row].append(NOT_LINKED)

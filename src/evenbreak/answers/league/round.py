@@ -1,4 +1,4 @@
-"""The races of a round: who meets who, what they may play, and when it is over."""
+"""A round's races: who plays who, what races they may play, and when it ends."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -22,14 +22,14 @@ from evenbreak.ratings.scale import Scale
 AnyChart: TypeAlias = Chart | LevelChart
 
 AT_A_TIME = 20_000
-"""Pairs that are worked out together; more are in memory only in part."""
+"""How many pairs are calculated together; larger rounds are only partly in memory."""
 
 
 class EveningEnd(NamedTuple):
-    """When all matches that have a race are over, in minutes.
+    """When all matches that have a race end, in minutes.
 
-    `races` is chart or best; `runs` is how often the evening was simulated, 0 where the
-    answer is calculated, and the errors are the standard errors that this leaves.
+    `races` is chart or best; `runs` is how often the evening was simulated, or 0 if the answer is
+    calculated, and the errors are the resulting standard errors.
     """
 
     races: str
@@ -46,24 +46,24 @@ class EveningEnd(NamedTuple):
 @own_arrays
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Round:
-    """Who meets who, and the races that are asked for.
+    """The pairs in a round, and the races requested.
 
     Parameters
     ----------
     file
-        the list of players, as it was read.
+        the list of players as read.
     pairs
         places in the roster, shape (k, 2).
     scale, chart, levels, offered, pace
         as for `roster_matchups`.
     tables
-        on how many tables the round is played, if its end is asked for; it needs a pace.
+        the number of tables the round is played on, if its end is requested, which needs a pace.
     turnover
-        the time between two matches on a table.
+        the time between matches on a table.
     seed
-        for an evening that has to be simulated.
+        the seed for an evening that must be simulated.
     form
-        how much the log-odds of a game vary from match to match (standard deviation).
+        how much a game's log-odds vary from match to match (standard deviation).
     listed
         whether the pairs are a list of matches; otherwise they are all pairs.
     """
@@ -87,20 +87,20 @@ class Round:
 
     @property
     def kinds(self) -> dict[str, AnyChart | OfferedRaces]:
-        """What the races come from, by what their columns start with: first those to play."""
+        """The sources of the races, by the first word of their columns: races to play first."""
         by_chart: dict[str, AnyChart | OfferedRaces] = {}
         if self.chart is not None:
             by_chart["chart_"] = self.chart
         return by_chart if self.offered is None else {**by_chart, "": self.offered}
 
     def in_parts(self) -> Iterator[RosterMatchups]:
-        """Yield the races, so many pairs at a time that memory is no concern."""
+        """Yield the races, a limited number of pairs at a time to save memory."""
         for first in range(0, len(self.pairs), AT_A_TIME):
             yield self._matchups(self.pairs[first : first + AT_A_TIME])
 
     @cached_property
     def matchups(self) -> RosterMatchups:
-        """The races of all pairs at once."""
+        """All pairs' races at once."""
         return self._matchups(self.pairs)
 
     def _matchups(self, pairs: NDArray[Any]) -> RosterMatchups:
@@ -117,7 +117,7 @@ class Round:
 
     @cached_property
     def evening(self) -> list[EveningEnd]:
-        """When all is over, by each kind of race; empty where that is not asked for."""
+        """When everything ends, for each kind of race; empty if not requested."""
         if self.tables is None or self.pace is None:
             return []
         answer = self.matchups

@@ -20,10 +20,10 @@ from evenbreak.league.schedule import FixedSchedule, RandomPairing, RoundRobin
 from evenbreak.league.season import Season, Tally
 
 SHOWN = 12
-"""Players of the standings that a terminal shows: the first half and the last half of them."""
+"""Places in the standings shown on a terminal: half from the top and half from the bottom."""
 
 MISTAKEN = 0.05
-"""The largest chance that a player is named as gaining or losing when no player does either."""
+"""The largest chance of naming a player as gaining or losing when no player is."""
 
 
 def season_answer(
@@ -36,7 +36,7 @@ def season_answer(
     exact: int = 0,
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return the outcome of a season; in files, the rows of `summary_rows`.
+    """Return a season's outcome; in files, the rows of `summary_rows`.
 
     `drawn` players have their true skill drawn for each season; for `exact` players nothing better
     than the rating is known.
@@ -75,7 +75,7 @@ def season_answer(
 
 
 def _assumed(players: int, drawn: int, exact: int) -> Iterator[str]:
-    """Yield what is assumed of the players' skills."""
+    """Yield what is assumed about the players' skills."""
     if drawn:
         yield (
             f"The true skill of {drawn:,} of {players:,} players is drawn again for each season, "
@@ -141,9 +141,10 @@ def _fairness(fairness: pd.DataFrame) -> str:
 
 
 def _who_gains(standings: pd.DataFrame, batches: int) -> str:
-    """Return who wins the most and the least of their matches, if it is not luck.
+    """Return the highest and lowest shares of matches won, if they aren't luck.
 
-    By luck alone some of many players are off a half, so the more players, the stricter the test.
+    By luck alone, some of many players will be far from a half, so the test gets stricter with more
+    players.
     """
     from scipy.special import stdtrit
 
@@ -187,7 +188,7 @@ def _luck(data: Mapping[str, Any]) -> str:
 
 
 def _standings(standings: pd.DataFrame) -> Table:
-    """Return the standings as people read them; of many players the first and the last."""
+    """Return the standings for display; if there are many players, only the first and the last."""
     records, half = standings.to_dict("records"), SHOWN // 2
     rows = [(str(place), *_cells(record)) for place, record in enumerate(records, 1)]
     if len(rows) > SHOWN + 1:
@@ -230,7 +231,7 @@ def _statistics(rows: Sequence[Row]) -> Quantities:
 
 
 def _mean(matches: float) -> str:
-    """Return a mean number of matches.
+    """Return an average number of matches.
 
     >>> _mean(12.0), _mean(14.26), _mean(12_345.6)
     ('12', '14.3', '12,346')
@@ -250,7 +251,7 @@ def _percent(p: float, error: float = math.nan) -> str:
 
 
 def _error(error: float) -> str:
-    """Return a standard error, which never looks like none.
+    """Return a standard error, rounded so that it never looks like zero.
 
     >>> _error(0.153), _error(0.038)
     ('0.2', '0.04')
@@ -259,13 +260,13 @@ def _error(error: float) -> str:
 
 
 Row = tuple[str, Any, float | None]
-"""A quantity, its value, and its standard error where the value was drawn at random."""
+"""A quantity, its value, and its standard error if the value was drawn at random."""
 
 
 def summary_rows(
     season: Season, tally: Tally, tables: SeasonTables, settings: Mapping[str, Any]
 ) -> list[Row]:
-    """Return the rows of `summary.csv`; settings (the seed, say) are repeated there."""
+    """Return the rows of `summary.csv`, which repeats the settings (the seed, say)."""
     replicas = int(tally.replicas.sum())
     played: dict[str, Any] = {
         **settings,

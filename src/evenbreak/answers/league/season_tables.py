@@ -1,7 +1,7 @@
-"""The tables of a simulated season: standings, ratings by week, fairness.
+"""A simulated season's tables: standings, ratings by week, fairness.
 
-Next to each value drawn at random stands its Monte Carlo standard error, in a column of the same
-name with `_se` added: the standard deviation between runs with different seeds.
+Each randomly drawn value has its Monte Carlo standard error (the standard deviation between runs
+with different seeds) next to it, in a column of the same name with `_se` added.
 """
 
 from typing import Any, NamedTuple
@@ -14,20 +14,20 @@ from evenbreak.league.one_season import PlayedSeason
 from evenbreak.league.season import FIFTHS, Season, Tally
 
 Floats = Any
-"""Arrays of numbers, of whatever shape."""
+"""Arrays of numbers, of any shape."""
 
 QUANTILES = (0.1, 0.5, 0.9)
-"""Those of points and ratings, in `standings.csv`."""
+"""The quantiles of points and ratings, in `standings.csv`."""
 
 SPREAD = (0.05, 0.25, 0.5, 0.75, 0.95)
-"""Those of the rating errors, in `ratings_by_week.csv`."""
+"""The quantiles of the rating errors, in `ratings_by_week.csv`."""
 
 RARE = 0.001
-"""Wide gaps of skill are put together until they hold this share of all matches."""
+"""Wide skill gaps are merged until they hold this share of all matches."""
 
 
 class SeasonTables(NamedTuple):
-    """The three tables of a simulated season, as DataFrames."""
+    """A simulated season's three tables, as DataFrames."""
 
     standings: pd.DataFrame
     weeks: pd.DataFrame
@@ -35,23 +35,23 @@ class SeasonTables(NamedTuple):
 
 
 def season_tables(season: Season, tally: Tally) -> SeasonTables:
-    """Return the tables of a simulated season."""
+    """Return a simulated season's tables."""
     weeks = weeks_frame(tally, cycle=season.system.cycle)
     return SeasonTables(standings_frame(season, tally), weeks, fairness_frame(season, tally))
 
 
 def standings_frame(season: Season, tally: Tally) -> pd.DataFrame:
-    """Return what each player can expect of the season, the player with the most wins first.
+    """Return what each player can expect from the season, most wins first.
 
     Returns
     -------
     pandas.DataFrame
-        player; rating_start and skill_start, in points (the mean skill where it is drawn);
-        matches, the mean number played in a season; points_mean, points_se, points_sd and the
-        quantiles points_p10, points_p50, points_p90 of the matches won in a season; p_win and
-        p_win_se, P(the player wins | they play a match); rating_mean, rating_se, rating_sd and
-        quantiles of the rating after the season. In a league too large to keep a histogram for
-        each player the quantiles are missing.
+        player; rating_start and skill_start, in points (the mean skill where it is drawn); matches,
+        the mean number played in a season; points_mean, points_se, points_sd and the quantiles
+        points_p10, points_p50, points_p90 of the matches won in a season; p_win and p_win_se, P(the
+        player wins | they play a match); rating_mean, rating_se, rating_sd and quantiles of the
+        rating after the season. In a league too large to keep a histogram for each player, the
+        quantiles are missing.
     """
     players, replicas = season.players, int(tally.replicas.sum())
     points, points_sd = _mean_and_sd(tally.wins, tally.wins_squared, replicas)
@@ -79,7 +79,7 @@ def standings_frame(season: Season, tally: Tally) -> pd.DataFrame:
 
 
 def _mean_and_sd(total: Any, squares: Any, replicas: int) -> tuple[Floats, Floats]:
-    """Return the mean over replicas and their standard deviation, NaN for one replica."""
+    """Return the mean over replicas and their standard deviation, or NaN with one replica."""
     mean = total / replicas
     if replicas < 2:
         return mean, np.full_like(mean, np.nan)
@@ -88,10 +88,10 @@ def _mean_and_sd(total: Any, squares: Any, replicas: int) -> tuple[Floats, Float
 
 
 def _quantiles(what: str, counts: Any, start: Any) -> dict[str, Any]:
-    """Return the quantiles of each player: the smallest value that reaches each probability.
+    """Return each player's quantiles: the smallest value that reaches each probability.
 
-    `counts` is None if it wasn't kept; `start` is the value of the first column (points) or of the
-    middle one (ratings).
+    `counts` is None if it wasn't kept; `start` is the value of the first column (points) or the
+    middle column (ratings).
     """
     names = [f"{what}_p{100 * q:.0f}" for q in QUANTILES]
     if counts is None:
@@ -105,7 +105,7 @@ def _quantiles(what: str, counts: Any, start: Any) -> dict[str, Any]:
 
 
 def reached(summed: NDArray[np.int64], q: float) -> NDArray[np.intp]:
-    """Return where running counts first reach a share of the total, in each row.
+    """Return where running counts first reach a share of the total, row by row.
 
     >>> reached(np.array([[1, 5, 10], [0, 0, 4]]), 0.5)
     array([1, 2])
@@ -121,14 +121,14 @@ def weeks_frame(tally: Tally, *, cycle: int = 1) -> pd.DataFrame:
     Parameters
     ----------
     tally
-        of a season.
+        a season's tally.
     cycle
-        of its system.
+        its system's cycle.
 
     Returns
     -------
     pandas.DataFrame
-        week, 0 before the first; players in the league; error_mean and error_sd of the rating
+        week, 0 before the first; the players in the league; error_mean and error_sd of the rating
         error (rating less true skill) over players and replicas, with their standard errors;
         p_near, P(the rating is within a sixth of a doubling of the odds), with its standard error,
         and error_p05 ... error_p95, quantiles of the error in whole points; these over the cycle of
@@ -166,7 +166,7 @@ def weeks_frame(tally: Tally, *, cycle: int = 1) -> pd.DataFrame:
 
 
 def _over_cycle(weeks: Floats, cycle: int) -> Floats:
-    """Return sums over the cycle that ends with each week, the second axis; the start is alone."""
+    """Return sums over the cycle ending with each week (the second axis); the start is separate."""
     found = weeks.copy()
     for back in range(1, min(cycle, weeks.shape[1] - 1)):
         found[:, 1 + back :] += weeks[:, 1:-back]
@@ -179,19 +179,19 @@ def weeks_with_players(weeks: pd.DataFrame) -> pd.DataFrame:
 
 
 def fairness_frame(season: Season, tally: Tally) -> pd.DataFrame:
-    """Return how even the matches were: by the gap of true skills, and by fifth of skill.
+    """Return how even the matches were: by gap in true skill, and by fifth of the skill range.
 
     Returns
     -------
     pandas.DataFrame
-        group: 'all' matches, those of one 'gap' between the two skills of the day, or a 'fifth'
-        of the players by true skill at the start, 1 the weakest, if there are five players or
-        more; from and to, the limits of the gap in points (`to` excluded; the last gap has
-        none), or the number of the fifth. A gap is about a third of a doubling of the odds
-        wide; the last takes in all wider ones that are rare, one match in a thousand or fewer.
-        matches, the mean number in a season; p_win, P(the stronger wins) or, in a fifth, P(a
-        player of it wins); p_hill_hill, P(the last game decides); p_shutout, P(the loser wins
-        no game); mean_games of a match; each with its standard error.
+        group: 'all' matches, those of one 'gap' between the two skills of the day, or a 'fifth' of
+        the players by true skill at the start, 1 the weakest, if there are five players or more;
+        from and to, the limits of the gap in points (`to` excluded; the last gap has none), or the
+        number of the fifth. A gap is about a third of a doubling of the odds wide; the last gap
+        includes all wider gaps that are rare, at most one match in a thousand. matches, the mean
+        number in a season; p_win, P(the stronger wins) or, in a fifth, P(a player of it wins);
+        p_hill_hill, P(the last game decides); p_shutout, P(the loser wins no game); mean_games of a
+        match; each with its standard error.
     """
     width, spans = _spans(season, tally)
     gaps = np.concatenate([spans.sum(axis=1, keepdims=True), spans], axis=1)
@@ -222,7 +222,7 @@ _MEASURES = ("p_win", "p_hill_hill", "p_shutout", "mean_games")
 
 
 def _spans(season: Season, tally: Tally) -> tuple[int, Floats]:
-    """Return gaps put together to wider ones: the width, and sums of shape (batches, spans, 5)."""
+    """Return gaps merged into wider ones: the width, and sums of shape (batches, spans, 5)."""
     third = season.system.scale.points_per_doubling / 3.0
     each = max(1, round(third / tally.gap_width))
     starts = np.arange(0, tally.gaps.shape[1], each)
@@ -252,7 +252,7 @@ def _fifths(tally: Tally) -> list[dict[str, Any]]:
 
 
 def matches_frame(played: PlayedSeason) -> pd.DataFrame:
-    """Return the matches of one season as a table that `read_results` reads back.
+    """Return one season's matches as a table that `read_results` can read.
 
     Returns
     -------

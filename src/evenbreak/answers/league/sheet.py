@@ -1,4 +1,4 @@
-"""The fair-race sheet: the players who are on it, their ratings, the fairest races."""
+"""The fair-race sheet: its players, their ratings, and the fairest races."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ from evenbreak.words import FilePath, joined, race
 
 
 def most_active(ratings: Ratings, top: int) -> list[int]:
-    """Return the players with the most games (positions in `ratings.players`), the most first.
+    """Return the players with the most games (positions in `ratings.players`), in that order.
 
-    Players with equally many games are ordered by their matches known by the winner only,
+    Players with the same number of games are ordered by their matches with only a winner stated,
     then by name.
     """
     races = ratings.races_won + ratings.races_lost
@@ -49,21 +49,21 @@ def find_players(
     said: str = "players",
     where: str = "the results",
 ) -> list[int]:
-    """Return the positions of the named players, each once; upper and lower case may differ.
+    """Return the named players' positions, each once, ignoring case.
 
     Parameters
     ----------
     names
-        as a person typed them.
+        as typed.
     said
         the parameter or option that named them, for the error.
     where
-        where they should stand, for the error.
+        where they should be, for the error.
 
     Raises
     ------
     InputError
-        if names are not among the players; it lists all of them, each with similar names.
+        if names are not among the players; it lists all such names, each with similar ones.
     """
     known = KnownNames(ratings.players)
     found: dict[int, None] = {}
@@ -85,23 +85,23 @@ def find_players(
 
 
 def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRaces) -> pd.DataFrame:
-    """Return the fairest race of each pair of players, the stronger of the two first.
+    """Return the fairest race for each pair of players, stronger player first.
 
-    The races are those of `roster_matchups` for the list of ratings that a report writes, so a
+    The races are calculated by `roster_matchups` from the ratings list that a report writes, so a
     pair has the same race here and wherever that list is read.
 
     Parameters
     ----------
     players
-        who to pair: positions in `ratings.players`.
+        the players to pair: positions in `ratings.players`.
     offered
         the races to choose from.
 
     Returns
     -------
     pandas.DataFrame
-        the frame of `roster_matchups`. Where no chain of opponents links the two, their ratings
-        cannot be compared: there are no numbers then, and the note says so.
+        the frame from `roster_matchups`. If no chain of opponents links the two players, their
+        ratings can't be compared: the row has no numbers, and its note says so.
     """
     roster = as_listed(ratings)
     pairs = pairs_of(roster, ratings.strongest_first(players))
@@ -111,7 +111,7 @@ def matchups_frame(ratings: Ratings, players: Sequence[int], offered: OfferedRac
 
 
 def as_listed(ratings: Ratings) -> Roster:
-    """Return the ratings as their list has them: rounded, with an error for each player."""
+    """Return the ratings as on their list: rounded, with an error for each player."""
     # An error beyond this says that nothing is known; numbers would not change much.
     most = MOST_DOUBLINGS * ratings.scale.points_per_doubling / 2.0
     return Roster(
@@ -125,7 +125,7 @@ def as_listed(ratings: Ratings) -> Roster:
 
 
 class SurePair(NamedTuple):
-    """A pair's rating difference and its error, and P(A wins the race).
+    """A pair's rating difference, its error, and P(A wins the race).
 
     `p_win` is averaged over the error; `low` and `high` are the chances two errors either way.
     """
@@ -141,7 +141,7 @@ class SurePair(NamedTuple):
 
 
 def sure_pairs(paired: pd.DataFrame, scale: Scale) -> list[SurePair]:
-    """Return the pairs with a race, the best known first, of a frame of `roster_matchups`."""
+    """Return the pairs that have a race in a `roster_matchups` frame, best known first."""
     found = []
     rows: Any = paired.dropna(subset=["race_a"]).itertuples(index=False)
     for pair in rows:
@@ -188,7 +188,7 @@ MOST_BANDS = 40
 
 
 class Band(NamedTuple):
-    """A span of rating differences with one race, up to just below `after`.
+    """A range of rating differences with one race, up to just below `after`.
 
     `p_first` and `p_after` are the stronger player's chances at its two ends.
     """
@@ -202,11 +202,11 @@ class Band(NamedTuple):
 
 
 def chart_bands(offered: OfferedRaces, typical: Gap, furthest: float) -> list[Band]:
-    """Return the chart by rating difference that the fairest races make; [] for over 40 lines.
+    """Return the chart by rating difference based on the fairest races; [] if over 40 lines.
 
-    Its differences are whole multiples of the last decimal shown. Where races may differ in length,
-    the fairest one jumps back and forth between lengths, and there is no chart. `typical` gives the
-    uncertainty of a difference.
+    Its differences are whole multiples of the last decimal shown. If races may differ in length,
+    the fairest race jumps back and forth between lengths, and there is no chart. `typical` gives a
+    difference's uncertainty.
     """
     if offered.games is not None and offered.games[0] != offered.games[1]:
         return []
@@ -233,29 +233,29 @@ def chart_bands(offered: OfferedRaces, typical: Gap, furthest: float) -> list[Ba
 
 
 NO_RACE = "-"
-"""Stands for the race of two players who cannot be compared."""
+"""Shown in place of a race if two players can't be compared."""
 
 
 MOST_ON_SHEET = 96
-"""Players on one sheet, whatever its form: 16 pages of paper."""
+"""The most players on a sheet in any format: 16 pages of paper."""
 
 
 @dataclass(frozen=True, eq=False)
 class Sheet:
-    """A league's ratings, and the fairest race of each pair of the players chosen.
+    """A league's ratings, and the fairest race for each pair of the chosen players.
 
     Parameters
     ----------
     file, ratings
-        the results, and the ratings that come from them.
+        the results, and the ratings from them.
     offered
         the races to choose from.
     rated, paired
-        the tables of `Ratings.to_frame` and `matchups_frame`.
+        the tables from `Ratings.to_frame` and `matchups_frame`.
     choice
         how the prior was chosen, if it was.
     title
-        what stands above it, such as the name of the league; '' for none.
+        the heading, such as the league's name; '' for none.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
@@ -291,14 +291,14 @@ class Sheet:
         return f"<Sheet of {len(self.paired):,} pairs of {len(self.listed):,} players>"
 
     def strongest(self, most: int) -> Sheet:
-        """Return the sheet with the races of the first players of the list only."""
+        """Return the sheet with the races of only the first players on the list."""
         names = set(self.listed["player"].head(most))
         both = self.paired["player_a"].isin(names) & self.paired["player_b"].isin(names)
         return replace(self, paired=self.paired[both])
 
     @cached_property
     def listed(self) -> pd.DataFrame:
-        """The rows of `rated` of the players who are paired; the index is the row there."""
+        """The rows of `rated` for the paired players; the index is the row there."""
         names = {*self.paired["player_a"], *self.paired["player_b"]}
         return self.rated[self.rated["player"].isin(names)]
 
@@ -309,19 +309,19 @@ class Sheet:
 
     @cached_property
     def races(self) -> dict[tuple[str, str], str]:
-        """The race of each two players, from the side of the first."""
+        """The race between each two players, from the first player's side."""
         return races_by_name(self.paired)
 
     @cached_property
     def sure(self) -> list[SurePair]:
-        """How well the difference of each pair is known, the best known first."""
+        """How well each pair's difference is known, best known first."""
         return sure_pairs(self.paired, self.ratings.scale)
 
     @cached_property
     def bands(self) -> list[Band]:
         """The chart that the races make, empty if there is none.
 
-        It is that of a pair whose difference is known as well as for half of the pairs.
+        It is for a pair whose difference is as well known as the median pair's.
         """
         if not self.sure:
             return []
@@ -330,20 +330,20 @@ class Sheet:
 
     @property
     def typical(self) -> Gap:
-        """The gap of an even pair that is known as well as half of the pairs, or better."""
+        """The rating gap of an even pair that is at least as well known as half of the pairs."""
         error = self.sure[(len(self.sure) - 1) // 2].error if self.sure else 0.0
         return Gap(0.0, error, self.ratings.scale, self.ratings.match_form)
 
     @cached_property
     def summary(self) -> pd.DataFrame:
-        """The sources and settings of the sheet: the table of summary.csv."""
+        """The sheet's sources and settings: the summary.csv table."""
         made = summary_frame(self.file, self.ratings, self.paired, self.offered)
         given = pd.DataFrame({"key": ["title"], "value": [self.title]}, dtype=object)
         return pd.concat([given, made], ignore_index=True) if self.title else made
 
 
 def places_in_list(provisional: Iterable[bool]) -> list[str]:
-    """Return the places in a list of ratings: 1, 2, ..., and P1, P2, ... of those without one.
+    """Return places in a ratings list: 1, 2, ..., and P1, P2, ... for players without a place.
 
     >>> places_in_list([False, False, True, True])
     ['1', '2', 'P1', 'P2']
@@ -353,7 +353,7 @@ def places_in_list(provisional: Iterable[bool]) -> list[str]:
 
 
 def races_by_name(paired: pd.DataFrame) -> dict[tuple[str, str], str]:
-    """Return the race of each two players as text, from the side of the first."""
+    """Return the race between each two players as text, from the first player's side."""
     races = {}
     rows: Any = paired.dropna(subset=["race_a"]).itertuples(index=False)
     for pair in rows:
@@ -365,11 +365,11 @@ def races_by_name(paired: pd.DataFrame) -> dict[tuple[str, str], str]:
 def summary_frame(
     file: ResultsFile, ratings: Ratings, paired: pd.DataFrame, offered: OfferedRaces
 ) -> pd.DataFrame:
-    """Return the sources and settings of a report, as rows of key and value.
+    """Return a report's sources and settings, as rows of key and value.
 
-    `components` counts those of players with games; `anchor` is the mean rating of each
-    component, so the rating of a player without games; the standard deviation of the prior
-    is given in natural log-odds and in points of the scale.
+    `components` is the number of components with games; `anchor` is each component's mean rating,
+    and so the rating of a player without games; the prior's standard deviation is given in natural
+    log-odds and in points on the scale.
     """
     scale = ratings.scale
     first, last = dates_of(file.results, ratings.as_of)
@@ -417,12 +417,12 @@ def summary_frame(
 
 
 def count_groups(ratings: Ratings) -> int:
-    """Return how many groups of players never met; a player without results is no group."""
+    """Return how many groups of players never met; a player without results isn't a group."""
     return len(np.unique(ratings.component[~ratings.idle]))
 
 
 def dates_of(results: Results, as_of: np.datetime64 | None = None) -> tuple[str, str]:
-    """Return the first and last day, up to `as_of`, on which a match was played; '' if unknown."""
+    """Return the first and last dates, up to `as_of`, with a match; '' if unknown."""
     counted = results.played().results, results.won_only()
     stated = [part.date for part in counted if part.date is not None]
     days = np.concatenate(stated) if stated else np.zeros(0, "datetime64[D]")

@@ -1,4 +1,4 @@
-"""A league's table: who leads, and what decides between those with equal points."""
+"""A league's standings: who leads, and how ties on points are broken."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def table_answer(
     about: str = "",
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return a league's table; with the table before the last day, the changes in place too.
+    """Return a league's standings, with changes in place if given those before the last day.
 
     `score` is 'games' or 'sets'; `about` is what is counted, such as 'Matches at home'.
 
@@ -63,7 +63,7 @@ def table_answer(
 def table_rows(
     table: LeagueTable, earlier: LeagueTable | None = None, *, who: str, score: str
 ) -> Table:
-    """Return the rows of a table, the first of it first; see `table_answer`."""
+    """Return the rows of the standings, first place at the top; see `table_answer`."""
     before = {} if earlier is None else dict(zip(earlier.names, earlier.place, strict=True))
     values: dict[str, Any] = {
         "table_place": table.place,
@@ -93,7 +93,7 @@ def table_rows(
 
 
 def _plain(values: Any) -> list[Any]:
-    """Return a column as Python's numbers; points are whole where all of them are."""
+    """Return a column as Python numbers; points are ints if all of them are whole."""
     if not isinstance(values, np.ndarray):
         return [one.item() if isinstance(one, np.generic) else one for one in values]
     if values.dtype == float and (values % 1.0 == 0.0).all():
@@ -102,7 +102,7 @@ def _plain(values: Any) -> list[Any]:
 
 
 def _ties(table: LeagueTable) -> list[str]:
-    """Return what puts each ahead of the next one with equal points; '' if points do."""
+    """Return what puts each ahead of the next with equal points; '' if points decide."""
     rules = [*table.decided_by[1:], ""]
     return ["" if rule == POINTS else rule for rule in rules]
 
@@ -150,7 +150,7 @@ def _number_of(number: float, one: str) -> str:
 def rules_words(
     rules: TableRules, *, sets: bool, level: str = "level on points", last: str = "a shared place"
 ) -> str:
-    """Return the rules of a table in words.
+    """Return the rules for the standings, in words.
 
     >>> rules_words(TableRules(3, 1, 0, ties=("head-to-head",)), sets=False)
     '3 points for a win, 1 for a draw, 0 for a loss; level on points: the matches among those level,

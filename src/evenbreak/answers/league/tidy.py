@@ -1,4 +1,4 @@
-"""A league's results as one list: what was merged, changed and left out, and what is in doubt."""
+"""A league's results as one list: what was merged, changed and left out, and what is doubtful."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from evenbreak.ratings.results import Results
 
 MOST_SHOWN = 20
-"""How many changes a person reads; a file or JSON has all."""
+"""How many changes are shown; a file or JSON has all."""
 
 _SIDES = np.array(["", "a", "b"], dtype=object)
 _ORDER = (
@@ -38,9 +38,9 @@ _ORDER = (
 def tidy_answer(
     found: LeagueResults, *, answers: Mapping[str, str] | None = None, roster: Sequence[str] = ()
 ) -> Answer:
-    """Return what became of a league's results.
+    """Return what was done to a league's results.
 
-    `answers` are the names just answered, with what they mean: lines to keep.
+    `answers` are the names just confirmed, with what they mean: lines to keep.
     """
     changes: Counter[str] = Counter(change.kind for change in found.changes)
     matches = count_of(len(found.results), "match", "matches")
@@ -135,7 +135,7 @@ def tidy_answer(
 
 
 def _in_short(changes: Sequence[Change]) -> Iterator[tuple[str, str, int | None, str]]:
-    """Yield the changes as a person reads them, the double matches of two files as one."""
+    """Yield the changes for display, with the double matches of two files as one."""
     alike = Counter((one.source, one.first) for one in changes if one.kind == "double")
     said = set()
     for one in changes:
@@ -149,7 +149,7 @@ def _in_short(changes: Sequence[Change]) -> Iterator[tuple[str, str, int | None,
 
 
 def _not_listed(results: Results, roster: Sequence[str]) -> list[tuple[str, int, str | None]]:
-    """Return who has played but is not on the list: the name, the matches, the nearest name."""
+    """Return players who aren't on the list: name, matches, most similar name."""
     known = KnownNames(roster)
     sides = np.concatenate([results.player_a, results.player_b])
     played = np.bincount(sides, minlength=len(results.players))
@@ -162,9 +162,9 @@ def _not_listed(results: Results, roster: Sequence[str]) -> list[tuple[str, int,
 
 
 def results_frame(results: Results) -> pd.DataFrame:
-    """Return matches as a table that `read_results` reads back, by day, those without one last.
+    """Return matches as a table that `read_results` can read, sorted by date, undated ones last.
 
-    Columns of which nothing is stated are left out.
+    Empty columns are left out.
 
     >>> from evenbreak.ratings import Results
     >>> results_frame(Results.from_names(["Ann"], ["Bo"], [7], [5])).columns.tolist()

@@ -1,4 +1,4 @@
-"""Whether a league can trust its ratings: the verdict, and what else changes what one does."""
+"""Whether a league can trust its ratings: the verdict, and anything else worth acting on."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -47,13 +47,13 @@ def validate_answer(
     Parameters
     ----------
     file, found
-        the results, and what `validate` made of them.
+        the results, and the findings from `validate`.
     scale
-        the scale in whose points priors are given.
+        the scale for priors given in points.
     seed
-        of the intervals and simulated seasons.
+        the seed for intervals and simulated seasons.
     chart
-        what `league_chart` found in the same results.
+        the findings of `league_chart` for the same results.
 
     >>> from evenbreak.files.results.results_file import ResultsFile
     >>> from evenbreak.ratings import Results, scale_of, validate
@@ -106,7 +106,7 @@ def _dates(found: Validation) -> int:
 
 
 def _games(found: Validation) -> Table:
-    """Return how often favorites won games, compared with the chances that they had been given."""
+    """Return how often favorites won games, compared with their predicted chances."""
     columns = columns_of("predicted games seen_percent range_percent")
     rows = [(row.predicted, row.games, row.seen, (row.low, row.high)) for row in found.games]
     title = (
@@ -117,7 +117,7 @@ def _games(found: Validation) -> Table:
 
 
 def _figures(found: Validation, scale: Scale) -> dict[str, Any]:
-    """Return what JSON holds besides the findings."""
+    """Return the JSON data other than the findings."""
     forecasts = found.forecasts
     return {
         "matches_read": len(forecasts),
@@ -135,7 +135,7 @@ def _figures(found: Validation, scale: Scale) -> dict[str, Any]:
 
 
 def _choice(found: Validation) -> dict[str, Any]:
-    """Return how the prior was chosen, None for each figure where it was given."""
+    """Return how the prior was chosen; each figure is None if the prior was given."""
     choice = found.choice
     if choice is None:
         return {"priors": [], **dict.fromkeys(_OF_CHOICE)}
@@ -148,7 +148,7 @@ def _choice(found: Validation) -> dict[str, Any]:
 
 
 def _chart(chart: LeagueChart) -> dict[str, Any]:
-    """Return which chart the races come from, and the scale that fits the results."""
+    """Return the chart that the races come from, and the scale that fits the results."""
     return {"chart": chart.nearest, "fair_scale": chart.scale}
 
 
@@ -164,10 +164,10 @@ _AS_FOUND = (
 # The verdict: a sentence or two that say what to do.
 
 TOO_SPREAD = 1.5
-"""How many times as much as expected scores must vary for chances of matches to be given up."""
+"""Match odds shouldn't be used if scores vary by at least this many times the expected amount."""
 
 PLENTY = 100.0
-"""Games a player, on average, from which different strengths would show."""
+"""The average number of games per player needed for strengths to show differences."""
 
 
 def verdict(found: Validation, scale: Scale, chart: LeagueChart | None = None) -> str:
@@ -218,7 +218,7 @@ def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
 
 
 def _too_sure(wrong: Mapping[str, int]) -> str:
-    """Return which favorites win too little or too much.
+    """Return which favorites win too little or too often.
 
     >>> _too_sure({"game": -1, "match": -1})
     'favorites win games and matches less often than predicted'
@@ -260,7 +260,7 @@ def _good_and_bad_days(times: float) -> str:
 
 
 def _default_is_wrong(found: Validation, scale: Scale) -> str:
-    """Return what the default prior would do where it is clearly wrong, '' where it is not."""
+    """Return what the default prior would do, if it is clearly wrong; otherwise ''."""
     wrong = wrong_chances(found.usual, found)
     if not wrong or found.choice is None or found.prior_sd == PRIOR_SD:
         return ""
@@ -275,7 +275,7 @@ def _default_is_wrong(found: Validation, scale: Scale) -> str:
 
 
 def _faults(found: Validation, chart: LeagueChart | None) -> Iterator[str]:
-    """Yield what speaks against the model behind the ratings."""
+    """Yield the evidence against the model behind the ratings."""
     spread, runs, first = found.dispersion, found.streaks, found.first_breaks
     if spread is not None and spread.p_value < UNLIKELY:
         yield f"match scores vary {more_or_less(spread.seen > spread.by_chance)} than expected"
@@ -316,7 +316,7 @@ def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -
 
 
 def _lengths(found: Validation) -> Iterator[str]:
-    """Yield of which races favorites win more or less than predicted."""
+    """Yield the races that favorites win more or less often than predicted."""
     for half, of in zip(found.lengths, ("shorter", "longer"), strict=False):
         share = Estimate(half.share, half.low, half.high)
         if way := clearly_off(share, half.predicted, tests=len(found.lengths)):
@@ -328,10 +328,10 @@ def _lengths(found: Validation) -> Iterator[str]:
 
 
 def _newcomers(found: Validation, scale: Scale) -> str:
-    """Return which players with little experience a given prior gets wrong, and the remedy, or ''.
+    """Return which inexperienced players a given prior gets wrong, and the remedy; otherwise ''.
 
-    Before their first game players are where the prior puts them, and soon after still near it. The
-    best prior comes with the best start for newcomers, so that it leaves nothing to be done.
+    Players start where the prior puts them, and stay near there for their first games. The best
+    prior already includes the best start for newcomers, so nothing is left to improve.
     """
     if found.choice is not None:
         return ""
@@ -354,7 +354,7 @@ def _newcomers(found: Validation, scale: Scale) -> str:
 
 
 def _first_column(found: Validation) -> str:
-    """Return why players in the first column win more or less than predicted, '' if they do not."""
+    """Return why players in the first column win more or less than predicted; '' if they don't."""
     column = found.first_column
     if column is None:
         return ""

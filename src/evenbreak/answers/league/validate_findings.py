@@ -1,4 +1,4 @@
-"""What a validated season shows in figures: a table for files, and the statistics as details."""
+"""A validated season in figures: a table for files, and the statistics as details."""
 
 import math
 from collections.abc import Iterator
@@ -26,11 +26,11 @@ from evenbreak.words import say
 COLUMNS = ("part", "of", "item", "count", "expected", "value", "low", "high", "p_value")
 
 _RIGHT = {"log_loss": math.log(2.0), "brier": 0.25, "slope": 1.0}
-"""What a coin has, and the slope that is right."""
+"""A coin's log-loss, and the ideal slope."""
 
 
 def findings_table(found: Validation, chart: LeagueChart | None = None) -> Table:
-    """Return everything that was found, a figure a row."""
+    """Return all findings, one figure per row."""
     forecasts = found.forecasts
     counts = {"game": int(forecasts.games.sum()), "match": int((forecasts.race_a > 0).sum())}
     rows: list[tuple[Any, ...]] = [*_prior_rows(found)]
@@ -60,7 +60,7 @@ def findings_table(found: Validation, chart: LeagueChart | None = None) -> Table
 
 
 def _prior_rows(found: Validation) -> Iterator[tuple[Any, ...]]:
-    """Yield how the prior was chosen, and what levels gain; nothing where it was given."""
+    """Yield how the prior was chosen, and what levels gain; nothing if the prior was given."""
     choice = found.choice
     if choice is None:
         return
@@ -152,7 +152,7 @@ _TESTS_EXPLAINED = (
 
 
 def details(found: Validation, scale: Scale) -> Iterator[Part]:
-    """Yield the statistics, each table after what explains it."""
+    """Yield the statistics, each table after its explanation."""
     yield _EXPLAINED
     yield _scored(found, scale)
     yield _prior(found, scale)
@@ -231,7 +231,7 @@ def _tests(found: Validation) -> Iterator[tuple[Any, ...]]:
 
 
 def _experience(found: Validation, scale: Scale) -> Table:
-    """Return how the less experienced player of a match fared, by the games played before."""
+    """Return the less experienced players' results, by number of earlier games."""
     points = scale.points_per_log_odds
 
     def off(one: Estimate) -> str:
@@ -258,7 +258,7 @@ def _games_before(one: ByExperience) -> str:
 
 
 def _by_spot(found: Validation) -> Table:
-    """Return how often players who gave games won, by how many they gave."""
+    """Return how often players who gave games won, by the number of games given."""
     columns = columns_of("spot matches won share_of_matches range expected_share")
     rows = [
         (row.spot or "all", row.matches, row.won, row.share, (row.low, row.high), row.expected)
@@ -268,7 +268,7 @@ def _by_spot(found: Validation) -> Table:
 
 
 def _by_length(found: Validation) -> Table:
-    """Return how often favorites won even races, by their length."""
+    """Return how often favorites won even races, by the races' length."""
     columns = columns_of("races_to matches won share_of_matches range expected_share")
     rows = [
         (span_of(row), row.matches, row.won, row.share, (row.low, row.high), row.predicted)

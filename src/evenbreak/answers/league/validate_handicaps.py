@@ -1,4 +1,4 @@
-"""Whether the handicaps of a validated season are fair: starts, the scale, a chart that fits."""
+"""Whether a validated season's handicaps are fair: head starts, the scale, a chart that fits."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -24,19 +24,19 @@ from evenbreak.ratings.validation.validate import (
 from evenbreak.words import listed, race
 
 UNLIKELY = 0.01
-"""A p-value below which chance is ruled out; it is small because several tests are made."""
+"""A p-value below which chance is ruled out; it is small because several tests are run."""
 
 NEAR = 0.1
-"""How far off starts may be: the hardest race of a chart serves all larger differences too."""
+"""How far off head starts may be: a chart's hardest race covers all larger differences too."""
 
 VAGUE = 0.5
-"""An interval of the slope that is wider says too little."""
+"""If the slope's interval is wider than this, it says too little."""
 
 
 def clearly_off(estimate: Estimate, right: float, *, tests: int = 1) -> int:
-    """Return 1 or -1 where an estimate is clearly above or below what is right, else 0.
+    """Return 1 or -1 if an estimate is clearly above or below the right value, else 0.
 
-    The more tests are made alike, the farther off it must be.
+    With more such tests, it must be farther off.
 
     >>> clearly_off(Estimate(0.5, 0.4, 0.6), 1.0), clearly_off(Estimate(0.9, 0.8, 1.0), 1.0)
     (-1, 0)
@@ -46,12 +46,12 @@ def clearly_off(estimate: Estimate, right: float, *, tests: int = 1) -> int:
 
 
 def scored_of(found: Validation, of: Of) -> Scored:
-    """Return how good one kind of prediction was."""
+    """Return how good one type of prediction was."""
     return next(row for row in found.scored if (row.of, row.how) == (of, "integrated"))
 
 
 def wrong_chances(scored: tuple[Scored, ...], found: Validation) -> dict[str, int]:
-    """Return the predictions whose chances are clearly off: -1 too extreme, 1 too cautious."""
+    """Return the predictions that are clearly off: -1 too extreme, 1 too cautious."""
     # A fair handicap leaves matches without favorites, whatever the ratings say.
     judged = ("game", "match") if mostly_even(found.forecasts) else ("game",)
     off = {
@@ -63,12 +63,12 @@ def wrong_chances(scored: tuple[Scored, ...], found: Validation) -> dict[str, in
 
 
 def share_of(spot: HandicapFairness) -> Estimate:
-    """Return the share of handicap races that the player who gave games won."""
+    """Return the share of handicap races won by the player who gave games."""
     return Estimate(spot.share, spot.low, spot.high)
 
 
 def span_of(half: RaceLengths) -> str:
-    """Return to how many games races of similar length are.
+    """Return the race lengths for grouping similar races.
 
     >>> span_of(RaceLengths(6, 9, 10, 5, 0.5, 0.2, 0.8, 0.6))
     '6 to 9'
@@ -77,7 +77,7 @@ def span_of(half: RaceLengths) -> str:
 
 
 def unfair_starts(spots: Sequence[HandicapFairness]) -> list[HandicapFairness]:
-    """Return the starts that are clearly unfair by themselves, of those by the games given.
+    """Return the head starts that are clearly unfair on their own, grouped by games given.
 
     >>> from evenbreak.ratings.estimates import wilson
     >>> fair, unfair = (HandicapFairness(k, 200, w, w / 200, *wilson(w / 200, 200), 0.5)
@@ -89,7 +89,7 @@ def unfair_starts(spots: Sequence[HandicapFairness]) -> list[HandicapFairness]:
 
 
 def starts_trend(spots: Sequence[HandicapFairness]) -> int:
-    """Return 1 where players clearly win more often the more games they give, -1 where less, or 0.
+    """Return 1 if players clearly win more often when giving more games, -1 if less often, else 0.
 
     >>> from evenbreak.ratings.estimates import wilson
     >>> spots = [HandicapFairness(k, 200, w, w / 200, *wilson(w / 200, 200), 0.5)
@@ -111,10 +111,10 @@ def starts_trend(spots: Sequence[HandicapFairness]) -> int:
 
 
 def starts_way(found: Validation, chart: LeagueChart | None = None) -> int:
-    """Return 1 where starts clearly take back too little, -1 where too much, else 0.
+    """Return 1 if head starts clearly take back too little, -1 if too much, else 0.
 
-    Where ratings are known, the scale that fits decides. Where the matches clearly say the
-    opposite, it is 0 too.
+    If ratings are known, the fitted scale decides. If the matches clearly say the opposite, the
+    result is also 0.
     """
     way = 0
     if chart is not None and chart.scale is not None:
@@ -127,7 +127,7 @@ def starts_way(found: Validation, chart: LeagueChart | None = None) -> int:
 
 
 def scale_way(chart: LeagueChart) -> int:
-    """Return 1 where clearly fewer points double the odds than the races assume, -1 where more."""
+    """Return 1 if clearly fewer points double the odds than the races assume, -1 if more."""
     if chart.scale is None:
         return 0
     # What a chart that is not known assumes is read off its races.
@@ -148,17 +148,17 @@ def more_or_less(more: bool) -> str:
 
 
 WIDE = 0.4
-"""The width from which the range of a share says nothing about it."""
+"""If the range of a proportion is at least this wide, it says nothing."""
 
 SURE = 0.1
-"""The share of the fair scale that its standard error must be below to confirm a chart."""
+"""To confirm a chart, the standard error must be below this share of the fair scale."""
 
 MOST_SIZES = 4
-"""Sizes of starts that are listed."""
+"""How many sizes of head start are listed."""
 
 
 def handicap_remarks(found: Validation, chart: LeagueChart, scale: Scale) -> Iterator[str]:
-    """Yield what there is to say about handicaps; nothing where there were none."""
+    """Yield what there is to say about handicaps; nothing if there were none."""
     if not found.spots:
         return
     way = starts_way(found, chart)
@@ -218,7 +218,7 @@ def _fairness(found: Validation, by_games: int, scale: Scale) -> str:
 
 
 def _unfair_by_size(found: Validation, scale: Scale) -> str:
-    """Return which starts are unfair by themselves; '' if none is."""
+    """Return which head starts are unfair on their own; '' if none are."""
     spots = found.spots[:-1]
     if wrong := unfair_starts(spots):
         text = " ".join(_unfair(one, found.starts, scale) for one in wrong)
@@ -237,7 +237,7 @@ def _unfair_by_size(found: Validation, scale: Scale) -> str:
 
 
 def _unfair(one: HandicapFairness, starts: Starts | None, scale: Scale) -> str:
-    """Return that a start of one size is unfair, and what it should take back if that is known."""
+    """Return that one size of head start is unfair, and what it should take back if known."""
     way = 1 if one.share > 0.5 else -1
     games = int(one.spot or 0)
     should = "".join(
@@ -253,7 +253,7 @@ def _unfair(one: HandicapFairness, starts: Starts | None, scale: Scale) -> str:
 
 
 def _by_games(starts: Starts | None) -> tuple[StartGroup, ...]:
-    """Return the starts by the games given, none where they are known by class."""
+    """Return the head starts by games given; none if they are known by class."""
     return () if starts is None or starts.classes else starts.groups
 
 
@@ -262,7 +262,7 @@ def _little(way: float) -> str:
 
 
 def _against(starts: Starts | None, way: int, scale: Scale) -> str:
-    """Return what starts take back against what they should; '' where the games do not show it."""
+    """Return what head starts take back and what they should; '' if the games don't show it."""
     if starts is None or (starts.stronger.value - starts.taken) * way <= 0.0:
         return ""
     text = (
@@ -312,7 +312,7 @@ def _error(estimate: Estimate, scale: Scale) -> str:
 
 
 def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
-    """Return how many points double the odds, and what designs a chart for them; '' for none."""
+    """Return how many points double the odds, and the command that designs such a chart; or ''."""
     fair = chart.scale
     if fair is None:
         return "", ""
@@ -336,7 +336,7 @@ def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
 
 
 def starts_table(starts: Starts, scale: Scale) -> Table:
-    """Return what starts take back, by classes apart or games given."""
+    """Return what head starts take back, by difference in class or by games given."""
 
     def stronger(one: Estimate) -> str:
         value, low, high = (scale.points(part) for part in one)
@@ -360,7 +360,7 @@ def starts_table(starts: Starts, scale: Scale) -> Table:
 
 
 def handicap_rows(found: Validation, chart: LeagueChart) -> Iterator[tuple[Any, ...]]:
-    """Yield a row for files for each figure about starts, the scale and the chart."""
+    """Yield a row for files for each figure about head starts, the scale and the chart."""
     starts, fair, nearest = found.starts, chart.scale, chart.nearest
     if starts is not None:
         yield ("start", "game", "share", starts.matches, 1.0, *starts.share, None)

@@ -1,4 +1,4 @@
-"""Why two players have the ratings and the race that they have, and what would change them."""
+"""Why two players have their ratings and their race, and what would change them."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ SOURCES = {
     "brought": say("rating from elsewhere"),
     "results": say("these results"),
 }
-"""What a person reads for each source of a rating."""
+"""What is shown for each source of a rating."""
 
 MOST_LISTED = 10
-"""Matches of each player that a person is shown; CSV and JSON have all."""
+"""How many of each player's matches are shown; CSV and JSON have all of them."""
 
 
 def why_answer(
@@ -52,22 +52,22 @@ def why_answer(
     chart: Chart | LevelChart | None = None,
     listed: Roster | None = None,
 ) -> Answer:
-    """Return which matches made two ratings, and what one more match would change.
+    """Return the matches behind two ratings, and how one more match would change them.
 
     Parameters
     ----------
     pair
         positions in `ratings.players`.
     offered
-        the races among which the fairest is sought.
+        the races to choose the fairest from.
     refit
-        rates other results in the same way.
+        rates other results the same way.
     choice
         how the prior was chosen, if it was.
     chart
-        the league's chart, whose race then comes first, and is that of one more match.
+        the league's chart, whose race then comes first, and is used for one more match.
     listed
-        the league's list, whose skill levels a chart of levels reads before those of the results.
+        the league's list; a chart by skill level uses its levels before those in the results.
 
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 7], [5, 4])
@@ -182,10 +182,10 @@ def _now_in_words(
 
 
 class ByChart(NamedTuple):
-    """The race that a chart sets for two players, by their levels or by their ratings.
+    """The race that a chart sets for two players, by their levels or their ratings.
 
-    `p_win` and `p_rated` are P(a wins) by what the chart reads, and by the ratings (NaN without
-    any).
+    `p_win` and `p_rated` are P(a wins) according to what the chart reads, and according to the
+    ratings (NaN without any).
     """
 
     chart: str
@@ -209,7 +209,7 @@ def _by_chart(
     ratings: Ratings,
     listed: Roster | None,
 ) -> ByChart | None:
-    """Return the race by the levels of the list or the results, or by the ratings."""
+    """Return the race, using the list's or the results' levels, or else the ratings."""
     a, b = now.ratings
     error = now.difference_error
     gap = None if error is None else Gap(a - b, error, ratings.scale, ratings.match_form)
@@ -285,7 +285,7 @@ def _players_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
 
 
 def _sources_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
-    """Return what each rating is made of."""
+    """Return the sources of each rating."""
     points = points_on(ratings.scale)
     columns = columns_of(
         "player rating_source rating_alone standard_error weight",
@@ -358,12 +358,12 @@ def _matches_table(matches: Sequence[tuple[Any, ...]], name: str, scale: Scale) 
 
 
 Refit = Callable[[Results], Ratings]
-"""Rates other results in the same way."""
+"""Rates other results the same way."""
 
 
 @dataclass(frozen=True)
 class Standing:
-    """Two ratings, and the fairest race between them; no race where they cannot be compared."""
+    """Two ratings, and the fairest race between the players; no race if they can't be compared."""
 
     ratings: tuple[float, float]
     difference_error: float | None
@@ -372,7 +372,7 @@ class Standing:
 
     @classmethod
     def of(cls, ratings: Ratings, pair: tuple[int, int], offered: OfferedRaces) -> Standing:
-        """Return where two players stand (positions in `ratings.players`)."""
+        """Return two players' current ratings and race (positions in `ratings.players`)."""
         both = float(ratings.rating[pair[0]]), float(ratings.rating[pair[1]])
         listed = as_listed(ratings)
         if cannot_be_compared(listed, *pair):
@@ -390,7 +390,7 @@ class Standing:
 
 @dataclass(frozen=True)
 class OneMore:
-    """One more match between the two: who wins it how, and where they stand then."""
+    """One more match between the two: the result, and the ratings and race after it."""
 
     winner: str
     score: str
@@ -406,7 +406,7 @@ def one_more_match(
     refit: Refit,
     played: tuple[int, int] | None = None,
 ) -> list[OneMore]:
-    """Return what changes if either wins by the most likely score: their fair race, or `played`."""
+    """Return what changes if either wins by the likeliest score in their fair race, or `played`."""
     if now.race is None:
         return []
     p = ratings.scale.win_probability(now.ratings[0] - now.ratings[1])
@@ -432,7 +432,7 @@ def one_more_match(
 
 
 def _likeliest_loss(needs: int, other: int, p_loser: float) -> int:
-    """Return the games that the loser most likely has when the winner gets the last of `needs`.
+    """Return the loser's likeliest games when the winner gets the last of `needs`.
 
     >>> _likeliest_loss(7, 7, 0.5), _likeliest_loss(7, 5, 0.2)
     (6, 1)
@@ -441,13 +441,13 @@ def _likeliest_loss(needs: int, other: int, p_loser: float) -> int:
 
 
 MATCH = ("player", "date", "opponent", "opponent_rating", "score", "result", "worth")
-"""The columns of a match: the player comes first, and the score is that player's."""
+"""A match's columns: the player comes first, and the score is from their side."""
 
 
 def matches_behind(
     results: Results, ratings: Ratings, pair: tuple[int, int], refit: Refit
 ) -> list[tuple[Any, ...]]:
-    """Return the matches of both players that count, each with what it is worth to the rating."""
+    """Return both players' matches that count, each with its effect on the rating."""
     counts = results.counted
     if ratings.as_of is not None and results.date is not None:
         counts = counts & (results.date <= ratings.as_of)

@@ -34,18 +34,18 @@ if TYPE_CHECKING:
     AnyChart: TypeAlias = Chart | LevelChart | PointsChart
 
 MOST_SCORES = 10_000
-"""The most scores that a match may still come to, so that every answer takes seconds."""
+"""The most scores that a match may still reach, so that every answer takes seconds."""
 MOST_BY_WAY = 25_000
-"""The most scores of a race of games, if its graph is solved in floats: a race 158:158."""
+"""The most scores in a race of games whose graph is solved in floats: a race to 158:158."""
 
 
 MOST_COMPARED = {"race": 10_000, "break": 900, "": 2_500}
-"""The most scores of a race where the break matters, of another match where it does, and of
-another match where it does not, so that every answer takes seconds."""
+"""The most scores in a race if the break matters, in other matches if it does, and in other matches
+if it doesn't, so that every answer takes seconds."""
 
 
 def odds(asked: Odds) -> Answer:
-    """Return the odds of a match."""
+    """Return a match's odds."""
     if (points := _points(asked)) is not None:
         return points
     players, match = match_of(asked)
@@ -69,7 +69,7 @@ def fair(asked: Fair) -> Answer:
 
 
 def live(asked: Live) -> Answer:
-    """Return the odds of a match under way."""
+    """Return the odds of a match in progress."""
     from evenbreak.answers.match.live import live_answer
     from evenbreak.matches.live import live_odds, order_is_free
 
@@ -87,7 +87,7 @@ def live(asked: Live) -> Answer:
 
 
 def match_of(asked: Odds | Live) -> tuple[TwoPlayers, Match]:
-    """Return the players and the match that a question describes."""
+    """Return the players and the match described by a question."""
     players = players_of(asked, asked.form)
     rack: Any = players.rack
     breaks, first = players.break_format, players.first_breaker
@@ -106,7 +106,7 @@ def match_of(asked: Odds | Live) -> tuple[TwoPlayers, Match]:
 
 
 def _chart_of(asked: Players) -> AnyChart | None:
-    """Return the chart of a question, None where there is none."""
+    """Return a question's chart; None if it has none."""
     if asked.chart is None:
         return None
     from evenbreak.files.charts import find_chart
@@ -115,7 +115,7 @@ def _chart_of(asked: Players) -> AnyChart | None:
 
 
 def _race_of(asked: Odds | Live, players: TwoPlayers) -> tuple[int, int]:
-    """Return the race that the chart of a question sets."""
+    """Return the race set by a question's chart."""
     chart: Any = _chart_of(asked)
     a, b = (math.floor(rating + 0.5) for rating in players.ratings or (0.0, 0.0))
     race: tuple[int, int] = chart.race(*players.levels) if players.levels else chart.race(a - b)
@@ -123,7 +123,7 @@ def _race_of(asked: Odds | Live, players: TwoPlayers) -> tuple[int, int]:
 
 
 def _points(asked: Odds | Live) -> Answer | None:
-    """Return the answer by a chart of points; None where the chart is none."""
+    """Return the answer for a points chart; None if it isn't one."""
     if asked.chart is None:
         return None
     from evenbreak.answers.match.points import points_answer
@@ -142,7 +142,7 @@ def _points(asked: Odds | Live) -> Answer | None:
 
 
 def _levels(asked: Players) -> tuple[int, int]:
-    """Return the levels that are typed."""
+    """Return the levels typed."""
     a, b = (int(float(text)) for text in asked.ratings)
     return a, b
 
@@ -150,7 +150,7 @@ def _levels(asked: Players) -> tuple[int, int]:
 def _levels_of(
     file: RosterFile, places: Sequence[int], chart: LevelChart | PointsChart
 ) -> tuple[int, int]:
-    """Return the levels of two players of a list, or refuse what is no level of the chart."""
+    """Return two listed players' levels; reject any level that isn't in the chart."""
     roster = file.roster
     for place in places:
         if roster.level[place] not in chart.levels:
@@ -169,7 +169,7 @@ def _levels_of(
 
 
 def refuse_giants(match: Match, most: int = MOST_SCORES) -> None:
-    """Refuse a match that can still come to so many scores that it would take minutes."""
+    """Reject a match with so many possible scores that it would take minutes."""
     win_by = getattr(match, "win_by", 0)
     left = [
         max(need - has, win_by, 1)
@@ -188,7 +188,7 @@ def refuse_giants(match: Match, most: int = MOST_SCORES) -> None:
 
 
 def players_of(asked: Players, form: float | None = None) -> TwoPlayers:
-    """Return the players of a question; its own day-to-day form replaces that of the list."""
+    """Return a question's players; its day-to-day form overrides the list's."""
     if asked.p1 is not None and asked.p2 is not None:
         first = asked.first_break or ("b" if asked.breaks == "b" else "a")
         rack: Rack[float] = Rack(asked.p1, asked.p2)
@@ -221,7 +221,7 @@ def players_of(asked: Players, form: float | None = None) -> TwoPlayers:
 
 
 def _scale_of_chart(chart: AnyChart | None) -> Scale | None:
-    """Return the scale that a chart is made for, if its name says it."""
+    """Return the scale a chart is made for, if its name says so."""
     return None if chart is None else SCALES.get(chart.name.partition("_")[0])
 
 
@@ -246,7 +246,7 @@ def _by_level(asked: Players, chart: LevelChart, form: float | None) -> TwoPlaye
 def _listed(
     asked: Players, path: str, chart: LevelChart | PointsChart
 ) -> tuple[RosterFile, tuple[str, str], list[int]]:
-    """Return a list with levels, and the names and the places of two players on it."""
+    """Return a list with levels, and the names and places of two players on it."""
     from evenbreak.answers.league.by_level import by_level
     from evenbreak.files.lists.roster import read_roster
 
@@ -257,7 +257,7 @@ def _listed(
 
 
 def _places(asked: Players, file: RosterFile) -> list[int]:
-    """Return the places of the two players on a list."""
+    """Return the two players' places on the list."""
     from evenbreak.answers.league.sheet import find_players
 
     places = find_players(
@@ -274,7 +274,7 @@ def _places(asked: Players, file: RosterFile) -> list[int]:
 
 
 def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
-    """Return two players of a list, with its ratings, scale, errors and day-to-day form."""
+    """Return two listed players, with the list's ratings, scale, errors and day-to-day form."""
     from evenbreak.answers.kit.systems import (
         CHART_OR_SCALE,
         LEAVE_OUT,
@@ -327,7 +327,7 @@ def _named(asked: Players, path: str, form: float | None) -> TwoPlayers:
 
 
 def refuse_uncertain(players: TwoPlayers) -> None:
-    """Refuse --via where chances are averaged over the errors of ratings: they are no limit."""
+    """Reject --via if chances are averaged over rating errors, because these aren't a limit."""
     if players.form:
         refuse(
             "{via} is for one chain, but with {form} the answer is an average over many. "
@@ -341,7 +341,7 @@ def refuse_uncertain(players: TwoPlayers) -> None:
 
 
 class FormatsCompared(NamedTuple):
-    """Formats side by side, as a picture shows them."""
+    """Formats side by side, as shown in a picture."""
 
     players: TwoPlayers
     formats: list[MatchFormat]
@@ -374,7 +374,7 @@ def compare(asked: Compare) -> Answer:
 
 
 def _formats(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
-    """Return the formats, or refuse those that cannot be compared here."""
+    """Return the formats, or reject those that can't be compared here."""
     from evenbreak.matches.formats import match_format
 
     read = [match_format(text) for text in texts]
@@ -406,7 +406,7 @@ def _formats(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
 
 
 def _line(players: TwoPlayers, hold: str | None) -> dict[str, Any]:
-    """Return the pairs of players that the formats are compared for, as options of `crossings`."""
+    """Return the pairs of players for which formats are compared, as options for `crossings`."""
     p1, p2 = players.rack.p1, players.rack.p2
     if p2 is None:
         if hold is not None:

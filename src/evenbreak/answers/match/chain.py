@@ -1,4 +1,4 @@
-"""Where a chain ends, or what it does in the long run."""
+"""Where a chain ends, or its long-run behavior."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ if TYPE_CHECKING:
 
 
 NAMED = 5
-"""States that a sentence names, the likeliest ones."""
+"""How many states a sentence names, likeliest first."""
 
 
 def chain_answer(
     chain: Chain, *, steps: int | None = None, warnings: Sequence[str] = (), via: Way | None = None
 ) -> Answer:
-    """Return the stochastic limit of a chain, or its probability vector after some steps."""
+    """Return a chain's stochastic limit, or its probability vector after some steps."""
     limit = stochastic_limit(chain, via=via)
     mean_steps, doubts = mean_steps_of(chain)
     states, structure = list(chain.states), chain.structure
@@ -78,7 +78,7 @@ def chain_answer(
 
 
 def _way(via: Way | None, limit: Limit) -> list[Part]:
-    """Return how the limit was found, beside the closed form of a line or else elimination."""
+    """Return how the limit was found, and the closed form for a line or else elimination."""
     if via is None:
         return []
     beside: Way = "kernel" if limit.chain.line is not None else "elimination"
@@ -88,7 +88,7 @@ def _way(via: Way | None, limit: Limit) -> list[Part]:
 
 
 def mean_steps_of(chain: Chain) -> tuple[float | None, list[str]]:
-    """Return the mean number of steps to absorption, and why there is none where it is lost."""
+    """Return the mean number of steps to absorption, or why there is none."""
     try:
         return steps_to_absorption(chain).mean, []
     except AccuracyError as error:
@@ -118,13 +118,13 @@ def _places(density: Mapping[Any, float]) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Road:
-    """A game's way from its graph to its limit.
+    """A game's path from its graph to its limit.
 
-    In `graph` the chances out of each state add up to 1 to the last digit. `limits` has the limit
-    by each method that can find it, always by elimination. `spectrum` has all eigenpairs, of a
-    large chain the leading ones, only those of eigenvalue 1 if the matrix has too few eigenvectors;
-    None if not even these are certain. `gap` and `period` are those of `spectral_gap` and
-    `apparent_period`. `refused` gives the reason for each missing answer.
+    In `graph`, the chances out of each state add up to 1 to the last digit. `limits` has the limit
+    from each method that can find it; elimination always can. `spectrum` has all eigenpairs, or for
+    a large chain the leading ones, or only those with eigenvalue 1 if the matrix has too few
+    eigenvectors; None if not even these are certain. `gap` and `period` come from `spectral_gap`
+    and `apparent_period`. `refused` gives the reason for each missing answer.
     """
 
     graph: nx.DiGraph[str]
@@ -142,7 +142,7 @@ class Road:
 
     @property
     def differences(self) -> dict[str, float]:
-        """The largest difference of each other way's limit from the one by elimination."""
+        """The largest difference between each other method's limit and the limit by elimination."""
         exact = self.limit.probability
         return {
             way: float(np.abs(limit.probability - exact).max())
@@ -152,7 +152,7 @@ class Road:
 
 
 def road_of(game: Game | nx.DiGraph[Any], *, start: str | None = None) -> Road:
-    """Return the way of a game to its limit; a GameError if two states have the same text."""
+    """Return a game's path to its limit; raise GameError if two states have the same string."""
     graph = _adding_up(_named(graph_of(game) if isinstance(game, Game) else game))
     chain = chain_of(graph, start=start)
     limits: dict[str, Limit] = {}
@@ -179,7 +179,7 @@ def road_of(game: Game | nx.DiGraph[Any], *, start: str | None = None) -> Road:
 
 
 def _named(graph: nx.DiGraph[Any]) -> nx.DiGraph[str]:
-    """Return the graph with its states as texts, as files have them."""
+    """Return the graph with its states as strings, as in files."""
     import networkx as nx
 
     names = {state: str(state) for state in graph}
@@ -192,7 +192,7 @@ def _named(graph: nx.DiGraph[Any]) -> nx.DiGraph[str]:
 def _adding_up(graph: nx.DiGraph[str]) -> nx.DiGraph[str]:
     """Return the graph with the chances out of each state adding up to 1, correctly rounded.
 
-    Where they miss it all are scaled, and the largest becomes what the others leave over.
+    If they don't, they are all scaled, and the largest becomes the remainder.
     """
     for state in graph:
         arcs = [arc for _, _, arc in graph.out_edges(state, data=True)]

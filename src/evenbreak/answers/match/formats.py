@@ -1,4 +1,4 @@
-"""Match formats side by side, and break formats in the long run: what is better for whom."""
+"""Match formats side by side, and break formats in the long run: which suits whom better."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -21,7 +21,7 @@ from evenbreak.questions.games import Breaks
 from evenbreak.words import listed
 
 SAME = 1e-12
-"""Two chances that differ by less are the same but for rounding."""
+"""Two chances that differ by less than this are the same except for rounding."""
 
 
 class Compared(NamedTuple):
@@ -41,8 +41,8 @@ def compare_answer(
 ) -> Answer:
     """Return match formats side by side.
 
-    `pairs` has where two formats, by place, are worth the same; `hold` is what stays fixed as p1
-    varies where the break matters: p2 or the break.
+    `pairs` has the points where two formats, by place, are worth the same; `hold` is what stays
+    fixed as p1 varies if the break matters: p2 or the break.
     """
     names = [str(one.format) for one in compared]
     axis = "p1" if players.rack.break_matters else "p"
@@ -97,7 +97,7 @@ def _formats(compared: Sequence[Compared], players: TwoPlayers, axis: str) -> Ta
 
 
 def _advice(compared: Sequence[Compared], players: TwoPlayers) -> str:
-    """Return which format is better for whom, and which is nearest to even."""
+    """Return which format is better for whom, and which is closest to even."""
     a, b = players.names
     wins = [one.odds.p_win_1 for one in compared]
     names = [str(one.format) for one in compared]
@@ -128,7 +128,7 @@ def _turns(
     players: TwoPlayers,
     stays: str,
 ) -> Table:
-    """Return for each two formats which is better for A, from weak to strong."""
+    """Return which of each two formats is better for A, from weak to strong."""
     a = players.names[0]
     axis = "p1" if players.rack.break_matters else "p"
     rows = [
@@ -163,7 +163,7 @@ def breaks_answer(
     first_breaker: int = 1,
     via: Way | None = None,
 ) -> Answer:
-    """Return the break formats, the best for player 1 (A) first."""
+    """Return the break formats, with the best one for player 1 (A) first."""
     stakes: dict[str, Any] = {"win": win, "lose": lose, "first_breaker": first_breaker}
     values = compare_break_formats(rack, via=via, **stakes)
     kernel = {value.name: value.share for value in compare_break_formats(rack, **stakes)}
@@ -206,7 +206,7 @@ def _breaks_row(value: BreakFormatValue, lose: float) -> tuple[Any, ...]:
 
 
 def _who_gains(usual: Sequence[BreakFormatValue]) -> str:
-    """Return which of the usual formats suits whom, and where the stakes turn."""
+    """Return which of the usual formats suits whom, and where that changes."""
     for value in usual:
         if math.isinf(value.first_break):
             return f"With {value.name} breaks, the player who breaks first breaks every rack."

@@ -1,4 +1,4 @@
-"""A game's graph, matrix, eigenvalues and limit, and the tables that go into files."""
+"""A game's graph, matrix, eigenvalues and limit, and the tables written to files."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from evenbreak.answers.match.chain import Road, in_the_end, mean_steps_of
 from evenbreak.words import listed
 
 LEADING = 6
-"""Eigenvalues that a person reads."""
+"""How many eigenvalues are shown."""
 
 SAME = 1e-12
-"""Limits that differ by less than this count as the same."""
+"""Limits that differ by less than this count as equal."""
 
 WAY_WORDS = {"kernel": "the closed form", "elimination": "elimination", "eigen": "the eigenvectors"}
 
 
 def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Answer:
-    """Return what the graph of a game is, and where it leads."""
+    """Return the size and shape of a game's graph, and where it leads."""
     chain, structure = road.chain, road.chain.structure
     mean_steps, doubts = mean_steps_of(chain)
     states, arcs = len(chain), road.graph.number_of_edges()
@@ -84,7 +84,7 @@ def graph_answer(title: str, road: Road, *, warnings: Sequence[str] = ()) -> Ans
 
 
 def wins_of(road: Road) -> dict[int, float]:
-    """Return each player's chance of winning, of the players who win somewhere.
+    """Return the chances of the players who can win.
 
     >>> from evenbreak.answers.match.chain import road_of
     >>> from evenbreak.games import OneBall
@@ -169,7 +169,7 @@ _EIGENVALUE = columns_of("eigenvalue real imaginary modulus")
 
 
 def _leading(values: Sequence[complex]) -> Table:
-    """Return the leading eigenvalues as a person reads them."""
+    """Return the leading eigenvalues for display."""
     rows = _eigenvalue_rows(values)
     if not any(complex(value).imag for value in values):
         return Table("", _EIGENVALUE[:2], [row[:2] for row in rows])
@@ -182,16 +182,16 @@ def _eigenvalue_rows(values: Iterable[complex]) -> list[tuple[Any, ...]]:
 
 
 def eigenvalue_table(road: Road) -> Table:
-    """Return the eigenvalues found, those equal to 1 first."""
+    """Return the eigenvalues found, starting with those equal to 1."""
     values = [] if road.spectrum is None else road.spectrum.values.tolist()
     return Table("eigenvalues", _EIGENVALUE, _eigenvalue_rows(values))
 
 
 def eigenvector_table(road: Road) -> Table:
-    """Return a row for each state with its entries in the right and the left eigenvectors.
+    """Return a row for each state with its entries in the right and left eigenvectors.
 
-    The columns are right_1, right_2, ..., left_1, left_2, ..., numbered as the eigenvalues;
-    where vectors are complex, each is followed by its imaginary part.
+    The columns are right_1, right_2, ..., left_1, left_2, ..., numbered like the eigenvalues;
+    complex vectors are each followed by their imaginary part.
     """
     pairs, entries = road.spectrum, dict[str, Any]()
     sides = () if pairs is None else (("right", pairs.right), ("left", pairs.left.T))
@@ -205,7 +205,7 @@ def eigenvector_table(road: Road) -> Table:
 
 
 def arcs_table(road: Road) -> Table:
-    """Return the arcs, those out of the start first, because a file of arcs starts there."""
+    """Return the arcs, starting with those out of the start, where a file of arcs starts."""
     columns = columns_of("source target probability")
     arcs: list[Any] = sorted(
         road.graph.edges(data="probability"), key=lambda arc: arc[0] != road.chain.start
@@ -214,7 +214,7 @@ def arcs_table(road: Road) -> Table:
 
 
 def states_table(road: Road) -> Table:
-    """Return the states in the order of the matrix, with all that is known of each."""
+    """Return the states in the matrix's order, with everything known about each."""
     structure = road.chain.structure
     nodes = [attributes for _, attributes in road.graph.nodes(data=True)]
     return table_by_column(
@@ -249,7 +249,7 @@ def classes_table(road: Road) -> Table:
 
 
 def limit_table(road: Road) -> Table:
-    """Return the limit of each state by every way; a way that cannot has empty cells."""
+    """Return each state's limit from every method; methods that can't find it have empty cells."""
     values: dict[Any, Any] = {"-state": road.chain.states}
     for column in in_files(WAY_WORDS, exact=True):
         limit = road.limits.get(column.names[0])

@@ -1,4 +1,4 @@
-"""A match under way: the score, the value of the next game, how it went."""
+"""A match in progress: the score, the value of the next game, the story so far."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -18,15 +18,15 @@ _PLACE = ("score_a", "score_b", "set_a", "set_b", "next_break")
 
 
 LARGE_SWING = 0.15
-"""How much a game must change a chance to be called the turning point."""
+"""How much a game must change a player's chance to be called the turning point."""
 
 
 def live_answer(
     players: TwoPlayers, match: Match, odds: LiveOdds, *, comebacks: bool = False
 ) -> Answer:
-    """Return the state of a match and its odds.
+    """Return a match's state and odds.
 
-    With `comebacks`, files hold the chances at every score that is still possible.
+    With `comebacks`, files have the chances at every score that is still possible.
     """
     now, course = odds.now, _course(odds)
     to_come = Table(
@@ -106,7 +106,7 @@ def _now(now: Standing, players: TwoPlayers) -> Quantities:
 
 
 def _course(odds: LiveOdds) -> Table:
-    """Return the match as it went, one row per moment, the first before any game."""
+    """Return the match so far, one row per moment, starting before the first game."""
     moments = zip(odds.course, (None, *odds.winners), (None, *odds.swings), strict=True)
     rows = [
         (
@@ -124,7 +124,7 @@ def _course(odds: LiveOdds) -> Table:
 
 
 def _as_it_went(odds: LiveOdds, players: TwoPlayers) -> Table:
-    """Return the games played so far, each with what hung on it and what it changed."""
+    """Return the games played so far, each with what was at stake and what it changed."""
     a = players.names[0]
     rows = [
         (number, players.names[winner - 1], _score_words(after), after.p_win_1, swing, leverage)
@@ -168,7 +168,7 @@ def _standing_words(match: Match, now: Standing, players: TwoPlayers) -> str:
 
 
 def _score_words(moment: Standing) -> str:
-    """Return a score, with that of the set under way: 1-0 (2-2)."""
+    """Return a score, including the current set's: 1-0 (2-2)."""
     games, *inside = moment.scores
     return tally(games) + "".join(f" ({tally(of_set)})" for of_set in inside)
 
@@ -178,10 +178,10 @@ Cells = Mapping[Score, float]
 
 
 def comeback_tables(match: Match, odds: LiveOdds, names: tuple[str, str]) -> Iterator[Part]:
-    """Yield the comeback table as people read it: a matrix of scores, or a list of leads.
+    """Yield the comeback table for display: a matrix of scores, or a list of leads.
 
-    In a match of sets, the scores of the set under way come first, then those at which a set
-    starts. A star marks the chance at the score now.
+    In a match of sets, scores in the current set come first, then scores at which a set starts. A
+    star marks the chance at the current score.
     """
     moments = odds.comebacks()
     if not moments:

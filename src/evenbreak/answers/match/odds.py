@@ -1,4 +1,4 @@
-"""Two players and a match between them: its odds, its length, and races nearest to even."""
+"""Two players and a match between them: its odds, its length, and the most nearly even races."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ FORMATS = {
     "a": BREAK_FORMATS["player 1"],
     "b": BREAK_FORMATS["player 2"],
 }
-"""Break formats as people name them; A is player 1."""
+"""Break formats as people call them; A is player 1."""
 
 _AVERAGED = say("All of this allows for how far off that may be.")
 
@@ -50,7 +50,7 @@ class TwoPlayers:
 
     `breaks` names a format of `FORMATS`. `errors` are standard errors of the ratings, `form` is the
     standard deviation of a game's log-odds from match to match. With `skills`, the strengths of
-    levels, the ratings are points of difference, the second one 0. `assumed` says what is assumed
+    levels, the ratings are relative points, and the second is 0. `assumed` says what is assumed
     about the errors, if anything.
     """
 
@@ -70,7 +70,7 @@ class TwoPlayers:
     def of_levels(
         cls, levels: tuple[int, int], skills: LevelSkills, names: tuple[str, str] = ("A", "B")
     ) -> TwoPlayers:
-        """Return two players of whom the skill levels are known."""
+        """Return two players whose skill levels are known."""
         off = float(skills.error(*levels)) / math.sqrt(2.0)
         apart = float(skills.difference(*levels))
         players = cls.rated(apart, 0.0, skills.scale, names, (off, off) if off else None)
@@ -85,34 +85,34 @@ class TwoPlayers:
         names: tuple[str, str] = ("A", "B"),
         errors: tuple[float, float] | None = None,
     ) -> TwoPlayers:
-        """Return two players of whom the ratings are known."""
+        """Return two players whose ratings are known."""
         rack = scale.rack(rating_a - rating_b)
         return cls(rack, ratings=(rating_a, rating_b), scale=scale, names=names, errors=errors)
 
     @property
     def break_format(self) -> BreakFormat | None:
-        """Who breaks the next game, or None where it does not matter."""
+        """Who breaks the next game; None if it doesn't matter."""
         return None if self.breaks is None else FORMATS[self.breaks]
 
     @property
     def p_game_a(self) -> float | None:
-        """P(A wins a game), or None where that depends on who breaks."""
+        """P(A wins a game); None if it depends on who breaks."""
         return None if self.rack.break_matters else float(self.rack.p1)
 
     @property
     def difference(self) -> float:
-        """The rating of A minus that of B, 0 where there are none."""
+        """A's rating minus B's; 0 if there are no ratings."""
         first, second = self.ratings or (0.0, 0.0)
         return first - second
 
     @property
     def error(self) -> float:
-        """The standard error of the difference of the ratings, 0 where they are taken as right."""
+        """The standard error of the rating difference; 0 if ratings are treated as exact."""
         return math.hypot(*self.errors) if self.errors else 0.0
 
     @property
     def gap(self) -> Gap:
-        """By how much A is rated above B; without ratings, the log-odds of a game."""
+        """How much higher A is rated than B; without ratings, a game's log-odds."""
         from evenbreak.handicaps.charts.gap import Gap
 
         if self.scale is not None:
@@ -122,7 +122,7 @@ class TwoPlayers:
 
     @property
     def named(self) -> dict[str, Any]:
-        """The names, the levels and the form, for JSON, where there are any."""
+        """The names, levels and form, for JSON, if there are any."""
         a, b = self.names
         names: dict[str, Any] = {} if (a, b) == ("A", "B") else {"player_a": a, "player_b": b}
         if self.levels is not None:
@@ -137,7 +137,7 @@ class TwoPlayers:
 
     @property
     def averaged(self) -> str:
-        """The sentence that says what the chances rest on, '' where they are as stated."""
+        """The sentence that says what the chances are based on; '' if they are as stated."""
         if self.skills is not None:
             return joined([self.skills.why, _AVERAGED] if self.error else [self.skills.why])
         if not self.error:
@@ -146,7 +146,7 @@ class TwoPlayers:
 
     @property
     def by_form(self) -> str:
-        """The sentence that day-to-day form is allowed for, '' where it is not."""
+        """The sentence saying that day-to-day form is allowed for; '' if it isn't."""
         if not self.form:
             return ""
         from evenbreak.answers.kit.scales import form_used_words
@@ -155,7 +155,7 @@ class TwoPlayers:
 
     @property
     def taken_as_right(self) -> str:
-        """The sentence that the ratings are treated as exact, '' where they are not in doubt."""
+        """The sentence saying that ratings are treated as exact; '' if they aren't in doubt."""
         if self.skills is not None:
             return self.skills.why
         if not self.error:
@@ -165,19 +165,19 @@ class TwoPlayers:
         )
 
     def noted(self, answer: Answer) -> Answer:
-        """Return an answer about them with what is assumed of them, if anything is."""
+        """Return an answer about them, adding what is assumed about them, if anything."""
         return replace(answer, warnings=[*answer.warnings, *filter(None, [self.assumed])])
 
     @property
     def doubts(self) -> list[str]:
-        """What is unusual in the ratings."""
+        """Anything unusual about the ratings."""
         if self.skills is not None or self.ratings is None or self.scale is None:
             return []
         return two_ratings_doubts(self.scale, *self.ratings)
 
     @property
     def description(self) -> str:
-        """Who they are, in a line."""
+        """Who they are, on one line."""
         a, b = self.names
         if self.skills is not None and self.levels is not None:
             of_chart = self.skills.chart.name
@@ -198,7 +198,7 @@ class TwoPlayers:
         return text
 
     def _rating(self, k: int) -> str:
-        """Return a rating as text, with its error if it has one."""
+        """Return a rating as text, with its error, if any."""
         if self.ratings is None or self.scale is None or self.errors is None:
             return f"{(self.ratings or (0.0, 0.0))[k]:g}"
         decimals = decimals_of(self.scale)
@@ -209,10 +209,11 @@ class TwoPlayers:
 def odds_answer(
     players: TwoPlayers, match: Match, *, exact: bool = False, via: Way | None = None
 ) -> Answer:
-    """Return the chances of a match and its length.
+    """Return a match's chances and its length.
 
-    They are averaged over the errors of listed ratings, and over day-to-day form. `exact` adds the
-    chances of winning as fractions, for players without ratings; `via` is for exact ratings.
+    The chances are averaged over the errors of listed ratings and over day-to-day form. `exact`
+    adds the chances of winning as fractions, for players without ratings; `via` is for exact
+    ratings.
     """
     odds = _odds(players, match) if via is None else match_odds(match, via=via)
     p_win = _exact_wins(match) if exact else ()
@@ -262,7 +263,7 @@ def _exact_words(p_win: Iterable[Fraction], names: tuple[str, str]) -> str:
 
 
 def fraction_words(p: Fraction) -> str:
-    """Return a fraction and its decimal, which is cut off after 30 digits.
+    """Return a fraction and its decimal form, cut off after 30 digits.
 
     >>> from fractions import Fraction
     >>> fraction_words(Fraction(297, 625))
@@ -302,7 +303,7 @@ def _way(via: Way | None, odds: MatchOdds, match: Match) -> list[Part]:
 
 
 def _p_game(players: TwoPlayers) -> float | None:
-    """Return P(A wins a game), averaged as the odds are, None where it depends on who breaks."""
+    """Return P(A wins a game), averaged like the odds; None if it depends on who breaks."""
     if not players.error or players.scale is None:
         return players.p_game_a
     p_game: float = players.gap.p_game
@@ -355,7 +356,7 @@ def match_words(match: Match, names: tuple[str, str] = ("A", "B")) -> str:
 
 
 def races_for(players: TwoPlayers, asked: Fair) -> list[FairRace]:
-    """Return the races that a question about two players asks for, the fairest first."""
+    """Return the races requested by a question about two players, fairest first."""
     from evenbreak.handicaps.charts.fair import fair_races
 
     limits: Any = {**asked.lengths, "target": asked.target, "top": asked.top}
@@ -373,7 +374,7 @@ def races_for(players: TwoPlayers, asked: Fair) -> list[FairRace]:
 
 
 def _refuse_without_odds(players: TwoPlayers, asked: Fair) -> None:
-    """Refuse chances that day-to-day form cannot change, or about which it says nothing."""
+    """Reject chances that day-to-day form can't change, or about which it says nothing."""
     if players.p_game_a is None:
         asked.refuse("{form} doesn't allow for the break. Give {p}, or two ratings.")
     if players.p_game_a in (0.0, 1.0):
@@ -383,7 +384,7 @@ def _refuse_without_odds(players: TwoPlayers, asked: Fair) -> None:
 def fair_answer(
     players: TwoPlayers, races: Sequence[FairRace], *, target: float = 0.5, via: Way | None = None
 ) -> Answer:
-    """Return races found by `fair_races`, the nearest to the target first."""
+    """Return races found by `fair_races`, closest to the target first."""
     a, b = players.names
     rows = [
         (race.race_1, race.race_2, race.p_win_1, race.mean_games, race.games_p90) for race in races

@@ -1,4 +1,4 @@
-"""Two players and a match by a chart of points, such as APA 9-ball."""
+"""Two players and a match on a points chart, such as APA 9-ball."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def points_answer(
     names: tuple[str, str] = ("A", "B"),
     score: tuple[int, int] = (0, 0),
 ) -> Answer:
-    r"""Return the chances of a match by a chart of points, from a score on.
+    r"""Return a match's chances on a points chart, starting from a score.
 
     >>> from evenbreak.handicaps import points_chart
     >>> answer = points_answer(points_chart("apa_9ball"), (5, 3))

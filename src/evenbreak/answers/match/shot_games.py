@@ -1,4 +1,4 @@
-"""Games shot by shot: which shot to take in one-ball, and a match of straight pool."""
+"""Games shot by shot: which shot to take in one-ball, and straight pool matches."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -30,7 +30,7 @@ from evenbreak.stats.runs import shot_chance
 from evenbreak.words import listed
 
 SAME = 1e-12
-"""Two chances that differ by less are the same but for rounding."""
+"""Two chances that differ by less than this are the same except for rounding."""
 
 _SUPPOSED = {
     "infinite": "if the two shots are repeated until one is made",
@@ -50,7 +50,7 @@ _COLUMNS = columns_of(
 def oneball_answer(
     shots: Sequence[ShotChoice], *, look_ahead: str = "infinite", via: Way | None = None
 ) -> Answer:
-    """Return the shots that a player may choose from, the best first, and which one to take."""
+    """Return the shots that a player can choose from, best first, and which one to take."""
     ranked = compare_shots(shots, look_ahead=look_ahead, via=via)
     other = "two shots" if look_ahead == "infinite" else "infinite"
     otherwise = compare_shots(shots, look_ahead=other, via=via)
@@ -110,7 +110,7 @@ def _row(one: RankedShot, look_ahead: str, via: Way | None, *, known: bool) -> t
 
 
 def _even_at(shot: ShotChoice, look_ahead: str) -> float | None:
-    """Return the p2 at which the game is even; None if there is none."""
+    """Return the p2 that makes the game even; None if there is none."""
     if look_ahead == "all shots":
         return shot.break_even_p2(0.5, look_ahead)
     critical = critical_p2(shot.p1)
@@ -118,7 +118,7 @@ def _even_at(shot: ShotChoice, look_ahead: str) -> float | None:
 
 
 def _advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot], look_ahead: str) -> str:
-    """Return what to do, and what it depends on; `otherwise` is by another look-ahead."""
+    """Return what to do, and what it depends on; `otherwise` uses another look-ahead."""
     best = ranked[0]
     wins = f"you win {percent(best.win)} of the time"
     if not any((best.shot.p1, best.shot.p2, *best.shot.later)) and best.win == 0.0:
@@ -158,9 +158,9 @@ def _alone(one: RankedShot, look_ahead: str) -> str:
 
 
 def straight_answer(match: StraightPool, averages: tuple[float, float] | None = None) -> Answer:
-    """Return the chances of a match of straight pool, its length and its spot; player 1 is A.
+    """Return the chances in a straight pool match, its length and its spot; player 1 is A.
 
-    `averages` are the balls per inning that the chances come from, if they do.
+    `averages` are the balls per inning that the chances come from, if any.
     """
     odds, spot = straight_pool_odds(match), even_spot(match)
     even_a = even_b = None
@@ -239,7 +239,7 @@ def oneball(asked: OneBall) -> Answer:
 
 
 def straight(asked: Straight) -> Answer:
-    """Return the odds of a match of straight pool."""
+    """Return the odds of a straight pool match."""
     safety, averages = asked.safety, asked.averages
     shots: list[Fraction | float] = (
         [shot_chance(average, safety) for average in averages]

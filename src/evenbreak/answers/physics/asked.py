@@ -18,24 +18,24 @@ if TYPE_CHECKING:
 
 
 def units_of(asked: questions.Units) -> measures.Units:
-    """Return the units of a question."""
+    """Return a question's units."""
     return measures.METRIC if asked.metric else measures.IMPERIAL
 
 
 def ball_of(weight: float | None, units: measures.Units) -> physics.Ball:
-    """Return a pool ball, of another weight if one was typed."""
+    """Return a pool ball, with a different weight if one was typed."""
     return physics.Ball() if weight is None else physics.Ball(mass=weight * units.mass.size)
 
 
 def cue_of(weight: float | None, tip_mu: float, units: measures.Units) -> physics.Cue:
-    """Return a cue with such a tip, of another weight if one was typed."""
+    """Return a cue with this tip, with a different weight if one was typed."""
     if weight is None:
         return physics.Cue(tip_friction=tip_mu)
     return physics.Cue(mass=weight * units.mass.size, tip_friction=tip_mu)
 
 
 def hit_of(asked: questions.Hit) -> Hit:
-    """Return the hit that a question describes."""
+    """Return the hit described by a question."""
     from evenbreak.answers.physics.hit import Hit
 
     mu, pace = asked.mu, None
@@ -122,7 +122,7 @@ def strike(asked: questions.Strike) -> Answer:
 
 
 def breakcue(asked: questions.BreakCue) -> Answer:
-    """Return the weight of the cue that breaks best."""
+    """Return the weight of the best break cue."""
     from evenbreak.answers.physics.strike import break_cue_answer
 
     units = units_of(asked)
@@ -152,7 +152,7 @@ def shot(asked: questions.Shot) -> Answer:
 
 
 def _struck(asked: questions.Shot, units: measures.Units) -> physics.Strike:
-    """Return the hit of the tip, or refuse it."""
+    """Return the tip's hit, or reject it."""
     up, right = asked.offset, asked.side_offset
     most = physics.miscue_offset(asked.tip_mu)
     if math.hypot(up, right) > most:

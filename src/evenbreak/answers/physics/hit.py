@@ -26,16 +26,16 @@ from evenbreak.physics.throw import aim, gearing_side, throw_factor, throw_sensi
 from evenbreak.words import Parameter, Sentence, joined, say
 
 degrees = decimals(2)
-"""How an angle in degrees is shown."""
+"""How to show an angle in degrees."""
 
 
 class Hit(NamedTuple):
-    """A hit: angles in degrees, right above 0 and left below.
+    """A hit: angles in degrees, positive to the right and negative to the left.
 
-    With a cut above 0 the object ball goes to the right. `topspin` is J_y: 1 is natural roll, 0
+    With a positive cut, the object ball goes to the right. `topspin` is J_y: 1 is natural roll, 0
     stun, below 0 draw; `side` is J_z: above 0 right english. `mu` is the friction between the
-    balls, or its fall with slip speed; the cue ball's speed, in m/s, is None if the friction
-    doesn't depend on it.
+    balls, or how it decreases with slip speed; the cue ball's speed, in m/s, is None if the
+    friction doesn't depend on it.
     """
 
     cut: float
@@ -47,15 +47,15 @@ class Hit(NamedTuple):
 
     @property
     def hand(self) -> float:
-        """The sign of the cut: 1.0 to the right and for a full hit, -1.0 to the left."""
+        """The cut's sign: 1.0 to the right and for a full hit, -1.0 to the left."""
         return -1.0 if self.cut < 0.0 else 1.0
 
     @property
     def cut_and_spin(self) -> tuple[float, float, float]:
         """The cut angle in radians, J_y and J_z.
 
-        No decimal is sin(30 degrees) to the last bit, and the difference would leave a slip, to
-        which the law of the source text gives its full throw.
+        No decimal gives sin(30 degrees) to the last bit, and the difference would leave a tiny
+        slip, for which the source text's formula gives the full throw.
         """
         angle = math.radians(self.cut)
         without_slip = float(gearing_side(angle))
@@ -63,14 +63,14 @@ class Hit(NamedTuple):
         return angle, self.topspin, without_slip if exact else self.side
 
     def collide(self, cut: float | None = None) -> Collision:
-        """Return what the balls do, at another cut angle in radians if one is given."""
+        """Return what the balls do, using another cut angle in radians if given."""
         angle, topspin, side = self.cut_and_spin
         angle, speed = angle if cut is None else cut, 1.0 if self.speed is None else self.speed
         return collide(angle, topspin, side, speed=speed, mu=self.mu, friction=self.friction)
 
     @property
     def toward(self) -> str:
-        """The side to which the object ball is cut; a full hit counts as a cut to the right."""
+        """The side the object ball is cut to; a full hit counts as a cut to the right."""
         return "left" if self.cut < 0.0 else "right"
 
     @property
@@ -89,7 +89,7 @@ class Hit(NamedTuple):
 
     @property
     def description(self) -> str:
-        """What is hit and how, in a line.
+        """What is hit and how, on one line.
 
         >>> Hit(30.0, 1.0, -0.3, 0.0556, "limited").description
         'A cut of 30 degrees to the right; natural roll, outside (left) english, 0.34 tips'
@@ -103,7 +103,7 @@ class Hit(NamedTuple):
         return f"{cut_words(self.cut)}; {spin_words(self.topspin)}, {english}"
 
     def asked(self, found: Collision, speed: Unit) -> list[Quantity]:
-        """Return the question, which precedes the answer in files."""
+        """Return the question, which comes before the answer in files."""
         values: dict[str, Any] = {
             "-cut_deg": self.cut,
             "topspin": self.topspin,
@@ -114,21 +114,21 @@ class Hit(NamedTuple):
         return [*quantities_of(values), speed.quantity("-hit_speed", self.speed)]
 
     def heading(self, found: Collision, speed: Unit, *more: str) -> str:
-        """Return what is hit and how, and what friction is assumed, in two lines."""
+        """Return what is hit and how, and the assumed friction, in two lines."""
         pace = [] if self.speed is None else [f"cue ball at {speed.typed(self.speed)}"]
         shot = "; ".join([self.description, *pace, *more])
         return f"{shot}\n{friction_words(self.mu, found, self.friction)}"
 
 
 def friction_values(mu: float | SlipFriction, found: Collision | None, law: str) -> dict[str, Any]:
-    """Return the friction between the balls as files hold it: the coefficient of the hit."""
+    """Return the friction between the balls for files: the coefficient in this hit."""
     by_speed = isinstance(mu, SlipFriction)
     known = None if found is None else float(found.mu)
     return {"mu": known if by_speed else mu, "mu_by_speed": by_speed, "friction": law}
 
 
 def friction_words(mu: float | SlipFriction, found: Collision | None, law: str) -> str:
-    """Return what is assumed about the friction between the balls.
+    """Return the assumption about the friction between the balls.
 
     >>> friction_words(0.0556, None, "limited")
     'Friction between the balls: 0.0556, the same at any speed'
@@ -164,11 +164,11 @@ SQUIRT = (
     "the cue ball travels along the line given here; to find yours, shoot the length of the table "
     "with this english and see how far off it lands."
 )
-"""What an answer about where to aim does not know where there is english."""
+"""What an answer about where to aim can't tell if there is english."""
 
 
 def spin_words(topspin: float) -> str:
-    """Return what players call a spin J_y.
+    """Return what players call a spin of J_y.
 
     >>> spin_words(1.0), spin_words(0.0), spin_words(-0.5), spin_words(-1.0)
     ('natural roll', 'stun', 'draw (-0.50)', 'reverse natural roll')
@@ -184,13 +184,13 @@ SWERVE = say(
     "give {squirt} the degrees by which the ball lands off line.",
     squirt=Parameter("squirt"),
 )
-"""What an answer about where to aim does not know where squirt is allowed for."""
+"""What an answer about where to aim can't tell if squirt is allowed for."""
 
 
 def squirt_words(angle: float, units: Units) -> Sentence:
     """Return where to point the cue so that the cue ball travels along its line.
 
-    The angle is in degrees, above 0 with right english.
+    The angle is in degrees, positive with right english.
 
     >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> print(squirt_words(-1.0, IMPERIAL))
@@ -214,11 +214,11 @@ def squirt_words(angle: float, units: Units) -> Sentence:
 def aim_answer(
     hit: Hit, distance: float, units: Units, *, squirt: float = SQUIRTS["regular"]
 ) -> Answer:
-    """Return where to aim so that the object ball, thrown, reaches its target.
+    """Return where to aim so that the thrown object ball reaches its target.
 
     The hit's cut is the angle at which the object ball must leave; the distance to the pocket is in
-    meters, the squirt in degrees at 100 % english. An InputError if the ball can't be cut that
-    thin.
+    meters, and the squirt is in degrees at 100% english. Raises InputError if the ball can't be cut
+    that thin.
     """
     length, (angle, topspin, side) = units.length, hit.cut_and_spin
     friction: dict[str, Any] = {"mu": hit.mu, "friction": hit.friction, "speed": hit.speed}
@@ -249,8 +249,8 @@ def aim_answer(
 def aim_words(offset: float, cut: float, hit: Hit, length: Unit) -> str:
     """Return where to aim, in a sentence.
 
-    The offset is in meters, right of the middle of the pocket; the cut is below 0 on the side
-    opposite to that of the hit.
+    The offset is in meters to the right of the pocket's center; the cut is negative on the side
+    opposite the hit's.
     """
     amount = length.text(abs(offset), 2)
     if length.is_nothing(offset, 2):
@@ -267,7 +267,7 @@ def aim_words(offset: float, cut: float, hit: Hit, length: Unit) -> str:
 
 
 def throw_answer(hit: Hit, units: Units) -> Answer:
-    """Return the throw of a hit.
+    """Return a hit's throw.
 
     >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> answer = throw_answer(Hit(30.0, 1.0, 0.0, 0.0556, "limited"), IMPERIAL)
@@ -295,7 +295,7 @@ def throw_answer(hit: Hit, units: Units) -> Answer:
 
 
 def throw_words(throw: float, hit: Hit) -> str:
-    """Return what a throw, in degrees, does to the shot.
+    """Return the effect of a throw, in degrees, on the shot.
 
     >>> throw_words(1.418, Hit(0.0, 1.0, 0.5, 0.0556, "limited"))
     'The object ball is thrown 1.42 degrees to the left.'
@@ -317,11 +317,11 @@ def throw_words(throw: float, hit: Hit) -> str:
 
 
 _AT_REST = 1e-12
-"""The speed below which a ball counts as standing still, over that of the cue ball."""
+"""The speed, relative to the cue ball's, below which a ball counts as stopped."""
 
 
 def cue_ball_path_answer(hit: Hit, units: Units) -> Answer:
-    """Return the deflection of the cue ball: the angle by which its path turns.
+    """Return the cue ball's deflection: the angle by which its path turns.
 
     >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> answer = cue_ball_path_answer(Hit(30.0, 1.0, 0.0, 0.0556, "limited"), IMPERIAL)
@@ -389,7 +389,7 @@ def _way(
 
 
 def _deflection_with_friction(found: Collision) -> float | None:
-    """Return the deflection in radians, below 0 to the side of the object ball."""
+    """Return the deflection in radians, negative toward the object ball's side."""
     rim_velocity = found.ball.radius * found.cue_spin
     ahead, left = map(float, roll_velocity(found.cue_velocity[:2], rim_velocity))
     if math.hypot(ahead, left) < _AT_REST * found.speed:
@@ -398,7 +398,7 @@ def _deflection_with_friction(found: Collision) -> float | None:
 
 
 def _departure(found: Collision) -> float | None:
-    """Return the angle between the two paths in radians; None if a ball stands still."""
+    """Return the angle between the two paths in radians; None if a ball is stopped."""
     slowest = min(math.hypot(*ball[:2]) for ball in (found.object_velocity, found.cue_velocity))
     return None if slowest < _AT_REST * found.speed else float(found.departure)
 

@@ -1,4 +1,4 @@
-"""Where the balls of a shot are, by its question, and the shot traced from there."""
+"""Where the balls are in a shot, according to its question, and the shot traced from there."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ Place = tuple[float, float]
 
 @dataclass(frozen=True)
 class Layout:
-    """A table with two balls on it, in the units of the question.
+    """A table with two balls on it, in the question's units.
 
-    Either `cut` (degrees) and `distance` (between centers), or the object ball and its pocket; the
-    cue ball is by default in the middle of the head string.
+    Either `cut` (degrees) and `distance` (between centers), or the object ball and its pocket; by
+    default, the cue ball is in the middle of the head string.
     """
 
     units: Units
@@ -32,20 +32,20 @@ class Layout:
     pocket: physics.Pocket | None
 
     def meters(self, place: Place) -> Place:
-        """Return a place in meters."""
+        """Return a position in meters."""
         size = self.units.length.size
         return place[0] * size, place[1] * size
 
     @property
     def start(self) -> Place:
-        """Where the cue ball is, in meters."""
+        """The cue ball's position, in meters."""
         if self.cue_ball is None:
             return 0.25 * self.table.length, 0.5 * self.table.width
         return self.meters(self.cue_ball)
 
 
 def layout_of(asked: Shot, units: Units) -> Layout:
-    """Return the layout that a question describes."""
+    """Return the layout described by a question."""
     table = physics.PoolTable()
     if asked.table_length is not None:
         length = asked.table_length * units.length.size
@@ -64,7 +64,7 @@ def layout_of(asked: Shot, units: Units) -> Layout:
 def traced_shot(
     strike: physics.Strike, layout: Layout, **kit: Any
 ) -> physics.Shot | physics.AimedShot:
-    """Return the shot of a layout, or refuse one in which it cannot be played.
+    """Return a layout's shot, or reject a layout in which it can't be played.
 
     `kit` is the cloth and the friction between the balls.
     """
@@ -107,7 +107,7 @@ def traced_shot(
 
 
 def _check_places(layout: Layout, radius: float) -> None:
-    """Refuse a ball that is not on the table."""
+    """Reject a ball that isn't on the table."""
     size, unit = (layout.table.length, layout.table.width), layout.units.length
     for name, place in (("cue_ball", layout.cue_ball), ("object_ball", layout.object_ball)):
         if place is None:
@@ -130,7 +130,7 @@ def _check_places(layout: Layout, radius: float) -> None:
 
 
 def _refuse_distance(layout: Layout, diameter: float) -> NoReturn:
-    """Say why a distance between the balls is wrong."""
+    """Raise an error saying why a distance between the balls is wrong."""
     unit, distance = layout.units.length, layout.distance or 0.0
     if distance * unit.size < diameter:
         refuse(
@@ -147,7 +147,7 @@ def _refuse_distance(layout: Layout, diameter: float) -> NoReturn:
 
 
 def _refuse_places(layout: Layout, apart: float, diameter: float) -> NoReturn:
-    """Say why the object ball cannot be sent into the pocket from where the balls are."""
+    """Raise an error saying why the object ball can't be sent into the pocket from this layout."""
     unit = layout.units.length
     touching = f"{diameter / unit.size:.4g} {unit.words}"
     if apart < diameter * (1.0 - 1e-9):

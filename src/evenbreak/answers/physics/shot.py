@@ -59,7 +59,7 @@ def _tip(found: Shot, units: Units) -> list[Quantity]:
 
 
 def _hit(found: Shot, units: Units) -> list[Quantity]:
-    """Return what is known of the hit and of the angles after it."""
+    """Return everything known about the hit and the angles after it."""
     state, throw = found.at_hit, found.throw
     speed = topspin = side = object_cut = smooth = lost = None
     if state is not None and throw is not None:
@@ -103,7 +103,7 @@ def _aim(aimed: AimedShot | None, units: Units) -> list[Quantity]:
 
 
 def _way(name: str, leg: Leg | None, units: Units) -> list[Quantity]:
-    """Return how far a ball slides and rolls, and where and how its way ends."""
+    """Return how far a ball slides and rolls, and where and how its path ends."""
     slides = rolls = x = y = time = speed = ending = pocket = None
     if leg is not None:
         lengths = {phase.motion: phase.length for phase in leg.phases}
@@ -125,7 +125,7 @@ def _way(name: str, leg: Leg | None, units: Units) -> list[Quantity]:
 
 
 def _degrees(angle: float | None) -> float | None:
-    """Return an angle in degrees; what rounding leaves of none is none."""
+    """Return an angle in degrees; a rounding error counts as 0."""
     return None if angle is None else math.degrees(angle) if abs(angle) > 1e-13 else 0.0
 
 
@@ -134,7 +134,7 @@ def _moves(found: Shot) -> list[tuple[Leg, Phase]]:
 
 
 def _phases(found: Shot, units: Units) -> Table:
-    """Return the phases as a person reads them."""
+    """Return the phases for display."""
     length, speed = units.length, units.speed
     far, fast = length.key, speed.key.replace("_", "/")
     columns = columns_of(
@@ -153,7 +153,7 @@ def _phases(found: Shot, units: Units) -> Table:
 
 
 def _record(leg: Leg, phase: Phase, units: Units) -> dict[str, Any]:
-    """Return a phase as JSON holds it: when, where, how fast, with what spin and energy."""
+    """Return a phase for JSON: when, where, how fast, and with what spin and energy."""
     far, fast = units.length, units.speed
     row: dict[str, Any] = {"ball": phase.ball, "motion": phase.motion}
     for name, state in (("begin", phase.begin), ("end", phase.end)):
@@ -171,7 +171,7 @@ def _record(leg: Leg, phase: Phase, units: Units) -> dict[str, Any]:
 
 
 def shot_heading(found: Shot, units: Units, pocket: Pocket | None) -> str:
-    """Return what is played, in two lines, and what friction is assumed."""
+    """Return what is played, in two lines, and the assumed friction."""
     length = units.length
     if pocket is None:
         apart = math.dist(found.approach.slide.position, found.object_position)
@@ -189,7 +189,7 @@ def shot_heading(found: Shot, units: Units, pocket: Pocket | None) -> str:
 def shot_words(
     found: Shot, aimed: AimedShot | None, units: Units, pocket: Pocket | None
 ) -> list[str]:
-    """Return what happens: first where the balls end, then how the shot is aimed and hits."""
+    """Return what happens: first where the balls end up, then how the shot is aimed and hit."""
     state = found.at_hit
     if state is None:
         how = {"cushion": "meets a cushion", "pocket": "drops", "rest": "stops"}
@@ -211,13 +211,13 @@ def shot_words(
 
 
 def _motion(approach: Leg) -> str:
-    """Return whether the ball only slides, or only rolls, up to the hit."""
+    """Return whether the ball only slides, or only rolls, before the hit."""
     words = {"slides": ", still sliding", "rolls": ", rolling from the start"}
     return words.get("".join(phase.motion for phase in approach.phases), "")
 
 
 def _end(leg: Leg, units: Units, ball: str) -> str:
-    """Return where and how the way of a ball ends."""
+    """Return where and how the ball's path ends."""
     if leg.ending == "rest" and not leg.phases:
         return f"{ball} stops dead."
     end = leg.state(leg.end)
@@ -232,7 +232,7 @@ def _end(leg: Leg, units: Units, ball: str) -> str:
 
 
 def _miss(found: Shot, pocket: Pocket, units: Units) -> str:
-    """Return why the object ball does not drop; nothing if it does."""
+    """Return why the object ball doesn't drop; nothing if it does."""
     leg = found.object_leg
     if leg is None or leg.ending == "pocket":
         return ""
@@ -249,7 +249,7 @@ def _miss(found: Shot, pocket: Pocket, units: Units) -> str:
 
 
 def _aim_in_words(aimed: AimedShot, pocket: Pocket, units: Units) -> list[str]:
-    """Return where to aim, and how far throw would take the ball off."""
+    """Return where to aim, and how far throw would move the ball off its line."""
     length = units.length
     goal, sentences = "the middle of the pocket", []
     x, y = aimed.target - aimed.shot.object_position

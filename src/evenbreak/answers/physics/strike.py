@@ -36,9 +36,9 @@ def strike_answer(
     distance: float | None = None,
     speed_known: bool = True,
 ) -> Answer:
-    """Return what a strike makes of the cue ball, and whether it is a miscue.
+    """Return what a stroke does to the cue ball, and whether it is a miscue.
 
-    The spin is given after `distance` meters on the cloth; without a known speed there are only
+    The spin is given after `distance` meters on the cloth; if the speed isn't known, there are only
     ratios.
     """
     found = _found(strike, cloth, units, distance, speed_known)
@@ -122,7 +122,7 @@ def _words(
 def _found(
     strike: Strike, cloth: Cloth, units: Units, distance: float | None, speed_known: bool
 ) -> list[Quantity]:
-    """Return the spins, the speeds and the distances of the ball."""
+    """Return the ball's spins, speeds and distances."""
     ratio = ball_speed_ratio(strike.off_center, strike.ball.mass / strike.cue.mass)
     spins = {
         "spin_speed_ratio": strike.topspin,
@@ -148,7 +148,7 @@ def _found(
 
 
 def _later(strike: Strike, cloth: Cloth, distance: float | None) -> dict[str, float | None]:
-    """Return the spin after a distance, and where to hit for a stun shot there at this speed."""
+    """Return the spin after a distance, and where to hit for a stun shot at that distance."""
     names = ("later_spin_speed_ratio", "later_side_spin_speed_ratio", "later_offset", "stun_offset")
     if distance is None:
         return dict.fromkeys(names)
@@ -168,7 +168,7 @@ def _stun(strike: Strike, distance: float, cloth: Cloth) -> float | None:
 
 
 def _time_to(distance: float, strike: Strike, cloth: Cloth) -> float:
-    """Return when the ball has slid a distance, or starts to roll before that, in seconds."""
+    """Return when the ball has slid a distance, or starts rolling before that, in seconds."""
     speed, slip = float(strike.speed), 1.0 - float(strike.topspin)
     slowing = math.copysign(cloth.mu_slide * cloth.gravity, slip)
     rolls = 2.0 * abs(slip) * speed / (7.0 * abs(slowing))
@@ -200,7 +200,7 @@ def break_cue_answer(forearm: float, ball: float, weight: Unit, stick: float | N
 
 
 def _slower(speed: float) -> str:
-    """Return how a break compares, from its speed over that with the best cue.
+    """Return how a break compares with the best cue's, given the ratio of their speeds.
 
     >>> _slower(0.9877), _slower(0.999996)
     ('1.2% slower', 'as fast')
@@ -210,11 +210,11 @@ def _slower(speed: float) -> str:
 
 
 _LEAST, _MOST = 40.0, 250.0
-"""Outside these speeds a wrong time or unit is likelier than such a table."""
+"""Outside these speeds, a wrong time or unit is likelier than such a table."""
 
 
 def table_speed_answer(lag_time: float, distance: float, units: Units) -> Answer:
-    """Return the speed of a table, from seconds and the meters that the ball's center rolls.
+    """Return a table's speed, from the seconds and meters that the ball's center rolls.
 
     >>> from evenbreak.answers.physics.units import IMPERIAL
     >>> table_speed_answer(7.0, 2.48285, IMPERIAL).sentences
@@ -243,7 +243,7 @@ def table_speed_answer(lag_time: float, distance: float, units: Units) -> Answer
 
 
 def cloth_class(speed: float) -> str:
-    """Return what a table of this speed is called.
+    """Return what a table this fast is called.
 
     >>> [cloth_class(speed) for speed in (40.0, 75.0, 100.0, 110.0, 130.0, 160.0)]
     ... # doctest: +NORMALIZE_WHITESPACE

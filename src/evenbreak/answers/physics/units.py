@@ -1,4 +1,4 @@
-"""The units in which lengths, speeds and weights are typed and shown: inches or centimeters."""
+"""The units for typing and showing lengths, speeds and weights: inches or centimeters."""
 
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ from evenbreak.words import Parameter, say
 
 
 class Unit(NamedTuple):
-    """A unit: its size in SI units, the ending of names in it, its plural."""
+    """A unit: its size in SI units, the suffix for names in it, its plural."""
 
     size: float
     key: str
@@ -25,7 +25,7 @@ class Unit(NamedTuple):
         return f"{decimals(places)(value / self.size)} {self.words}"
 
     def is_nothing(self, value: float, places: int) -> bool:
-        """Return whether a value, given in SI units, is 0 in this unit with so many decimals.
+        """Return whether a value, given in SI units, rounds to 0 in this unit.
 
         >>> IMPERIAL.length.is_nothing(0.0001, 2), IMPERIAL.length.is_nothing(-0.001, 2)
         (True, False)
@@ -52,7 +52,7 @@ class Unit(NamedTuple):
 
 
 class Units(NamedTuple):
-    """The units of a command: of lengths, speeds and masses."""
+    """A command's units for lengths, speeds and masses."""
 
     length: Unit
     speed: Unit
@@ -78,11 +78,11 @@ _TYPICAL = {
     "speed": ((0.0, 600.0), (0.0, 15.0)),
     "stick_speed": ((0.0, 600.0), (0.0, 15.0)),
 }
-"""The typical values of an option, from the least to the most, in imperial and metric units."""
+"""An option's typical range, in imperial and metric units."""
 
 
 def unit_doubts(units: Units, **typed: float | None) -> list[str]:
-    """Return a warning for each option whose value looks as if it is in other units.
+    """Return a warning for each option whose value looks like it is in other units.
 
     >>> unit_doubts(IMPERIAL, stick=19.0, ball=None, stick_speed=60.0)
     []

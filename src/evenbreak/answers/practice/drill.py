@@ -70,20 +70,20 @@ GAIN_WORDS = (
 
 
 def spread(law: Distribution) -> list[Quantity]:
-    """Return the summary of the level in the long run, without its mean."""
+    """Return the long-run summary of the level, without its mean."""
     return quantities_of({"median_level": law.median, "mode_level": law.mode, "sd_level": law.sd})
 
 
 def better(p: float) -> str:
-    """Return the improvement by which levels are compared, from a chance p."""
+    """Return the improvement used to compare levels, starting from a chance p."""
     return "making five more in 100" if p <= 1.0 - MORE else "making every one"
 
 
 UNLIKELY = 0.05
-"""A p-value below which chance is no longer taken for the explanation."""
+"""A p-value below which chance is no longer accepted as the explanation."""
 
 SURE = 0.8
-"""From this probability on, the second best level is not mentioned."""
+"""From this probability up, the second best level isn't mentioned."""
 
 CLEAR = 0.5
 """Below this probability, no level is named as the one to practice."""
@@ -92,7 +92,7 @@ CLEAR = 0.5
 def drill_log_answer(
     file: DrillLogFile, analysis: LogAnalysis, *, seed: int, levels_given: bool = True
 ) -> Answer:
-    """Return what the log of a drill says.
+    """Return what a drill's log shows.
 
     Without `levels_given`, the number of levels is the highest in the log.
     """
@@ -217,7 +217,7 @@ def _nothing_to_practice(*, levels: int, missed: bool) -> str:
 
 
 def _untried(analysis: LogAnalysis) -> str:
-    """Return how the first level that was not tried, above one that was, is counted."""
+    """Return how the first untried level above one that was tried is counted."""
     for below, report in pairwise(analysis.levels):
         if below.attempts and not report.attempts:
             return (
@@ -228,7 +228,7 @@ def _untried(analysis: LogAnalysis) -> str:
 
 
 def _percent(p: float) -> str:
-    """Return a probability in words that leave some doubt.
+    """Return a probability in words that leave room for doubt.
 
     >>> [_percent(p) for p in (0.714, 0.9995, 0.001)]
     ['71%', 'more than 99%', 'less than 1%']
@@ -266,7 +266,7 @@ def _findings(analysis: LogAnalysis) -> Iterator[str]:
 
 
 def _tests(analysis: LogAnalysis) -> Iterator[Part]:
-    """Yield the tests of the log, a paragraph each."""
+    """Yield the log's tests, one paragraph each."""
     test = analysis.difference
     yield (
         f"Levels: if you went on for ever with these success rates, {100 * test.seen:.0f} attempts "
@@ -303,7 +303,7 @@ def _p(test: PlayedAgainTest) -> str:
 
 
 def _often(difference: float) -> str:
-    """Return a difference of two success rates in words.
+    """Return a difference between two success rates in words.
 
     >>> _often(0.024), _often(-0.3), _often(0.004)
     ('2 times in 100 more often', '30 times in 100 less often', 'as often')

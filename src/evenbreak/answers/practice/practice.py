@@ -1,4 +1,4 @@
-"""Practice scores: whether they have changed, whether they rise, whether a new one was luck."""
+"""Practice scores: whether they have changed, are rising, or whether a new one was luck."""
 
 from collections.abc import Iterator
 
@@ -15,13 +15,13 @@ from evenbreak.stats.confidence import Luck, MeanInterval, mean_interval, sd_of,
 from evenbreak.stats.trend import Trend, TrendLine, trend, trend_line
 
 FEW = 10
-"""With fewer scores than this, a single one can change the answer."""
+"""With fewer scores than this, a single score can change the answer."""
 
 EXPECTED_AT_LEAST = 5.0
-"""From this expected count on, chi-squared is a fair approximation."""
+"""From this expected count up, chi-squared is a fair approximation."""
 
 LUCK = 0.1
-"""From this p-value on, a difference or a slope is no sign of a change."""
+"""From this p-value up, a difference or a slope is no sign of change."""
 
 TESTS = ("welch", "student", "anova", "variances", "mann_whitney", "chi_squared")
 """The tests whose p-values are shown."""
@@ -141,11 +141,11 @@ def _least_expected(counts: tuple[tuple[int, int], tuple[int, int]]) -> float:
 DAYS_A_WEEK = 7.0
 
 DRIFTS = 0.05
-"""Below this p-value of the slope, the level of the scores is not steady."""
+"""Below this p-value for the slope, the level of the scores isn't steady."""
 
 
 def getting_better_answer(file: ScoresFile, *, confidence: float = 0.95) -> Answer:
-    """Return whether scores rise or fall over time, and what they average.
+    """Return whether scores are rising or falling over time, and their average.
 
     >>> import numpy as np
     >>> from evenbreak.files.practice import ScoresFile
@@ -201,14 +201,14 @@ def _interval(found: MeanInterval | Trend | None) -> str:
 
 
 def interval_of(file: ScoresFile, confidence: float) -> MeanInterval | None:
-    """Return the interval of the true average; None where the scores have no spread."""
+    """Return the interval for the true average; None if the scores are all equal."""
     if len(file.scores) < 2 or sd_of(file.scores) == 0.0:
         return None
     return mean_interval(file.scores, confidence)
 
 
 def _trend(file: ScoresFile, confidence: float) -> Trend | None:
-    """Return the trend in points a week; None without enough dates to see one."""
+    """Return the trend in points per week; None if there are too few dates."""
     if file.dates is None or len(file.scores) < 3 or sd_of(file.scores) == 0.0:
         return None
     weeks = _weeks(file)
@@ -216,7 +216,7 @@ def _trend(file: ScoresFile, confidence: float) -> Trend | None:
 
 
 def trend_line_of(file: ScoresFile, confidence: float) -> TrendLine | None:
-    """Return the line of the trend on the day of each score; None without enough dates for one."""
+    """Return the trend line at each score's date; None if there are too few dates."""
     if _trend(file, confidence) is None:
         return None
     weeks = _weeks(file)
@@ -272,7 +272,7 @@ def _days(file: ScoresFile) -> str:
 
 
 def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95) -> Answer:
-    """Return how often luck alone gives a score like a new one, from two or more that differ."""
+    """Return how often luck alone gives a score like the new one, given two or more that differ."""
     luck = was_it_luck(file.scores, score, confidence=confidence)
     sd = mean_interval(file.scores, confidence).sd
     high = score >= luck.mean

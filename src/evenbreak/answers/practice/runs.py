@@ -1,4 +1,4 @@
-"""Runs of one inning, and scores of several."""
+"""Runs in one inning, and scores over several innings."""
 
 import math
 from dataclasses import dataclass, replace
@@ -12,12 +12,12 @@ from evenbreak.stats.innings import InningsScore
 from evenbreak.stats.runs import RunLength, shot_chance
 
 FAIR = 0.005
-"""A bet that wins with a chance as near to 1/2 is fair at even money."""
+"""A bet whose chance is this close to 1/2 is fair at even money."""
 
 
 @dataclass(frozen=True)
 class Asked:
-    """Ranges of scores whose chances are asked for: N or more, from-to (inclusive), over a bet."""
+    """Ranges of scores whose chances are requested: N or more, from-to (inclusive), over a bet."""
 
     at_least: int | None = None
     between: tuple[int, int] | None = None
@@ -25,12 +25,12 @@ class Asked:
 
     @property
     def losing(self) -> int | None:
-        """The largest score that loses the bet on over."""
+        """The largest score that loses a bet on the over."""
         return None if self.over is None else math.floor(self.over)
 
     @property
     def ranges(self) -> dict[str, tuple[str, int, int | None]]:
-        """Each range by the name of its chance: in words, its smallest and largest score.
+        """Each range by its chance's name: the words, and its smallest and largest score.
 
         >>> Asked(at_least=100, over=20.5).ranges
         {'p_at_least': ('100 or more', 100, None), 'p_over': ('over 20.5: 21 or more', 21, None)}
@@ -47,7 +47,7 @@ class Asked:
 
 
 def runs_answer(law: RunLength | InningsScore, asked: Asked) -> Answer:
-    """Return how long a player's runs are, or what several innings bring, and what is asked for.
+    """Return how long a player's runs are, or what several innings bring, and requested chances.
 
     >>> print(runs_answer(RunLength(0.96), Asked(at_least=100)).sentences[0])
     A run of 100 or more happens 1.7% of the time, once in 59 innings. Half of the runs are 16
@@ -88,7 +88,7 @@ def runs_answer(law: RunLength | InningsScore, asked: Asked) -> Answer:
 
 
 def _asked(asked: Asked, chances: dict[str, float], innings: int) -> list[str]:
-    """Return the answers to what is asked for, a sentence each."""
+    """Return the requested answers, one sentence each."""
     sentences = []
     for key, (words, _, _) in asked.ranges.items():
         if key == "p_over":
@@ -108,7 +108,7 @@ def _asked(asked: Asked, chances: dict[str, float], innings: int) -> list[str]:
 
 
 def _once_in(chance: float) -> str:
-    """Return in how many innings something happens; nothing if it never will."""
+    """Return how many innings it takes for something to happen; nothing if it never will."""
     innings = 1 / chance
     if innings > 1e300:
         return ""

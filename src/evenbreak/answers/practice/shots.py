@@ -1,4 +1,4 @@
-"""A log of single shots: which to practice next, and whether the player got better."""
+"""A log of single shots: which to practice next, and whether the player has improved."""
 
 import math
 from dataclasses import replace
@@ -24,11 +24,11 @@ from evenbreak.stats.compare import compare
 from evenbreak.words import Parameter
 
 _CLEAR = 0.5
-"""From this chance on a shot is the weakest; below, some are too close to tell."""
+"""From this chance up, a shot is called the weakest; below it, some are too close to call."""
 
 
 def shots_answer(file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.95) -> Answer:
-    """Return which shot to practice next, and whether the player got better.
+    """Return which shot to practice next, and whether the player has improved.
 
     >>> import numpy as np
     >>> from evenbreak.practice import ShotLog, analyze_shots

@@ -1,1 +1,1 @@
-"""Sandbagging: what it brings, and who may be doing it."""
+"""Sandbagging: what it gains, and who may be doing it."""

@@ -1,4 +1,4 @@
-"""The profit of losing matches on purpose: by matches dumped, in cycles, and by chart."""
+"""The profit from losing matches on purpose: by matches dumped, in cycles, and by chart."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -20,11 +20,11 @@ from evenbreak.league.sandbag_pay import (
 )
 
 CYCLE = 10
-"""The matches of the cycles of dumping and playing for real that are looked at."""
+"""The cycle lengths considered, in matches dumped and matches played for real."""
 
 
 class PayQuestion(NamedTuple):
-    """How many matches are dumped and how many then count, from which rating error, for what.
+    """How many matches are dumped and how many count afterward, from which rating error, for what.
 
     `start` is in points; a stake is the difference in value between winning and losing a match.
     `prize` is paid for `in_a_row` wins.
@@ -43,8 +43,8 @@ class PayFindings(NamedTuple):
     """What sandbagging pays on one ladder.
 
     `all_pays` goes on to as many dumped matches as the ladder allows; `cycle` is the most
-    profitable one for a player willing to be a doubling underrated (None: not looked for);
-    `enters` has the extra wins of a player who enters a doubling too low, established or as a
+    profitable cycle for a player willing to be underrated by one doubling (None: not calculated);
+    `enters` has the extra wins for a player who enters one doubling too low, established or as a
     newcomer.
     """
 
@@ -56,14 +56,14 @@ class PayFindings(NamedTuple):
 
     @property
     def doubling(self) -> int:
-        """The points that double the odds of a game."""
+        """The points that double the odds in a game."""
         return round(self.ladder.system.scale.points_per_doubling)
 
 
 def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -> PayFindings:
     """Return what sandbagging pays on a ladder.
 
-    It's an InputError if one dumped match already takes the rating to the ladder's end.
+    Raises InputError if one dumped match already takes the rating to the ladder's end.
     """
     asked = question._asdict()
     most = most_dumped(ladder, question.start)
@@ -91,7 +91,7 @@ def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -
 def sandbag_pay_answer(
     found: PayFindings, question: PayQuestion, warnings: Sequence[str] = ()
 ) -> Answer:
-    """Return what sandbagging pays on one ladder; in files, a `DumpRow` for each number dumped.
+    """Return what sandbagging pays on one ladder; in files, a `DumpRow` per number dumped.
 
     >>> from evenbreak.handicaps import Ladder
     >>> question = PayQuestion(2, 20, 0, 10.0, 1.0, 3, 0.0)
@@ -148,7 +148,7 @@ def _heading(found: PayFindings, question: PayQuestion) -> str:
 
 
 def stakes_in_words(question: PayQuestion) -> str:
-    """Return what is at stake, as a sentence."""
+    """Return what is at stake, in a sentence."""
     prize = f"; a tournament win pays {question.prize:g}" if question.prize else ""
     return (
         f"Stakes: winning is worth {question.stake:g} in a match that counts, "
@@ -208,7 +208,7 @@ def _by_dumped(rows: Sequence[DumpRow], question: PayQuestion) -> Table:
 
 
 def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -> Answer:
-    """Return what sandbagging pays on each chart of a system; in files, a row for each."""
+    """Return what sandbagging pays on each of a system's charts; in files, a row for each."""
     columns = columns_of(
         "chart best_dumped p_first p_in_a_row extra_wins pays_from profit enters_low",
         wins=question.in_a_row,

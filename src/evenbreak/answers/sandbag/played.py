@@ -1,4 +1,4 @@
-"""The gain from losing on purpose under a system without points by match: exact or simulated."""
+"""What losing on purpose gains in a system without points per match: exact or simulated."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _COLUMNS = "dumped given_away p_first p_in_a_row extra_wins extra_wins_error pay
 
 
 def numbers_dumped(most: int) -> list[int]:
-    """Return for how many matches dumped a system is played: a few numbers up to the most.
+    """Return the numbers of dumped matches to simulate: a few numbers up to the most.
 
     >>> numbers_dumped(12), numbers_dumped(30)
     ([0, 1, 2, 3, 4, 6, 8, 12], [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 30])
@@ -39,9 +39,9 @@ def numbers_dumped(most: int) -> list[int]:
 def dumping_answer(
     system: System, rows: Sequence[Dumping], question: PayQuestion, leagues: int
 ) -> Answer:
-    """Return what dumping pays, in files one row per number of matches dumped, the first for none.
+    """Return what dumping pays; in files, a row per number of matches dumped, starting with 0.
 
-    `leagues` were played for each; 0 where nothing was drawn.
+    `leagues` were simulated for each; 0 if nothing was drawn.
     """
     honest = rows[0].p_in_a_row
 
@@ -103,10 +103,10 @@ def dumping_answer(
 
 
 DOUBLINGS = 4
-"""How far off a rating may be: to where the odds of a game are 16 to 1."""
+"""How far off a rating may be: up to where the odds of a game are 16 to 1."""
 
 PLAYED = 1000
-"""Leagues that are played for each number of matches dumped, where there is no chain to solve."""
+"""How many leagues are simulated for each number of matches dumped, if no chain can be solved."""
 
 
 def pay(asked: SandbagPay) -> Answer:
@@ -135,7 +135,7 @@ def pay(asked: SandbagPay) -> Answer:
 
 
 def _pay_by_play(asked: SandbagPay, system: handicaps.System, question: PayQuestion) -> Answer:
-    """Return what dumping pays in a system without points by match: solved or played."""
+    """Return what dumping pays in a system without points per match: solved or simulated."""
     for name in ("start_error", "compare", "plot"):
         if name in asked.given:
             asked.refuse("{" + name + "} is for systems that move points by match. Leave it out.")
@@ -157,7 +157,7 @@ def _pay_by_play(asked: SandbagPay, system: handicaps.System, question: PayQuest
 
 
 def _wide(system: handicaps.StepSystem, chart: handicaps.Chart) -> handicaps.Ladder:
-    """Return a wide ladder against opponents who are correctly rated."""
+    """Return a wide ladder against correctly rated opponents."""
     return handicaps.Ladder(
         system, chart, widest=round(DOUBLINGS * system.scale.points_per_doubling)
     )

@@ -1,4 +1,4 @@
-"""A season watched for sandbagging: its races, and the events in which someone may dump."""
+"""A season checked for sandbagging: its races, and the events in which someone may dump."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -14,14 +14,14 @@ from evenbreak.ratings.validation.walk_forward import even_races
 from evenbreak.words import Parameter, say
 
 MOST_TRIED = 20
-"""The most events that are tried: each of them takes as long as a watch without events."""
+"""The most events tried: each takes as long as a check without events."""
 
 
 def with_even_races(season: ResultsFile) -> tuple[ResultsFile, list[str]]:
-    """Return a season with a race for every match, and a warning if some were not stated.
+    """Return a season with a race for every match, and a warning if some weren't stated.
 
-    A match without a race or a winner is read as an even race to the winner's games, unless such
-    a match was drawn (see `even_races`).
+    A match that states neither a race nor a winner is read as an even race to the winner's games,
+    unless one of these matches was drawn (see `even_races`).
 
     >>> plain = Results.from_names(["Ann"], ["Bo"], [7], [5])
     >>> raced, warnings = with_even_races(ResultsFile(plain, "r.csv", (), (), ""))
@@ -50,7 +50,7 @@ def with_even_races(season: ResultsFile) -> tuple[ResultsFile, list[str]]:
 
 
 def events_marked(results: Results, events: Sequence[str]) -> NDArray[np.bool_]:
-    """Return which matches belong to these events; an InputError for an unknown event."""
+    """Return which matches belong to these events; raise InputError for an unknown event."""
     column = results.event
     known = sorted({str(event) for event in (() if column is None else column) if event})
     for event in events:
@@ -61,9 +61,10 @@ def events_marked(results: Results, events: Sequence[str]) -> NDArray[np.bool_]:
 
 
 def events_to_try(results: Results) -> dict[str, NDArray[np.bool_]]:
-    """Return which matches belong to each event, those with the most matches first.
+    """Return each event's matches, starting with the event that has the most.
 
-    There is nothing to try if all matches are of one event; at most `MOST_TRIED` are.
+    There is nothing to try if all matches belong to one event; at most `MOST_TRIED` events are
+    tried.
 
     >>> events = ["cup", "league", "league"]
     >>> night = Results.from_names(["A"] * 3, ["B"] * 3, [5] * 3, [4] * 3, event=events)

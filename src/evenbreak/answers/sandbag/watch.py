@@ -1,4 +1,4 @@
-"""Whose results look like sandbagging, and the weight of each match of one player."""
+"""Players whose results look like sandbagging, and how much each of a player's matches counts."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -20,10 +20,10 @@ from evenbreak.ratings.scale import Scale, scale_of
 from evenbreak.words import listed, race, say
 
 SHOWN = 10
-"""How many players a terminal shows, if no more are flagged."""
+"""How many players are shown on a terminal, if no more are flagged."""
 
 FEW_NEW = 0.1
-"""The share of players without a rating of their own from which a warning is due."""
+"""The share of players without a rating of their own from which there is a warning."""
 
 NAMED = 3
 """How many flagged players the first sentence names."""
@@ -32,16 +32,17 @@ HONEST_PLAYER = {
     "any": "an honest player of any skill",
     "established": "an honest player whose rating is as accurate as ratings are in the long run",
 }
-"""Who is called honest, by the kind."""
+"""Which honest players are meant, by kind."""
 
 
 class WatchRow(NamedTuple):
-    """A player's line: matches, the evidence against them, and when they were flagged.
+    """A row for a player: matches, the evidence against them, and when they were flagged.
 
     `e_value` is the evidence after the last match, `largest_e` its maximum, `p_value` the smallest
     alpha at which the player would be flagged; `e_any` and `e_established` are the evidence against
     honest players of each kind. `alarm_match` counts from 1; `league_wide` is for alpha divided by
-    the number of players. `event` is the one whose results look dumped; None if none does alone.
+    the number of players. `event` is the event whose results look dumped; None if no single event's
+    do.
     """
 
     player: str
@@ -62,7 +63,7 @@ class WatchRow(NamedTuple):
 def sandbag_watch_answer(
     watched: Sequence[Watched], results: Results, source: str, *, warnings: Sequence[str] = ()
 ) -> Answer:
-    """Return whose results look like sandbagging; in files, a `WatchRow` for each player."""
+    """Return players whose results look like sandbagging; in files, a `WatchRow` per player."""
     rows = watch_rows(watched, results)
     players = Table(
         "players",
@@ -114,7 +115,7 @@ def sandbag_watch_answer(
 
 
 def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
-    """Return a warning if day-to-day form is established in results, and what `day_sd` fits it.
+    """Return a warning if results show day-to-day form, and the `day_sd` that fits it.
 
     >>> day_sd_doubts(Results.from_names(["Ann"], ["Bo"], [7], [5]), "npl")
     []
@@ -139,8 +140,8 @@ def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
 def unrated_doubts(roster: Roster, results: Results) -> list[str]:
     """Return a warning if too many players start without a rating of their own.
 
-    These are players whose rating rests on no games, and those who share one rating where most
-    players do.
+    These are players whose rating is based on no games, or who have the same rating as most
+    players.
 
     >>> club = Roster(["Ann", "Bo", "Cy"], [80, 80, 80])
     >>> len(unrated_doubts(club, Results.from_names(["Ann"], ["Bo"], [7], [5])))
@@ -166,7 +167,7 @@ def unrated_doubts(roster: Roster, results: Results) -> list[str]:
 
 
 def watch_rows(watched: Sequence[Watched], results: Results) -> list[WatchRow]:
-    """Return a line for each player, the one with the largest evidence first."""
+    """Return a row for each player, with the largest evidence first."""
     rows = []
     for one in watched:
         alarm = one.alarm
@@ -191,7 +192,7 @@ def watch_rows(watched: Sequence[Watched], results: Results) -> list[WatchRow]:
 
 
 def _yes(value: Any) -> Any:
-    """Return a value as CSV has it: a truth as 'yes' or nothing."""
+    """Return a value as in CSV: a truth value as 'yes' or nothing."""
     return ("yes" if value else "") if isinstance(value, bool) else value
 
 
@@ -211,7 +212,7 @@ def _who_is_flagged(rows: Sequence[WatchRow]) -> str:
 
 
 def _where(rows: Sequence[WatchRow]) -> Iterator[str]:
-    """Yield for each event in which flagged players seem to have dumped matches who they are."""
+    """Yield the flagged players for each event in which they seem to have dumped matches."""
     found: dict[str, list[str]] = {}
     for row in rows:
         if row.event is not None:
@@ -225,7 +226,7 @@ def _events(one: Watched) -> list[str]:
 
 
 def _tried(one: Watched) -> Iterator[str]:
-    """Yield how the events that were tried enter the evidence."""
+    """Yield how the events tried count in the evidence."""
     events = _events(one)
     if events:
         yield say(
@@ -248,7 +249,7 @@ def _more(players: int) -> Iterator[str]:
 def sandbag_player_answer(
     one: Watched, nights: Sequence[PlayedNight], results: Results, *, warnings: Sequence[str] = ()
 ) -> Answer:
-    """Return what each match of one player weighs; in files, a row for each match."""
+    """Return how much each of a player's matches counts; in files, a row for each match."""
     dates = results.date
     rows = [
         (None if dates is None else str(dates[row[0]]), *row[1:]) for row in match_rows(one, nights)
@@ -304,10 +305,10 @@ def _matches(rows: Sequence[tuple[Any, ...]]) -> Table:
 
 
 def match_rows(one: Watched, nights: Sequence[PlayedNight]) -> list[tuple[Any, ...]]:
-    """Return a tuple for each match of a player: what it was, and its effect on the evidence.
+    """Return a tuple for each of a player's matches: what it was, and its effect on the evidence.
 
-    They are: row in the results, opponent, rating, opponent's rating, games won, games lost, games
-    needed, games the opponent needed, won, e after it, factor of e.
+    The fields are: row in the results, opponent, rating, opponent's rating, games won, games lost,
+    games needed, games the opponent needed, won, e after it, factor of e.
     """
     found, place = [], 0
     for night in nights:

@@ -1,7 +1,7 @@
-"""When the sets of a team night start, and when the night ends.
+"""When a team night's sets start, and when the night ends.
 
-The time model is that of tournaments (`evenbreak.tournaments.clock`): the pace of real events,
-learned from the sets played so far, and sets that start in turn as tables come free.
+The time model is the same as for tournaments (`evenbreak.tournaments.clock`): the pace of real
+events, adjusted to the sets played so far, and sets that start in order as tables become free.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ RUNS = 2000
 
 
 class Band(NamedTuple):
-    """A time in minutes from now: it has come by then in 10, 50 and 90 of 100 nights."""
+    """A time in minutes from now, reached in 10, 50 and 90 of 100 nights."""
 
     early: float
     middle: float
@@ -42,7 +42,7 @@ class Band(NamedTuple):
 
 @dataclass(frozen=True)
 class NightClock:
-    """The times of a team night; `starts` has each set that is on no table yet."""
+    """A team night's times; `starts` has each set that isn't on a table yet."""
 
     now: datetime
     starts: Mapping[int, Band]
@@ -52,7 +52,7 @@ class NightClock:
 def night_clock(state: TeamEvening, now: str) -> NightClock:
     """Return when the remaining sets start, and when the night ends.
 
-    A set without players is as long as those of the remaining players, on average.
+    A set without players is as long as the remaining players' sets, on average.
     """
     begun = _begun(state)
     rng = np.random.default_rng(0)
@@ -85,7 +85,7 @@ def night_clock(state: TeamEvening, now: str) -> NightClock:
 
 
 def _begun(state: TeamEvening) -> dict[int, str]:
-    """Return when each set started: its players were known, and a table was free."""
+    """Return when each set started: when its players were known and a table was free."""
     free = [""] * state.plan.tables  # since when each free table is free
     begun = {}
     for line in state.sets:
@@ -134,7 +134,7 @@ def _picks(state: TeamEvening, line: SetLine, team: int) -> list[int]:
 def _minutes_of(
     lengths: Floats, pace: Pace, evening: Floats, since: float | None, rng: np.random.Generator
 ) -> Floats:
-    """Return the minutes that a set takes, or still takes, in each run."""
+    """Return the minutes that a set takes, or has left, in each run."""
     usual = np.asarray(pace.mean_minutes(np.arange(len(lengths))))
     if since is not None:
         return minutes_left(lengths, usual, pace.match_sd, evening, since, rng)[1]
@@ -145,7 +145,7 @@ def _minutes_of(
 
 
 def _waiting(state: TeamEvening, left: list[SetLine]) -> Waiting:
-    """Return which sets wait for the result of another, or for its players."""
+    """Return which sets must wait for another's result, or for their players."""
     after, shared = (np.zeros((len(left), len(left)), dtype=bool) for _ in range(2))
     for k, line in enumerate(left):
         letter = "" if state.sealed else state.meeting.order[line.number - 1]

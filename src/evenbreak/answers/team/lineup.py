@@ -1,4 +1,4 @@
-"""Who to put up in a team match, and the value of each choice."""
+"""Who to put up in a team match, and each choice's value."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from evenbreak.teams.solve import SolvedNight, solved, steps_of
 from evenbreak.words import Sentence, joined, listed, say, say_count
 
 MOST_DRAWS, _FEWEST_DRAWS = 400, 20
-"""Draws of the ratings: fewer where a night takes long to solve."""
+"""How many times ratings are drawn: fewer if a night takes long to solve."""
 
 _WORK, _WORK_OF_ORDERS = 4e8, 2e7  # steps of `steps_of` that take a second or so
 
@@ -41,7 +41,7 @@ def lineup_answer(
 ) -> Answer:
     """Return who to put up now; `point` is None before the first nomination.
 
-    With a known solution, the ratings are not drawn again.
+    If the solution is given, the ratings aren't drawn again.
 
     >>> from evenbreak.ratings import SCALES, Roster
     >>> from evenbreak.teams import Squad
@@ -103,7 +103,7 @@ TIE = say("A tie counts as half a win.")
 
 
 def names_words(names: Sequence[str]) -> Sentence:
-    """Return a pick: a player, or the pair of a doubles set.
+    """Return a pick: a player, or a doubles pair.
 
     >>> names_words(["Ann"]), names_words(["Ann", "Bo"])
     ('Ann', 'Ann and Bo')
@@ -125,7 +125,7 @@ def _heading(meeting: Meeting, found: Advice) -> str:
 
 
 def _barred_words(meeting: Meeting, point: Point | None, found: Advice) -> Sentence | None:
-    """Return who could still play, but is kept out now by the caps on the sets to come."""
+    """Return who could still play, but is ruled out now by the caps on upcoming sets."""
     squad = meeting.squads[0]
     used = Counter(() if point is None else point.used_ours)
     able = {name for option in found.options for name in option.names}
@@ -220,7 +220,7 @@ def _table(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -> Tab
 
 
 def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | None, str]:
-    """Return the value of the night if we name first or answer first, and the words for it."""
+    """Return the night's value if we name first or answer first, and the words for it."""
     order = solution.night.order
     if order[0] not in (OURS, THEIRS):
         return None, ""
@@ -239,7 +239,7 @@ def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | N
 
 
 def _orders(meeting: Meeting, solution: SolvedNight) -> Table:
-    """Return the value of the night in each order of nomination."""
+    """Return the night's value in each order of nomination."""
     sets = len(meeting.sizes)
     rows: list[list[Any]] = []
     for name in NAMED:
@@ -264,7 +264,7 @@ def _order_words(name: str, order: str) -> str:
 
 
 def _sure_words(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -> str:
-    """Return how far the best pick depends on the ratings."""
+    """Return how much the best pick depends on the ratings."""
     if not sure:
         return ""
     best, share = _name(found.best), sure.get(found.best.names, 0.0)
@@ -292,7 +292,7 @@ _LISTED = 10
 def sealed_answer(
     meeting: Meeting, warnings: Sequence[str], solution: SealedNight | None = None
 ) -> Answer:
-    """Return who to write on a lineup that the other team doesn't see.
+    """Return what to write on a lineup that the other team doesn't see.
 
     >>> from evenbreak.ratings import SCALES, Roster
     >>> from evenbreak.teams import Squad

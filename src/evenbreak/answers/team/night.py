@@ -1,4 +1,4 @@
-"""A team night under way: what is needed, who can still play, what has happened."""
+"""A team night in progress: what is needed, who can still play, what has happened."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ def night_words(state: TeamEvening) -> str:
 
 
 def decided(state: TeamEvening, chances: tuple[float, float] | None) -> bool:
-    """Return whether a night is over, or no set to come can change who wins it."""
+    """Return whether a night is over, or no upcoming set can change who wins it."""
     return state.over or (chances is not None and min(chances) < _DECIDED)
 
 
 def needed_words(state: TeamEvening, chances: tuple[float, float] | None) -> str:
-    """Return the state of the night: who has won it, or what is still needed."""
+    """Return the night's state: who has won it, or what is still needed."""
     (first, second), (a, b) = state.teams, state.score
     if state.over and a == b:
         return say("The night ends in a tie.")
@@ -77,7 +77,7 @@ def _sets_words(n: int) -> Sentence:
 
 
 def chance_words(state: TeamEvening, chances: tuple[float, float]) -> str:
-    """Return how often each team wins the night from here."""
+    """Return each team's chance of winning the night from here."""
     first, second = state.teams
     counted = state.plan.count == "sets" and state.plan.sets % 2
     text = say(
@@ -91,7 +91,7 @@ def chance_words(state: TeamEvening, chances: tuple[float, float]) -> str:
 
 
 def cap_words(state: TeamEvening, team: int) -> list[str]:
-    """Return how far a team's caps are used up, and who can still be put up."""
+    """Return how much of a team's caps is used up, and who can still be put up."""
     found = choices(state, team)
     lines: list[str] = [
         say("So far {cap} is {total:g} of {most:g}.", cap=cap.name, total=cap.total, most=cap.most)
@@ -118,7 +118,7 @@ def cap_words(state: TeamEvening, team: int) -> list[str]:
 
 
 def waiting_words(state: TeamEvening) -> str:
-    """Return what the next pick waits for; '' if it waits for nothing."""
+    """Return what the next pick is waiting for; '' if nothing."""
     line = state.to_name
     if line is None or state.due:
         return ""
@@ -133,7 +133,7 @@ def waiting_words(state: TeamEvening) -> str:
 
 
 def history_words(events: Sequence[Event], state: TeamEvening) -> list[str]:
-    """Return what happened, one line each, without the picks that are still unseen."""
+    """Return what happened, one line each, without picks that are still unseen."""
     lines: list[str] = []
     plan, seen = state.plan, _open(state)
     kept: list[What] = []  # an undo may bring an earlier night back
@@ -146,7 +146,7 @@ def history_words(events: Sequence[Event], state: TeamEvening) -> list[str]:
 
 
 def last_words(state: TeamEvening) -> str:
-    """Return what happened last, without a pick that is still unseen."""
+    """Return what happened last, leaving out a pick that is still unseen."""
     return event_words(state.last, state.plan, _open(state))
 
 
@@ -155,7 +155,7 @@ def _open(state: TeamEvening) -> set[int]:
 
 
 def event_words(event: Event, plan: NightPlan, shown: set[int]) -> str:
-    """Return what happened; of picks only those in the sets `shown`.
+    """Return what happened; picks are included only for the sets in `shown`.
 
     >>> from evenbreak.teams.evening.events import TeamSheet
     >>> us, them = (TeamSheet(name, (), (), (), ()) for name in ("Racks", "Cues"))

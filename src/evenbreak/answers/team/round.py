@@ -46,8 +46,8 @@ def team_round_answer(
 ) -> Answer:
     """Return who wins a round, and the head start that makes it even.
 
-    `law` is the distribution of the first team's lead. With `games`, those of each match if it is
-    single games, CSI's method is compared. `unit` is game, point or set.
+    `law` is the distribution of the first team's lead. With `games`, the number per match if a
+    match is single games, CSI's method is compared. `unit` is game, point or set.
 
     >>> from evenbreak.ratings import SCALES
     >>> from evenbreak.teams import round_law
@@ -120,7 +120,7 @@ def _csi(
     scale: Scale,
     names: tuple[str, str],
 ) -> tuple[int, str]:
-    """Return the start in games that CSI's way of rounding gives, and what it gives away."""
+    """Return the head start in games under CSI's way of rounding, and what it gives away."""
     one, other = (float(roster.rating.mean()) for roster in teams)
     pairs = len(teams[0]) * (len(teams[1]) if everybody else 1)
     found = team_handicap(
@@ -155,10 +155,11 @@ _SMALL = 5e-4  # a chance that differs by less is the same
 
 @dataclass(frozen=True, eq=False)
 class LeagueRules:
-    """The teams of a league and its rules.
+    """A league's teams and its rules.
 
-    Everyone in `rosters` has a rating; `squads` are the same with the league's caps; `levels` are
-    NaN where not stated; `skills` are the strengths of levels, if the chances come from those.
+    Everyone in `rosters` has a rating; `squads` are the same with the league's caps; levels not
+    stated are NaN in `levels`; `skills` are the strengths of levels, if the chances come from
+    those.
     """
 
     rosters: Mapping[str, Roster]
@@ -178,7 +179,7 @@ class LeagueRules:
         return any(squad.caps for squad in self.squads.values())
 
     def nights(self, order: str, *, capped: bool = True) -> Floats:
-        """Return each team's chance against each other, as `league_nights`."""
+        """Return each team's chance against each other team, as `league_nights`."""
         every = list(self.squads.values())
         used = every if capped else [Squad(one.names, (), one.times) for one in every]
         return league_nights(used, self._law, sets=self.sets, order=order)
@@ -202,7 +203,7 @@ class LeagueRules:
         return law
 
     def check(self) -> None:
-        """Refuse teams that cannot fill a night within the caps."""
+        """Reject teams that can't fill a night within the caps."""
         for team, squad in self.squads.items():
             try:
                 line_ups(squad, (1,) * self.sets)
@@ -213,7 +214,7 @@ class LeagueRules:
 def team_rules_answer(
     rules: LeagueRules, *, source: str = "", warnings: Sequence[str] = ()
 ) -> Answer:
-    """Return the effect of a cap and of the order of nomination on a team league.
+    """Return the effect of a cap and the order of nomination on a team league.
 
     >>> from evenbreak.ratings import SCALES
     >>> rosters = {
@@ -320,7 +321,7 @@ def _teams_table(rules: LeagueRules, capped: Floats, free: Floats | None) -> Tab
 
 
 def _orders_table(rules: LeagueRules, nights: Floats) -> Table:
-    """Return what naming first is worth in each order, blind apart: there no one is first."""
+    """Return the value of naming first in each order except blind, where no one is first."""
     rows = []
     named = {order_of(name, rules.sets): name for name in NAMED if name != "blind"}
     for order in dict.fromkeys([rules.order, *named]):

@@ -1,4 +1,4 @@
-"""How a season of team matches may end: title, promotion, relegation, and what tonight changes."""
+"""How a team season may end: title, promotion, relegation, and what tonight changes."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def team_season_answer(
 ) -> Answer:
     """Return the chances of each team's final place.
 
-    `up` and `down` are the numbers of teams promoted and relegated, `rounds` what the watched
-    matches are called; with `known`, strengths are treated as exact.
+    `up` and `down` are how many teams are promoted and relegated, and `rounds` names the rounds of
+    the watched matches; with `known`, strengths are treated as exact.
 
     >>> from evenbreak.teams import TeamSeason, season_chances
     >>> season = TeamSeason(["Acers", "Bankers", "Caroms"], [[0, 1, 3, 2]], [[0, 2], [1, 2]],
@@ -92,7 +92,7 @@ def _table(found: SeasonChances, up: int | None, down: int | None) -> Table:
 
 
 def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table:
-    """Return the points that make each team sure, whatever the others do."""
+    """Return the points that guarantee each team's place, whatever the others do."""
     season, teams = found.season, len(found.season.teams)
     columns = columns_of("team points_for_title")
     values = [season.points_to_be_sure(1)]
@@ -117,7 +117,7 @@ def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table
 
 
 def _of_points(points: Any) -> list[float | int | None]:
-    """Return points as numbers of one kind: whole ones if all are; None for NaN."""
+    """Return points in one number type: ints if all are whole; None for NaN."""
     kind = int if all(point.is_integer() for point in points[np.isfinite(points)]) else float
     return [None if np.isnan(point) else kind(point) for point in points.tolist()]
 
@@ -127,7 +127,7 @@ def _matches(pairs: Ints, teams: int) -> Ints:
 
 
 def _tonight(found: SeasonChances, up: int | None, down: int | None, rounds: str) -> Table | None:
-    """Return what each match watched changes, for both of its teams."""
+    """Return what each watched match changes for both of its teams."""
     season, matches = found.season, found.watched.matches
     if not matches:
         return None
@@ -172,7 +172,7 @@ def _places(found: SeasonChances) -> Table:
 
 
 def _error(found: SeasonChances) -> float:
-    """Return the largest standard error of the chances in the table."""
+    """Return the largest standard error of the table's chances."""
     return max(float(found.error(found.p_first(many)).max()) for many in found.watched.places)
 
 

@@ -1,4 +1,4 @@
-"""How strong the players of teams are: by ratings, or by the skill levels of a chart."""
+"""How strong teams' players are: by ratings, or by a chart's skill levels."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from evenbreak.words import Sentence, say
 def lists_by_level(
     lists: Sequence[RosterFile], chart: LevelChart | PointsChart, results: str | None = None
 ) -> tuple[list[RosterFile], LevelSkills | None]:
-    """Return the teams' lists with the levels that a chart reads, and their strengths.
+    """Return the teams' lists with the levels that a chart uses, and how strong these levels are.
 
-    The strengths are None if all lists have ratings, which then give the chances, or if the chart
-    is one of points. With levels, ratings in the lists are their strengths in Fargo points. A list
-    without levels is an InputError.
+    The strengths are None if all lists have ratings, which then give the chances, or if it's a
+    points chart. With levels, the lists' ratings are the levels' strengths in Fargo points. Raises
+    InputError if a list has no levels.
     """
     read = [by_level(file, chart) for file in lists]
     files = [file for file, _ in read]
@@ -37,7 +37,7 @@ def lists_by_level(
 
 
 def strengths_words(race: SetRace, levels: LevelSkills | None, scale: Scale) -> Sentence:
-    """Return what says how strong the players are.
+    """Return where the players' strengths come from.
 
     >>> from evenbreak.handicaps.charts.level_chart import points_chart
     >>> from evenbreak.ratings import SCALES
@@ -52,7 +52,7 @@ def strengths_words(race: SetRace, levels: LevelSkills | None, scale: Scale) -> 
 
 
 def level_words(race: SetRace, levels: LevelSkills | None) -> Sentence | None:
-    """Return what the chances rest on where they come from skill levels; None where they do not."""
+    """Return what the chances are based on if they come from skill levels; None otherwise."""
     if isinstance(race, PointsChart):
         return say(
             "The chances are an assumption, not a measurement: that every level of {chart} needs "

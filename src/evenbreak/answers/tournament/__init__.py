@@ -1,1 +1,1 @@
-"""A tournament: odds, times, prizes, its moves from the draw to the final."""
+"""Tournaments: odds, times, prizes, and every move from the draw to the final."""

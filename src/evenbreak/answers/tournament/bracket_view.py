@@ -1,6 +1,6 @@
-"""A bracket as everyone sees it: its parts, rounds and matches, by number.
+"""A bracket for display: its parts, rounds and matches, by number.
 
-A panel is a part of the bracket. Its columns are rounds; who wins a match goes to a later column.
+A panel is a part of the bracket. Its columns are rounds; a match's winner goes to a later column.
 """
 
 from __future__ import annotations
@@ -17,19 +17,20 @@ from evenbreak.words import Sentence, ordinal, say
 
 _FINALS = ("final", "second final", "third place")
 _LINKED = ("winners", "losers", "knock-out", "consolation")
-"""The parts in which lines lead from match to match; the others are lists of rounds."""
+"""The parts where lines connect matches; the others are lists of rounds."""
 
 _THEN = {"knock-out", "pod final"}
-"""What follows the sides of a double elimination that is not played to the end."""
+"""Suffixes for the sides of a double elimination that isn't played to the end."""
 
 _ACROSS = 6
-"""How many matches stand in a row where rounds mean nothing."""
+"""How many matches are in a row if rounds mean nothing."""
 
 
 class Line(NamedTuple):
-    """One player of a match: a name if `known`, else where the player comes from.
+    """One player in a match: a name if `known`, else where the player comes from.
 
-    `score` includes a match in play; `needs` is None once it is over or while a player is unknown.
+    `score` includes matches in play; `needs` is None once the match is over or while a player is
+    unknown.
     """
 
     text: str
@@ -42,7 +43,7 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True)
 class Box:
-    """A match, in the column of its round (from 0).
+    """A match, in its round's column (from 0).
 
     `to` is the winner's next match, '' for none. The state is 'waits', 'ready', 'called',
     'playing', 'hill', 'done' or 'forfeit'; pages also know 'sent' and 'two', for scores that phones
@@ -62,7 +63,7 @@ class Box:
 
 
 class Round(NamedTuple):
-    """What a round is called, and in one word or number where there is no room."""
+    """A round's full name, and its one-word or numeric name for tight spaces."""
 
     title: str
     short: str
@@ -70,9 +71,9 @@ class Round(NamedTuple):
 
 @dataclass(frozen=True)
 class Panel:
-    """A part of a bracket, its boxes from the top down.
+    """A part of a bracket, with its boxes from top to bottom.
 
-    The kind is 'winners', 'losers', 'knock-out', 'consolation', or the name of another part.
+    The kind is 'winners', 'losers', 'knock-out', 'consolation', or another part's name.
     """
 
     kind: str
@@ -82,16 +83,16 @@ class Panel:
 
     @property
     def linked(self) -> bool:
-        """Whether lines lead from match to match."""
+        """Whether lines connect the matches."""
         return self.kind in _LINKED
 
     @property
     def columns(self) -> list[list[Box]]:
-        """The matches of each round, from the top."""
+        """Each round's matches, from the top."""
         return [[box for box in self.boxes if box.column == k] for k in range(len(self.rounds))]
 
     def feeding(self, box: Box) -> list[Box]:
-        """Return the matches of this part whose winners come to a match."""
+        """Return this part's matches whose winners go to a match."""
         return [one for one in self.boxes if one.to == box.match and one.column < box.column]
 
 
@@ -100,9 +101,9 @@ def bracket_panels(
     chances: Mapping[str, float] | None = None,
     states: Mapping[str, str] | None = None,
 ) -> tuple[Panel, ...]:
-    """Return the parts of the bracket of a tournament, each with its matches.
+    """Return the parts of a tournament's bracket, with all their matches.
 
-    `chances` are the first player's, `states` those that phones know better: 'sent', 'two'.
+    `chances` are the first player's, `states` are more recent states from phones: 'sent', 'two'.
     """
     made = _panels(state)
     return tuple(
@@ -114,7 +115,7 @@ def bracket_panels(
 
 
 def _panels(state: Evening) -> list[Panel]:
-    """Return the parts of the bracket, their matches still without players."""
+    """Return the parts of the bracket, with matches that have no players yet."""
     parts: dict[str, list[Match]] = {}
     sides = {match.side for match in state.bracket.matches}
     main = "knock-out" if sides & _THEN else "winners"
@@ -132,7 +133,7 @@ _ALONE = {"final": say("Final"), "second final": say("Second final")}
 
 @lru_cache(maxsize=4)
 def round_names(state: Evening) -> dict[str, str]:
-    """Return what the round of each match is called away from the bracket, by the match's name."""
+    """Return each match's round name outside the bracket, by match name."""
     found = {}
     for panel in _panels(state):
         for box in panel.boxes:
@@ -145,7 +146,7 @@ def round_names(state: Evening) -> dict[str, str]:
 
 
 def _panel(state: Evening, kind: str, matches: list[Match], sides: set[str]) -> Panel:
-    """Return a part of the bracket, its matches still without players."""
+    """Return a part of the bracket, with matches that have no players yet."""
     onward = {
         slot.match: match.name
         for match in state.bracket.matches
@@ -176,9 +177,9 @@ def _panel(state: Evening, kind: str, matches: list[Match], sides: set[str]) -> 
 
 
 def _columns(bracket: Bracket, matches: list[Match], kind: str) -> dict[str, int]:
-    """Return the column of each match: rounds without a match have none.
+    """Return each match's column; rounds without a match get none.
 
-    The final of two sides is above the last round of the losers, so that its line comes up.
+    The final between the two sides is above the losers' last round, so that its line goes up.
     """
     first = min(match.round for match in matches if match.side not in ("pod final", *_FINALS[1:]))
     times = {
@@ -202,7 +203,7 @@ def _columns(bracket: Bracket, matches: list[Match], kind: str) -> dict[str, int
 
 
 def _from_the_top(bracket: Bracket, boxes: list[Box]) -> list[str]:
-    """Return matches so that those whose winners meet are together, as slots have them."""
+    """Return matches ordered so that those whose winners meet are together, in slot order."""
     names = {box.match for box in boxes}
     order: list[str] = []
 
@@ -220,7 +221,7 @@ def _from_the_top(bracket: Bracket, boxes: list[Box]) -> list[str]:
 
 
 def _titles(match: Match, kind: str, matches: list[Match], sides: set[str], column: int) -> Round:
-    """Return what the round of a match is called."""
+    """Return a match's round name."""
     if match.side == "final":
         return Round(say("Final"), say("Final"))
     if match.side == "second final":
@@ -246,7 +247,7 @@ def _titles(match: Match, kind: str, matches: list[Match], sides: set[str], colu
 
 
 def title_of(kind: str) -> str:
-    """Return what a part of a bracket is called, such as 'Group A'."""
+    """Return the name of a part of a bracket, such as 'Group A'."""
     name, _, letter = kind.partition(" ")
     if name == "group":
         return say("Group {name}", name=letter)
@@ -311,7 +312,7 @@ def _filled(
 
 
 def group_words(name: str) -> Sentence | str:
-    """Return what a group is called, or the runners-up, of whom the best go on.
+    """Return the name of a group, or of the runners-up of whom the best advance.
 
     >>> group_words("A"), group_words("4")
     ('A', 'best 4th')

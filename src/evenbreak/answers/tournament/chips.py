@@ -1,4 +1,4 @@
-"""A chip tournament under way: who is at which table, the line, chips left, and when it ends."""
+"""A chip tournament in progress: who is at which table, the line, chips left, the finish time."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def rack_words(result: Result) -> Sentence:
 
 
 def chip_changes(before: Evening, after: Evening) -> list[Sentence]:
-    """Return in words whose chips have changed, and who comes to a table."""
+    """Return, in words, whose chips have changed, and who goes to a table."""
     if not (before.drawn and after.drawn):
         return []
     was, now = before.chip_night, after.chip_night
@@ -115,13 +115,13 @@ def entered_words(state: Evening, name: str) -> Sentence:
 
 
 def title_odds_of(night: Outlook) -> list[tuple[str, float, float]]:
-    """Return each player's chance of the title, and the same if the ratings are right."""
+    """Return each player's title odds, and the same with ratings treated as exact."""
     averaged, sure = night.odds.title.tolist(), night.as_if_sure.title.tolist()
     return list(zip(night.state.order, averaged, sure, strict=True))
 
 
 def odds_data(night: Outlook) -> dict[str, Any]:
-    """Return what JSON holds of the odds, and of the matches that are set aside."""
+    """Return the odds for JSON, and the matches that are set aside."""
     names = ("name", "p_title", "p_title_if_sure")
     bands = {
         name: dict(zip(("p_title_low", "p_title_high"), ends, strict=True))
@@ -143,7 +143,7 @@ def odds_data(night: Outlook) -> dict[str, Any]:
 
 
 def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answer:
-    """Return the state of a chip tournament: tables, line, chips, odds, finish time.
+    """Return a chip tournament's state: tables, line, chips, odds, finish time.
 
     >>> from evenbreak.tournaments import CHIP_CHARTS
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
@@ -205,7 +205,7 @@ def _tables(night: Outlook) -> Table:
 
 
 def _players(night: Outlook, *, playing: bool) -> Table:
-    """Return everyone: those at the tables, the line, and who is out."""
+    """Return everyone: players at the tables, in line, and out."""
     state = night.state.chip_night
     title = dict(zip(night.state.order, night.odds.title.tolist(), strict=True))
     table = {name: rack.table for rack in state.playing for name in rack.players}
@@ -234,9 +234,9 @@ def _players(night: Outlook, *, playing: bool) -> Table:
 def chip_time_answer(
     outlook: Outlook, heading: str, *, tables: int | None = None, turnover: Turnover | None = None
 ) -> Answer:
-    """Return the finish time of a chip tournament, and what another table would change.
+    """Return a chip tournament's finish time, and what another table would change.
 
-    It's an InputError if nothing is left to play.
+    Raises InputError if nothing is left to play.
     """
     state = outlook.state
     if len(state.chip_night.order) < 2:

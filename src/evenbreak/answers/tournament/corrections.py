@@ -1,4 +1,4 @@
-"""What may happen to matches that are played on a result that is corrected, in words."""
+"""What a correction can do to matches played on the corrected result, in words."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from evenbreak.words import Sentence, joined, say, say_count, tally
 
 
 class Choice(NamedTuple):
-    """What may happen to matches played on a result that is corrected.
+    """What can happen to matches played on a result that is being corrected.
 
-    `follow` is the option for it, stop or keep; `details` has a line per table, and one for what
+    `follow` is the option's value, stop or keep; `details` has a line per table, and one for what
     stays in the history.
     """
 
@@ -28,9 +28,9 @@ class Choice(NamedTuple):
 
 
 def correction_choices(before: Evening, stop: Evening, match: str) -> list[Choice]:
-    """Return what may happen to matches played on a result; [] if there are none.
+    """Return what can happen to matches played on a result; [] if there are none.
 
-    `stop` is the state after the correction, with matches in play stopped.
+    `stop` is the state after the correction if matches in play are stopped.
     """
     lost = losses(before, stop)
     if not lost:
@@ -101,5 +101,5 @@ def _stop_details(stop: Evening, lost: Sequence[Loss]) -> list[Sentence]:
 
 
 def _first_names(state: Evening, names: Sequence[str]) -> list[str]:
-    """Return what players are called in short."""
+    """Return players' short names."""
     return [first_name(name, state.entrants) for name in names]

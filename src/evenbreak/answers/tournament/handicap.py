@@ -1,4 +1,4 @@
-"""Fairness of a whole tournament's handicap, and races that would make it fairer."""
+"""How fair a whole tournament's handicap is, and races that would make it fairer."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _SHOWN = 5
 
 
 def favors_words(ratings: Floats, odds: PlaceOdds) -> str:
-    """Return who the races of a handicapped tournament favor.
+    """Return who a handicapped tournament's races favor.
 
     >>> import numpy as np
     >>> from evenbreak.tournaments import single_elimination, title_odds
@@ -57,7 +57,7 @@ def favors_words(ratings: Floats, odds: PlaceOdds) -> str:
 
 
 def favors(ratings: Floats, odds: PlaceOdds) -> list[Quantity]:
-    """Return the same as numbers."""
+    """Return the same in numbers."""
     return quantities_of(
         {
             "-p_title_stronger_half": upper_half(ratings, odds.title),
@@ -67,9 +67,9 @@ def favors(ratings: Floats, odds: PlaceOdds) -> list[Quantity]:
 
 
 def fairer_races(tournament: Tournament) -> list[Part]:
-    """Return today's races, and those by side and by round that make the tournament fairest.
+    """Return today's races, and the fairest races by side and by round.
 
-    They take about as many games on average; ratings are treated as exact. It's an InputError if
+    They take about as many games on average; ratings are treated as exact. Raises InputError if
     races aren't handicapped, something is still to be drawn, or the bracket is too large.
     """
     bracket, races = tournament.bracket, tournament.races
@@ -108,7 +108,7 @@ def fairer_races(tournament: Tournament) -> list[Part]:
 
 
 def _by_round(tournament: Tournament, today: Fairness, by_side: Sequence[Fairness]) -> list[Part]:
-    """Return races by round, if they are fairer than those by side."""
+    """Return races by round, if they are fairer than races by side."""
     bracket = tournament.bracket
     if bracket.groups or not by_side:
         return []
@@ -150,7 +150,7 @@ def _by_round(tournament: Tournament, today: Fairness, by_side: Sequence[Fairnes
 
 
 def _by_rounds(bracket: Bracket, races: Races) -> dict[RoundOf, int]:
-    """Return the games of the stronger player in each round."""
+    """Return the stronger player's games in each round."""
     found: dict[RoundOf, int] = {}
     for match in bracket.matches:
         race: Any = races.of(match)

@@ -1,4 +1,4 @@
-"""What follows if a player goes home or forfeits, in words, before it is entered."""
+"""What happens if a player goes home or forfeits, in words, before it is entered."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from evenbreak.words import Sentence, say
 
 
 def would_words(before: Evening, after: Evening) -> list[Sentence]:
-    """Return in words who would go home, and which matches would be forfeited."""
+    """Return, in words, who would go home, and which matches would be forfeited."""
     gone = set(after.dropped) - set(before.dropped) or set(before.entrants) - set(after.entrants)
     said = [say("{player} would withdraw.", player=name) for name in sorted(gone)]
     if after.drawn and after.plan.form != "chips":

@@ -1,4 +1,4 @@
-"""The moves of a tournament: what each does, and what is said of it.
+"""A tournament's moves: what each does, and how it is described.
 
 Commands, forms and their routes are made from this table; the options are in `questions.moves`.
 """
@@ -102,7 +102,7 @@ def _ended(asked: Ended) -> dict[str, str]:
 
 
 def _score(state: Evening, asked: Ended) -> tuple[int, int] | str:
-    """Return the score of a match, from the winner and the loser's games if they were given."""
+    """Return a match's score, given the winner and perhaps the loser's games."""
     if asked.winner is None or asked.score is not None:
         return asked.score or ""
     if state.plan.form == "chips":
@@ -189,7 +189,7 @@ def _undo_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
 
 
 def name_in(text: str) -> str:
-    """Return a name as lists are read; refuse what cannot be printed."""
+    """Return a name as lists are read; reject a name that can't be printed."""
     name = clean_name(text)
     if not is_name(name):
         raise InputError("{name!r} isn't {what}", name=text, what=NAME)
@@ -201,7 +201,7 @@ def _late(state: Evening, asked: LetIn, _: str) -> Sequence[What]:
 
 
 def _rating_doubts(before: Evening, after: Evening, _: object) -> list[str]:
-    """Return whether a rating is far from all others, unless the others were so before."""
+    """Return whether a rating is far from all others, unless the others already were."""
     then, now = ([one.rating for one in state.entrants.values()] for state in (before, after))
     if far_doubts(before.scale, then):
         return []
@@ -327,4 +327,4 @@ MOVES: dict[str, Move[Evening, What]] = {
         lambda before, _, asked: tie_words(_tie_break(before, asked)),
     ),
 }
-"""Each move by the name of its command and of its form."""
+"""Each move by the name of its command and its form."""

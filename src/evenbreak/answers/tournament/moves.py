@@ -1,4 +1,4 @@
-"""What an entry into a tournament under way has changed, in words."""
+"""What an entry in a tournament in progress changed, in words."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ from evenbreak.words import Sentence, joined, say, tally
 
 
 def live_words(state: Evening, match: str) -> Sentence:
-    """Return the score of a match in play in words."""
+    """Return the score of a match in play, in words."""
     score = state.live[match].what
     (first, second), (a, b) = score.players, score.score
     name = state.match_words(match)
@@ -59,7 +59,7 @@ def live_words(state: Evening, match: str) -> Sentence:
 
 
 def happened(before: Evening, after: Evening, event: Event) -> list[Sentence]:
-    """Return in words what a result changed: who moves where, what no longer counts."""
+    """Return, in words, what a result changed: who moves where, what no longer counts."""
     if not isinstance(event.what, Result):
         return []
     result = event.what
@@ -82,7 +82,7 @@ def _result_words(state: Evening, result: Result) -> Sentence:
 
 
 def shout(state: Evening, match: str) -> Sentence:
-    """Return what to call out when a match is called to its table."""
+    """Return what to announce when a match is called to its table."""
     call = state.on_tables[match].call
     table, pair = state.plan.table_name(call.table), against(call.players)
     if state.beside:
@@ -92,12 +92,12 @@ def shout(state: Evening, match: str) -> Sentence:
 
 
 def event_name(state: Evening) -> Sentence | str:
-    """Return what an event of the night is called."""
+    """Return the name of one of the night's events."""
     return state.plan.name or say("Event {n}", n=state.event)
 
 
 def called_words(before: Evening, after: Evening) -> list[Sentence]:
-    """Return in words which matches have come to a table, and which have left one."""
+    """Return, in words, which matches have gone to a table and which have left one."""
     said = [
         shout(after, name)
         for name, one in after.on_tables.items()
@@ -121,19 +121,19 @@ def called_words(before: Evening, after: Evening) -> list[Sentence]:
 
 
 def _live(state: Evening, match: str) -> str:
-    """Return the score of a match in play, in the order of its players."""
+    """Return the score of a match in play, in its players' order."""
     return tally(state.live[match].of(state.pair(match)))
 
 
 def and_words(names: Sequence[str]) -> Sentence | str:
-    """Return names with an "and" before the last."""
+    """Return names with an "and" before the last one."""
     if len(names) < 2:
         return "".join(names)
     return say("{first} and {last}", first=", ".join(names[:-1]), last=names[-1])
 
 
 def _kept_rounds(state: Evening, match: str) -> list[Sentence]:
-    """Return which rounds of a Swiss had been paired with the result that was corrected."""
+    """Return which rounds of a Swiss were paired with the result that was corrected."""
     first = int(match[1:].partition(".")[0]) + 1
     last = len(state.later)
     if last < first:
@@ -167,7 +167,7 @@ def _leads_on(state: Evening, match: str) -> tuple[bool, bool]:
 
 
 def settled_words(before: Evening, after: Evening) -> list[Sentence]:
-    """Return in words the results that count otherwise since a match was let stand."""
+    """Return, in words, the results that count differently since a match was left standing."""
     return [
         _result_words(after, result)
         for name, result in after.counted.items()
@@ -176,7 +176,7 @@ def settled_words(before: Evening, after: Evening) -> list[Sentence]:
 
 
 def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentence]:
-    """Return in words which matches are open again, and which results count again.
+    """Return, in words, which matches are open again, and which results count again.
 
     `besides` is the match in which it happened.
     """
@@ -201,7 +201,7 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentenc
 
 
 def lost_words(before: Evening, after: Evening) -> list[Sentence]:
-    """Return in words what an entry takes away besides that which it is about."""
+    """Return, in words, what an entry removes apart from its own subject."""
     said = []
     missing = [name for name in after.order if before.arrived and name not in before.arrived]
     if missing and not before.drawn:
@@ -236,7 +236,7 @@ def lost_words(before: Evening, after: Evening) -> list[Sentence]:
 
 
 def open_words(state: Evening, match: str) -> Sentence | str:
-    """Return a match with whoever plays it now, or what it waits for."""
+    """Return a match with its current players, or what it is waiting for."""
     name = state.match_words(match)
     if match in state.standing.to_play:
         return say("{match} ({pair})", match=name, pair=against(state.pair(match)))
@@ -245,7 +245,7 @@ def open_words(state: Evening, match: str) -> Sentence | str:
 
 
 def _moves(state: Evening, match: str, player: str) -> Sentence:
-    """Return where a player goes from a match."""
+    """Return where a player goes after a match."""
     seat = state.order.index(player)
     for one in state.bracket.matches:
         for k, slot in enumerate(one.slots):
@@ -279,7 +279,7 @@ def _place(state: Evening, match: str, player: str) -> Place | None:
 
 
 def forfeited(before: Evening, after: Evening) -> list[Sentence]:
-    """Return in words what follows from a player going home."""
+    """Return, in words, what follows when a player goes home."""
     gone = set(after.dropped) - set(before.dropped) or set(before.entrants) - set(after.entrants)
     said = [say("{player} has withdrawn.", player=name) for name in sorted(gone)]
     if after.plan.form == "chips":
@@ -294,7 +294,7 @@ def forfeited(before: Evening, after: Evening) -> list[Sentence]:
 
 
 def entry_words(state: Evening, name: str) -> Sentence:
-    """Return in words where a late player plays first."""
+    """Return, in words, where a late player plays first."""
     entrant = state.entrants[name]
     plan = state.plan
     if (entrant.rating, entrant.standard_error) == (plan.starter, plan.starter_error):
@@ -348,7 +348,7 @@ def undone_words(what: What, state: Evening) -> Sentence:
 
 
 def event_words(what: What, state: Evening) -> Sentence:
-    """Return what happened, in a few words; matches by the numbers that they have in a state."""
+    """Return what happened, in a few words, using a state's match numbers."""
     match what:
         case Result(corrects=corrects, stands=stands):
             found = say(
@@ -390,7 +390,7 @@ def event_words(what: What, state: Evening) -> Sentence:
 
 
 def _short_words(state: Evening, result: Result) -> str:
-    """Return a result as it is written on a sheet: Ann 5-3 Bo."""
+    """Return a result as written on a sheet: Ann 5-3 Bo."""
     won, lost = result.games[result.winner], result.games[result.loser]
     names = {"winner": result.winner, "loser": result.loser}
     if result.stands or result.forfeit or result.ended or state.uneven_race(result):
@@ -399,9 +399,9 @@ def _short_words(state: Evening, result: Result) -> str:
 
 
 def history_words(events: Sequence[Event], state: Evening) -> list[Sentence]:
-    """Return what happened in each entry, in a few words; of an undo, what it took back.
+    """Return what happened in each entry, in a few words; for an undo, what it took back.
 
-    Players have the names that they have now, and matches their numbers.
+    Players have their current names, and matches have their numbers.
     """
     told = as_read(events)
     said = [event_words(one.what, state) for one in told]
@@ -418,7 +418,7 @@ def history_words(events: Sequence[Event], state: Evening) -> list[Sentence]:
 
 
 def _entry_words(what: What) -> Sentence:
-    """Return in words what concerns the list of players, or the evening as a whole."""
+    """Return, in words, what affects the list of players, or the evening as a whole."""
     match what:
         case Late(entrant=entrant):
             return say("entry of {player}", player=entrant.name)
@@ -450,7 +450,7 @@ def _entry_words(what: What) -> Sentence:
 
 
 def _list_words(what: CheckedIn | Registered | Declined) -> Sentence:
-    """Return in words what was ticked on the list of players."""
+    """Return, in words, what was checked on the list of players."""
     player = what.name
     if isinstance(what, Registered):
         return say("{player} would like to play", player=player)
@@ -468,7 +468,7 @@ def _list_words(what: CheckedIn | Registered | Declined) -> Sentence:
 
 
 def tie_words(found: TieBreak) -> list[Sentence]:
-    """Return in words how ties were broken."""
+    """Return, in words, how ties were broken."""
     said = [say("The order is {players}.", players=", ".join(found.ranked.order))]
     if found.by_lot:
         said.append(say("Drawn by lot: {players}.", players=", ".join(found.by_lot)))

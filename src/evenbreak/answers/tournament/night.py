@@ -1,4 +1,4 @@
-"""A tournament under way: what just happened, what is played next, the odds, when it ends."""
+"""A tournament in progress: what just happened, what is next, the odds, the finish time."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ _SHOWN = 6  # players whose title odds everybody sees
 
 
 def played_words(state: Evening) -> Sentence:
-    """Return the races, or the chips, that are played."""
+    """Return the races, or the chips, in play."""
     return chip_heading(state) if state.plan.form == "chips" else races_words(state.races)
 
 
 def heading(outlook: Outlook, source: str = "") -> str:
-    """Return what is played by whom."""
+    """Return what is played, and by whom."""
     state = outlook.state
     chips = state.plan.form == "chips"
     races = played_words(state)
@@ -77,7 +77,7 @@ def heading(outlook: Outlook, source: str = "") -> str:
 
 
 def begun_at(outlook: Outlook) -> int:
-    """Return the time of day at which the evening started, in minutes after midnight."""
+    """Return the evening's start time, in minutes after midnight."""
     return minute_of_day(outlook.start)
 
 
@@ -89,9 +89,9 @@ def night_answer(
     prizes: Sequence[float] = (),
     source: str = "",
 ) -> Answer:
-    """Return the state of a tournament: what to play next, title odds, finish time.
+    """Return a tournament's state: what to play next, title odds, finish time.
 
-    `decides` adds what each match that can be played decides.
+    `decides` adds what is at stake in each playable match.
     """
     state = night.state
     if not state.drawn:
@@ -136,7 +136,7 @@ def night_answer(
 def _what_is_next(
     night: Outlook, decided: dict[str, Stake], prizes: Sequence[float], decides: bool
 ) -> tuple[list[str], list[Part]]:
-    """Return in words and as a table what is played next and when it ends."""
+    """Return what is played next and when it ends, in words and as a table."""
     state, tied = night.state, tied_groups(night.state)
     words: list[str] = []
     found, calls = night.as_things_are, night.calls
@@ -176,7 +176,7 @@ def _break_the_ties() -> Sentence:
 
 
 def _draw_words(state: Evening) -> str:
-    """Return that something can be drawn now."""
+    """Return a sentence saying that something can be drawn now."""
     stage = str(stage_to_draw(state))
     draw = Command("tournament draw")
     if state.plan.form == "swiss":
@@ -213,7 +213,7 @@ def _before_the_draw(state: Evening, heading: str, said: Sequence[str]) -> Answe
 
 
 def _aside_words(state: Evening, result: Result) -> str:
-    """Return what is to be done about a match that the wrong players have played."""
+    """Return what to do about a match that the wrong players have played."""
     name = result.match
     seats = state.standing.seats.get(name)
     stand = Command("tournament stand", str(state.number_of(name) or name))
@@ -238,7 +238,7 @@ def _aside_words(state: Evening, result: Result) -> str:
 
 
 def waits_for(state: Evening, match: str) -> Sentence | str:
-    """Return the matches whose result decides who plays a match."""
+    """Return the matches whose results decide who plays a match."""
     seats = state.standing.seats[match]
     slots = state.bracket.match(match).slots
     sources = [
@@ -250,7 +250,7 @@ def waits_for(state: Evening, match: str) -> Sentence | str:
 
 
 def _tables(night: Outlook) -> list[tuple[int | None, str]]:
-    """Return the matches on tables, those to call to the free tables, then those that wait."""
+    """Return matches on tables, then matches to call to free tables, then waiting matches."""
     state = night.state
     playing: list[tuple[int | None, str]] = sorted(
         (one.call.table, name) for name, one in state.on_tables.items()
@@ -261,7 +261,7 @@ def _tables(night: Outlook) -> list[tuple[int | None, str]]:
 
 
 def next_calls(night: Outlook) -> list[tuple[int, str]]:
-    """Return which matches to call to which of the free tables."""
+    """Return which matches to call to which free tables."""
     tables = _tables(night)
     return [(k, name) for k, name in tables if k and name not in night.state.on_tables]
 
@@ -298,7 +298,7 @@ def _next_words(state: Evening, tables: Sequence[tuple[int | None, str]]) -> str
 
 
 def _most_words(state: Evening, decided: Mapping[str, Stake]) -> str:
-    """Return which match decides most."""
+    """Return which match decides the most."""
     name, stake = next(iter(decided.items()))
     return say(
         "Match {n}, {pair}, matters most for the title: its result moves {share} of the odds.",
@@ -356,7 +356,7 @@ def _places(state: Evening) -> Table:
 
 
 def bracket_table(state: Evening) -> Table:
-    """Return all matches of the bracket, with players, scores and where the players come from."""
+    """Return all the bracket's matches, with players, scores and where the players come from."""
     columns = columns_of(
         "match pair score_pair winner table", show={"table": state.plan.table_name}
     )
@@ -381,7 +381,7 @@ def bracket_table(state: Evening) -> Table:
 
 
 def swiss_table(state: Evening) -> list[Part]:
-    """Return the standings of a Swiss, once a round is over."""
+    """Return a Swiss tournament's standings, once a round is over."""
     over, rows = swiss_ranks(state)
     if not over:
         return []

@@ -1,4 +1,4 @@
-"""Who wins tonight's tournament: each player's chance of the title and of each other place."""
+"""Who wins tonight's tournament: each player's title odds, and chances of every other place."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from evenbreak.tournaments.odds.uncertain import (
 from evenbreak.words import Sentence, joined, say
 
 Bands: TypeAlias = Mapping[str, tuple[float, float]]
-"""The title odds of players without a rating if they are weak, and if they are strong."""
+"""Unrated players' title odds if they are weak, and if they are strong."""
 
 NOTHING: Bands = MappingProxyType({})
 
@@ -53,7 +53,7 @@ def tournament_odds_answer(
     seed: int = 0,
     warnings: Sequence[str] = (),
 ) -> Answer:
-    """Return each player's chance of each place, averaged over rating errors unless `sure`.
+    """Return each player's chances of each place, averaged over rating errors unless `sure`.
 
     `walkovers` is the chance that a match is a walkover; `fairest` looks for the races by side that
     make a handicapped tournament fairest.
@@ -115,9 +115,9 @@ def odds_table(
     *,
     shares: bool = False,
 ) -> Table:
-    """Return each player's chance of each place, next to that with ratings treated as exact.
+    """Return each player's chances of each place, next to those with ratings treated as exact.
 
-    `bands` are the title odds of unrated players if they are weak, and if strong; `shares` adds
+    `bands` are unrated players' title odds if they are weak, and if they are strong; `shares` adds
     multiples of an equal share.
     """
     places = odds.bracket.places
@@ -151,7 +151,7 @@ def odds_table(
 
 
 def bands_words(bands: Bands) -> Sentence | str:
-    """Return between what the title odds of players without a rating are; '' of no one.
+    """Return the range of unrated players' title odds; '' if there are none.
 
     >>> bands_words({"Di": (0.002, 0.57)})
     'Without a rating, the title odds are uncertain: Di 0.2%-57%.'
@@ -163,10 +163,10 @@ def bands_words(bands: Bands) -> Sentence | str:
 
 
 def favorites(odds: PlaceOdds, bands: Bands = NOTHING) -> list[int]:
-    """Return the players' seats, the favorite first.
+    """Return the players' seats, favorite first.
 
-    An unrated player is placed by the low end of their band: a few games of an unknown player don't
-    make them the favorite.
+    An unrated player is placed by the low end of their band: a few games don't make an unknown
+    player the favorite.
     """
     players, title = odds.bracket.players, odds.title.tolist()
     known = [bands[name][0] if name in bands else title[k] for k, name in enumerate(players)]
@@ -174,7 +174,7 @@ def favorites(odds: PlaceOdds, bands: Bands = NOTHING) -> list[int]:
 
 
 def place_errors(places: Mapping[str, str], error: Floats) -> dict[Any, Any]:
-    """Return the columns of the standard errors of places, by the keys and words of these."""
+    """Return the columns for the places' standard errors, given their keys and words."""
     columns = (
         "p_title_error" if key == "p_title" else column_of("p_place_error", name=key, place=words)
         for key, words in places.items()
@@ -183,7 +183,7 @@ def place_errors(places: Mapping[str, str], error: Floats) -> dict[Any, Any]:
 
 
 def place_key(place: Place) -> str:
-    """Return the key of P(place) in files.
+    """Return the key for P(place) in files.
 
     >>> [place_key(place) for place in (Place(1, 1), Place(5, 6), Place(1, 1, "consolation"))]
     ['p_title', 'p_5_6', 'p_consolation_1']
@@ -194,7 +194,7 @@ def place_key(place: Place) -> str:
 
 
 def place_words(place: Place) -> str:
-    """Return a place as the heading of a column.
+    """Return a place as a column heading.
 
     >>> place_words(Place(2, 2)), place_words(Place(5, 6))
     ('second', '5-6')
@@ -293,7 +293,7 @@ def how_words(
 
 
 def points_off(odds: PlaceOdds, *, title: bool = False) -> str:
-    """Return by how much other luck would move sampled odds: of all places, or of the title."""
+    """Return how much different luck would move sampled odds: for all places, or for the title."""
     points = 200.0 * float(odds.error[:, 0].max() if title else odds.error.max())
     if points < 0.05:
         return "0.1 percentage points"
@@ -305,7 +305,7 @@ _RATINGS = 400  # draws of the ratings, each with a draw of the lines or a Swiss
 
 
 class Solved(NamedTuple):
-    """The odds if the ratings are right, and averaged over their uncertainty."""
+    """The odds with ratings treated as exact, and averaged over their uncertainty."""
 
     plug_in: PlaceOdds
     odds: PlaceOdds
@@ -318,7 +318,7 @@ class Solved(NamedTuple):
 
 
 def solved(tournament: Tournament, *, sure: bool, walkovers: float, seed: int) -> Solved:
-    """Return the odds of a tournament before its first match."""
+    """Return a tournament's odds before its first match."""
     bracket = tournament.bracket
     uncertain = bool(tournament.skills[1].any()) and not sure
     form = tournament.file.form
@@ -349,7 +349,7 @@ def solved(tournament: Tournament, *, sure: bool, walkovers: float, seed: int) -
 
 
 def _of_unrated(tournament: Tournament, bands: Floats) -> Bands:
-    """Return the bands of the players without a rating."""
+    """Return the unrated players' bands."""
     seats = {name: tournament.bracket.players.index(name) for name in tournament.unrated}
     return {name: (bands[k, 0], bands[k, 1]) for name, k in seats.items()}
 

@@ -23,7 +23,7 @@ from evenbreak.words import Sentence, say
 
 
 def printed_answer(state: Evening, title: str, written: str) -> Answer:
-    """Return what was written, under its name, with the list of the draw: who plays first where."""
+    """Return what was written, by name, with the draw list: who plays first and where."""
     show = {"table": state.plan.table_name}
     columns = columns_of("seed name first_match between table", show=show)
     rows = [
@@ -34,7 +34,7 @@ def printed_answer(state: Evening, title: str, written: str) -> Answer:
 
 
 class First(NamedTuple):
-    """A player's first match: its number, who plays it, and the table if it has been called."""
+    """A player's first match: its number, its players, and the table if it has been called."""
 
     seed: int
     name: str
@@ -44,7 +44,7 @@ class First(NamedTuple):
 
 
 def first_matches(state: Evening) -> list[First]:
-    """Return the first match of each player, in seed order."""
+    """Return each player's first match, in seed order."""
     now = state.standing
     first: dict[str, str] = {}
     for match in state.bracket.matches:
@@ -74,9 +74,9 @@ class Card:
 
 
 def score_cards(state: Evening, match: str | None = None) -> list[Card]:
-    """Return the cards of all open matches whose players are known, or of one.
+    """Return the cards for all open matches with known players, or for one match.
 
-    It's an InputError before the draw, or if there is no such match.
+    Raises InputError before the draw, or if there is no such match.
 
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
     >>> from evenbreak.tournaments.evening.fold import evening
@@ -119,7 +119,7 @@ def _card(state: Evening, name: str) -> Card:
 
 
 def paper_words(state: Evening, live: str = "") -> tuple[str, str, str | None]:
-    """Return the words around a bracket on paper: what is played, when it was printed, who won."""
+    """Return the text around a printed bracket: what is played, when it was printed, who won."""
     form = str(state.bracket.format)
     many = f"{len(state.order)} players, {form}. {races_words(state.races)}"
     played = f"After {count_of(len(state.counted), 'match', 'matches')}." if state.counted else ""
@@ -131,7 +131,7 @@ def paper_words(state: Evening, live: str = "") -> tuple[str, str, str | None]:
 
 
 def onward_words(state: Evening, name: str) -> Sentence | str:
-    """Return where winner and loser of a match go, such as 'Winner to match 33'."""
+    """Return where a match's winner and loser go, such as 'Winner to match 33'."""
     match = state.bracket.match(name)
     to = {
         slot.outcome: state.number_of(one.name)

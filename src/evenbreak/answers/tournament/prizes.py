@@ -1,4 +1,4 @@
-"""The money of a tournament: what each place gets, and what each player may expect."""
+"""A tournament's money: each place's prize, and each player's expected prize."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from evenbreak.words import Sentence, joined, say, say_count
 def tournament_prizes_answer(
     state: Evening, money: PrizeMoney, odds: PlaceOdds | None, *, source: str = ""
 ) -> Answer:
-    """Return what each place is paid, and each player's expected prize (None: before the draw).
+    """Return each place's prize, and each player's expected prize (None: before the draw).
 
-    The pot is that of the players who have paid, where that is recorded.
+    If payments are recorded, the pot counts only the players who have paid.
 
     >>> from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
     >>> from evenbreak.tournaments.evening.fold import evening
@@ -108,7 +108,7 @@ def calcutta_answer(
     house: float = 0.0,
     source: str = "",
 ) -> Answer:
-    """Return the value now of each player still to be sold in a Calcutta.
+    """Return the current value of each player still to be sold in a Calcutta.
 
     `house` is the share of the pot that isn't paid out.
     """
@@ -149,16 +149,16 @@ def calcutta_answer(
 
 
 class Stake(NamedTuple):
-    """What a match decides: the title odds and prize money that its result moves, on average."""
+    """What a match decides: the average change in title odds and prize money from its result."""
 
     title: float
     prize: float | None = None
 
 
 def stakes(outlook: Outlook, prizes: Sequence[float] = ()) -> dict[str, Stake]:
-    """Return what the playable matches decide, the most decisive first.
+    """Return what the playable matches decide, most decisive first.
 
-    Empty where that takes too long: in a very large bracket, a Swiss, and before a redraw.
+    It is empty where that takes too long: in a very large bracket, in a Swiss, and before a redraw.
     """
     ready = set(outlook.state.standing.to_play)
     money = {lever.match: lever.swing for lever in outlook.leverages(prizes)} if prizes else {}

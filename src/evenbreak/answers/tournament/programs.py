@@ -1,4 +1,4 @@
-"""The programs that may enter something tonight: their tokens, and what each is good for."""
+"""The programs that may enter something tonight: their tokens, and what each may do."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def scopes(plan: Plan) -> dict[str, Sentence]:
 
 
 def scope_in(text: str, plan: Plan) -> str:
-    """Return what a token is for, as it is typed: a table by what the house calls it.
+    """Return a token's scope as typed, with the venue's name for a table.
 
     >>> scope_in("table:TV", Plan("single", 5, tables=3, labels=("1", "2", "TV")))
     'table:3'
@@ -42,13 +42,13 @@ def scope_in(text: str, plan: Plan) -> str:
 
 
 def scope_words(token: Token, plan: Plan) -> Sentence:
-    """Return what a token is for."""
+    """Return a token's scope in words."""
     table = {"table": plan.table_name(token.table or 1)}
     return scopes(plan).get(token.scope, say("only table {table}", **table))
 
 
 def programs_answer(tokens: Collection[Token], plan: Plan, created: str = "") -> Answer:
-    """Return the answer: the programs, and the token that was just created."""
+    """Return the answer: the programs, and the newly created token."""
     count = len(tokens)
     said = [say_count("1 program can enter something.", "{n} programs can enter something.", count)]
     if not tokens:
@@ -67,5 +67,5 @@ def programs_answer(tokens: Collection[Token], plan: Plan, created: str = "") ->
 
 
 def _minute(at: str) -> str | None:
-    """Return a moment without its seconds."""
+    """Return a time without its seconds."""
     return at[:16].replace("T", " ") or None

@@ -1,4 +1,4 @@
-"""Names as short as there is room for, never cut, and never two players under one form."""
+"""Names shortened to fit, never cut off, and never the same for two players."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _CAPITAL, _SMALL, _DIGIT, _IDEOGRAPH, _BOLD = 0.71, 0.61, 0.64, 1.05, 1.12
 
 @lru_cache(maxsize=4096)
 def rough_width(text: str, bold: bool = False) -> float:
-    """Return how wide a text is in a page's font at most, in units of the size of its letters.
+    """Return a string's maximum width in a page's font, in units of the font size.
 
-    Pages are written in the reader's own font, so this is that of a wide one.
+    Pages use the reader's own font, so this assumes a wide one.
 
     >>> 2.5 < rough_width("Ann Lee") < rough_width("Ann Lee", bold=True) < 5.0
     True
@@ -40,7 +40,7 @@ def _letter(letter: str) -> float:
 
 
 def short_names(names: Iterable[str], fits: Callable[[str], bool]) -> dict[str, str]:
-    """Return what to write for each name: the longest of its forms that fits, else the shortest.
+    """Return what to write for each name: its longest form that fits, or else the shortest.
 
     The forms are the full name; "R. Dubois-Lachapelle"; "R. Dubois-L.". A form that another player
     could share gets more letters of the first name; a one-word name has no shorter form.
@@ -57,7 +57,7 @@ def short_names(names: Iterable[str], fits: Callable[[str], bool]) -> dict[str, 
 
 
 def first_name(name: str, everybody: Iterable[str]) -> str:
-    """Return the first name of a player; the whole where another has it, or it may be none.
+    """Return a player's first name; the full name if the first is shared or may not be one.
 
     >>> names = ["Frank Russo", "Big Tony", "Li Wei"]
     >>> [first_name(name, names) for name in names]
@@ -69,7 +69,7 @@ def first_name(name: str, everybody: Iterable[str]) -> str:
 
 
 def _told_apart(names: list[str], shorten: Callable[[str, int], str]) -> dict[str, str]:
-    """Return a short form of each name that no one else's name or form is."""
+    """Return a short form of each name that no one else has as a name or short form."""
     found = {name: shorten(name, 1) for name in names}
     for letters in range(2, 13):
         taken = Counter(found.values())
@@ -83,7 +83,7 @@ def _told_apart(names: list[str], shorten: Callable[[str, int], str]) -> dict[st
 
 
 def _initial(name: str, letters: int) -> str:
-    """Return the initial of the first name, or more letters of it, and the last name."""
+    """Return the first name's initial, or more of its letters, and the last name."""
     first, _, rest = _NICKNAME.sub(" ", name).strip().partition(" ")
     parts = [part for part in first.split("-") if part]
     if not rest or not all(part[0].isalpha() for part in parts):
@@ -93,7 +93,7 @@ def _initial(name: str, letters: int) -> str:
 
 
 def _both(name: str, letters: int) -> str:
-    """Return the same with the last name shortened too: its first word or part stays."""
+    """Return the same with the last name shortened too, keeping its first word or part."""
     first, _, rest = _initial(name, letters).partition(" ")
     if not rest:
         return name

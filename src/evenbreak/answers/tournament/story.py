@@ -1,4 +1,4 @@
-"""The story of a night in words: the upset, the climb, the closest match; and as a table."""
+"""A night's story: the upset, the climb, the closest match, in words and as a table."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from evenbreak.words import Sentence, joined, say, tally
 
 
 class Remark(NamedTuple):
-    """Something that stood out: its name, what happened, what there is to say of it."""
+    """Something that stood out: its name, what happened, what to say about it."""
 
     kind: Sentence
     what: Sentence | str
@@ -25,7 +25,7 @@ class Remark(NamedTuple):
 
 
 def clock_words(at: str) -> str:
-    """Return the time of day of a moment such as 2025-03-01T19:30:00.
+    """Return the time of day from a timestamp such as 2025-03-01T19:30:00.
 
     >>> print(clock_words("2025-03-01T19:30:00"))
     19:30
@@ -34,7 +34,7 @@ def clock_words(at: str) -> str:
 
 
 def won_words(result: Result) -> Sentence:
-    """Return who won how, the winner first.
+    """Return who won and how, the winner first.
 
     >>> print(won_words(Result("F", ("Ann", "Bo"), (3, 5), "Bo")))
     Bo 5-3 Ann
@@ -48,7 +48,7 @@ def won_words(result: Result) -> Sentence:
 
 
 def chance_words(step: Step) -> Sentence:
-    """Return what the winner of a match had been given, or that it went to the last game."""
+    """Return what a match's winner had been given, or that it went to the last game."""
     if step.chance is not None and step.chance < 0.5:
         return say("given {p} before the match", p=share_at_a_glance(step.chance))
     if step.hill:
@@ -57,7 +57,7 @@ def chance_words(step: Step) -> Sentence:
 
 
 def remarks(story: Story) -> list[Remark]:
-    """Return what stood out on a night so far, at most three things."""
+    """Return what has stood out on a night so far, at most three things."""
     said = []
     if upset := story.upset:
         assert upset.result is not None  # noqa: S101 - it is a match
@@ -80,7 +80,7 @@ def remarks(story: Story) -> list[Remark]:
 
 
 def story_answer(state: Evening, story: Story) -> Answer:
-    """Return the story of a night: what stood out, and the title odds after each match."""
+    """Return a night's story: what stood out, and the title odds after each match."""
     rows: list[list[Any]] = []
     odds: list[list[Any]] = []
     for k, step in enumerate(story.steps):

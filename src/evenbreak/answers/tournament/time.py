@@ -36,7 +36,7 @@ def time_of_day(minutes: float) -> str:
 
 
 def minute_of_day(moment: datetime) -> int:
-    """Return a time of day in minutes after midnight.
+    """Return a time of day as minutes after midnight.
 
     >>> minute_of_day(datetime(2025, 3, 1, 19, 30))
     1170
@@ -45,7 +45,7 @@ def minute_of_day(moment: datetime) -> int:
 
 
 def ends_words(early: float, middle: float, late: float) -> Sentence:
-    """Return when something ends, all times in minutes after the midnight before it started.
+    """Return when something ends, given times in minutes after midnight on the starting day.
 
     >>> ends_words(23 * 60, 24 * 60 + 15, 26 * 60)
     'It ends at about 00:15 the next day (8 nights in 10: 23:00 to 02:00).'
@@ -65,7 +65,7 @@ def ends_words(early: float, middle: float, late: float) -> Sentence:
 
 
 def finish_quantities(finishes: Floats, *more: Quantity) -> Quantities:
-    """Return the times of the finish and their largest standard error, and more figures.
+    """Return the finish times and their largest standard error, and more figures.
 
     >>> import numpy as np
     >>> [(one.name, round(one.value)) for one in finish_quantities(np.arange(101.0)).of]
@@ -80,7 +80,7 @@ def finish_quantities(finishes: Floats, *more: Quantity) -> Quantities:
 
 
 def finish_luck(finishes: Floats) -> str:
-    """Return by how much other luck would move the times of the finish.
+    """Return how much different luck would move the finish times.
 
     >>> import numpy as np
     >>> finish_luck(np.arange(101.0))
@@ -107,8 +107,8 @@ def tournament_time_answer(
 ) -> Answer:
     """Return when a tournament ends and when each of its matches starts.
 
-    `earlier` nights at this venue correct the usual pace of a discipline. The start is in minutes
-    after midnight; None: times count from the start.
+    `earlier` nights at this venue adjust a discipline's usual pace. The start is in minutes after
+    midnight; None: times are counted from the start.
 
     >>> import numpy as np
     >>> from evenbreak.files.lists.roster import RosterFile
@@ -187,7 +187,7 @@ def starts_table(
 
 
 def venue_words(discipline: str, earlier: Iterable[EarlierNight]) -> Sentence | str:
-    """Return how fast the nights of a discipline were at a venue; '' if there was none.
+    """Return how fast a discipline's nights were at a venue; '' if there were none.
 
     >>> nights = [EarlierNight(f"2025-03-0{k}T19:30:00", "9-ball", 1.1) for k in (1, 2)]
     >>> print(venue_words("9-ball", nights))
@@ -240,7 +240,7 @@ def assumed_words(tables: int, pace: Pace | str, turnover: Turnover | None) -> s
 
 
 WORTH_SAYING = 10.0
-"""How many minutes sooner are worth a sentence."""
+"""How many minutes must be saved to be worth a sentence."""
 
 CHANGES = {
     "one_more_table": say("one more table"),
@@ -259,7 +259,7 @@ def what_if(
     *,
     taken: int = 0,
 ) -> Table:
-    """Return by how much other tables or races move the end; tables in use can't be taken away."""
+    """Return how much other tables or races move the finish; tables in use can't be removed."""
     changes = {"one_more_table": (tables + 1, races)}
     if tables > max(1, taken):
         changes["one_table_fewer"] = tables - 1, races
@@ -277,13 +277,13 @@ def what_if(
 
 
 def savings(changes: Table) -> dict[str, float]:
-    """Return by how many minutes one more table and shorter races bring the end forward."""
+    """Return how many minutes sooner one more table and shorter races would finish."""
     found = {row[0]: -row[2] for row in changes.rows}
     return {key: found[key] for key in ("one_more_table", "races_one_shorter") if key in found}
 
 
 def savings_words(changes: Table) -> str:
-    """Return the changes that are worth it, in words; '' if none is."""
+    """Return the changes that are worth making, in words; '' if none are."""
     return joined(
         earlier_words(key, saved)
         for key, saved in savings(changes).items()
@@ -292,14 +292,14 @@ def savings_words(changes: Table) -> str:
 
 
 def earlier_words(change: str, minutes: float) -> Sentence:
-    """Return by how much a change would bring the end forward."""
+    """Return how much sooner a change would finish."""
     return say(
         "With {change} it would end {time} earlier.", change=CHANGES[change], time=clock(minutes)
     )
 
 
 def shorter(races: Races) -> Races | None:
-    """Return all races one game shorter; None where they come from a chart, or one game is all."""
+    """Return all races shortened by one game; None if a chart sets them or one is too short."""
     found = [_one_less(race) for race in (races.race, races.losers, races.final)]
     given = [race for race in (races.race, races.losers, races.final) if race is not None]
     if found.count(None) > 3 - len(given) or found[0] is None:

@@ -34,7 +34,7 @@ class Tournament:
     """A tournament before its first match; roster and bracket are in seed order.
 
     `seeding` says where that order comes from; `to_draw` is what is drawn later: '' (nothing),
-    everyone's 'lines', the 'qualifiers' of the losers' side, or the 'rounds' of a Swiss.
+    everyone's 'lines', the losers' side's 'qualifiers', or the 'rounds' of a Swiss.
     """
 
     file: RosterFile
@@ -47,11 +47,11 @@ class Tournament:
 
     @cached_property
     def laws(self) -> dict[str, PairOdds]:
-        """The odds of who wins each match and in how many games, if the ratings are right."""
+        """The odds of who wins each match and in how many games, with ratings treated as exact."""
         return self.laws_of(self.races)
 
     def laws_of(self, races: Races) -> dict[str, PairOdds]:
-        """Return the same for other races."""
+        """Return the same for different races."""
         form = self.file.form
         return pair_odds(self.bracket, self.ratings, races, scale=self.scale, form=form)
 
@@ -62,14 +62,14 @@ class Tournament:
 
     @cached_property
     def skills(self) -> tuple[Floats, Floats]:
-        """What the players' skills may be: the mean and the covariance (see `skills_before`)."""
+        """The distribution of the players' skills: mean and covariance (see `skills_before`)."""
         errors = np.nan_to_num(self.roster.standard_error)
         unrated = np.array([name in self.unrated for name in self.roster.players])
         return skills_before(self.ratings, errors, unrated)
 
     @property
     def heading(self) -> str:
-        """What is played by whom."""
+        """What is played, and by whom."""
         return say(
             "{format}: {players} in {file}, {seeding}\n{races}; ratings {scale}",
             format=self.bracket.format[0].upper() + self.bracket.format[1:],
@@ -82,7 +82,7 @@ class Tournament:
 
     @property
     def byes(self) -> str:
-        """Who has a bye in the first round, as a sentence; '' if no one has."""
+        """Who has a bye in the first round, in a sentence; '' if no one does."""
         names = [self.bracket.players[player] for _, player in self.bracket.byes]
         if not names:
             return ""
@@ -96,7 +96,7 @@ class Tournament:
         return tuple(name for name in names if name in self.roster.players)  # no bye rows
 
     def unrated_words(self, *, spread: bool = True) -> str:
-        """Return what is assumed of players without a rating or an error; '' of no one."""
+        """Return what is assumed about players without a rating or an error; '' if none."""
         said = [games_words(self.file.roster, self.roster)] if spread else []
         if names := self.unrated:
             seat = self.roster.players.index(names[0])
@@ -149,11 +149,11 @@ def _games(race: Race) -> int | str:
 
 
 Numbers: TypeAlias = Mapping[str, int]
-"""The number of each match, by name."""
+"""Each match's number, by name."""
 
 
 def slot_words(bracket: Bracket, slot: Slot, numbers: Numbers | None = None) -> str:
-    """Return who is in a slot of a match: a name, or where the player comes from."""
+    """Return who is in a match's slot: a name, or where the player comes from."""
     if isinstance(slot, int):
         return bracket.players[slot]
     if slot.match == TO_DRAW:
@@ -164,7 +164,7 @@ def slot_words(bracket: Bracket, slot: Slot, numbers: Numbers | None = None) -> 
 
 
 def met_words(bracket: Bracket, slot: Slot, numbers: Numbers) -> str:
-    """Return who a player meets who meets whoever is in a slot of a match."""
+    """Return the opponent of whoever is in a match's slot."""
     if isinstance(slot, int) or slot.match == TO_DRAW or _of_swiss(bracket, slot):
         return slot_words(bracket, slot, numbers)
     if isinstance(slot.outcome, int) and slot.match.isdigit():
@@ -189,7 +189,7 @@ _EVENTS = {"consolation": say("consolation")}
 
 
 def place_words(place: Place) -> Sentence:
-    """Return a place, or the places that some players share.
+    """Return a place, or the places that several players share.
 
     >>> place_words(Place(1, 1)), place_words(Place(5, 8))
     ('1st', '5th to 8th')
@@ -205,7 +205,7 @@ def place_words(place: Place) -> Sentence:
 
 
 def short_place(place: Place) -> str:
-    """Return a place, or those that some players share, in figures.
+    """Return a place, or the places that several players share, in figures.
 
     >>> short_place(Place(5, 6)), short_place(Place(1, 1, "consolation"))
     ('5-6', 'consolation 1')
@@ -215,14 +215,14 @@ def short_place(place: Place) -> str:
 
 
 def _of_swiss(bracket: Bracket, slot: Slot) -> bool:
-    """Return whether a slot is one of a round that is paired when the round before is over."""
+    """Return whether a slot belongs to a round that is paired when the round before is over."""
     if isinstance(slot, int) or slot.match not in bracket.by_name:
         return False
     return bracket.by_name[slot.match].side == "Swiss"
 
 
 def pair_words(now: Standing, match: str, numbers: Numbers | None = None) -> tuple[str, str]:
-    """Return who plays a match, as `slot_words` does, with the players who are known by now."""
+    """Return who plays a match, as `slot_words` does, using players known by now."""
     one, other = (
         slot_words(now.bracket, slot, numbers)
         if seat is None or _of_swiss(now.bracket, slot)

@@ -1,4 +1,4 @@
-"""A tournament under way: everyone's odds from here on, and when it ends from here on."""
+"""A tournament in progress: everyone's odds from here on, and the expected finish."""
 
 from __future__ import annotations
 
@@ -44,9 +44,9 @@ _TELLING = 3  # matches timed: fewer say too little of tonight's pace to be told
 def odds_under_way(
     outlook: Outlook, *, sure: bool = False, prizes: Sequence[float] = (), source: str = ""
 ) -> Answer:
-    """Return each player's chance of each place, given the results and scores so far.
+    """Return each player's chances of each place, given the results and scores so far.
 
-    Averaged over the errors of ratings that have one, unless `sure`.
+    They are averaged over the ratings' errors, where known, unless `sure`.
 
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan, Scored
     >>> from evenbreak.tournaments.evening.fold import evening
@@ -88,7 +88,7 @@ def odds_under_way(
 
 
 def _to_draw(state: Evening) -> str:
-    """Return what the odds take as still to be drawn."""
+    """Return what the odds treat as still to be drawn."""
     if state.plan.form == "chips":
         return "racks"
     if stage_to_draw(state) is None:
@@ -97,7 +97,7 @@ def _to_draw(state: Evening) -> str:
 
 
 def _at_stake(outlook: Outlook, prizes: Sequence[float]) -> Table:
-    """Return what the matches that can be played change for the title, prizes and the finish."""
+    """Return what the playable matches change for the title, prizes and finish time."""
     decided = stakes(outlook, prizes)
     found = outlook.as_things_are if decided else None
     rows: list[list[Any]] = []
@@ -127,7 +127,7 @@ def time_under_way(
     turnover: Turnover | None = None,
     source: str = "",
 ) -> Answer:
-    """Return when the tournament ends and remaining matches start; InputError if none does."""
+    """Return when the tournament ends and remaining matches start; InputError if none remain."""
     state = outlook.state
     if state.plan.form == "chips":
         above = heading(outlook, source)

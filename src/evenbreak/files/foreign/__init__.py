@@ -1,1 +1,1 @@
-"""Tournaments that other programs have saved: one parser each, then results or events of them."""
+"""Tournaments saved by other programs: a parser for each, then their results or events."""

@@ -1,4 +1,4 @@
-"""Tournaments of brackets-manager, as its database or its viewer saves them."""
+"""Tournaments from brackets-manager, as saved by its database or its viewer."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ _DONE = (4, 5, "completed", "archived")
 _RUNNING = 3  # the status of a match in play
 
 _Spot = tuple[int, int, int]
-"""The group of a match (1 winners, 2 losers, 3 finals), its round, and its number there."""
+"""A match's group (1 winners, 2 losers, 3 finals), its round, and its number in the round."""
 
 
 def is_one(data: Any) -> bool:
-    """Return whether this is a tournament of brackets-manager."""
+    """Return whether this is a brackets-manager tournament."""
     if not isinstance(data, Mapping):
         return False
     rows = _rows(data, "match")
@@ -82,7 +82,7 @@ def _played(
 def _placed(
     saved: SavedTournament, data: Mapping[str, Any], names: Mapping[Any, str]
 ) -> SavedTournament:
-    """Return the tournament with its bracket: its rounds say who comes from where."""
+    """Return the tournament with its bracket: its rounds show where players come from."""
     stages: list[Any] = _rows(data, "stage") or []
     if len(stages) != 1:
         raise ExportError("has {n} stages. Give a tournament with one stage.", n=len(stages))
@@ -144,7 +144,7 @@ def _winner(sides: Sequence[Any]) -> int:
 
 
 class _Bracket:
-    """Who comes to which match: round 1 of group 2 takes two losers, the others take turns."""
+    """Who goes to which match: round 1 of group 2 takes two losers, the others take turns."""
 
     def __init__(
         self,
@@ -161,7 +161,7 @@ class _Bracket:
         return self.spots[group, number, place][1]["id"], outcome
 
     def comes(self, spot: _Spot, k: int, side: Any) -> str | From | None:
-        """Return who comes to slot k of a match."""
+        """Return the source of the player in slot k of a match."""
         group, number, place = spot
         if group == 1:
             if number == 1:

@@ -1,4 +1,4 @@
-"""Challonge's tournaments: version 1 of its interface, with participants and matches."""
+"""Challonge tournaments: version 1 of its API, with participants and matches."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _SET = re.compile(r"(-?\d{1,7})-(-?\d{1,7})", re.ASCII)
 
 
 def is_one(data: Any) -> bool:
-    """Return whether this is a tournament of Challonge, or a list of its matches."""
+    """Return whether this is a Challonge tournament, or a list of its matches."""
     if isinstance(data, list):
         return bool(data) and all(isinstance(one, Mapping) and "match" in one for one in data)
     inside = data.get("tournament") if isinstance(data, Mapping) else None
@@ -94,7 +94,7 @@ def _played(
 
 
 def _winner(match: Mapping[str, Any]) -> int:
-    """Return who won a match, 1 or 2; 0: no one yet."""
+    """Return who won a match, 1 or 2; 0 if no one has yet."""
     numbers = match.get("player1_id"), match.get("player2_id")
     over = match.get("state") == "complete" and None not in numbers
     winner = match.get("winner_id")
@@ -107,7 +107,7 @@ def _placed(
     raw: Sequence[Mapping[str, Any]],
     people: Sequence[Mapping[str, Any]],
 ) -> SavedTournament:
-    """Return the tournament with its bracket: each match names those that come before it."""
+    """Return the tournament with its bracket: each match names the matches that feed it."""
     if any(match.get("group_id") for match in raw):
         raise ExportError("has groups before its bracket, which can't be imported")
     names = {
@@ -149,7 +149,7 @@ def _slot(match: Mapping[str, Any], side: int, names: Mapping[Any, str]) -> str 
 
 
 def _second_final(matches: Sequence[SavedMatch]) -> list[SavedMatch]:
-    """Return the second final that Challonge adds only when it is needed."""
+    """Return the second final, which Challonge adds only when it is needed."""
     taken = {slot[0] for match in matches for slot in match.slots if isinstance(slot, tuple)}
     again = [match for match in matches if len({slot[0] for slot in match.slots if slot}) == 1]
     finals = [match for match in matches if match.key not in taken]

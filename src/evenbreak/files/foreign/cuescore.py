@@ -1,4 +1,4 @@
-"""CueScore's tournaments. A head start counts in both the score and the race."""
+"""CueScore tournaments. A head start counts toward both the score and the race."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _ROUND_ROBIN = 8
 
 
 def is_one(data: Any) -> bool:
-    """Return whether this is a tournament of CueScore."""
+    """Return whether this is a CueScore tournament."""
     if not isinstance(data, Mapping) or not isinstance(data.get("matches"), list):
         return False
     first: Any = next(iter(data["matches"]), {})
@@ -92,7 +92,7 @@ def _status(match: Mapping[str, Any]) -> str:
 
 
 def _head_start(value: Any, side: str) -> int:
-    """Return the games with which a player starts; below zero where they have to catch up."""
+    """Return a player's head start in games; negative if they start behind."""
     text = str(value).strip()
     if text.startswith("-"):
         return -(count_of(text[1:], f"handicap{side}") or 0)
@@ -100,7 +100,7 @@ def _head_start(value: Any, side: str) -> int:
 
 
 def _placed(saved: SavedTournament, data: Mapping[str, Any]) -> SavedTournament:
-    """Return the tournament with its bracket: each match names those that come after it."""
+    """Return the tournament with its bracket: each match names the matches it feeds."""
     raw = data["matches"]
     everybody = data.get("format") == _ROUND_ROBIN
     keys = [match.key for match in saved.matches]
@@ -141,7 +141,7 @@ def _placed(saved: SavedTournament, data: Mapping[str, Any]) -> SavedTournament:
 def _seats(
     pair: Sequence[str], coming: Sequence[From], people: Mapping[Any, Sequence[str]]
 ) -> Slots:
-    """Return who comes from where: CueScore names the next match but not the seat in it."""
+    """Return where players come from: CueScore names the next match but not the slot in it."""
     if len(coming) > 2:
         raise ExportError("sends three players to one match")
     slots: list[str | From | None] = [name or None for name in pair]

@@ -1,6 +1,6 @@
-"""Tournaments saved from other programs as JSON, known by their content, as rows of results.
+"""Tournaments saved as JSON by other programs, recognized by content, as rows of results.
 
-CueScore's tournaments, Challonge's (version 1 of its interface) and those of brackets-manager.
+The programs are CueScore, Challonge (version 1 of its API) and brackets-manager.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ _JSON = re.compile(rb'(?:\xef\xbb\xbf)?\s*(?:\{\s*["}]|\[\s*[\[{\]])')
 
 
 def saved_in(content: bytes, source: str) -> tuple[SavedTournament, list[str]] | None:
-    """Return the tournament in another program's file, with warnings; None if the file is none.
+    """Return the tournament in another program's file, with warnings; None if it has none.
 
-    A DataError if the file is JSON, but damaged or of no known program.
+    Raises DataError if the file is JSON, but damaged or from an unknown program.
     """
     parsed = _json_in(content, source)
     if parsed is None:
@@ -56,7 +56,7 @@ def saved_in(content: bytes, source: str) -> tuple[SavedTournament, list[str]] |
 
 
 def _json_in(content: bytes, source: str) -> tuple[Any, list[str]] | None:
-    """Return what a JSON file holds, with warnings; None if it is none."""
+    """Return a JSON file's content, with warnings; None if the file isn't JSON."""
     if not _JSON.match(content) and not _is_utf16_json(content):
         return None
     text = text_of(content, source)
@@ -68,9 +68,9 @@ def _json_in(content: bytes, source: str) -> tuple[Any, list[str]] | None:
 
 
 def _records(data: Any) -> list[list[str]]:
-    """Return a list of records as titles and rows; nothing where it is no such list.
+    """Return a list of records as titles and rows; nothing if it isn't a list of records.
 
-    A record is a JSON object of texts and numbers; of an object in it the name counts.
+    A record is a JSON object of strings and numbers; a nested object counts as its name.
 
     >>> _records({"matches": [{"home": {"id": 7, "name": "Ann"}, "homeScore": 7}, {"away": "Bo"}]})
     [['home', 'homeScore', 'away'], ['Ann', '7', ''], ['', '', 'Bo']]
@@ -96,9 +96,9 @@ def _cell(value: Any) -> str:
 
 
 def export_of(content: bytes, source: str) -> Export | None:
-    """Return the matches of another program's file; None if the file is none.
+    """Return the matches in another program's file; None if it isn't such a file.
 
-    A DataError as for `saved_in`, or if no match was played, or matches contradict themselves.
+    Raises DataError as for `saved_in`, or if no match was played or matches contradict each other.
     """
     json_data = _json_in(content, source)
     if json_data is None:
@@ -133,7 +133,7 @@ def export_of(content: bytes, source: str) -> Export | None:
 
 
 def match_problem(number: int, problem: str) -> str:
-    """Return what is wrong with the match that has a number in its file."""
+    """Return a problem with a match, identified by its number in the file."""
     return say("match {number} {problem}", number=number, problem=problem)
 
 
@@ -142,7 +142,7 @@ def _is_utf16_json(content: bytes) -> bool:
 
 
 def _counted(left_out: Mapping[Remark, int], remarks: Mapping[Remark, int]) -> str:
-    """Return in words what was left out and what was changed, or nothing."""
+    """Return what was left out and what was changed, in words, or nothing."""
     left = [remark.counted(left_out[remark]) for remark in Remark if remark in left_out]
     parts: list[str] = [say("left out: {matches}", matches=joined(left, ", "))] if left else []
     parts += [remark.counted(remarks[remark]) for remark in Remark if remark in remarks]
@@ -155,10 +155,10 @@ _MAY_BE = re.compile(rb"(?i)match|begegnung|rencontre|set")
 
 
 def paper_sheet(content: bytes, source: str) -> Export | None:
-    r"""Return the matches of a table with two rows each, the first row's player as player a.
+    r"""Return the matches in a table with two rows per match; the first row is player a.
 
-    The rows of a match have the same number, on the same day; a number that is only in the first
-    row counts for the second too. None where a file is not so.
+    A match's two rows have the same number and the same day; a number that is only in the first row
+    counts for the second too. None if the file isn't laid out like that.
 
     >>> text = "Match,Team,Player,GTW,Wins\n1,Caps,Ann,5,5\n1,Aces,Bo,3,2\n"
     >>> for row in paper_sheet(text.encode(), "sheet.csv").sheet.rows:

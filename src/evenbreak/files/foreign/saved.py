@@ -1,7 +1,7 @@
-"""A tournament as another program saved it: one value, whatever program it was.
+"""A tournament saved by another program: the same object, whatever the program.
 
-Results and the events of an evening are both read from it. What is wrong with a single match stays
-with the match, and what keeps the bracket from being rebuilt stays with the tournament: results
+Results and an evening's events are both read from it. A problem with a single match is kept with
+the match, and a problem that prevents rebuilding the bracket is kept with the tournament: results
 need no bracket.
 """
 
@@ -19,7 +19,7 @@ from evenbreak.words import say
 
 
 class Remark(Enum):
-    """Something to count, in words: one, and several."""
+    """Something to count, in words: singular and plural."""
 
     BYE = "bye", "byes"
     UNFINISHED = "match that was not finished", "matches that were not finished"
@@ -44,7 +44,7 @@ class Remark(Enum):
     SETS = "set of a longer match counted as a match", "sets of longer matches counted as matches"
 
     def counted(self, n: int) -> str:
-        """Return how many there are, in words."""
+        """Return a count in words."""
         one, several = self.value
         return say("{n:,} {matches}", n=n, matches=one if n == 1 else several)
 
@@ -56,7 +56,7 @@ TITLES = (
 """The columns of `Played.row`."""
 
 MISSHAPEN = (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, StopIteration)
-"""What reading a file raises that is not built as its program builds it."""
+"""The exceptions that a file raises if it isn't built the way its program builds files."""
 
 _MOST = 9_999_999
 _DAY = re.compile(r"\d{4}-\d{2}-\d{2}(?!\d)", re.ASCII)
@@ -64,14 +64,14 @@ _NOBODY = re.compile(r"(walk ?over|w/?o|bye|tbd|-+|\?+)?", re.IGNORECASE)
 
 
 class ExportError(EvenbreakError):
-    """What is wrong with one match, or with all of them."""
+    """What is wrong with one match, or with all matches."""
 
 
 class Played(NamedTuple):
-    """A match, or a set of one, that counts as a result.
+    """A match, or one of its sets, that counts as a result.
 
-    Scores leave out games given as a head start. Races are 0, and the other fields '', where not
-    stated; the winner is 'a', 'b' or ''.
+    Scores leave out games given as a head start. Races not stated are 0, and other fields not
+    stated are ''; the winner is 'a', 'b' or ''.
     """
 
     player_a: str
@@ -87,7 +87,7 @@ class Played(NamedTuple):
     remarks: tuple[Remark, ...] = ()
 
     def row(self) -> list[str]:
-        """Return the cells below `TITLES`."""
+        """Return the cells for the columns in `TITLES`."""
         scored = not self.forfeit
         return [
             *(self.date, self.event, self.player_a, self.player_b),
@@ -97,7 +97,7 @@ class Played(NamedTuple):
         ]
 
     def fitting_race(self) -> Played:
-        """Return the match without its race if the score does not end that race."""
+        """Return the match, without its race if the score doesn't finish that race."""
         reached = self.score_a >= self.race_a, self.score_b >= self.race_b
         over = self.score_a > self.race_a or self.score_b > self.race_b
         if not (self.race_a and self.race_b) or (reached[0] != reached[1] and not over):
@@ -112,19 +112,19 @@ class Played(NamedTuple):
 
 
 From: TypeAlias = tuple[Any, str]
-"""The key of another match, and its outcome: winner or loser."""
+"""Another match's key, and an outcome: winner or loser."""
 
 Slots: TypeAlias = tuple[str | From | None, ...]
 """Who is in a match: names, outcomes of other matches, or byes (None)."""
 
 
 class SavedMatch(NamedTuple):
-    """A match of a saved tournament.
+    """A match in a saved tournament.
 
-    `key` is its number in the file, None for a second final that the file leaves out. It has one
-    result or several sets in `played`, or the reason for none in `left_out`. The side is winners,
-    losers, final, second final or third place; the winner is 1, 2 or 0. `pair` and `score` are of a
-    match in play.
+    `key` is its number in the file, or None for a second final that the file leaves out. `played`
+    has its result, or several sets; if it's empty, `left_out` has the reason. The side is winners,
+    losers, final, second final or third place; the winner is 1, 2 or 0. `pair` and `score` are for
+    a match in progress.
     """
 
     key: Any
@@ -144,9 +144,10 @@ class SavedMatch(NamedTuple):
 
 
 class SavedTournament(NamedTuple):
-    """A saved tournament, its matches in the order of the file.
+    """A saved tournament, with its matches in file order.
 
-    `refusal` is the reason why the bracket can't be rebuilt; matches then have no place in it.
+    `refusal` is the reason the bracket can't be rebuilt; the matches then have no place in a
+    bracket.
     """
 
     matches: tuple[SavedMatch, ...]
@@ -157,7 +158,7 @@ class SavedTournament(NamedTuple):
     refusal: str = ""
 
     def placed(self, place: Callable[[SavedTournament], SavedTournament]) -> SavedTournament:
-        """Return the tournament with its bracket, or with why it has none."""
+        """Return the tournament with its bracket, or with the reason it has none."""
         try:
             return place(self)
         except ExportError as error:
@@ -167,14 +168,15 @@ class SavedTournament(NamedTuple):
 
 
 def misshapen() -> str:
-    """Return what to say of a file that is not built as its program builds it."""
+    """Return the error for a file that isn't built the way its program builds files."""
     return say("doesn't have the expected structure. Save it again in the other program.")
 
 
 def match_of(key: Any, read: Callable[[], tuple[Played, ...] | Remark], *times: Any) -> SavedMatch:
-    """Return a match with its results, on the day of the first time, or with its problem.
+    """Return a match with its results, dated by its first time, or with its problem.
 
-    `read` returns the results or the reason for none; times are like 2024-09-03T19:30:00+02:00.
+    `read` returns the results or the reason there are none; times look like
+    2024-09-03T19:30:00+02:00.
     """
     try:
         played = read()
@@ -192,12 +194,12 @@ def match_of(key: Any, read: Callable[[], tuple[Played, ...] | Remark], *times: 
 
 
 def text_of(value: Any) -> str:
-    """Return what a file states as text, '' for nothing."""
+    """Return a file's value as a string, '' for nothing."""
     return str(value or "")
 
 
 def name_of(player: Any, what: str) -> str:
-    """Return the name of a player, '' for no one (a bye, or not known yet)."""
+    """Return a player's name, '' for no one (a bye, or not known yet)."""
     if player is None:
         return ""
     name = player.get("name") if isinstance(player, Mapping) else player
@@ -220,7 +222,7 @@ def player_of(names: Mapping[Any, str], number: Any) -> str:
 
 
 def count_of(value: Any, what: str) -> int | None:
-    """Return a whole number from 0, None where there is none."""
+    """Return a whole number, at least 0; None if it isn't one."""
     if value is None or value == "":
         return None
     if isinstance(value, str) and re.fullmatch(r"\d{1,7}", value.strip(), re.ASCII):

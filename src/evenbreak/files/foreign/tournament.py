@@ -1,4 +1,4 @@
-"""A tournament saved from another program, as the events of an evening."""
+"""A tournament saved by another program, as an evening's events."""
 
 from __future__ import annotations
 
@@ -45,12 +45,12 @@ _DISCIPLINES = {"8": "8-ball", "9": "9-ball", "10": "10-ball"}
 def read_saved_tournament(
     path: str | Path, plan: Plan, entrants: Mapping[str, Entrant], at: str
 ) -> list[Event]:
-    """Return the events of a tournament that CueScore, Challonge or brackets-manager saved.
+    """Return the events of a tournament saved by CueScore, Challonge or brackets-manager.
 
-    Each match is checked: its players must be those sent there by earlier results. The plan has
-    what the file lacks, and a race of 0 is that of the file; players not in `entrants` are new;
-    `at` is the time of whatever has none. It's a DataError if the file is no such tournament, or
-    contradicts itself.
+    Each match is checked: its players must be the ones sent there by earlier results. The plan
+    fills in what the file lacks, and a race of 0 means the file's race; players not in `entrants`
+    are new; `at` is the time for events without a time. Raises DataError if the file isn't such a
+    tournament, or contradicts itself.
     """
     source, content = content_of(path)
     parsed = saved_in(content, source)
@@ -122,7 +122,7 @@ def _planned(saved: SavedTournament, plan: Plan) -> Plan:
 
 
 def _sides(matches: Sequence[SavedMatch]) -> dict[Any, str]:
-    """Return the side of each match, the finals and the match for third place among them."""
+    """Return each match's side, identifying the finals and the match for third place."""
     sides = {match.key: match.side for match in matches}
     sources = {
         match.key: [slot for slot in match.slots if isinstance(slot, tuple)] for match in matches
@@ -159,7 +159,7 @@ def _names(saved: SavedTournament) -> dict[Any, str]:
 
 
 def _pair_names(saved: SavedTournament) -> dict[Any, str]:
-    """Return the name of the match of each two players, where everyone plays everyone."""
+    """Return the match name for each pair of players in a round robin."""
     bracket = bracket_of(Plan("round-robin", 1), saved.players, None)
     name_of = {}
     for match in bracket.matches:
@@ -176,7 +176,7 @@ def _pair_names(saved: SavedTournament) -> dict[Any, str]:
 
 
 def _with_races(plan: Plan, saved: SavedTournament, names: Mapping[Any, str]) -> Plan:
-    """Return the plan with the races of the file, where it states any."""
+    """Return the plan with the file's races, if the file states any."""
     stated = {
         names[match.key]: match.race for match in saved.matches if match.race and match.key in names
     }
@@ -191,7 +191,7 @@ def _with_races(plan: Plan, saved: SavedTournament, names: Mapping[Any, str]) ->
 
 
 def _tables(saved: SavedTournament, tables: int) -> dict[str, int]:
-    """Return the number of each table; those without a number come last."""
+    """Return each table's number; tables without a number come last."""
     texts = sorted(
         {match.table for match in saved.matches} - {""}, key=lambda text: (len(text), text)
     )
@@ -203,7 +203,7 @@ def _tables(saved: SavedTournament, tables: int) -> dict[str, int]:
 def _happened(
     saved: SavedTournament, names: Mapping[Any, str], tables: Mapping[str, int]
 ) -> list[tuple[str, What]]:
-    """Return what happened in the matches, with its time as the file states it, in its order."""
+    """Return what happened in the matches, in file order, with the file's times."""
     happened: list[tuple[str, str, int, What]] = []
     order = _order(saved)
     for match in saved.matches:
@@ -229,7 +229,7 @@ def _happened(
 
 
 def _order(saved: SavedTournament) -> dict[Any, int]:
-    """Return how many matches at least come before each."""
+    """Return the least number of matches that come before each match."""
     came = {
         match.key: [s[0] for s in match.slots if isinstance(s, tuple)] for match in saved.matches
     }
@@ -259,7 +259,7 @@ def _result(name: str, pair: tuple[str, str], played: Sequence[Played], winner: 
 
 
 def _moment(text: str) -> str:
-    """Return a time such as 2025-03-01T19:30:00, '' where there is none."""
+    """Return a time such as 2025-03-01T19:30:00, or '' if there is none."""
     try:
         return datetime.fromisoformat(text).replace(tzinfo=None, microsecond=0).isoformat()
     except ValueError:
@@ -267,7 +267,7 @@ def _moment(text: str) -> str:
 
 
 def _check(events: Sequence[Event]) -> None:
-    """Check that all numbers can be true, and that the results fit together, match by match."""
+    """Check that all numbers are possible and that the results fit together, match by match."""
     for event in events:
         try:
             KINDS.read(KINDS.name(event.what), KINDS.text(event.what))

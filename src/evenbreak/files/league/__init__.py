@@ -1,15 +1,15 @@
-"""The file of a league, `league.toml`: what it holds, and the files that it names."""
+"""A league's file, `league.toml`: its content, and the files it names."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 LEAGUE_TOML = "league.toml"
-"""What the file is called."""
+"""The file's name."""
 
 
 def is_league(path: str | Path) -> bool:
-    """Return whether a path is that of a league's file, by its name.
+    """Return whether a path is a league's file, judging by its name.
 
     >>> is_league("club/league.toml"), is_league("season.csv")
     (True, False)
@@ -18,9 +18,9 @@ def is_league(path: str | Path) -> bool:
 
 
 def find_league(folder: str | Path = ".") -> Path | None:
-    """Return the league's file in a folder; None if it has none.
+    """Return the league's file in a folder, or None if there is none.
 
-    The folders above are not looked at: a file far away would change an answer unseen.
+    Parent folders aren't searched: a faraway file could change an answer without anyone noticing.
     """
     path = Path(folder) / LEAGUE_TOML
     return path if path.is_file() else None

@@ -24,20 +24,21 @@ from evenbreak.words import Sentence, say, say_count
 
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx", ".ods", ".json")
 MOST_FILES = 200
-"""A folder with more files is hardly that of a league."""
+"""A folder with more files is unlikely to be a league's."""
 
 OWN = ("tidy.csv",)
-"""What `evenbreak league tidy` writes: the results of the other files again."""
+"""What `evenbreak league tidy` writes: a copy of the other files' results."""
 
 RESULTS, ROSTER, CHART = "results", "roster", "chart"
 
 
 @dataclass(frozen=True, kw_only=True)
 class SeenFile:
-    """A file of a folder, and what it is.
+    """A file in a folder, and what it is.
 
-    `what` is results, team_results, roster, fixtures, teams, chart or aliases, '' for none of them;
-    `columns` are titles of results that aren't known; `players` are names as they are compared.
+    `what` is results, team_results, roster, fixtures, teams, chart or aliases, or '' for none of
+    these; `columns` are the results' unknown titles; `players` are names in the form used for
+    comparing.
     """
 
     name: str
@@ -46,18 +47,18 @@ class SeenFile:
     columns: Mapping[str, str] = field(default_factory=dict)
     players: frozenset[str] = frozenset()
     sides: bool = False
-    """Whether results are titled as those of home and away."""
+    """Whether the results' titles are for home and away."""
     teams: frozenset[str] = frozenset()
-    """The teams that it names, likewise."""
+    """The teams that it names, in the form used for comparing."""
     squads: tuple[str, ...] = ()
-    """The teams of a roster, as it writes them."""
+    """A roster's teams, as spelled there."""
     holds: Any = None
     warnings: tuple[str, ...] = ()
-    """How it is written, where that is of note."""
+    """Its format, where worth mentioning."""
 
 
 def seen_files(folder: str | Path) -> list[SeenFile]:
-    """Return what the files in a folder are, by name; an OSError if the folder can't be read."""
+    """Return what the files in a folder are, by name; raises OSError if it can't be read."""
     places = sorted(
         place
         for place in Path(folder).iterdir()
@@ -79,7 +80,7 @@ def seen_files(folder: str | Path) -> list[SeenFile]:
 
 
 def _one_league(every: list[SeenFile]) -> list[SeenFile]:
-    """Return the files with those set aside that have no player of the others: another league's."""
+    """Return the files, setting aside another league's: those with no players in common."""
     largest = max(
         (one for one in every if one.what == RESULTS),
         key=lambda one: len(one.players),
@@ -117,7 +118,7 @@ def _seen(path: Path) -> SeenFile:
 
 
 def _table(schema: Schema, path: Path, **how: Any) -> TextTable | None:
-    """Return the table in a file if it has all the columns that a schema needs."""
+    """Return the table in a file if it has every column that a schema needs."""
     table = schema.text(path, **how)
     for name, column in schema.columns.items():
         ways = [{name}, *(set(names.split()) for names in column.instead or ())]
@@ -151,7 +152,7 @@ def _aliases(path: Path) -> SeenFile | None:
 
 
 def _results(path: Path) -> SeenFile | None:
-    """Return a file of results whose titles are known."""
+    """Return a results file whose titles are known."""
     table = _table(RESULTS_FILE, path, exported=export_of)
     if table is None:
         return None
@@ -161,13 +162,13 @@ def _results(path: Path) -> SeenFile | None:
 
 
 def _results_by_rows(path: Path) -> SeenFile | None:
-    """Return a file of results whose rows leave one reading of its titles."""
+    """Return a results file whose titles can be read in only one way."""
     ways = _ways(path)
     return _results_by(path, ways[0]) if len(ways) == 1 else None
 
 
 def _perhaps(path: Path) -> SeenFile | None:
-    """Return a file of results whose rows leave several."""
+    """Return a results file whose titles can be read in several ways."""
     ways = _ways(path)
     if not ways:
         return None

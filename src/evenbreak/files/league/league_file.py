@@ -1,7 +1,7 @@
-"""`league.toml`, the file of a league: what it holds, and how it is read.
+"""`league.toml`, a league's file: its content, and how it is read.
 
-Each key is declared once, with the kind of its values, by the classes below; the reference has a
-table of them. Commands take their defaults from it (`evenbreak.questions.of_league`).
+Each key is declared once, with its value type, in the classes below; the reference has a table of
+them. Commands take their defaults from it (`evenbreak.questions.of_league`).
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ Section = TypeVar("Section")
 
 @dataclass(frozen=True, kw_only=True)
 class LeagueFiles:
-    """`[files]`: the files of the league's folder."""
+    """`[files]`: the files in the league's folder."""
 
     roster: Annotated[
         str | None,
@@ -54,11 +54,11 @@ class LeagueFiles:
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """`[[results]]`: a file of match results; there is one of these tables for each file."""
+    """`[[results]]`: a file of match results; each file has a table of its own."""
 
     file: Annotated[str, Field(values.FILE, "The file.")]
     columns: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
-    """The titles that its columns have, where they are not known ones."""
+    """The file's column titles, where they aren't known ones."""
     dates: Annotated[
         str | None,
         Field(
@@ -70,7 +70,7 @@ class Source:
 
 @dataclass(frozen=True, kw_only=True)
 class TeamRules:
-    """`[team]`: the rules of a team match."""
+    """`[team]`: the rules for a team match."""
 
     players: Annotated[int | None, Field(Whole(1, 100), "How many players a team puts up.")] = None
     sets: Annotated[int | None, Field(values.SETS, "How many sets are played.")] = None
@@ -94,7 +94,7 @@ class TeamRules:
 
 @dataclass(frozen=True, kw_only=True)
 class StandingsRules:
-    """`[standings]`: how a table of teams or players is made."""
+    """`[standings]`: how standings for teams or players are calculated."""
 
     points: Annotated[
         TableRules | None,
@@ -111,7 +111,7 @@ class StandingsRules:
 
     @property
     def rules(self) -> TableRules:
-        """The rules of the table."""
+        """The rules for the standings."""
         points = self.points or TableRules()
         return points if self.ties is None else replace(points, ties=self.ties)
 
@@ -137,14 +137,14 @@ class Published:
         ),
     ] = "full"
     players: Mapping[str, str] = field(default_factory=lambda: _NOTHING)
-    """The same for single players."""
+    """The same for individual players."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class LeagueFile:
-    """The content of a league's file; what it leaves out is None or empty.
+    """A league file's content; anything left out is None or empty.
 
-    `aliases` lead from a name as written to the name that is meant.
+    `aliases` maps names as written to the names that are meant.
     """
 
     folder: Path
@@ -205,7 +205,7 @@ class LeagueFile:
         return self.folder / self.file
 
     def place(self, name: str) -> str:
-        """Return the path of one of its files, as a command takes it."""
+        """Return the path of one of its files, in the form a command takes."""
         return str(self.folder / name)
 
 
@@ -216,17 +216,17 @@ SECTIONS: Mapping[str, type] = {
     "prices": Prices,
     "publish": Published,
 }
-"""The tables of the file that have keys of their own; `[[results]]` are `Source`."""
+"""The file's tables that have fixed keys; `[[results]]` is `Source`."""
 
 _FREE = {"aliases", "columns", "players"}
 """The tables whose keys are names."""
 
 
 def read_league(place: str | Path = ".", *, quickly: bool = False) -> LeagueFile:
-    """Read the file of a league: its folder, or the file itself.
+    """Read a league's file, given its folder or the file itself.
 
-    With `quickly`, chart and system are left for the command that uses them to check: loading them
-    takes a quarter of a second. The DataError has every problem, one per line.
+    With `quickly`, the chart and system are left to be checked by the command that uses them:
+    loading them takes a quarter of a second. Raises DataError listing every problem, one per line.
     """
     path = Path(place)
     if path.is_dir():
@@ -236,7 +236,7 @@ def read_league(place: str | Path = ".", *, quickly: bool = False) -> LeagueFile
 
 
 def league_of(content: bytes, path: Path, *, quickly: bool = False) -> LeagueFile:
-    """Return what a league's file of this content says; raises as `read_league` does."""
+    """Return the league described by a file's content; raises the same errors as `read_league`."""
     problems = Problems(printable(str(path)))
     try:
         text = content.decode("utf-8-sig")
@@ -260,7 +260,7 @@ def league_of(content: bytes, path: Path, *, quickly: bool = False) -> LeagueFil
 
 
 class _Reader:
-    """Reads the tables of a file, and notes every problem."""
+    """Reads the file's tables, and notes every problem."""
 
     def __init__(
         self, folder: Path, problems: Problems, lines: Mapping[Keys, int], quickly: bool
@@ -269,12 +269,12 @@ class _Reader:
         self.quickly = quickly
 
     def note(self, keys: Keys, template: str, /, **said: Any) -> None:
-        """Note a problem in the line in which a key stands."""
+        """Note a problem at a key's line."""
         at = next(self.lines[keys[:k]] for k in range(len(keys), 0, -1) if keys[:k] in self.lines)
         self.problems.add(at, template, **said)
 
     def section(self, of: type[Section], table: Mapping[str, Any], at: Keys, **more: Any) -> Any:
-        """Return a table of the file as an object of its class."""
+        """Return a table in the file as an object of its class."""
         fields = {one.name: one for one in declared(cast(Any, of))}
         tables = _tables(of)
         read = dict(more)
@@ -308,7 +308,7 @@ class _Reader:
         return league
 
     def whole(self, league: LeagueFile) -> None:
-        """Note what does not go together."""
+        """Note settings that contradict each other."""
         if league.begins and league.ends and league.ends < league.begins:
             self.note(("ends",), "the season ends before it starts. Correct one of the two dates.")
         races = [name for name in ("chart", "race", "race_to") if getattr(league, name) is not None]
@@ -321,7 +321,7 @@ class _Reader:
             )
 
     def value(self, one: Declared, value: Any, keys: Keys) -> Any:
-        """Return a value as its kind reads it; None if it is refused."""
+        """Return a value converted to its type, or None if it isn't valid."""
         text = _text_of(value)
         if text is None:
             self.note(keys, "{key} takes a single value. Write {key} = ...", key=_dotted(keys))
@@ -333,7 +333,7 @@ class _Reader:
         return self.read(one.kind, text, keys)
 
     def read(self, kind: Kind, text: str, keys: Keys) -> Any:
-        """Return the value of a text, or note why there is none."""
+        """Return the value that a string stands for, or note why it isn't valid."""
         try:
             return kind.read(text)
         except InputError as error:
@@ -341,7 +341,7 @@ class _Reader:
             return None
 
     def file(self, key: str, name: str, keys: Keys) -> str | None:
-        """Return the name of a file of the folder, or note that it is not there."""
+        """Return the name of a file in the folder, or note that the file is missing."""
         if (self.folder / name).is_file():
             return name
         if key == "chart" and self.quickly:
@@ -365,7 +365,7 @@ class _Reader:
         return None
 
     def sources(self, value: Any, keys: Keys) -> tuple[Source, ...]:
-        """Return the files of results."""
+        """Return the results files."""
         if not isinstance(value, list) or not all(isinstance(one, Mapping) for one in value):
             self.note(keys, 'write a [[results]] line for each file, with file = "..." below it')
             return ()
@@ -379,7 +379,7 @@ class _Reader:
         return tuple(filter(None, every))
 
     def names(self, table: Mapping[str, Any], keys: Keys) -> Iterator[tuple[str, str]]:
-        """Yield the texts of a table whose keys are names."""
+        """Yield the strings in a table whose keys are names."""
         for name, value in table.items():
             if isinstance(value, str) and value.strip():
                 yield name, value
@@ -389,7 +389,7 @@ class _Reader:
                 )
 
     def columns(self, table: Mapping[str, Any], keys: Keys) -> dict[str, str]:
-        """Return the titles of columns by what they are."""
+        """Return column titles by column."""
         from evenbreak.files.results.columns import RESULTS_FILE
 
         every = dict(self.names(table, keys))
@@ -399,14 +399,14 @@ class _Reader:
         return every
 
     def players(self, table: Mapping[str, Any], keys: Keys) -> dict[str, str]:
-        """Return how the names of single players are published."""
+        """Return how individual players' names are published."""
         return {
             name: self.read(values.NAMES, text, (*keys, name))
             for name, text in self.names(table, keys)
         }
 
     def aliases(self, table: Mapping[str, Any], keys: Keys) -> dict[str, str]:
-        """Return which names mean which players."""
+        """Return the aliases: names, and the players they mean."""
         from evenbreak.files.tables.names import clean_name
 
         means = {clean_name(name): clean_name(text) for name, text in self.names(table, keys)}
@@ -424,7 +424,7 @@ class _Reader:
         return means
 
     def unknown(self, key: str, known: Sequence[str], keys: Keys) -> None:
-        """Note a key that there is not, with where it may belong or the nearest one."""
+        """Note an unknown key, with the table where it may belong or the nearest known key."""
         if section := _belongs(key, keys[:-1]):
             self.note(
                 keys, "{key} doesn't belong here. Move it {place}.", key=quoted(key), place=section
@@ -443,14 +443,14 @@ class _Reader:
 
 
 def _tables(of: type) -> list[str]:
-    """Return the tables that a table of the file may have in it."""
+    """Return the subtables that a table in the file may have."""
     if of is LeagueFile:
         return ["results", "aliases", *SECTIONS]
     return {Source: ["columns"], Published: ["players"]}.get(of, [])
 
 
 def _belongs(key: str, at: Keys) -> str:
-    """Return where a key belongs that stands in another table; '' if nowhere."""
+    """Return the table where a misplaced key belongs; '' if there is none."""
     if at and any(one.name == key for one in declared(LeagueFile)):
         return say("to the top, above the first [table]")
     places = [name for name, of in SECTIONS.items() if key in {one.name for one in declared(of)}]
@@ -462,7 +462,7 @@ def _dotted(keys: Keys) -> str:
 
 
 def _text_of(value: Any) -> str | None:
-    """Return a value as the option takes it; None of a table."""
+    """Return a value in the form an option takes; None for a table."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, list):

@@ -1,4 +1,4 @@
-"""A new `league.toml`: what the files of a folder propose, and its text with comments."""
+"""A new `league.toml`: suggestions from a folder's files, and the text with comments."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from evenbreak.files.league.league_file import SECTIONS, LeagueFile, Source
 from evenbreak.handicaps.charts.level_chart import level_chart
 
 USUAL_SYSTEMS = {"fargo": "fargo-like", "npl": "npl"}
-"""The system of a league whose ratings are on a scale."""
+"""The default system for a league whose ratings are on a scale."""
 
 EXAMPLES: Mapping[str, str] = {
     "name": '"Tuesday 8-Ball"',
@@ -55,15 +55,15 @@ EXAMPLES: Mapping[str, str] = {
     "publish.logo": '"logo.png"',
     "publish.names": '"full"',
 }
-"""A value of each key, as the file has it."""
+"""An example value for each key, as written in the file."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class NewLeague:
-    """The content of a new file: dotted keys with values as typed for an option, and more.
+    """The content of a new file: dotted keys, with values as typed for an option, and more.
 
-    `sources` are the files of results with the titles of their columns; `levels` is for players who
-    have skill levels and no ratings.
+    `sources` are the results files with their column titles; `levels` is for players who have skill
+    levels and no ratings.
     """
 
     values: Mapping[str, str]
@@ -74,7 +74,7 @@ class NewLeague:
 
 
 def proposed(seen: Sequence[SeenFile], name: str) -> NewLeague:
-    """Return what the files of a folder propose for the league of this name."""
+    """Return a new file's content for the league with this name, based on a folder's files."""
     values = {"name": name, "discipline": "8-ball"}
     of_kind = {
         what: [one for one in seen if one.what == what] for what in {one.what for one in seen}
@@ -123,7 +123,7 @@ def proposed(seen: Sequence[SeenFile], name: str) -> NewLeague:
 
 
 def _levels(roster: SeenFile | None, results: Sequence[SeenFile]) -> set[int]:
-    """Return the skill levels of a league; none if it has none."""
+    """Return a league's skill levels; none if it has none."""
     if roster is not None:
         level = roster.holds.roster.level
         return {int(one) for one in level[~np.isnan(level)].tolist()}
@@ -139,14 +139,14 @@ def _levels(roster: SeenFile | None, results: Sequence[SeenFile]) -> set[int]:
 
 
 def _chart_of(levels: set[int]) -> str:
-    """Return the chart by skill level that has these levels, if there is one."""
+    """Return the chart by skill level that has these levels, if any."""
     if levels <= {*level_chart("apa_8ball").levels}:
         return "apa_8ball"
     return "apa_9ball" if levels <= {*range(1, 10)} else ""
 
 
 def _scale(roster: SeenFile) -> str:
-    """Return the scale that a list states or shows; '' if it does neither."""
+    """Return the scale that a list states or implies; '' if neither."""
     try:
         return str(roster.holds.scale_by(None, "").text)
     except InputError:
@@ -162,7 +162,7 @@ HEAD = """\
 
 
 def league_toml(league: NewLeague) -> str:
-    """Return the text of a new file: what is known, and the other keys as comments.
+    """Return a new file's text: the known keys, and the others as comments.
 
     >>> text = league_toml(NewLeague(values={"name": "Tuesday", "team.cap": "23"}))
     >>> [line for line in text.splitlines() if line.startswith(("cap", "name"))]
@@ -194,7 +194,7 @@ def _keys(of: type, section: str, values: Mapping[str, str]) -> Iterator[str]:
 
 
 def _written(one: Declared, text: str) -> str:
-    """Return a value as TOML has it: numbers and days as they are, lists in brackets."""
+    """Return a value in TOML form: numbers and dates as they are, lists in brackets."""
     is_number = isinstance(one.kind, Whole | Number)
     return text if is_number or one.name in ("begins", "ends") else _quoted(text)
 

@@ -1,8 +1,9 @@
-"""The results of a league out of all its files: one list of matches, and what was done to make it.
+"""A league's results from all its files: one list of matches, and what was done to make it.
 
-Each file is read by its own titles. Names that aliases join are one player's; those that only look
-alike are doubts, for a person to settle. A match that two files have, whichever side comes first,
-counts once. What is no match, or cannot be read, is left out and listed with file, line and reason.
+Each file is read with its own titles. Names joined by aliases belong to one player; names that only
+look alike are listed for a person to decide. A match that appears in two files, whichever side
+comes first, counts once. Rows that aren't matches, or can't be read, are left out and listed with
+file, line and reason.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ _MORE = (
     *("race_a", "race_b", "winner", "first_break", "break_format", "racks"),
     *("event", "team_a", "team_b", "division", "level_a", "level_b"),
 )
-"""What one file may state of a match and another not."""
+"""What one file may state about a match when another doesn't."""
 
 _NEARLY_ALL = 0.9
 
@@ -44,7 +45,7 @@ class Change:
     """Something that was changed or left out, or that a person should look at.
 
     The kind is renamed, double, left out or doubt; line 0 is the whole file; `first` is the file
-    that has a double match first.
+    where a double match appears first.
     """
 
     kind: Kind
@@ -56,13 +57,13 @@ class Change:
 
 @dataclass(frozen=True)
 class NameDoubt:
-    """Names that may be one player's, the one with the most matches first."""
+    """Names that may belong to one player, starting with the name that has the most matches."""
 
     names: tuple[str, ...]
     matches: tuple[int, ...]
 
     def alias_lines(self) -> list[str]:
-        r"""Return the lines of `[aliases]` that make them one player.
+        r"""Return the lines for `[aliases]` that make them one player.
 
         >>> print(*NameDoubt(("Al Lee", '"Big" Al'), (9, 2)).alias_lines())
         "\"Big\" Al" = "Al Lee"
@@ -71,7 +72,7 @@ class NameDoubt:
 
 
 def alias_lines(means: Mapping[str, str]) -> list[str]:
-    """Return lines for `[aliases]` of `league.toml`."""
+    """Return lines for the `[aliases]` table of `league.toml`."""
     return [f"{_in_toml(name)} = {_in_toml(meant)}" for name, meant in means.items()]
 
 
@@ -82,10 +83,10 @@ def _in_toml(text: str) -> str:
 
 @dataclass(frozen=True, eq=False)
 class LeagueResults:
-    """The results of a league as one file, and what happened to them on the way.
+    """A league's results as one file, and what happened to them on the way.
 
-    Names in `name_doubts` may be one player's, but are kept apart; `sources` has the number of
-    matches of each file.
+    Names in `name_doubts` may belong to one player, but are kept apart; `sources` has each file's
+    match count.
     """
 
     file: ResultsFile
@@ -108,11 +109,11 @@ def league_results(
     skip_bad: bool = True,
     **reading: Any,
 ) -> LeagueResults:
-    """Return the results of a league from all the files that it names.
+    """Return a league's results from all the files that it names.
 
-    `aliases`, `columns` and `dates` replace those of the league. With `skip_bad`, rows that can't
-    be read are left out and listed. It's a DataError if the league names no results, or one of the
-    files can't be read.
+    `aliases`, `columns` and `dates` replace the league's. With `skip_bad`, rows that can't be read
+    are left out and listed. Raises DataError if the league names no results, or one of the files
+    can't be read.
     """
     if not league.results:
         raise refusal(
@@ -172,7 +173,7 @@ def league_results(
 def _changes(
     files: Sequence[ResultsFile], rows: _Rows, doubles: Mapping[int, int]
 ) -> Iterator[Change]:
-    """Yield what was done, file by file, by line."""
+    """Yield what was done, by file and line."""
     doubts = rows.doubts(doubles)
     for k, (name, file) in enumerate(zip(rows.names, files, strict=True)):
         for written, meant in file.renamed:
@@ -204,7 +205,7 @@ def _again(rows: _Rows, first: int) -> Sentence:
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """The matches of all files, each with its place and with what makes it the same as another."""
+    """All files' matches, each with its place and a key for recognizing duplicates."""
 
     results: Results
     names: Sequence[str]
@@ -242,9 +243,9 @@ class _Rows:
         )
 
     def doubles(self) -> dict[int, int]:
-        """Return each dated match that is there again, with the row where it was first.
+        """Return each dated match that appears again, with the row where it appeared first.
 
-        In one file a match may be there twice only as a mirror image, and only where all are.
+        Within a file, repeats count only as mirror images, and only if every match has one.
         """
         first: dict[tuple[Any, ...], list[int]] = defaultdict(list)
         doubles: dict[int, int] = {}
@@ -261,7 +262,7 @@ class _Rows:
         return doubles
 
     def _mirrored(self, source: int) -> dict[int, int]:
-        """Return the second of each match that a file has from both sides, with the first."""
+        """Return the second row of each match that a file lists from both sides, with the first."""
         waiting: dict[tuple[Any, ...], list[int]] = defaultdict(list)
         pairs: dict[int, int] = {}
         every = np.flatnonzero(self.source == source).tolist()
@@ -274,7 +275,7 @@ class _Rows:
         return pairs if len(pairs) > 1 and 2 * len(pairs) >= _NEARLY_ALL * len(every) else {}
 
     def doubts(self, doubles: Mapping[int, int]) -> list[Change]:
-        """Return the matches of two files that may be one: with another score, or without a day."""
+        """Return matches in two files that may be the same one: with another score, or no date."""
         met: dict[tuple[Any, ...], list[int]] = defaultdict(list)
         alike: dict[tuple[Any, ...], list[int]] = defaultdict(list)
         for row, key in enumerate(self.keys):
@@ -308,7 +309,7 @@ class _Rows:
 
 
 def _filled(results: Results, doubles: Mapping[int, int]) -> Results:
-    """Return the results with what the first of the same matches lacks and another states."""
+    """Return the results, filling in what a match's first row lacks and a repeat states."""
     columns = {
         name: values.copy() for name in _MORE if (values := getattr(results, name)) is not None
     }
@@ -326,7 +327,7 @@ def _filled(results: Results, doubles: Mapping[int, int]) -> Results:
 
 
 def _seen(name: str, value: Any) -> Any:
-    """Return a value as it is from the other side of the match."""
+    """Return a value as seen from the other side of the match."""
     if name in ("winner", "first_break"):
         return 3 - value
     if name == "break_format":
@@ -337,7 +338,7 @@ def _seen(name: str, value: Any) -> Any:
 def _name_doubts(
     groups: Sequence[tuple[str, ...]], played: Results, means: Mapping[str, str]
 ) -> tuple[NameDoubt, ...]:
-    """Return the names that may be one player's; an alias that means itself is no one else."""
+    """Return names that may belong to one player; an alias for itself belongs to no one else."""
     many = len(played.players)
     counts = np.bincount(np.concatenate([played.player_a, played.player_b]), minlength=many)
     matches = dict(zip(played.players, counts.tolist(), strict=True))

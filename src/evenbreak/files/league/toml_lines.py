@@ -1,4 +1,4 @@
-"""Where each key of a TOML file is, which Python's reader does not say."""
+"""The line of each key in a TOML file, which Python's reader doesn't report."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Keys: TypeAlias = tuple[str | int, ...]
 
 
 def lines_of(text: str) -> dict[Keys, int]:
-    r"""Return the line in which each table and key starts, in a file that can be read.
+    r"""Return the line where each table and key starts, in a valid file.
 
     >>> lines_of("tables = 6\n[team]\ncap = 23\n[[results]]\n")
     {('tables',): 1, ('team',): 2, ('team', 'cap'): 3, ('results', 0): 4, ('results',): 4}
@@ -42,7 +42,7 @@ def lines_of(text: str) -> dict[Keys, int]:
 
 
 def _head(part: Any, many: Counter[Keys]) -> Keys:
-    """Return the keys of the head of a table; `many` counts those of each array of tables."""
+    """Return the keys in a table's header; `many` counts the tables in each array of tables."""
     here: Keys = ()
     while part:
         key, part = next(iter(part.items()))

@@ -1,4 +1,4 @@
-"""The kinds of values that `league.toml` and the options of commands both read."""
+"""The value types that both `league.toml` and command options use."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SCALE = Named(
     spelled=lambda scale: str(scale.text),
     number=True,
 )
-"""A scale of ratings."""
+"""A rating scale."""
 
 
 def _system(text: str) -> System:
@@ -44,14 +44,14 @@ def _system_name(text: str) -> str:
 
 
 SYSTEM_NAME = Named(_system_name)
-"""The name of one."""
+"""The name of a handicap system."""
 
 MINUTES = Number(0.001, 1440.0, " isn't a number of minutes. Give one such as 8 or 7.5")
 TURNOVER = Number(0.0, 1440.0, " isn't a number of minutes. Give one such as 5, or 0")
 
 
 def strong_in(text: str) -> tuple[int, float]:
-    """Return how many players of which level a text allows.
+    """Return how many players at each level a string allows.
 
     >>> strong_in("2:6"), strong_in("1 of 5.5+")
     ((2, 6.0), (1, 5.5))
@@ -74,7 +74,7 @@ SETS = Whole(1, MOST_SETS, metavar="K")
 
 
 def points_in(text: str) -> TableRules:
-    """Return the points of a match as a text has them, as rules of a table.
+    """Return a string's points for a match as rules for the standings.
 
     >>> points_in("3,1,0").win, points_in("1,0,0,1").a_set, points_in("apa_8ball").split
     (3.0, 1.0, 'apa_8ball')
@@ -102,7 +102,7 @@ def points_in(text: str) -> TableRules:
 
 
 def points_spelled(rules: TableRules) -> str:
-    """Return the points of a match as they are typed."""
+    """Return the points for a match in typed form."""
     if rules.split:
         return rules.split
     numbers = [rules.win, rules.draw, rules.loss, rules.a_set, rules.shutout]
@@ -117,12 +117,12 @@ TABLE_POINTS = Named(points_in, "W,D,L|sets|apa_8ball|apa_9ball", spelled=points
 
 
 def names_in(text: str) -> tuple[str, ...]:
-    """Return the words of a list with commas."""
+    """Return the words in a comma-separated list."""
     return tuple(part.strip() for part in text.split(",") if part.strip())
 
 
 def ties_in(text: str) -> tuple[str, ...]:
-    """Return what separates those with equal points, from a list with commas."""
+    """Return the tie-breaks in a comma-separated list."""
     from evenbreak.league.tables.rules import TableRules
 
     return TableRules(ties=names_in(text)).ties
@@ -184,7 +184,7 @@ def _color(text: str) -> str:
 COLOR = Named(_color, "COLOR")
 PAPER = Choice(("letter", "a4"))
 Shown = Literal["full", "initials", "hidden"]
-"""How a site names a player, from the most to the least that is shown."""
+"""How a site names a player, from the most detail to the least."""
 
 NAMES = Choice(get_args(Shown))
 MONEY = Number(0.0, 1e6, " isn't an amount of money, such as 10")

@@ -1,1 +1,1 @@
-"""Lists of who plays: rosters, entrants, teams, fixtures, and the ratings to start from."""
+"""Lists of players and teams: rosters, entrants, fixtures, and starting ratings."""

@@ -1,4 +1,4 @@
-"""Who is in: a list of entrants, and their ratings from the league's list."""
+"""Who has entered: a list of entrants, and their ratings from the league's list."""
 
 from __future__ import annotations
 
@@ -26,23 +26,23 @@ from evenbreak.ratings.roster import Roster
 from evenbreak.words import say
 
 ENTRANTS = ROSTER | WRITTEN
-"""A list of entrants: a roster of which all but the names may be missing."""
+"""A list of entrants: a roster that may lack everything but the names."""
 
 APART = 0.5
-"""Points by which an entrant's stated rating may differ from the league's without a warning."""
+"""How far an entrant's rating may differ from the league's, in points, without a warning."""
 
 
 def read_entrants(path: str | Path) -> RosterFile:
-    r"""Read the entrants: a player on each line, or a table with the columns of a roster.
+    r"""Read the entrants: one player per line, or a table with the columns of a roster.
 
     A line is a name, or a name and a rating, such as `Ann Lee,612`; lines without a name are
-    skipped. In a table all columns but the name may be missing.
+    skipped. In a table, every column but the name may be missing.
 
     Raises
     ------
     DataError
-        with every problem of the file: no names, a name that appears twice, cells that cannot
-        be read.
+        listing every problem in the file: no names, a name that appears twice, cells that cannot be
+        read.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -57,7 +57,7 @@ def read_entrants(path: str | Path) -> RosterFile:
 
 
 def nobody() -> RosterFile:
-    """Return a list of entrants on which no one is yet.
+    """Return an empty list of entrants.
 
     >>> len(nobody().roster)
     0
@@ -67,16 +67,16 @@ def nobody() -> RosterFile:
 
 @dataclass(frozen=True, eq=False)
 class Entered:
-    """Entrants, matched with the players of a list.
+    """Entrants matched to a list of players.
 
     Parameters
     ----------
     names
-        in the spelling of the list where that has them.
+        in the list's spelling, for players who are on it.
     places
-        of each in the list, -1 for those who are not on it.
+        each entrant's place in the list; -1 if not on it.
     warnings
-        entrants who are not on the list, with the names that may be meant, or whose rating differs.
+        entrants who are not on the list, with similar names, and entrants whose rating differs.
     """
 
     names: tuple[str, ...]
@@ -85,19 +85,19 @@ class Entered:
 
     @property
     def new(self) -> list[str]:
-        """The names of those who are not on the list."""
+        """The names of entrants who are not on the list."""
         return [name for name, place in zip(self.names, self.places, strict=True) if place < 0]
 
 
 def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered:
-    """Match entrants with the players of a list; upper and lower case and blanks may differ.
+    """Match entrants to a list of players, ignoring case and spacing.
 
     Parameters
     ----------
     entrants
         from `read_entrants`.
     whose
-        the name of the list in warnings.
+        the list's name in warnings.
 
     >>> file = RosterFile(Roster(["ann lee", "Bo Dias"], [80, 70]), np.array([1, 2]), "e", (), "")
     >>> found = entered(file, ["Ann Lee", "Bo Diaz"], "r.csv")
@@ -126,13 +126,12 @@ def entered(entrants: RosterFile, players: Sequence[str], whose: str) -> Entered
 def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
     """Return the entrants with their ratings from the league's list.
 
-    Those who are not on it have the rating that the list of entrants states, or none: they are
-    new players.
+    Entrants who aren't on it are new players: they keep the rating in the list of entrants, if any.
 
     Raises
     ------
     DataError
-        if the ratings of the two files are not on one scale.
+        if the two files' ratings are on different scales.
     """
     check_one_scale(league, entrants)
     who = entered(entrants, league.roster.players, league.source)
@@ -182,9 +181,9 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
 
 
 def check_one_scale(league: RatedList, entrants: RosterFile) -> None:
-    """Refuse entrants whose ratings are on another scale than the league's list.
+    """Reject entrants whose ratings are on a different scale than the league's list.
 
-    It's a DataError, also if one file has skill levels and the other points.
+    Raises DataError, even if one file has skill levels and the other has points.
     """
     if np.isnan(entrants.roster.rating).all():
         return None

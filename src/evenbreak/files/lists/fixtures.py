@@ -1,4 +1,4 @@
-"""Who takes part in a round robin, and lists of fixtures."""
+"""Participants in a round robin, and lists of fixtures."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SIDES = TEAM.but(player={"instead": ("team",)}, team={"also": "team name"}) | Sc
     venue=Text("home venue, location, place", "where the team plays its home matches"),
     tables=Whole("tables there", "the number of tables at that venue", most=1000),
 )
-"""Who takes part: players, or teams with their venues."""
+"""The participants: players, or teams with their venues."""
 
 FIXTURE_LIST = PAIR | Schema(
     round=Whole("week, matchday, night", "the round", most=10_000),
@@ -31,12 +31,12 @@ FIXTURE_LIST = PAIR | Schema(
     table=Whole("table number", "the table", most=1000),
     turn=Whole("", "whether it's the first match there that night, the second, ...", most=1000),
 )
-"""Fixtures, as `league fixtures` writes them."""
+"""Fixtures as written by `league fixtures`."""
 
 
 @dataclass(frozen=True)
 class Sides:
-    """The teams or players that take part, in the order of the file; venues may be ''."""
+    """The participating teams or players, in file order; venues may be ''."""
 
     names: tuple[str, ...]
     of_teams: bool
@@ -46,17 +46,17 @@ class Sides:
 
 
 def read_sides(path: str | Path, *, of: str | None = None) -> Sides:
-    r"""Read who takes part: a list of names, a roster, or a list of teams with their venues.
+    r"""Read the participants: a list of names, a roster, or a list of teams with their venues.
 
     Parameters
     ----------
     of
-        'players' or 'teams'; None: teams where the file has a column team.
+        'players' or 'teams'; None: teams if the file has a column team.
 
     Raises
     ------
     DataError
-        with every problem of the file: fewer than two names, a player who is listed twice.
+        listing every problem in the file: fewer than two names, or a player listed twice.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -100,12 +100,12 @@ def read_sides(path: str | Path, *, of: str | None = None) -> Sides:
 
 
 def read_fixture_list(path: str | Path) -> tuple[list[Fixture], tuple[str, ...]]:
-    r"""Read fixtures, and what to check in their file.
+    r"""Read fixtures, and anything to check in their file.
 
     Raises
     ------
     DataError
-        with every problem of the file.
+        listing every problem in the file.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -135,10 +135,10 @@ def read_fixture_list(path: str | Path) -> tuple[list[Fixture], tuple[str, ...]]
 def without_played(
     listed: Sequence[Fixture], results: Results
 ) -> tuple[list[Fixture], set[str], int]:
-    """Return the fixtures that results leave to be played.
+    """Return the fixtures that haven't been played yet, according to the results.
 
-    Also the names in the results that no fixture has, and how many matches were played besides.
-    The matches are those of teams, unless the fixtures name players.
+    Also return the names that are in the results but in no fixture, and how many matches were
+    played outside the fixtures. The matches are team matches unless the fixtures name players.
 
     >>> season = Results.from_names(["Ann"], ["Bo"], [5], [3])
     >>> without_played([Fixture(1, "Bo", "Ann"), Fixture(2, "Ann", "Cy")], season)[0][0].away

@@ -1,8 +1,8 @@
-"""A list as people paste it: a player on each line, with numbers, signs and words around the name.
+"""A list as people paste it: one player per line, with numbers, signs and words around the name.
 
-Each line is read alone first, then in the light of the others: places in front count 1, 2, 3 ...;
-"Player 2" is a name where there is a "Player 3". What can mean two things is doubted, and the
-doubt lists what it can mean, the likeliest first. Nothing is guessed in silence.
+Each line is first read by itself, then compared with the others: numbers in front that count 1, 2,
+3 ... are places, and "Player 2" is a name if there is a "Player 3". A line that can mean two things
+is marked as doubtful, with its possible meanings, likeliest first. Nothing is guessed silently.
 """
 
 from __future__ import annotations
@@ -81,20 +81,20 @@ _LEFT_OVER = re.compile(
 )
 _SIGNS = str.maketrans("（）［］：；，．｜＝＃", "()[]:;,.|=#")
 _HUNDREDS = 100.0
-"""A number as high as this is a rating rather than a place, a level or part of a name."""
+"""A number this high is a rating rather than a place, a level or part of a name."""
 
 _HIGHEST_PLACE = 256
 
 
 class Typed(NamedTuple):
-    """A player of a list: the name, and the numbers behind it as they were typed."""
+    """A player on a list: the name, and the numbers after it as they were typed."""
 
     name: str
     cells: tuple[str, ...] = ()
 
     @property
     def words(self) -> str:
-        """The player as a clear line.
+        """The player as an unambiguous line.
 
         >>> Typed("Ann Lee", ("612",)).words
         'Ann Lee, 612'
@@ -106,9 +106,9 @@ class Typed(NamedTuple):
 class Reading:
     """One reading of a line, numbered from 1.
 
-    `players` are those of the likeliest reading, none on a heading. In doubt, `doubt` says why and
-    `choices` are all possible readings, the likeliest first; () leaves the line out. `front` is a
-    place before the name that is left out.
+    `players` are the players in the likeliest reading; a heading has none. If the line is doubtful,
+    `doubt` gives the reason and `choices` has all possible readings, likeliest first; () leaves the
+    line out. `front` is a place in front of the name, which is left out.
     """
 
     number: int
@@ -121,7 +121,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class _Parts:
-    """A line taken apart: the number in front, the name, the numbers behind it."""
+    """A line taken apart: the number in front, the name, the numbers after it."""
 
     number: int
     text: str
@@ -134,17 +134,17 @@ class _Parts:
 
     @property
     def blank(self) -> bool:
-        """Whether a mere blank sets the number apart, which may then be part of the name."""
+        """Whether only a space separates the number, so that it may be part of the name."""
         return bool(self.cells) and not self.sign.strip()
 
     @property
     def whole(self) -> str:
-        """The name with the number after a blank, if that is all that sets it apart."""
+        """The name with the number after a space, if only a space separates it."""
         return f"{self.name} {self.cells[0]}" if self.blank else self.name
 
     @property
     def small(self) -> bool:
-        """Whether the number after a blank is too low for a rating in points."""
+        """Whether the number after a space is too low to be a rating in points."""
         return self.blank and _value(self.cells[0]) < _HUNDREDS
 
 
@@ -153,12 +153,12 @@ def _value(cell: str) -> float:
 
 
 def _stem(name: str) -> str:
-    """Return what names have in common that differ in their number alone."""
+    """Return a key shared by names that differ only in their numbers."""
     return same_name(re.sub(r"\s*[0-9]+$", "", name))
 
 
 def readings(lines: Sequence[str], most: int = 1) -> list[Reading]:
-    """Return the readings of a list's lines, apart from those without a letter or number.
+    """Return readings for a list's lines, skipping lines without a letter or number.
 
     At most `most` numbers follow a name.
     """
@@ -180,7 +180,7 @@ def _is_heading(one: _Parts) -> bool:
 
 
 def _parts(number: int, text: str, most: int) -> _Parts:
-    """Take a line apart by its own signs."""
+    """Take a line apart by its separators."""
     plain = "".join(
         str(unicodedata.decimal(c)) if not c.isascii() and c.isdecimal() else c for c in text
     ).translate(_SIGNS)
@@ -200,7 +200,7 @@ def _parts(number: int, text: str, most: int) -> _Parts:
 
 
 def _apart(text: str, most: int) -> tuple[str, tuple[str, ...], str]:
-    """Return the name, the numbers behind it, and the sign that sets the first of them apart."""
+    """Return the name, the numbers after it, and the separator in front of the first number."""
     text = _AROUND.sub("", text.strip())
     if none := _NO_RATING.fullmatch(text):
         return none[1], (), "none"
@@ -229,7 +229,7 @@ def _apart(text: str, most: int) -> tuple[str, tuple[str, ...], str]:
 
 
 def _columns(text: str) -> tuple[Typed, ...]:
-    """Return the players of a line that has several, each with a rating; none if it has one."""
+    """Return the players on a line with several, each with a rating; none if it has only one."""
     for parted in (r"\s{2,}|\t", r"\s*[|;]\s*", r"\s*,\s*"):
         cells = [one for one in re.split(parted, text.strip()) if one]
         pairs = [cells[k : k + 2] for k in range(0, len(cells), 2)]
@@ -247,7 +247,7 @@ def _columns(text: str) -> tuple[Typed, ...]:
 
 
 class _Judge:
-    """What the other lines say of one."""
+    """What the other lines reveal about a line."""
 
     def __init__(self, rows: Sequence[_Parts], most: int) -> None:
         self.most = most
@@ -272,7 +272,7 @@ class _Judge:
         self.two_numbers = len(twice) == len(rows) > 1 and not self.numbered_inside
 
     def reading(self, one: _Parts) -> Reading:
-        """Return how a line is read."""
+        """Return the reading of a line."""
         players, doubt, choices = self._read(one)
         if doubt:
             kept = dict.fromkeys((players, *choices, ()))
@@ -311,7 +311,7 @@ class _Judge:
     def _with_front(
         self, one: _Parts
     ) -> tuple[tuple[Typed, ...], str, tuple[tuple[Typed, ...], ...]] | None:
-        """Return how a line is read whose number in front may be no place; None: it is one."""
+        """Return the reading of a line whose first number may not be a place; None if it is one."""
         name = one.name.replace("\t", " ")
         rated, placed = Typed(name, (one.front,)), Typed(name, one.cells)
         whole = Typed(f"{one.front} {name}", one.cells)
@@ -335,7 +335,7 @@ class _Judge:
     def _named(
         self, one: _Parts, plain: tuple[Typed, ...]
     ) -> tuple[tuple[Typed, ...], str, tuple[tuple[Typed, ...], ...]]:
-        """Return how a line is read by what is left of it as a name."""
+        """Return the reading of a line from what is left of it as a name."""
         name, cells = one.name, plain[0].cells
         if one.sign == "," and len(cells) == 1 and (last := re.search(r"\s([0-9]+)$", name)):
             stem, digits = name[: last.start()], re.sub("[^0-9].*", "", cells[0])
@@ -375,7 +375,7 @@ class _Judge:
 
 
 def is_lettered(name: str) -> bool:
-    """Return whether a name has a letter.
+    """Return whether a name contains a letter.
 
     >>> is_lettered("李"), is_lettered("555-1234")
     (True, False)
@@ -384,7 +384,7 @@ def is_lettered(name: str) -> bool:
 
 
 def _without_doubles(read: Sequence[Reading]) -> list[Reading]:
-    """Doubt a line whose player is on an earlier one."""
+    """Mark a line as doubtful if its player is on an earlier line."""
     seen: dict[str, int] = {}
     found = []
     for one in read:
@@ -411,7 +411,7 @@ def _without_doubles(read: Sequence[Reading]) -> list[Reading]:
 
 
 def choice_words(choice: tuple[Typed, ...]) -> str:
-    """Return a reading of a line in words.
+    """Return a line's reading in words.
 
     >>> choice_words((Typed("Ann Lee", ("612",)), Typed("Bo"))), choice_words(())
     ('Ann Lee, 612; Bo', 'leave it out')

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 LARGEST = 1_000_000
-"""The largest rating or error that is accepted, in points."""
+"""The largest rating or error accepted, in points."""
 
 _ERROR = Number(least=0, most=LARGEST, write=say("points such as 9.5"))
 _COUNT = Whole(nothing=NOT_STATED)
@@ -134,14 +134,14 @@ WRITTEN = Schema(
         Text(),
     )
 )
-"""Further columns of the lists that `evenbreak rate` and `evenbreak report` write."""
+"""Additional columns in the lists that `evenbreak rate` and `evenbreak report` write."""
 
 
 FARTHEST = 10_000
 """The largest rating or skill that can be simulated, in points."""
 
 LARGEST_SD = 1_000
-"""The largest standard deviation, or drift a week, that can be simulated, in points."""
+"""The largest standard deviation, or drift per week, that can be simulated, in points."""
 
 LAST_WEEK = 10_000
 """The largest number accepted as a week."""
@@ -190,7 +190,7 @@ OF_SEASON = Schema(
         write=say("each player's team"),
     ),
 )
-"""The columns that a simulated season uses besides those of a roster; other readers skip them."""
+"""The columns that a simulated season adds to a roster; other readers skip them."""
 
 # Each name by itself: two columns with one meaning are a problem only for a season.
 _SKIPPED = Schema(
@@ -203,7 +203,7 @@ _SKIPPED = Schema(
 
 
 class RatedList(Protocol):
-    """A file with rated players: a roster, or that of a season."""
+    """A file of rated players: a roster, or a season's file."""
 
     @property
     def roster(self) -> Roster:
@@ -211,11 +211,11 @@ class RatedList(Protocol):
 
     @property
     def source(self) -> str:
-        """What the file is called in messages."""
+        """What messages call the file."""
 
     @property
     def scale(self) -> Scale | None:
-        """The scale of the ratings; None if the file does not state it."""
+        """The ratings' scale; None if the file doesn't state it."""
 
     @property
     def levels(self) -> bool:
@@ -230,19 +230,20 @@ class RosterFile:
     Parameters
     ----------
     source
-        the name of the file in messages.
+        the file's name in messages.
     warnings
-        what to check although the file can be used, one per line.
+        things to check although the file can be used, one per line.
     sha256
-        fingerprint of the bytes that were read.
+        the fingerprint of the bytes read.
     by_quasi
-        the places of those whose error is the quasi_error of the file.
+        the places of players whose error is the file's quasi_error.
     scale
-        the scale of the ratings; None if the file does not state it.
+        the ratings' scale; None if the file doesn't state it.
     levels
-        whether the ratings are skill levels, by their title or because there are no others.
+        whether the ratings are skill levels, because of their title or because there are no other
+        ratings.
     form
-        how much the log-odds of a game vary from match to match, 0 where the file does not say it.
+        how much a game's log-odds vary from match to match; 0 if the file doesn't say.
     """
 
     roster: Roster
@@ -256,13 +257,13 @@ class RosterFile:
     form: float = 0.0
 
     def scale_by(self, stated: Scale | None, remedy: str, levels: str = "") -> Scale:
-        """Return the scale that the user states, else the file, else the ratings themselves.
+        """Return the scale stated by the user or the file, or implied by the ratings themselves.
 
         Raises
         ------
         InputError
-            if nothing says it, as `unstated_scale` does; `remedy` ends the message, or `levels`
-            where the ratings look like skill levels.
+            if none of these shows the scale, as from `unstated_scale`; `remedy` ends the message,
+            or `levels` if the ratings look like skill levels.
         """
         rated = self.roster
         return (
@@ -273,7 +274,7 @@ class RosterFile:
 
 
 def refuse_to_read(file: RatedList, scale: Scale, whose: str, remedy: str) -> None:
-    """Refuse, as `refuse_contradicted`, a list without a scale whose ratings contradict it."""
+    """Reject, as `refuse_contradicted` does, a list without a scale whose ratings contradict it."""
     if file.scale is not None:
         return
     try:
@@ -288,14 +289,14 @@ def read_roster(path: str | Path) -> RosterFile:
     r"""Read a list of rated players from a CSV file; '-' is standard input.
 
     A player without a rating is new and must have no games. An empty standard_error, games or
-    matches is not stated. Where a quasi_error is stated, it is used instead of the
-    standard_error, because a roster's errors are used for differences of ratings.
+    matches counts as not stated. If a quasi_error is stated, it is used instead of the
+    standard_error, because a roster's errors are used for rating differences.
 
     Raises
     ------
     DataError
-        with every problem of the file: missing columns, no rows, cells that are not
-        numbers, a name that appears twice.
+        listing every problem in the file: missing columns, no rows, cells that are not numbers, a
+        name that appears twice.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -309,9 +310,9 @@ def read_roster(path: str | Path) -> RosterFile:
 
 
 def roster_of(table: TextTable, *, rated: bool = True) -> RosterFile:
-    """Return the roster in a table, or raise its problems in one DataError.
+    """Return the roster in a table, or raise one DataError with all its problems.
 
-    A `rated` roster must have a column of ratings or of levels.
+    A `rated` roster must have a column of ratings or levels.
     """
     names = table["player"].tolist()
     _refuse_twice(table, names)
@@ -362,7 +363,7 @@ def roster_of(table: TextTable, *, rated: bool = True) -> RosterFile:
 
 
 def _refuse_twice(table: TextTable, names: list[str]) -> None:
-    """Note the names that appear twice, in any case and spacing."""
+    """Note names that appear twice, ignoring case and spacing."""
     first: dict[str, tuple[int, str]] = {}
     for name, line in zip(names, table.lines.tolist(), strict=True):
         if not name:
@@ -381,10 +382,10 @@ def _refuse_twice(table: TextTable, names: list[str]) -> None:
 
 
 def _scale(table: TextTable) -> Scale | None:
-    """Return the scale of all ratings, noting one that is unlike the first.
+    """Return the scale of all ratings, noting any that differs from the first.
 
-    Where the file has no scale, the title of the ratings may name it ("Fargo rating"), or other
-    columns that FargoRate's lists alone have.
+    If the file has no scale, the title of the ratings may name it ("Fargo rating"), or the file may
+    have columns that only FargoRate's lists have.
     """
     named = next((name for name in SCALES if name in _title(table)), None)
     if "effective_rating" in table or _title(table, "games") == "robustness":
@@ -415,7 +416,7 @@ def _scale(table: TextTable) -> Scale | None:
 
 
 def _form(table: TextTable) -> float:
-    """Return day-to-day form, which is that of the whole list, noting one unlike the first."""
+    """Return the whole list's day-to-day form, noting any that differs from the first."""
     column = table["match_form"]
     rows = np.flatnonzero(~np.isnan(column))
     if not len(rows):
@@ -433,5 +434,5 @@ def _form(table: TextTable) -> float:
 
 
 def _title(table: TextTable, column: str = "rating") -> str:
-    """Return the title of a column in lower case; '' where there is none."""
+    """Return a column's title in lower case; '' if it has none."""
     return table.titles.get(column, "").casefold()

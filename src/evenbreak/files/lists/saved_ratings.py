@@ -1,4 +1,4 @@
-"""The ratings at the end of a season as a file, with which the next one starts."""
+"""The ratings at the end of a season as a file, from which the next season starts."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ OF_PRIOR = Schema(
     ),
 )
 SAVED = ROSTER | WRITTEN | OF_PRIOR
-"""Ratings to begin from: a roster with priors, and with the day that it is of."""
+"""Starting ratings: a roster with priors, and the date they are from."""
 
 COLUMNS = (
     *("player", "rating", "quasi_error", "standard_error", "games"),
@@ -43,9 +43,9 @@ COLUMNS = (
 
 
 class Saved(NamedTuple):
-    """A file of ratings to start from; names are as the results spell them.
+    """A file of starting ratings; names are spelled as in the results.
 
-    `found` counts the players who are in the results.
+    `found` is the number of players who are in the results.
     """
 
     beginning: Beginning
@@ -55,9 +55,9 @@ class Saved(NamedTuple):
 
 
 def saved_csv(ratings: Ratings, day: str, before: Beginning | None = None) -> bytes:
-    """Return a file with the ratings of all who have played, and of those who did not this time.
+    """Return a file with the ratings of everyone who has played, now or before.
 
-    `day` is the last one of their results; players without results keep their rating of `before`.
+    `day` is the date of the last result; players without results keep their rating from `before`.
 
     >>> from evenbreak.ratings import Results, fit
     >>> ratings = fit(Results.from_names(["Ann"], ["Bo"], [7], [4]))
@@ -83,7 +83,7 @@ def saved_csv(ratings: Ratings, day: str, before: Beginning | None = None) -> by
 
 
 def _who_did_not_play(ratings: Ratings, before: Beginning | None) -> Iterator[tuple[Any, ...]]:
-    """Yield those who brought a rating along and have no result, on the scale of the ratings."""
+    """Yield players who came with a rating but have no result, on the ratings' scale."""
     if before is None:
         return
     center = before.center(ratings.players)
@@ -109,10 +109,10 @@ def _rounded(value: Any) -> Any:
 
 
 def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
-    """Read ratings to start from: a file that `saved_csv` made, or any list of rated players.
+    """Read starting ratings: a file from `saved_csv`, or any list of rated players.
 
-    The scale is for a file that states none. The DataError has every problem of the file: those of
-    a roster, numbers out of range, invalid dates, another scale.
+    The scale is for a file that states none. Raises DataError listing every problem in the file:
+    the problems a roster can have, numbers out of range, invalid dates, a different scale.
     """
     table = SAVED.read(path)
     prior, mean, day = (table[name] for name in ("prior", "prior_mean", "as_of"))

@@ -1,4 +1,4 @@
-"""A season: the roster of its players and what a simulation needs of them, and who plays who."""
+"""A season: its roster, with everything a simulation needs, and who plays who."""
 
 from __future__ import annotations
 
@@ -34,35 +34,35 @@ from evenbreak.ratings.scale import Scale
 from evenbreak.words import listed, say, say_count
 
 SEASON = ROSTER.but(rating={"least": -FARTHEST, "most": FARTHEST}) | WRITTEN | OF_SEASON
-"""The roster of a season."""
+"""A season's roster."""
 
 
 @array_values
 @dataclass(frozen=True, eq=False)
 class SeasonPlayers:
-    """The players of a league's roster.
+    """The players on a league's roster.
 
     Parameters
     ----------
     players
-        as `Season` takes them, in the order of the file; ratings in whole points.
+        as `Season` takes them, in file order; ratings in whole points.
     roster
         the same players as a list of ratings.
     source
-        the name of the file in messages.
+        the file's name in messages.
     warnings
-        one per line: the file can be used all the same.
+        one per line; the file can be used anyway.
     drawn
-        number of players whose skill is drawn, from rating and standard error.
+        the number of players whose skill is drawn from their rating and standard error.
     exact
-        number of players whose rating is used as the skill, for lack of a skill and a standard
-        error.
+        the number of players whose rating is used as their skill, because the file has neither a
+        skill nor a standard error.
     scale
-        of the ratings; None if the file does not state it.
+        the ratings' scale; None if the file doesn't state it.
     levels
-        whether the title of the ratings says that they are skill levels.
+        whether the column title says that the ratings are skill levels.
     teams, team_names
-        each player's team, from 0, and the teams' names; None and empty in a league of single
+        each player's team, from 0, and the teams' names; None and empty in a league of individual
         players.
     """
 
@@ -79,24 +79,24 @@ class SeasonPlayers:
 
 
 def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlayers:
-    r"""Read the roster of a season from a CSV file; '-' is standard input.
+    r"""Read a season's roster from a CSV file; '-' is standard input.
 
-    It has the columns of a roster and those of `OF_SEASON`. A skill that is not stated is drawn for
-    each replica from a normal distribution around the rating with the standard error; if that is
-    not stated either, the skill is the rating. A player without a rating is a newcomer: they get
-    the median of the others' ratings, and a skill drawn from around it as far as those are apart.
-    Ratings are rounded to whole points, halves upwards.
+    It has a roster's columns and the columns in `OF_SEASON`. If no skill is stated, it is drawn for
+    each replica from a normal distribution around the rating with the standard error; if the
+    standard error isn't stated either, the skill is the rating. A player without a rating is a
+    newcomer: they get the median of the others' ratings, and a skill drawn around it with the
+    others' spread. Ratings are rounded to whole points, halves upwards.
 
     Parameters
     ----------
     day_sd
-        standard deviation of form from day to day, in points, where the file does not state it.
+        standard deviation of day-to-day form, in points, if the file doesn't state it.
 
     Raises
     ------
     DataError
-        with every problem of the file: those that `read_roster` finds, no rating at all, cells out
-        of range, a player who leaves before joining.
+        listing every problem in the file: the problems that `read_roster` finds, no rating at all,
+        cells out of range, a player who leaves before joining.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -162,7 +162,7 @@ def read_season_players(path: str | Path, *, day_sd: float = 0.0) -> SeasonPlaye
 
 
 def _teams(names: list[str]) -> dict[str, Any]:
-    """Return the number of each player's team, and the names of the teams in their order."""
+    """Return each player's team number, and the teams' names in that order."""
     every = tuple(dict.fromkeys(names))
     return {"teams": np.array([every.index(name) for name in names]), "team_names": every}
 
@@ -196,21 +196,20 @@ def _with_newcomers(file: RosterFile) -> tuple[Roster, list[str]]:
 def league_of_entrants(
     file: SeasonPlayers, entrants: RosterFile, *, starter: float, starter_sd: float
 ) -> SeasonPlayers:
-    """Return the league of the entrants, with new players where they are not on its list.
+    """Return the entrants as a league, including new players who aren't on its list.
 
     Parameters
     ----------
     entrants
         as `read_entrants` reads them.
     starter, starter_sd
-        the rating of a new player for whom the entrants have none, and its uncertainty
-        (standard deviation); the skill is drawn from around it.
+        the rating for new players who have none in `entrants`, and its uncertainty (standard
+        deviation); their skill is drawn around it.
 
     Raises
     ------
     DataError
-        if fewer than two players have entered, or the ratings of the two files are not on one
-        scale.
+        if fewer than two players have entered, or the two files' ratings are on different scales.
     """
     check_one_scale(file, entrants)
     if len(entrants.roster) < 2:
@@ -269,7 +268,7 @@ class _OfRoster(Name):
         return self.players.place(clean_name(text))
 
     def fault(self, text: str) -> str:
-        """Return what is wrong with a name that the roster does not have."""
+        """Return what is wrong with a name that isn't in the roster."""
         name = clean_name(text)
         if not name:
             return super().fault("")
@@ -302,15 +301,15 @@ SCHEDULE = Schema(
     **ROUND.only("date").columns,
     **PLACE.columns,
 )
-"""A list of who plays who in which week."""
+"""A list of who plays who and in which week."""
 
 MOST_LISTED = 5
-"""How many repeated matches are listed; the rest are counted."""
+"""How many repeated matches are listed; the others are only counted."""
 
 
 @dataclass(frozen=True, eq=False)
 class PairsFile:
-    """Who plays who: places in the roster, shape (matches, 2), in the order of the file."""
+    """Who plays who: places in the roster, shape (matches, 2), in file order."""
 
     pairs: NDArray[np.int64]
     warnings: tuple[str, ...]
@@ -319,15 +318,15 @@ class PairsFile:
 def read_pairs(path: str | Path, roster: Roster) -> PairsFile:
     """Read a list of pairs from a CSV file, one match per row; '-' is standard input.
 
-    Upper and lower case may differ where that is unambiguous. The DataError has every problem:
-    missing columns, no rows, unknown names, a player on both sides.
+    Case is ignored unless that would be ambiguous. Raises DataError listing every problem: missing
+    columns, no rows, unknown names, a player on both sides.
     """
     table, pairs = _read(PAIRS, path, roster)
     return PairsFile(pairs, table.warnings)
 
 
 def _read(schema: Schema, path: str | Path, roster: Roster) -> tuple[TextTable, NDArray[np.int64]]:
-    """Return a table without problems, and the pairs in it as places in the roster."""
+    """Return a table without problems, and its pairs as places in the roster."""
     players = {"players": KnownNames(roster.players)}
     table = schema.but(player_a=players, player_b=players).read(path)
     a, b = table["player_a"], table["player_b"]
@@ -340,14 +339,14 @@ def _read(schema: Schema, path: str | Path, roster: Roster) -> tuple[TextTable, 
 
 @dataclass(frozen=True, eq=False)
 class ScheduleFile:
-    """The content of a file of fixtures.
+    """The content of a fixtures file.
 
     Parameters
     ----------
     source
-        the name of the file in messages.
+        the file's name in messages.
     warnings
-        one per line: the file can be used all the same.
+        one per line; the file can be used anyway.
     """
 
     schedule: FixedSchedule
@@ -358,14 +357,14 @@ class ScheduleFile:
 def read_schedule(path: str | Path, roster: Roster) -> ScheduleFile:
     r"""Read a schedule from a CSV file, one match per row; '-' is standard input.
 
-    Names are those of the roster, as `read_pairs` takes them; weeks count from 1, in any
-    order, and a player may have several matches in one.
+    Names are matched to the roster as in `read_pairs`; weeks are numbered from 1, in any order, and
+    a player may have several matches in a week.
 
     Raises
     ------
     DataError
-        with every problem of the file: missing columns, no rows, weeks that are not whole
-        numbers from 1, names that are not in the roster, a player who meets themselves.
+        listing every problem in the file: missing columns, no rows, weeks that are not whole
+        numbers from 1 up, names that are not in the roster, a player who plays themselves.
 
     >>> import tempfile, pathlib
     >>> club = Roster(["Ann", "Bo", "Cy"], [92, 71, 80])

@@ -1,4 +1,4 @@
-"""Teams: the players of one or of all, and the matches of a season, played and to come."""
+"""Teams: the players on one team or all teams, and a season's matches, played and upcoming."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ TEAM = (
     | WRITTEN
     | Schema(team=Text(), division=Text())
 )
-"""The players of a team."""
+"""A team's players."""
 
 SQUADS = TEAM | Schema(team=Name(about="the player's team", write=say("each player's team")))
-"""The players of all teams."""
+"""All teams' players."""
 
 
 def _side(also: str, about: str) -> Name:
@@ -67,7 +67,7 @@ PAIR = Schema(
     ),
 )
 FIXTURES = PAIR | ROUND | PLACE
-"""The matches to come of a team season."""
+"""The upcoming matches in a team season."""
 
 TEAM_RESULTS = (
     PAIR
@@ -85,7 +85,7 @@ TEAM_RESULTS = (
     | ROUND
     | PLACE
 )
-"""The matches of a team season; those without a score, or with 0:0, have not been played."""
+"""The matches in a team season; matches with no score, or with 0:0, haven't been played."""
 
 TEAMS = Schema(
     "teams",
@@ -100,20 +100,20 @@ TEAMS = Schema(
     venue=Text("home venue, location, place", "where the team plays its home matches"),
     tables=Text("tables there", "the number of tables at that venue"),
 )
-"""The teams of a league."""
+"""The teams in a league."""
 
 
 @array_values
 @dataclass(frozen=True)
 class TeamList:
-    """The players of one team.
+    """A team's players.
 
     Parameters
     ----------
     file
-        their names and ratings; the levels stand in for the ratings where the file has no others.
+        their names and ratings; levels are used as ratings if the file has no ratings.
     levels
-        each player's skill level; NaN where the file states none.
+        each player's skill level; NaN if the file states none.
     """
 
     file: RosterFile
@@ -121,11 +121,11 @@ class TeamList:
 
     @property
     def weights(self) -> Floats:
-        """What a cap counts: the levels, or the ratings where the file states no level."""
+        """What a cap counts: the levels, or the ratings if the file states no levels."""
         return self.file.roster.rating if np.isnan(self.levels).all() else self.levels
 
     def without(self, places: Collection[int]) -> TeamList:
-        """Return the list without the players at some places."""
+        """Return the list without the players in some places."""
         kept = np.array([k for k in range(len(self.levels)) if k not in places], dtype=np.int64)
         roster = self.file.roster
         some = {one.name: getattr(roster, one.name)[kept] for one in fields(roster)[1:]}
@@ -136,13 +136,13 @@ class TeamList:
 
     @property
     def without_weight(self) -> str:
-        """A player for whom there is nothing to count; '' if there is none."""
+        """A player with nothing that a cap can count; '' if there is none."""
         unknown = np.isnan(self.weights)
         return self.file.roster.players[int(unknown.argmax())] if unknown.any() else ""
 
 
 def form_of_lists(forms: Iterable[float]) -> float:
-    """Return the day-to-day form of teams whose lists state it: the mean, as of two who meet.
+    """Return the average day-to-day form of teams whose lists state it.
 
     >>> form_of_lists([0.3, 0.0]), round(form_of_lists([0.3, 0.4]), 3), form_of_lists([0.0])
     (0.3, 0.354, 0.0)
@@ -154,13 +154,13 @@ def form_of_lists(forms: Iterable[float]) -> float:
 def read_team(path: str | Path) -> TeamList:
     r"""Read a team from a CSV file with the columns player, rating and level.
 
-    Either of rating and level may be missing. Other columns are those of a roster. Without a
-    header, each line is a name and the rating and the level if they are known.
+    Rating or level may be missing. The other columns are the same as a roster's. Without a header,
+    each line is a name, followed by the rating and the level if they are known.
 
     Raises
     ------
     DataError
-        with every problem of the file: no players, a name that appears twice, cells that are not
+        listing every problem in the file: no players, a name that appears twice, cells that are not
         numbers.
 
     >>> import tempfile, pathlib
@@ -175,13 +175,13 @@ def read_team(path: str | Path) -> TeamList:
 
 
 def read_squads(path: str | Path) -> dict[str, TeamList]:
-    r"""Read all teams of a league from a CSV file with the columns team, player, rating and level.
+    r"""Read all a league's teams from a CSV file with the columns team, player, rating and level.
 
     Raises
     ------
     DataError
-        with every problem of a team as for `read_team`, if a player has no team, or there are
-        fewer than two teams.
+        listing every problem in a team as for `read_team`, players without a team, and fewer than
+        two teams.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -216,13 +216,13 @@ class TeamMatches:
     Parameters
     ----------
     pairs
-        home and away: positions in the list of teams, one per row.
+        home and away: positions in the list of teams, one match per row.
     scores
-        the sets that each won, one match per row; no columns for upcoming matches.
+        the sets that each team won, one match per row; upcoming matches have no columns.
     rounds
-        the round, week or date in the file; '' if there is none.
+        the round, week or date in the file; '' if it has none.
     warnings
-        one per line: the file can be used all the same.
+        one per line; the file can be used anyway.
     """
 
     pairs: Ints
@@ -238,13 +238,13 @@ class TeamMatches:
 
 @dataclass
 class TeamNames:
-    """The teams, in the order in which files name them first."""
+    """The teams, in order of first appearance in the files."""
 
     names: list[str]
     fixed: bool = False
 
     def place(self, name: str) -> int | None:
-        """Return the position of a team, a new one unless the list is fixed."""
+        """Return a team's position, adding new teams unless the list is fixed."""
         wanted = same_name(name)
         for place, own in enumerate(self.names):
             if same_name(own) == wanted:
@@ -256,12 +256,12 @@ class TeamNames:
 
 
 def read_teams(path: str | Path) -> tuple[TeamNames, Floats, tuple[str, ...]]:
-    r"""Read the teams of a league, and the points they have besides their matches.
+    r"""Read a league's teams, and any points they have apart from their matches.
 
     Raises
     ------
     DataError
-        with every problem of the file.
+        listing every problem in the file.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -287,15 +287,15 @@ def read_teams(path: str | Path) -> tuple[TeamNames, Floats, tuple[str, ...]]:
 def read_team_results(
     path: str | Path, teams: TeamNames, *, columns: Mapping[str, str] | None = None
 ) -> tuple[TeamMatches, TeamMatches]:
-    r"""Read the matches that have been played, with the sets that each team won, and the others.
+    r"""Read matches, played and unplayed, with the sets that each team won.
 
-    A match without a score, or with 0:0, has not been played. `columns` has titles of columns, as
-    for `read_results`.
+    A match without a score, or with 0:0, has not been played. `columns` has column titles, as for
+    `read_results`.
 
     Raises
     ------
     DataError
-        with every problem of the file.
+        listing every problem in the file.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -340,7 +340,7 @@ def read_fixtures(path: str | Path, teams: TeamNames) -> TeamMatches:
     Raises
     ------
     DataError
-        with every problem of the file.
+        listing every problem in the file.
     """
     table = FIXTURES.read(path)
     return _matches(table, teams, np.zeros((len(table), 0), dtype=np.int64))

@@ -1,4 +1,4 @@
-"""Reading a list of players from a file: a table with a header, or a player on each line."""
+"""Reading a list of players from a file: a table with a header, or one player per line."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from evenbreak.files.tables.table import Texts, TextTable
 from evenbreak.words import say
 
 _LONGEST_LINE = 1000
-"""Letters of a line: far more than a name and its numbers have."""
+"""The longest line read, in characters: far longer than a name and its numbers."""
 
 _WRITE_IT = say(
     "Write one player per line, such as Ann Lee,612, or make player,rating the first line."
@@ -28,8 +28,8 @@ def read_players(
 ) -> TextTable:
     r"""Read a list of players: a table with a header, or one player per line.
 
-    `numbers` are the columns of the numbers that may follow a name, in order. Standard input, '-',
-    must have a header. A DataError as for `read_table`.
+    `numbers` are the columns for the numbers that may follow a name, in order. Standard input, '-',
+    must have a header. Raises DataError as `read_table` does.
 
     >>> import tempfile, pathlib
     >>> from evenbreak.files.tables.schema import Text
@@ -87,7 +87,7 @@ def read_players(
 
 
 def has_header(lines: Sequence[str], header: Header) -> bool:
-    """Return whether the first line that is not empty has a title by which players are known."""
+    """Return whether the first nonempty line has a title used for players."""
     first = next((line for line in lines if line.strip()), "")
     return any(
         header.has("player", header.places(first.split(separator), 1, Problems(""))[0])
@@ -96,7 +96,7 @@ def has_header(lines: Sequence[str], header: Header) -> bool:
 
 
 def typed_lines(content: bytes, schema: Schema) -> list[str] | None:
-    r"""Return the lines of a list without a header; None: it is a table, or a workbook.
+    r"""Return the lines of a list without a header; None if it is a table or a workbook.
 
     >>> from evenbreak.files.lists.roster import ROSTER
     >>> typed_lines(b"Ann Lee 612\nBo", ROSTER), typed_lines(b"player,rating\nAnn,612", ROSTER)
@@ -110,7 +110,7 @@ def typed_lines(content: bytes, schema: Schema) -> list[str] | None:
 
 
 def doubt_words(one: Reading) -> str:
-    """Return why a line is doubted, and how to write what it may mean.
+    """Return why a line is doubtful, and how to write each possible meaning.
 
     >>> doubt_words(readings(["Ann Lee 612 Downtown", "Bo"])[0])
     "'Ann Lee 612 Downtown': this may be more than a name and a rating. Write: Ann Lee, 612."
@@ -123,7 +123,7 @@ def doubt_words(one: Reading) -> str:
 
 
 def _left_out(read: Sequence[Reading], source: str) -> list[str]:
-    """Return what of a list is no player, and what of the players may be misread."""
+    """Return the lines that aren't players, and the players that may be misread."""
     found: list[str] = []
     for one in read:
         for player in one.players:

@@ -1,1 +1,1 @@
-"""Files of match results: their columns, what becomes of them, and what is doubtful in them."""
+"""Files of match results: columns, conversion to one layout, and doubtful rows."""

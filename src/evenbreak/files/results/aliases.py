@@ -1,4 +1,4 @@
-"""Aliases: which names in results mean the same player."""
+"""Aliases: which names in the results mean the same player."""
 
 from __future__ import annotations
 
@@ -35,16 +35,16 @@ ALIASES = Schema(
 
 @dataclass(frozen=True, eq=False)
 class AliasesFile:
-    """The contents of a file of aliases.
+    """The content of an aliases file.
 
     Parameters
     ----------
     means
-        from a name as written to the name that is meant, which is never itself an alias.
+        maps a name as written to the name that is meant, which is never an alias itself.
     source
-        the name of the file in messages.
+        the file's name in messages.
     warnings
-        one per line: the file can be used all the same.
+        one per line; the file can be used anyway.
     """
 
     means: dict[str, str]
@@ -53,17 +53,17 @@ class AliasesFile:
 
 
 def read_aliases(path: str | Path) -> AliasesFile:
-    r"""Read which names mean the same player from a CSV file; '-' is standard input.
+    r"""Read the names that mean the same player from a CSV file; '-' is standard input.
 
-    A league's file has them as `[aliases]`.
+    A league's file has them in `[aliases]`.
 
-    Names are cleaned as those of results are. A name that means itself changes nothing.
+    Names are cleaned as in results. An alias for itself changes nothing.
 
     Raises
     ------
     DataError
-        with everything that is wrong in the file: missing columns, no rows, empty cells, a
-        name that means two players, an alias that means another alias.
+        listing every problem in the file: missing columns, no rows, empty cells, a name that means
+        two players, an alias for another alias.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:

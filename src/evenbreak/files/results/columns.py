@@ -1,4 +1,4 @@
-"""The columns of results files, and what each may be called in English."""
+"""The columns of results files, and the English titles for each."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ RESULTS = Schema(
         values=FORFEIT_WORDS,
     ),
 )
-"""The columns of a results file in the layout to which all others are brought."""
+"""The columns of a results file in the standard layout."""
 
 LAYOUTS = Schema(
     loser=Name(
@@ -136,6 +136,6 @@ LAYOUTS = Schema(
     ),
     loser_level=Text("losers level, loser class, loser rating", "the same for the loser"),
 )
-"""The columns that are brought to that layout."""
+"""The columns that are converted to that layout."""
 
 RESULTS_FILE = RESULTS | LAYOUTS

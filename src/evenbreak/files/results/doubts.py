@@ -1,4 +1,4 @@
-"""What is doubtful in results: rows that cannot be read, scores that are no games, odd dates."""
+"""Doubtful results: unreadable rows, scores that can't be games, odd dates."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from evenbreak.ratings.results import Results
 from evenbreak.words import Parameter, say, say_count
 
 MOST_LISTED = 20
-"""How many rows are listed; the rest are counted."""
+"""How many rows are listed; the others are only counted."""
 
 _SKIP_BAD = Parameter("skip_bad")
 
 
 def doubtful_score_warnings(results: Results, lines: NDArray[np.int64], source: str) -> list[str]:
-    """Return warnings of the scores that can hardly be games won, which count all the same."""
+    """Return warnings about scores that are unlikely to be games won, which still count."""
     texts = _score_doubts(results, lines, source)
     if not texts:
         return []
@@ -59,10 +59,10 @@ def _score_doubts(results: Results, lines: NDArray[np.int64], source: str) -> li
 def without_bad_rows(
     table: TextTable, read: Callable[[TextTable], Results]
 ) -> tuple[TextTable, list[str], tuple[LeftOut, ...]]:
-    """Return a table without rows that can't be read or hold no games, and what was left out.
+    """Return a table without unreadable rows or rows without games, and what was left out.
 
-    The rows left out are listed in warnings and one by one, with those that weren't split into
-    cells. Problems of the whole table, or no row left, are a DataError.
+    The rows left out are listed in warnings and one by one, including any that couldn't be split
+    into cells. Raises DataError if the whole table has a problem, or no row is left.
     """
     read(table)
     unread = {line for line in table.problems.lines if line > table.header}
@@ -99,13 +99,13 @@ def _counted(problems: Sequence[str], rows: int, source: str) -> list[str]:
 
 
 YEARS_APART = 5
-"""Dates this many years from all the others are doubted."""
+"""Dates this many years from all others are doubtful."""
 
 FEW = 0.1
-"""The largest share of the matches that can be far from all the others."""
+"""The largest share of matches that can be far from all the others."""
 
 MOST_DATES_LISTED = 10
-"""How many doubtful dates are listed; the rest are counted."""
+"""How many doubtful dates are listed; the others are only counted."""
 
 _GAP = np.timedelta64(round(365.25 * YEARS_APART), "D")
 
@@ -116,9 +116,9 @@ def date_warnings(
     source: str,
     today: np.datetime64 | None = None,
 ) -> list[str]:
-    """Return a warning for each match with a doubtful date (NaT: none stated).
+    """Return a warning for each match with a doubtful date (NaT: no date stated).
 
-    The day after `today` isn't the future yet: it has started in other time zones.
+    The day after `today` isn't in the future yet: it has started in other time zones.
 
     >>> days = np.array(["2024-09-03", "2204-09-10", "2024-09-17"], dtype="datetime64[D]")
     >>> date_warnings(days, np.array([2, 3, 4]), "r.csv")
@@ -145,7 +145,7 @@ def date_warnings(
 def _far(
     dates: NDArray[np.datetime64], considered: NDArray[np.bool_]
 ) -> tuple[NDArray[np.bool_], str]:
-    """Return which of the dates are far from all the others, and how far from when to when."""
+    """Return which dates are far from all others, how far, and the range of the others."""
     far = np.zeros(len(dates), dtype=bool)
     days = np.sort(dates[considered])
     if len(days) < 2:

@@ -1,8 +1,8 @@
-"""From the table of a results file to its matches: columns, layouts, rows that fit together.
+"""From a results table to its matches: columns, layouts, contradictory rows.
 
-A table may list the winner first, hold the score in one cell such as 7-5, and the race in one
-such as 7 or 7-5: `one_layout` brings them all to player_a, player_b, score_a, score_b, race_a and
-race_b, so that what reads those columns need not know how they were written.
+A table may list the winner first, put the score in one cell such as 7-5, and the race in one cell
+such as 7 or 7-5: `one_layout` converts all of these to player_a, player_b, score_a, score_b, race_a
+and race_b, so code that reads those columns doesn't need to know how they were written.
 """
 
 from __future__ import annotations
@@ -48,10 +48,10 @@ Pair = tuple[str, str]
 
 
 def one_layout(table: TextTable) -> TextTable:
-    """Return a table of results with its players, scores and races in columns of their own.
+    """Return a results table with players, scores and races in separate columns.
 
-    Where winner and loser are columns, the winner is player a, and the first number of a score
-    or race is the winner's. Cells without a meaning are added to the table's problems.
+    If the columns are winner and loser, the winner is player a, and the first number in a score or
+    race is the winner's. Cells that can't be read are added to the table's problems.
     """
     by_winner = {"winner", "loser"} <= table.found and not {"player_a", "player_b"} <= table.found
     columns = dict(table.columns)
@@ -75,7 +75,7 @@ def one_layout(table: TextTable) -> TextTable:
 
 
 def with_scores_apart(table: TextTable, sides: Pair) -> TextTable:
-    """Return a table with the scores of its column `score` in two, where it has not both."""
+    """Return a table with its column `score` split in two, unless it already has both scores."""
     if "score" not in table or table.found >= {*sides}:
         return table
     columns = dict(zip(sides, _split(_pairs(table, "score", _score)), strict=True))
@@ -83,7 +83,7 @@ def with_scores_apart(table: TextTable, sides: Pair) -> TextTable:
 
 
 def _not_used(names: list[str], source: str) -> list[str]:
-    """Return a warning if columns say what others say too."""
+    """Return a warning if some columns repeat what other columns say."""
     if not names:
         return []
     text = say(
@@ -114,7 +114,7 @@ def _split(pairs: list[Pair]) -> tuple[Texts, Texts]:
 
 
 def _score(text: str) -> Pair | str:
-    """Return the two numbers of a score, or why it is none.
+    """Return the two numbers in a score, or why the string isn't a score.
 
     >>> _score("7 – 5"), _score("'7/5"), _score("w/o"), _score("7")
     (('7', '5'), ('7', '5'), ('', ''), "isn't a score. Write 7-5.")
@@ -136,7 +136,7 @@ def _score(text: str) -> Pair | str:
 
 
 def _race(text: str) -> Pair | str:
-    """Return what the two players need, or why a text is no race.
+    """Return the games both players need, or why a string isn't a race.
 
     >>> _race("7"), _race("7:5"), _race("Race to 9"), _race("long")
     (('7', '7'), ('7', '5'), ('9', '9'), "isn't a race. Write 7, or 7-5.")
@@ -162,7 +162,7 @@ _IN_ONE_CELL: dict[str, tuple[Pair, Callable[[str], Pair | str]]] = {
 
 
 def _with_winners(table: TextTable) -> TextTable:
-    """Return a table without the winners whose scores say otherwise, noted as problems."""
+    """Return a table without winners that contradict their scores, noting them as problems."""
     cells = [table.cells(name) for name in ("winner", "score_a", "score_b", "race_a", "race_b")]
     winners = []
     for row, (winner, *counts) in enumerate(zip(*cells, strict=True)):
@@ -175,7 +175,7 @@ def _with_winners(table: TextTable) -> TextTable:
 
 
 def _not_won(won: int, lost: int, needed: int, other: int) -> str:
-    """Return why the first player did not win this match, or nothing."""
+    """Return why the first player didn't win this match, or nothing."""
     score = {"won": won, "lost": lost}
     if needed and other:
         if won < needed and lost >= other:
@@ -208,10 +208,10 @@ _PLAIN = RESULTS.only(*(name for name in RESULTS.columns if name not in (*NAMES,
 def results_columns(
     table: TextTable, names: PlayerNames, order: DateOrder | None = None
 ) -> dict[str, Values]:
-    """Return what the cells of a results file mean, column by column.
+    """Return the values of a results file's cells, column by column.
 
-    Cells without a meaning are added to the table's problems. A column that the file lacks
-    is empty throughout. `order` is that of day and month in dates such as 9/3/2024.
+    Cells that can't be read are added to the table's problems. A column that the file lacks is all
+    empty. `order` is the order of day and month in dates such as 9/3/2024.
     """
     sides = ("player_a", "loser") if "loser" in table else NAMES
     a, b = (names.read(table, name) for name in sides)
@@ -230,9 +230,9 @@ _BY_WINNER = ("race_a", "race_b", "winner")
 
 
 def results_rows(table: TextTable, names: PlayerNames, columns: Mapping[str, Values]) -> Results:
-    """Return the matches of a table; rows that contradict themselves are added to its problems.
+    """Return a table's matches, adding rows that contradict themselves to its problems.
 
-    A missing column without a substitute is a DataError, with all problems so far.
+    Raises DataError, with all problems so far, if a column is missing and has no substitute.
     """
     settled, good = _with_scores(table, columns)
     if any(_is_missing(table, name) for name in NEEDED):
@@ -259,8 +259,8 @@ def _with_scores(
 ) -> tuple[dict[str, NDArray[Any]], NDArray[np.bool_]]:
     """Return the values with empty scores filled in, and which rows are good.
 
-    An empty score is taken from the racks; where race and winner are stated it is not known,
-    and not needed.
+    An empty score is taken from the racks; if the race and the winner are stated, the score isn't
+    known and isn't needed.
     """
     values = {name: column.values.copy() for name, column in columns.items()}
     good = np.logical_and.reduce([column.good for column in columns.values()])
@@ -289,7 +289,7 @@ def _with_scores(
 
 
 def _unknown(column: str) -> Sentence:
-    """Return what to say of a row without a score, in the column of a score if there is one."""
+    """Return the error message for a row without a score, in the score column if there is one."""
     if not column:
         return say(
             "nothing shows who won. Write race_a, race_b and winner, or racks, or mark a "
@@ -315,7 +315,7 @@ def _add_contradictions(table: TextTable, results: Results, rows: NDArray[np.int
 
 
 def _one_player(table: TextTable, row: int) -> str:
-    """Return the two names of a player on both sides, if they are spelt differently."""
+    """Return both spellings of a player who is on both sides of a match, if they differ."""
     texts = (table.columns[name] for name in NAMES)
     a, b = (clean_name(distinct[codes[row]]) for distinct, codes in texts)
     return "" if a == b else say(" ({a} and {b} are read as one player)", a=quoted(a), b=quoted(b))

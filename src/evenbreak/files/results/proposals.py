@@ -1,8 +1,9 @@
-"""Which columns of a results file are the players and scores, where their titles are not known.
+"""Guessing which columns of a results file are the players and scores if titles are unknown.
 
-This is made only for a message: the option --columns to paste. Whoever pastes it trusts it, and a
-wrong one turns every winner into a loser, or points into games. So titles must say which side is
-which, and the rows must fit one reading alone; where two fit, both are shown and none proposed.
+The guess is only used in a message: a --columns option to paste. People who paste it trust it, and
+a wrong guess would turn every winner into a loser, or points into games. So the titles must say
+which side is which, and the rows must fit only one reading; if two readings fit, both are shown and
+neither is proposed.
 """
 
 from __future__ import annotations
@@ -24,34 +25,34 @@ _COUNT = re.compile(r"\d{1,2}", re.ASCII)
 _DATE = re.compile(r"\d{1,4}([-/.])\d{1,2}\1\d{1,4}( .*|T.*)?", re.ASCII)
 
 _FEW = 0.02
-"""The share of rows that may be unlike the others: empty, or a match that ended level."""
+"""The share of rows that may be exceptions: empty, or a match that ended level."""
 
 _MANY_TIES = 0.4
-"""Two columns that are equal in more of the rows can hardly be scores."""
+"""Two columns that are equal in a larger share of rows are unlikely to be scores."""
 
 _ENOUGH_ROWS = 10
-"""In so many rows some player has been on either side, and some on both sides of a score."""
+"""With this many rows, some player has been on both sides, and the two scores overlap."""
 
 _MOST_READINGS = 4
-"""More are not shown."""
+"""No more than this many are shown."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Column:
-    """A column of the file: its title and cells, and whether it is still without a meaning."""
+    """A column in the file: its title and cells, and whether it still has no meaning."""
 
     title: str
     cells: list[str]
     free: bool
 
     def all_are(self, fits: Callable[[str], object]) -> bool:
-        """Return whether all cells fit; hardly any is empty or says that nothing was played."""
+        """Return whether all cells match; few are empty or say that nothing was played."""
         stated = [cell for cell in self.cells if cell and not _is_status(cell)]
         empty = len(self.cells) - len(stated)
         return bool(stated) and empty <= max(_FEW, 0.2) * len(self.cells) and all(map(fits, stated))
 
     def numbers(self) -> list[int]:
-        """Return its numbers; -1 where there is none."""
+        """Return its numbers; -1 for cells without one."""
         return [int(cell) if _COUNT.fullmatch(cell) else -1 for cell in self.cells]
 
 
@@ -60,7 +61,7 @@ Reading = Mapping[str, str]
 
 
 TEAMS = {"player_a": "home", "player_b": "away", "score_a": "home_score", "score_b": "away_score"}
-"""What the columns are called in results of teams."""
+"""What the columns are called in team results."""
 
 
 def columns_hint(
@@ -69,10 +70,10 @@ def columns_hint(
     rows: Sequence[Sequence[str]],
     called: Mapping[str, str] | None = None,
 ) -> str:
-    """Return what to do about missing columns of players and scores.
+    """Return what to do about missing columns for players and scores.
 
-    `places` are those of the columns with known names; `called` are other names than in results of
-    players.
+    `places` are the places of columns with known names; `called` has the names that differ from
+    those in player results.
 
     >>> print(columns_hint({}, ["Sp H", "Sp G", "S"], [["Ann", "Bo", "7-5"]]))
     If they have other names, add columns "player_a=Sp H,player_b=Sp G,score=S"
@@ -116,7 +117,7 @@ def _option(reading: Reading) -> str:
 def readings_of(
     places: Mapping[str, int], titles: Sequence[str], rows: Sequence[Sequence[str]]
 ) -> list[Reading]:
-    """Return every way to read the file that its titles and rows leave open."""
+    """Return every way of reading the file that its titles and rows allow."""
     names = {place: name for name, place in places.items()}
     known: dict[str, _Column] = {}
     free = []
@@ -158,7 +159,7 @@ def _is_score(text: str) -> bool:
 
 
 def _player_pairs(free: Sequence[_Column], known: Mapping[str, _Column]) -> list[_Pair]:
-    """Return the pairs of columns that can be the players: in either order, if it is not said."""
+    """Return the pairs of columns that can be the players; in both orders if titles don't say."""
     if {"winner", "loser"} <= known.keys():
         return [(known["winner"], known["loser"])]
     a, b = (known.get(f"player_{side}") for side in "ab")
@@ -174,13 +175,13 @@ def _player_pairs(free: Sequence[_Column], known: Mapping[str, _Column]) -> list
 
 
 def _turns(pair: _Pair) -> list[_Pair]:
-    """Return a pair with the first side first; both ways where the titles do not say which."""
+    """Return a pair with the first side first; both orders if the titles don't say."""
     order = order_of(pair[0].title, pair[1].title)
     return [pair, pair[::-1]] if not order else [pair if order > 0 else pair[::-1]]
 
 
 def _can_meet(pair: _Pair) -> bool:
-    """Return whether who is in two columns can be opponents: many are on either side, some time."""
+    """Return whether two columns can be opponents: many players appear on both sides."""
     a, b = ([key_of(cell) for cell in column.cells] for column in pair)
     if any(one == other != "" for one, other in zip(a, b, strict=True)):
         return False
@@ -189,14 +190,14 @@ def _can_meet(pair: _Pair) -> bool:
 
 
 def _finest(pairs: Sequence[_Pair]) -> list[_Pair]:
-    """Return the pairs without those that only say to which team each of another pair belongs."""
+    """Return the pairs, except those that only give the teams of another pair's players."""
     return [
         pair for pair in pairs if not any(_belong(other, pair) for other in pairs if other != pair)
     ]
 
 
 def _belong(players: _Pair, teams: _Pair) -> bool:
-    """Return whether each player is in one team, and most teams have several."""
+    """Return whether each player is on one team, and most teams have several players."""
     team_of: dict[str, str] = {}
     squads = defaultdict(set)
     for column, teams_column in zip(players, teams, strict=True):
@@ -214,7 +215,7 @@ def _belong(players: _Pair, teams: _Pair) -> bool:
 def _score_readings(
     free: Sequence[_Column], known: Mapping[str, _Column], players: _Pair
 ) -> Iterator[Reading]:
-    """Yield the columns that can be the scores of the players: one, or two."""
+    """Yield the columns that can be the players' scores: one, or two."""
     for side, other in ("ab", "ba"):
         if f"score_{side}" in known:
             counts = [column for column in free if column.all_are(_COUNT.fullmatch)]
@@ -249,7 +250,7 @@ def _score_readings(
 
 
 def _orders(pair: _Pair, known: Mapping[str, _Column], players: _Pair) -> list[_Pair]:
-    """Return two columns of games in the players' order; both ways where nothing says which."""
+    """Return two columns of games in the players' order; both orders if nothing says which."""
     won = [_agreement(turn, known, players) for turn in (pair, pair[::-1])]
     order = order_of(pair[0].title, pair[1].title)
     turned = pair if order >= 0 else pair[::-1]
@@ -264,7 +265,7 @@ def _orders(pair: _Pair, known: Mapping[str, _Column], players: _Pair) -> list[_
 
 
 def _is_running(column: _Column) -> bool:
-    """Return whether numbers never fall, or never rise, as those of matches and weeks do."""
+    """Return whether numbers never fall, or never rise, like match numbers and weeks."""
     numbers = [int(cell) for cell in column.cells if _COUNT.fullmatch(cell)]
     if len(numbers) < 3:
         return False
@@ -274,7 +275,7 @@ def _is_running(column: _Column) -> bool:
 
 
 def _are_scores(pair: _Pair, known: Mapping[str, _Column], players: _Pair) -> bool:
-    """Return whether two columns of numbers can be games won: by ties, races, winners, players."""
+    """Return whether two columns can be games won, judging by ties, races, winners and players."""
     a, b = (column.numbers() for column in pair)
     rows = [(m, n) for m, n in zip(a, b, strict=True) if m >= 0 and n >= 0]
     level = sum(m == n for m, n in rows)
@@ -304,7 +305,7 @@ def _are_scores(pair: _Pair, known: Mapping[str, _Column], players: _Pair) -> bo
 
 
 def _may_be_scores(pair: _Pair, players: _Pair) -> bool:
-    """Return whether it cannot be said that two columns are no scores: each side wins some."""
+    """Return whether two columns may be scores: each side wins some."""
     a, b = (column.numbers() for column in pair)
     rows = [(m, n) for m, n in zip(a, b, strict=True) if m >= 0 and n >= 0]
     wins, losses = sum(m > n for m, n in rows), sum(m < n for m, n in rows)
@@ -319,7 +320,7 @@ def _may_be_scores(pair: _Pair, players: _Pair) -> bool:
 
 
 def _is_of_player(column: _Column, player: _Column) -> bool:
-    """Return whether a number goes with the player, as a level or rating does."""
+    """Return whether a number belongs to the player, like a level or rating."""
     values = defaultdict(list)
     for cell, name in zip(column.cells, player.cells, strict=True):
         values[name].append(cell)
@@ -328,7 +329,7 @@ def _is_of_player(column: _Column, player: _Column) -> bool:
 
 
 def _is_score_column(column: _Column, known: Mapping[str, _Column], players: _Pair) -> bool:
-    """Return whether a column has both scores in a cell, and is neither the time nor the race."""
+    """Return whether a column has both scores in a cell, and isn't a time or a race."""
     if not column.all_are(_is_score) or column.all_are(_CLOCK.fullmatch):
         return False
     scores = [score for cell in column.cells if (score := _SCORE.fullmatch(cell))]
@@ -345,7 +346,7 @@ def _is_score_column(column: _Column, known: Mapping[str, _Column], players: _Pa
 
 
 def _agreement(pair: _Pair, known: Mapping[str, _Column], players: _Pair) -> float:
-    """Return in what share of the rows the winner whom the file names has more games."""
+    """Return the share of rows in which the winner named in the file has more games."""
     if "winner" not in known:
         return 0.5
     fits = []

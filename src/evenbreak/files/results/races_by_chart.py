@@ -1,4 +1,4 @@
-"""The races of results that state levels, or ratings, but no races: those of the league's chart."""
+"""Races from the league's chart, for results that state levels or ratings but no races."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ def races_by_chart(
 ) -> tuple[Results, list[str]]:
     """Return results with the races that a chart sets for the levels or ratings stated in them.
 
-    A race stays open where both players reached their games, or neither did, and where the chart is
-    one of points or no levels are stated. With `points`, scores are points where the chart is one
-    of points, and it sets the points to win.
+    A race stays unknown if both players reached their target or neither did, if it's a points
+    chart, or if no levels are stated. With `points`, scores under a points chart are points, and
+    the chart sets the points to win.
     """
     of_league = find_chart(chart)
     race_a, race_b = (needed.copy() for needed in results.races)

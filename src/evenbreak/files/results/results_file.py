@@ -1,4 +1,4 @@
-"""Files of results as `Results`: one, or the seasons of a league in a row, and names as meant."""
+"""Results files as `Results`: one file, or a league's consecutive seasons, with names resolved."""
 
 from __future__ import annotations
 
@@ -38,38 +38,38 @@ if TYPE_CHECKING:
 
 _SAME_NAME = say("If so, use the same name throughout.")
 MOST_RENAMED = 20
-"""How many names are listed that aliases changed; the rest are counted."""
+"""How many names changed by aliases are listed; the others are only counted."""
 
 
 @array_values
 @dataclass(frozen=True, eq=False)
 class ResultsFile:
-    """The contents of a results file.
+    """The content of a results file.
 
     Parameters
     ----------
     results
-        in the order of the file; players in the order of their names.
+        in file order; players in the order of their names.
     source
-        the name of the file in messages.
+        the file's name in messages.
     warnings
-        one per line: the file can be used all the same.
+        one per line; the file can be used anyway.
     similar_names
         groups of names that may mean one player.
     sha256
-        fingerprint of the bytes that were read.
+        the fingerprint of the bytes read.
     lines
-        the line in which each match starts; empty where the matches did not come from a file.
+        the line where each match starts; empty if the matches didn't come from a file.
     ties
         a warning if matches have neither a winner nor a race; a chart may still say who won.
     skipped
-        number of rows left out because of `skip_bad`.
+        the number of rows left out because of `skip_bad`.
     left_out
-        these rows, and those of byes and matches not played, each with the reason.
+        these rows, and the rows for byes and unplayed matches, each with the reason.
     renamed
-        names as written, each with the name as which it is read.
+        names as written, each with the name it is read as.
     read
-        the name and the fingerprint of each file that was read, where there are several.
+        the name and fingerprint of each file read, if there are several.
     """
 
     results: Results
@@ -101,38 +101,37 @@ def read_results(
 ) -> ResultsFile:
     r"""Read match results from a CSV file or workbook; '-' is standard input.
 
-    Format, separator and header are read as in `evenbreak.files.tables.table`; the columns
-    are those of `RESULTS_FILE`. Names lose spaces around and double blanks inside,
-    and are put into Unicode's form NFC; those that differ only in case or blanks are one
-    player's. `winner` and `first_break` are a, b or the name of one of the two players. A
-    forfeit may leave its scores empty; so may a match whose racks are given, or of which only
-    the race and the winner are known.
+    Format, separator and header are read as in `evenbreak.files.tables.table`; the columns are
+    those of `RESULTS_FILE`. Extra spaces are removed from names, which are then normalized to
+    Unicode NFC; names that differ only in case or spacing belong to one player. `winner` and
+    `first_break` are a, b or the name of one of the two players. A forfeit may leave its scores
+    empty; so may a match with its racks listed, or a match with only the race and the winner known.
 
     Parameters
     ----------
     aliases
-        a file that says which names mean the same player, or what `read_aliases` reads from it.
+        a file that says which names mean the same player, or the result of `read_aliases`.
     columns
-        for columns such as player_a the titles that they have in the file, if not known ones;
-        those of `autumn.csv:player_a` are for the file of that name alone.
+        the file's titles for columns such as player_a, if they aren't known ones; a title for
+        `autumn.csv:player_a` applies only to that file.
     maybe
-        whether titles in `columns` that the file lacks are left aside.
+        whether titles in `columns` that the file lacks are ignored.
     dates
-        'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date of the file shows it.
+        'mdy' or 'dmy': the order in dates such as 9/3/2024, if no date in the file shows it.
     skip_bad
-        whether rows that cannot be read, and scores that can hardly be games, are left out and
-        listed in the warnings; otherwise the file is refused for the former, and the latter count.
+        whether unreadable rows, and scores that are unlikely to be games, are left out and listed
+        in the warnings; otherwise unreadable rows make the file invalid, and unlikely scores count.
     unplayed
-        whether rows that state no result are left out, as remaining matches.
+        whether rows without a result are left out, as remaining matches.
     chart
-        the name or the file of the chart that set the races, where the results state the levels or
-        the ratings of both players but no race.
+        the name or file of the chart that set the races, for results that state both players'
+        levels or ratings but no race.
 
     Raises
     ------
     DataError
-        with every problem of the file, one per line, if there are any that `skip_bad` does not
-        leave out; before that with those of the file of aliases.
+        listing every problem in the file, one per line, except those that `skip_bad` leaves out;
+        problems in the aliases file come first.
 
     >>> import tempfile, pathlib
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -216,7 +215,7 @@ def _without_unplayed(table: TextTable) -> TextTable:
 
 
 def columns_of_file(columns: Mapping[str, str], path: str | Path) -> dict[str, str]:
-    """Return which titles mean which columns in a file: those for all, and for it by name.
+    """Return a file's column titles: the titles for all files, and those for this file.
 
     >>> columns_of_file({"score": "Stand", "b.csv:score": "S", "c.csv:score": "T"}, "x/b.csv")
     {'score': 'S'}
@@ -232,7 +231,7 @@ def columns_of_file(columns: Mapping[str, str], path: str | Path) -> dict[str, s
 def refuse_unfound(
     columns: Mapping[str, str], paths: Sequence[str | Path], files: Sequence[ResultsFile]
 ) -> None:
-    """Refuse a title that no file has, and the name of a file that is none of them."""
+    """Reject a title that no file has, or a file name that isn't one of the files."""
     for key, title in columns.items():
         file, _, name = key.rpartition(":")
         if file and not any(file in (str(path), Path(path).name) for path in paths):
@@ -251,7 +250,7 @@ def refuse_unfound(
 
 
 def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
-    """Return which titles mean which columns, or refuse columns that there are none of."""
+    """Return titles by column, or reject columns that don't exist."""
     for name in columns:
         if name.rpartition(":")[2] not in RESULTS_FILE.columns:
             raise InputError(
@@ -264,7 +263,7 @@ def _checked(columns: Mapping[str, str]) -> Mapping[str, str]:
 
 
 def _merged(names: dict[str, str], source: str) -> list[str]:
-    """Return a warning for each name that is read as another spelling of it."""
+    """Return a warning for each name that is read as another spelling."""
     warnings = [
         warning(
             source,
@@ -282,7 +281,7 @@ def _merged(names: dict[str, str], source: str) -> list[str]:
 
 
 def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:
-    """Return a warning that lists the names that aliases have changed."""
+    """Return a warning listing the names that aliases have changed."""
     if not names:
         return []
     changed = [
@@ -300,7 +299,7 @@ def _renamed(names: dict[str, str], source: str, aliases: str) -> list[str]:
 
 
 def _repeated_rows(table: TextTable) -> list[str]:
-    """Return a warning if whole rows appear again: they may have been pasted twice."""
+    """Return a warning if whole blocks of rows are repeated: they may have been pasted twice."""
     if "date" not in table:
         return []  # the same two players often play to the same score on another day
     # The sets of a match in another program's file stand in one line.
@@ -339,7 +338,7 @@ def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
 
 
 def met_pairs(results: Results) -> Iterator[tuple[str, str]]:
-    """Yield the names that played each other, each pair once for either order."""
+    """Yield the names that played each other, each pair once in each order."""
     many = max(len(results.players), 1)
     ends = np.divmod(np.unique(results.player_a * many + results.player_b), many)
     for a, b in zip(*(end.tolist() for end in ends), strict=True):
@@ -349,7 +348,7 @@ def met_pairs(results: Results) -> Iterator[tuple[str, str]]:
 def in_a_row(files: Sequence[ResultsFile], *, doubles: bool = False) -> ResultsFile:
     """Return several files of results as one; see `evenbreak.files.results.seasons`.
 
-    With `doubles` nothing is said of matches that two files have.
+    With `doubles`, there is no warning about matches that appear in two files.
     """
     if len(files) == 1:
         return files[0]
@@ -383,7 +382,7 @@ def in_a_row(files: Sequence[ResultsFile], *, doubles: bool = False) -> ResultsF
 
 
 def _in_two_files(files: Sequence[ResultsFile], results: Results) -> Iterator[str]:
-    """Yield how many dated matches of a file are in an earlier one, with the same score."""
+    """Yield how many of a file's dated matches are in an earlier file, with the same score."""
     if results.date is None:
         return
     columns = (results.player_a, results.player_b, results.score_a, results.score_b)
@@ -414,7 +413,7 @@ def _in_two_files(files: Sequence[ResultsFile], results: Results) -> Iterator[st
 
 
 def _joined(seasons: Sequence[Results]) -> Results:
-    """Return the matches of all seasons, between the players of all."""
+    """Return the matches of all seasons, with one list of players."""
     spelling: dict[str, str] = {}
     for season in seasons:
         for name in season.players:

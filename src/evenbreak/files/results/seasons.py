@@ -1,4 +1,4 @@
-"""The seasons of a league in a row: several files of results, or those that its file names."""
+"""A league's consecutive seasons: several results files, or those named in the league's file."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from evenbreak.files.results.results_file import ResultsFile, in_a_row, read_res
 
 
 def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
-    r"""Read several files of results as one career of each player.
+    r"""Read several results files, treating each player's seasons as one career.
 
-    Titles in `columns` are those of the files that have them. A league's file, `league.toml`, may
-    replace a file of results: it names files, the titles of their columns and aliases.
+    Titles in `columns` apply to the files that have them. A league's file, `league.toml`, may
+    replace a results file: it names files, their column titles and aliases.
 
-    Names that differ only in case or spaces are one player's, spelled as in the first file.
+    Names that differ only in case or spacing belong to one player, spelled as in the first file.
 
     Parameters
     ----------
     paths
-        in any order: matches go by their dates.
+        in any order: matches are ordered by date.
     reading
         as for `read_results`.
 
     Raises
     ------
     InputError
-        if two of the files hold the same.
+        if two of the files have the same content.
     DataError
         as `read_results` does.
 
@@ -55,7 +55,7 @@ def read_seasons(paths: Sequence[str | Path], **reading: Any) -> ResultsFile:
 def _of_league(
     path: str | Path, *, aliases: str | Path | None = None, skip_bad: bool = False, **reading: Any
 ) -> ResultsFile:
-    """Return a league's results as one file; what is given here replaces the league's own."""
+    """Return a league's results as one file; arguments here override the league's own."""
     league = read_league(path, quickly=True)
     known = None if aliases is None else read_aliases(aliases)
     return league_results(league, aliases=known, skip_bad=skip_bad, **reading).file

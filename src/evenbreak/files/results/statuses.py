@@ -1,6 +1,6 @@
-"""Matches that were not played, however a file says so: forfeits, byes, postponed ones.
+"""Matches that weren't played, however a file says so: forfeits, byes, postponements.
 
-The words are those of `evenbreak.files.tables.titles`: instead of a score, of a player, or in a
+The words in `evenbreak.files.tables.titles` are recognized in place of a score or a player, or in a
 column of statuses or remarks.
 """
 
@@ -21,7 +21,7 @@ _MOST_LINES = 10
 
 
 class LeftOut(NamedTuple):
-    """A row that is no match: its line, and why."""
+    """A row that isn't a match: its line, and the reason."""
 
     line: int
     why: str
@@ -33,9 +33,9 @@ _BYE, _NOT_YET = say("a bye"), say("not played")
 def played_matches(
     table: TextTable, names: Sequence[str], *, to_come: bool = False
 ) -> tuple[TextTable, tuple[LeftOut, ...]]:
-    """Return a table without byes and matches not played yet, its forfeits marked as such.
+    """Return a table without byes and unplayed matches, with its forfeits marked as such.
 
-    With `to_come`, matches not played yet stay, without a score.
+    With `to_come`, matches not played yet are kept, without a score.
     """
     said = {
         name: [key_of(text) for text in table.cells(name)]
@@ -83,7 +83,7 @@ def played_matches(
 
 
 def _unknown(table: TextTable, said: Mapping[str, Sequence[str]]) -> list[str]:
-    """Return a warning of the statuses that are not known."""
+    """Return a warning about unknown statuses."""
     known = FORFEIT | BYE | UNPLAYED | WAS_PLAYED | {""}
     cells = zip(table.cells("status"), said["status"], strict=True) if "status" in said else ()
     words = {cell: None for cell, word in cells if word not in known}
@@ -98,7 +98,7 @@ def _unknown(table: TextTable, said: Mapping[str, Sequence[str]]) -> list[str]:
 
 
 def _counted(table: TextTable, left_out: Sequence[LeftOut]) -> list[str]:
-    """Return a warning that counts the byes and the matches not played, each kind with lines."""
+    """Return a warning that counts the byes and unplayed matches, each kind with its lines."""
     warnings: list[str] = []
     for why, one, several in (
         (_BYE, "{n} bye is left out (line {lines})", "{n:,} byes are left out (lines {lines})"),

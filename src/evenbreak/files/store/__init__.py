@@ -1,1 +1,1 @@
-"""What is kept: folders that are written as a whole, and the database of an evening."""
+"""Storage: folders written as a whole, and an evening's database."""

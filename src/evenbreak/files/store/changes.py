@@ -1,8 +1,8 @@
-"""All entries of a file in the one order in which they came in, whatever strand they are in.
+"""All entries in a file, in the order they were made, whatever their strand.
 
-An entry is known by the number of its row, which is the same for every program that reads the file
-and is never given again: where a tournament is taken out, a row says so. A sum of what the entry
-says stands next to the number, for other files have a row of that number too.
+An entry is identified by its row number, which is the same for every program that reads the file
+and is never reused: if a tournament is removed, a row says so. A checksum of the entry's content is
+stored with the number, because other files have a row with that number too.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from evenbreak.files.store.evening_file import is_there, opened
 from evenbreak.files.store.formats import ENTRIES, source
 
 CLEARED = "cleared"
-"""The strand of the row that says that all before it is gone, save the team nights."""
+"""The strand of the row that marks everything before it as removed, except team nights."""
 
 
 class Row(NamedTuple):
@@ -31,7 +31,7 @@ class Row(NamedTuple):
 
     @property
     def mark(self) -> str:
-        """What the entry is known by wherever files are replaced by others, or copied.
+        """The entry's ID, unique even if files are replaced or copied.
 
         >>> Row(7, "1", 3, "2025-03-01T19:30:00", "redone", '{"entry": 2}').mark
         '7-cde79473'
@@ -40,10 +40,10 @@ class Row(NamedTuple):
 
 
 def rows_from(path: str | Path, first: int, most: int) -> list[Row]:
-    """Return the entries of a file from an id on, the last `most` of them; none if it has none.
+    """Return a file's entries from an ID on, the last `most` of them; none if it has none.
 
-    Entries of an earlier version have the ids that they keep in the update. A DataError if there is
-    a file that can't be read.
+    Entries from an earlier version have the IDs they will keep after the update. Raises DataError
+    if the file exists and can't be read.
     """
     if not is_there(path):
         return []
@@ -60,7 +60,7 @@ def rows_from(path: str | Path, first: int, most: int) -> list[Row]:
 
 
 def clear(base: sqlite3.Connection, but: str) -> None:
-    """Take all entries out of a file but those of a strand; their ids are not given again."""
+    """Remove all entries from a file except one strand's; their IDs aren't reused."""
     last = base.execute(f"SELECT MAX(rowid) FROM {ENTRIES}").fetchone()[0]  # noqa: S608
     base.execute(f"DELETE FROM {ENTRIES} WHERE strand != ?", (but,))  # noqa: S608
     if last is not None:

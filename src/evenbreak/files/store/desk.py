@@ -1,7 +1,7 @@
-"""What the file of an evening holds besides its events: secrets, what phones did.
+"""What an evening's file holds besides its events: secrets, and what phones did.
 
-What phones did is a strand of the log: who claimed which player, who proposed which result. Who has
-whose phone, and what is proposed now, are a fold of it.
+What phones did is a strand of the log: who claimed which player, who proposed which result. Whose
+phone is whose, and what is proposed now, are folded from it.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ _SECRETS = "CREATE TABLE IF NOT EXISTS secret (name TEXT PRIMARY KEY, value TEXT
 
 
 def kept_secrets(path: str | Path, first: Mapping[str, str]) -> dict[str, str]:
-    """Return the secrets of a tournament by name; `first` are those to store where it has none.
+    """Return a tournament's secrets by name; if it has none, `first` are stored.
 
-    In a file that is read-only now they aren't stored.
+    If the file is currently read-only, they aren't stored.
     """
     with opened(path) as base:
         kept = _secrets(base)
@@ -51,21 +51,21 @@ def _secrets(base: sqlite3.Connection) -> dict[str, str]:
 
 
 def change_secrets(path: str | Path, to: Mapping[str, str]) -> None:
-    """Keep other secrets of a tournament instead of those that have these names."""
+    """Store new secrets for a tournament in place of those with the same names."""
     with changing(path) as base:
         base.execute(_SECRETS)
         base.executemany("INSERT OR REPLACE INTO secret VALUES (?, ?)", list(to.items()))
 
 
 def new_pin() -> str:
-    """Return a PIN of six digits."""
+    """Return a six-digit PIN."""
     return f"{secrets.randbelow(10**6):06d}"
 
 
 def back_up(path: str | Path, now: datetime) -> Path:
-    """Write a copy of the file next to it, and return its name.
+    """Write a copy of the file next to it, and return the copy's name.
 
-    What bears that name is a whole copy, even if the program ends while it is written.
+    A file with that name is always a complete copy, even if the program ends while writing.
     """
     return copied(path, f"{now:%Y%m%d-%H%M%S}")
 
@@ -80,13 +80,13 @@ _BY = "phone "
 
 @dataclass(frozen=True)
 class Act:
-    """Something that a phone did, or that the director did about one.
+    """Something that a phone did, or that the director did about a phone.
 
-    claimed: the phone is this player's from now on; released: the player has none; coming: the
-    player is on the way to the table, in `score['minutes']`; proposed: the player sent a result;
-    withdrawn: and took it back; entered: the proposal is the result now; objected: a table says
-    that its last result is wrong; tablet: the phone belongs to the table that `player` names; no
-    tablet: not anymore.
+    claimed: the phone belongs to this player from now on; released: the player has none; coming:
+    the player is on the way to the table, in `score['minutes']`; proposed: the player sent a
+    result; withdrawn: the player took it back; entered: the proposal is the result now; objected: a
+    table says that its last result is wrong; tablet: the phone belongs to the table that `player`
+    names; no tablet: not anymore.
 
     A claim is for all events of the night.
     """
@@ -100,23 +100,23 @@ class Act:
 
 @dataclass(frozen=True)
 class Entry(Event):
-    """An entry of what phones did; its author is the phone, by its session and its address."""
+    """An entry about a phone; its author is the phone, by session and address."""
 
     what: Act
 
     @property
     def kind(self) -> str:
-        """What was done."""
+        """The action's name."""
         return self.what.kind
 
     @property
     def phone(self) -> str:
-        """The session that did it; '' if the director did."""
+        """The session that did it; '' for the director."""
         return self._author[0]
 
     @property
     def address(self) -> str:
-        """Where the phone was."""
+        """The phone's address."""
         return self._author[1]
 
     @property
@@ -128,15 +128,16 @@ class Entry(Event):
 
 
 def by_phone(phone: str, address: str) -> str:
-    """Return the author of what a phone does."""
+    """Return the author of a phone's action."""
     return f"{_BY}{phone} {address}"
 
 
 class Phones:
-    """Whose phones are whose, which tablets belong to tables, and what is proposed.
+    """Whose phones are whose, which tablets belong to tables, and current proposals.
 
-    A phone has one player. Whoever claims another one gives up the first, and with it what they
-    proposed: no one answers for both. So does a player's proposal go with the phone it came from.
+    A phone has one player. Claiming another player gives up the first, along with anything proposed
+    for them: no one answers for both players. A player's proposal also goes when the phone it came
+    from does.
 
     >>> ann = Entry("19:30", Act(CLAIMED, "Ann"), by_phone("x", "10.0.0.7"))
     >>> bo = Entry("19:31", Act(CLAIMED, "Bo"), by_phone("y", "10.0.0.8"))
@@ -157,7 +158,7 @@ class Phones:
             self.add(entry)
 
     def add(self, entry: Entry) -> None:
-        """Add the next entry."""
+        """Apply the next entry."""
         player, match = entry.what.player, entry.what.match
         match entry.kind:
             case "claimed":
@@ -191,26 +192,26 @@ class Phones:
             proposed.pop(player, None)
 
     def of(self, phone: str) -> str:
-        """Return whose phone it is; '' if no one's."""
+        """Return whose phone it is; '' if it's no one's."""
         return next((who for who, claim in self.claims.items() if claim.phone == phone), "")
 
     def table_of(self, phone: str) -> int:
-        """Return the table that a tablet belongs to; 0 if it is none."""
+        """Return a tablet's table; 0 if it has none."""
         return int(self.tablets[phone].what.player) if phone in self.tablets else 0
 
     def answer(self, player: str, match: str, since: str) -> int | None:
-        """Return in how many minutes a player who was called comes; None: they have not said."""
+        """Return how many minutes until a called player arrives; None if they haven't said."""
         note = self.coming.get(player)
         if note is None or note.what.match != match or note.at < since:
             return None
         return note.what.score.get("minutes", 0)
 
     def tablets_of(self, table: int) -> list[str]:
-        """Return the tablets of a table."""
+        """Return a table's tablets."""
         return [phone for phone, one in self.tablets.items() if one.what.player == str(table)]
 
     def sides(self, match: str, pair: tuple[str, str]) -> Sides:
-        """Return what the players of a match propose, without others who were in it before."""
+        """Return the match's current players' proposals, ignoring anyone who was in it before."""
         proposed = self._proposed.get(match, {})
         there = {name: proposed[name] for name in pair if name in proposed}
         now = {name: one for name, one in there.items() if set(one.what.score) == set(pair)}
@@ -220,7 +221,7 @@ class Phones:
 
 @dataclass(frozen=True)
 class Sides:
-    """What the two players of a match propose; `claims` are the phones of those who have one."""
+    """What a match's two players propose; `claims` are the phones of players who have one."""
 
     match: str
     pair: tuple[str, str]
@@ -229,7 +230,7 @@ class Sides:
 
     @property
     def scores(self) -> dict[str, tuple[int, int]]:
-        """What each of them says, the games of the first player first."""
+        """Each player's proposed score, with the first player's games first."""
         one, other = self.pair
         return {
             who: (its.what.score[one], its.what.score[other]) for who, its in self.proposed.items()
@@ -237,7 +238,7 @@ class Sides:
 
     @property
     def agree(self) -> bool:
-        """Whether both players propose one result."""
+        """Whether both players propose the same result."""
         return len(self.proposed) == 2 and len(set(self.scores.values())) == 1
 
     @property
@@ -251,14 +252,14 @@ class Sides:
 
 
 def disputes(state: Evening, phones: Phones) -> list[Sides]:
-    """Return the matches of which the two players propose different results."""
+    """Return the matches whose players propose different results."""
     ready = state.standing.to_play if state.drawn else ()
     sides = (phones.sides(name, state.pair(name)) for name in ready)
     return [one for one in sides if len(set(one.scores.values())) == 2]
 
 
 def objected(state: Evening, phones: Phones) -> list[str]:
-    """Return the matches whose result, as it is, is wrong by what was tapped at their table."""
+    """Return the matches whose current result is wrong, according to a tap at their table."""
     found = []
     for match, entry in phones.objections.items():
         result = state.counted.get(match) if state.drawn else None
@@ -268,9 +269,9 @@ def objected(state: Evening, phones: Phones) -> list[str]:
 
 
 def phones_in(did: Iterable[Entry], state: Evening, event: int = 1) -> Phones:
-    """Return what is known of the phones in an event of the night.
+    """Return the current state of the phones in one of the night's events.
 
-    Claims are for all events; each player is called what this event calls them now.
+    Claims apply to all events; each player has the name that this event uses now.
     """
 
     def now(entry: Entry) -> Entry:
@@ -293,10 +294,10 @@ def enter(
     event: int = 1,
     form: str | None = None,
 ) -> Phones:
-    """Add a phone's action to the log, and return what is known of the phones after it.
+    """Add a phone's action to the log, and return the state of the phones after it.
 
-    `decide` returns the action, None for nothing new; no one else can add anything meanwhile. A
-    `form` (its id) that was taken before adds nothing, and `decide` isn't asked.
+    `decide` returns the action, or None if there is nothing new; no one else can add anything
+    meanwhile. A `form` (its ID) that was accepted before adds nothing, and `decide` isn't called.
     """
     with changing(path) as base:
         earlier = entries(base, path, PHONES, _RULES)
@@ -310,13 +311,13 @@ def enter(
 
 
 def phone_entries(path: str | Path) -> list[Entry]:
-    """Return what phones did, in the order in which it came in."""
+    """Return the phones' actions, in the order they came in."""
     with opened(path) as base:
         return entries(base, path, PHONES, _RULES)
 
 
 class _Acts(Kinds[Act]):
-    """What phones do is kept in one class, whatever its kind."""
+    """A phone's actions use one class, whatever their kind."""
 
     def __init__(self) -> None:
         super().__init__(dict.fromkeys((*_FOR_ALL, *_OF_A_MATCH), Act))

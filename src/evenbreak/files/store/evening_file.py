@@ -1,9 +1,9 @@
-"""The file of an evening: one SQLite database with a tournament, a team night or both.
+"""An evening's file: one SQLite database with a tournament, a team night or both.
 
-What was acknowledged is on the disk: each addition is one transaction, written through at once.
+Anything acknowledged is on disk: each addition is one transaction, written through at once.
 
-The file is opened through SQLite alone. Opening and closing it in any other way drops the locks
-that this process has on it, and another program may then remove the log that is being written
+The file is only ever opened through SQLite. Opening and closing it in any other way would drop this
+process's locks on it, and another program could then remove the log that is being written
 (sqlite.org, "How To Corrupt An SQLite Database File", 2.2).
 """
 
@@ -53,17 +53,17 @@ Result = TypeVar("Result")
 
 @contextmanager
 def opened(path: str | Path) -> Iterator[sqlite3.Connection]:
-    """Open an evening's file to read it, read-only files too; a DataError if that's impossible."""
+    """Open an evening's file for reading, even if read-only; raise DataError if that fails."""
     with _checked(Path(path), reading=True) as base:
         yield base
 
 
 @contextmanager
 def changing(path: str | Path) -> Iterator[sqlite3.Connection]:
-    """Open an evening's file to change it; others who want to change it wait for the block to end.
+    """Open an evening's file to change it; anyone else who wants to must wait for the block to end.
 
-    The block's changes are kept as a whole, or not at all if it raises an error. A file of an
-    earlier version is copied before its first change. It's a DataError if the file can't be read or
+    All of the block's changes are kept, or none if it raises an error. A file from an earlier
+    version is copied before its first change. Raises DataError if the file can't be read or
     written.
     """
     with _checked(Path(path), reading=False) as base:
@@ -76,8 +76,8 @@ def changing(path: str | Path) -> Iterator[sqlite3.Connection]:
 def begin(path: str | Path, write: Callable[[sqlite3.Connection], Result]) -> Result:
     """Write to an evening's file, creating it if needed: everything, or nothing on an error.
 
-    `write` is called again if someone else creates the file meanwhile. It's a DataError if the file
-    is no evening's, or can't be read or written.
+    `write` is called again if someone else creates the file meanwhile. Raises DataError if it isn't
+    an evening's file, or can't be read or written.
     """
     place = Path(path)
     while not os.path.lexists(place):
@@ -94,9 +94,9 @@ def begin(path: str | Path, write: Callable[[sqlite3.Connection], Result]) -> Re
 
 
 def copied(path: str | Path, label: str) -> Path:
-    """Write a copy of the file next to it, and return its name, in which the label stands.
+    """Write a copy of the file next to it, and return the copy's name, which contains the label.
 
-    What bears that name is a whole copy, even if the program ends while it is written.
+    A file with that name is always a complete copy, even if the program ends while writing.
     """
     place = Path(path)
     with _part_of(place) as part:
@@ -111,13 +111,13 @@ def copied(path: str | Path, label: str) -> Path:
 
 
 def is_there(path: str | Path) -> bool:
-    """Return whether there is a file with something in it."""
+    """Return whether the file exists and isn't empty."""
     place = Path(path)
     return place.exists() and place.stat().st_size > 0
 
 
 def holds(path: str | Path, strand: str) -> bool:
-    """Return whether there is a file of an evening with entries in a strand."""
+    """Return whether this is an evening's file with entries in a strand."""
     if not is_there(path):
         return False
     with opened(path) as base:
@@ -126,7 +126,7 @@ def holds(path: str | Path, strand: str) -> bool:
 
 
 def is_database(path: str | Path) -> bool:
-    """Return whether a file is a database with something in it, as SQLite sees it."""
+    """Return whether a file is a nonempty database, according to SQLite."""
     try:
         with _connected(Path(path), reading=True) as base:
             return not _is_empty(base)
@@ -136,7 +136,7 @@ def is_database(path: str | Path) -> bool:
 
 @contextmanager
 def _checked(place: Path, *, reading: bool) -> Iterator[sqlite3.Connection]:
-    """Connect to the file of an evening, which must be there."""
+    """Connect to an evening's file, which must exist."""
     if not place.exists():
         raise refused(
             place,
@@ -152,7 +152,7 @@ def _checked(place: Path, *, reading: bool) -> Iterator[sqlite3.Connection]:
 def _connected(
     place: Path, part: Path | None = None, *, reading: bool = False
 ) -> Iterator[sqlite3.Connection]:
-    """Connect to a file, or to the part that takes its place later; errors name the file."""
+    """Connect to a file, or to the temporary file that will replace it; errors name the file."""
     if place.is_dir():
         raise refused(place, "{name} is a folder. Name a tournament's file.")
     try:
@@ -164,10 +164,10 @@ def _connected(
 
 
 def _connection(place: Path, mode: str, reading: bool) -> sqlite3.Connection:
-    """Connect to a file and look at it.
+    """Connect to a file and check it.
 
-    Where its log cannot be made next to it, because the disk is full or the folder can only be
-    read, it can be read without one: no one writes to it then, unless there is a log already.
+    If its log can't be created next to it, because the disk is full or the folder is read-only, the
+    file can be read without a log: no one can be writing to it then, unless a log already exists.
     """
     where = place.absolute().as_uri()
     try:
@@ -193,7 +193,7 @@ def _looked_at(address: str) -> sqlite3.Connection:
 
 @contextmanager
 def _at_once(base: sqlite3.Connection) -> Iterator[None]:
-    """Keep all that the block writes, or nothing if it raises an error; others wait meanwhile."""
+    """Commit everything the block writes, or nothing if it raises; others wait meanwhile."""
     base.execute("BEGIN IMMEDIATE")
     try:
         yield
@@ -205,7 +205,7 @@ def _at_once(base: sqlite3.Connection) -> Iterator[None]:
 
 
 def _check(base: sqlite3.Connection, place: Path) -> None:
-    """Refuse a database that is not the file of an evening, or not in a known format."""
+    """Reject a database that isn't an evening's file, or has an unknown format."""
     mark, version = _number(base, "application_id"), _version(base)
     if mark != _MARK:
         raise refused(place, "{name} isn't a tournament file")
@@ -223,7 +223,7 @@ def _check(base: sqlite3.Connection, place: Path) -> None:
 
 
 def _update(base: sqlite3.Connection, place: Path) -> None:
-    """Copy a file in an earlier format, and bring it into the present one."""
+    """Copy a file in an earlier format, and convert it to the current one."""
     with _at_once(base):
         version = _version(base)  # another program may have done it meanwhile
         if version == FORMAT:
@@ -238,7 +238,7 @@ def _update(base: sqlite3.Connection, place: Path) -> None:
 
 
 def _write_first(base: sqlite3.Connection, write: Callable[[sqlite3.Connection], Result]) -> Result:
-    """Write to a database that has nothing in it, and make it the file of an evening."""
+    """Write to an empty database, making it an evening's file."""
     base.execute("PRAGMA journal_mode = WAL")
     with _at_once(base):
         if _is_empty(base):
@@ -248,7 +248,7 @@ def _write_first(base: sqlite3.Connection, write: Callable[[sqlite3.Connection],
 
 
 def _is_empty(base: sqlite3.Connection) -> bool:
-    """Return whether nothing was written to a database yet."""
+    """Return whether nothing has been written to a database yet."""
     tables = base.execute("SELECT COUNT(*) FROM sqlite_master").fetchone()[0]
     return not (tables or _number(base, "application_id") or _version(base))
 
@@ -263,7 +263,7 @@ def _number(base: sqlite3.Connection, pragma: str) -> int:
 
 @contextmanager
 def _part_of(place: Path) -> Iterator[Path]:
-    """Give a name next to a file under which something is made that is placed when it is whole."""
+    """Yield a temporary name next to a file, for content that is moved into place when complete."""
     part = place.with_name(f".{place.stem}-{secrets.token_hex(4)}.part")
     try:
         yield part
@@ -273,7 +273,7 @@ def _part_of(place: Path) -> Iterator[Path]:
 
 
 def _placed(part: Path, place: Path) -> bool:
-    """Give a file that is whole its name, in one step; return False if that is taken."""
+    """Move a complete file into place in one step; return False if the name is taken."""
     try:
         os.link(part, place)
     except FileExistsError:
@@ -299,22 +299,22 @@ FAULTS = (
     TypeError,
     ValueError,
 )
-"""What the rules raise where they are given what nobody could have entered."""
+"""The exceptions raised by the rules for input that no one could have entered."""
 
 
 def refused(path: str | Path, template: str, /, **values: Any) -> DataError:
-    """Return the error that refuses the file of an evening; it is called {name} in the template."""
+    """Return the error that rejects an evening's file, called {name} in the template."""
     return DataError([say(template, name=Path(path).name, **values)])
 
 
 def damaged(path: str | Path, why: str) -> DataError:
-    """Return the error of a file that cannot have been written so."""
+    """Return the error for a file that can't have been written this way."""
     return refused(path, DAMAGED.template, error=why)
 
 
 @contextmanager
 def named(path: str | Path, what: str) -> Iterator[None]:
-    """Say of an error in the block in which file, and in what of it, something is wrong.
+    """Add to errors in the block which file, and which part of it, is wrong.
 
     >>> with named("nights/tonight.db", "entry 3 (late)"):
     ...     raise InputError("line is 'x'; give a whole number from 0 to 255")

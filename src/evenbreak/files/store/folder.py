@@ -1,8 +1,9 @@
-"""Writing several files at once: a reader finds all the old ones or all the new ones.
+"""Writing several files at once: a reader finds either all the old ones or all the new ones.
 
-A folder is found or made, requests to end wait until all is written, and a second run that would
-write into the folder waits for the first. Its lock is the operating system's and ends with the
-process that held it, however that ended: a lock file left by a killed run blocks no one.
+The folder is created if needed, requests to stop wait until everything is written, and a second run
+that wants to write to the folder waits for the first. The operating system holds the lock, which
+ends with the process that held it, however that process ended: a lock file left by a killed run
+blocks no one.
 
 As in SQLite's rollback journal, a run makes a folder `.evenbreak-writing` in the one it changes,
 and in it
@@ -38,16 +39,16 @@ from types import FrameType
 from typing import Any, TypedDict, Union
 
 PATIENCE = 10.0
-"""Seconds to wait for another run to finish writing."""
+"""How many seconds to wait for another run to finish writing."""
 
 _PAUSE = 0.02
 
 
 def check_folder(folder: str | Path) -> None:
-    """Check, before a long computation, that `write_files` can write into a folder.
+    """Check, before a long computation, that `write_files` can write to a folder.
 
-    Files that a killed run was replacing are put back. Nothing is left behind, and the folder is
-    not created. An OSError if no file could be written there.
+    Files that a killed run was replacing are put back. Nothing is left behind, and the folder isn't
+    created. Raises OSError if no file could be written there.
 
     >>> check_folder(".")
     """
@@ -55,16 +56,16 @@ def check_folder(folder: str | Path) -> None:
 
 
 def write_files(folder: str | Path, files: Mapping[str, bytes | None]) -> None:
-    """Write files into a folder, which is created if needed: all of them, or none.
+    """Write files to a folder, creating it if needed: all of them, or none.
 
-    If the run is killed meanwhile, the next one that writes or checks there puts the old files
+    If the run is killed meanwhile, the next run that writes or checks there puts the old files
     back.
 
     Parameters
     ----------
     files
-        the content of each file by name, None to remove it; they are written in this order.
-        A name may lead into a folder, as in data/a.csv, which is created if needed.
+        each file's content by name, or None to remove the file; they are written in this order. A
+        name may include a folder, as in data/a.csv, which is created if needed.
 
     Raises
     ------
@@ -90,7 +91,7 @@ def write_files(folder: str | Path, files: Mapping[str, bytes | None]) -> None:
 
 
 def _nested(files: Mapping[str, bytes | None]) -> Tree:
-    """Return files as a tree of folders, for a place where nothing is to be removed yet."""
+    """Return files as a tree of folders, for a place where there is nothing to remove yet."""
     tree: dict[str, Any] = {}
     for name, content in files.items():
         *above, last = name.split("/")
@@ -103,9 +104,9 @@ def _nested(files: Mapping[str, bytes | None]) -> Tree:
 
 
 def _when_alone(folder: Path, write: Callable[[Path], None]) -> None:
-    """Write into the folder, or the nearest one above it that exists, when no one else does.
+    """Write to the folder, or its nearest existing parent, while no one else does.
 
-    A request to end waits until all is written, but not until another run has finished.
+    A request to stop waits until everything is written, but doesn't wait for another run to finish.
     """
     try:
         if folder.is_symlink() and not folder.exists():
@@ -125,7 +126,7 @@ def _when_alone(folder: Path, write: Callable[[Path], None]) -> None:
 
 
 def _written(folder: Path, write: Callable[[Path], None]) -> bool:
-    """Write, unless another run does, or has just made a folder nearer to the one that is meant."""
+    """Write, unless another run is writing or has just created a folder nearer to the target."""
     there = _nearest(folder)
     with undisturbed():
         with sole_writer(there) as alone:
@@ -138,7 +139,7 @@ def _written(folder: Path, write: Callable[[Path], None]) -> bool:
 
 
 def _tidy_above(folder: Path) -> None:
-    """Remove what a killed run left above the folder when it was about to make it."""
+    """Remove what a run killed while creating the folder left above it."""
     for above in folder.absolute().parents:
         with contextlib.suppress(OSError):
             if any(os.path.lexists(above / name) for name in (WORK, LOCK)):
@@ -148,7 +149,7 @@ def _tidy_above(folder: Path) -> None:
 
 
 def _nearest(folder: Path) -> Path:
-    """Return the folder, or the nearest one above it that exists."""
+    """Return the folder, or its nearest existing parent."""
     above = next(above for above in (folder, *folder.parents) if above.exists())
     if not above.is_dir():
         what = "that" if above == folder else str(above)
@@ -161,12 +162,12 @@ def _nearest(folder: Path) -> Path:
 ENDINGS = [
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
 ]
-"""The signals by which a program is asked to end."""
+"""The signals that ask a program to stop."""
 
 
 @contextlib.contextmanager
 def undisturbed() -> Iterator[None]:
-    """Hold back requests to end until the block is done; only the main thread can do that.
+    """Hold back requests to stop until the block is done; only the main thread can do that.
 
     >>> before = signal.signal(signal.SIGINT, signal.default_int_handler)
     >>> try:
@@ -204,15 +205,15 @@ else:
     import fcntl
 
 LOCK = ".evenbreak.lock"
-"""The file that a run holds while it writes into a folder, and then removes."""
+"""The file that a run holds while it writes to a folder, and then removes."""
 
 _HELD = (errno.EAGAIN, errno.EACCES, errno.EDEADLK)
-"""What the system says of a lock that another process holds."""
+"""The system's error codes for a lock that another process holds."""
 
 
 @contextlib.contextmanager
 def sole_writer(folder: Path) -> Iterator[bool]:
-    """Let no other run write into a folder until the block is done; yield False if one does now.
+    """Keep other runs from writing to a folder until the block is done; yield False if one is now.
 
     >>> with sole_writer(Path(".")) as alone, sole_writer(Path(".")) as also:
     ...     alone, also, Path(LOCK).exists()
@@ -230,7 +231,7 @@ def sole_writer(folder: Path) -> Iterator[bool]:
 
 
 def _held(path: Path) -> int | None:
-    """Return the handle of the lock file, locked, or None while another run has it."""
+    """Return the locked lock file's handle, or None while another run has it."""
     handle = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
     try:
         # The run before may have removed the file between our opening and locking it.
@@ -262,7 +263,7 @@ def _is_at(handle: int, path: Path) -> bool:
 
 
 def _release(handle: int, path: Path) -> None:
-    """Remove the lock file and give up the lock; an open file cannot be removed on Windows."""
+    """Remove the lock file and release the lock; Windows can't remove an open file."""
     try:
         with contextlib.suppress(OSError):
             path.unlink()
@@ -275,20 +276,21 @@ def _release(handle: int, path: Path) -> None:
 
 
 WORK = ".evenbreak-writing"
-"""The folder in which a run prepares its changes."""
+"""The folder where a run prepares its changes."""
 
 MADE_BY_US = "made-by-evenbreak"
-"""The file in it without which it is taken as a person's own, and left alone."""
+"""The file that marks it; without the mark, the folder is taken to be someone's own and left
+alone."""
 
 _JOURNAL, _UNFINISHED_JOURNAL = "journal", "journal.part"
 _OURS = re.compile(r"(new|old)-\d+|journal(\.part)?", re.ASCII)
 
 Tree = Mapping[str, Union[bytes, "Tree", None]]
-"""Files by name, None where one is to be removed; a name may also hold a folder."""
+"""Files by name, None for files to remove; a name may also hold a folder."""
 
 
 class _Change(TypedDict):
-    """A line of the journal: a name, the SHA-256 of its new content, and whether it was there."""
+    """A line in the journal: a name, the SHA-256 of its new content, and whether it existed."""
 
     name: str
     sha256: str
@@ -296,10 +298,10 @@ class _Change(TypedDict):
 
 
 def change(folder: Path, entries: Tree) -> None:
-    """Put entries in their places in a folder: all of them, or none (OSError).
+    """Put entries into place in a folder: all of them, or none (OSError).
 
-    A single entry takes its place in one step; only that may be a new folder with its files. No one
-    else may write into the folder meanwhile (`sole_writer`).
+    A single entry is moved into place in one step; only a single entry may be a new folder with its
+    files. No one else may write to the folder meanwhile (`sole_writer`).
     """
     recover(folder)
     work = folder / WORK
@@ -322,9 +324,9 @@ def change(folder: Path, entries: Tree) -> None:
 
 
 def recover(folder: Path) -> None:
-    """Put back what an unfinished change has replaced, and remove what it left.
+    """Put back what an unfinished change has replaced, and remove what it left behind.
 
-    An OSError if that's impossible, or if `.evenbreak-writing` holds something else.
+    Raises OSError if that's impossible, or if `.evenbreak-writing` holds something else.
     """
     work = folder / WORK
     if not os.path.lexists(work):
@@ -343,7 +345,7 @@ def recover(folder: Path) -> None:
 
 
 def _keep_old(folder: Path, entries: Tree) -> list[_Change]:
-    """Keep what is to be replaced, and write the journal."""
+    """Save what is to be replaced, and write the journal."""
     work = folder / WORK
     changes: list[_Change] = []
     for number, (name, content) in enumerate(entries.items()):
@@ -390,9 +392,9 @@ def _put_in_place(folder: Path, changes: list[_Change]) -> None:
 
 
 def _put_back(folder: Path) -> None:
-    """Put the old files back where the new ones have taken their places.
+    """Put the old files back in place of the new ones.
 
-    A file that someone has changed since is left alone.
+    A file that someone has changed since then is left alone.
     """
     work = folder / WORK
     changes: list[_Change] = json.loads((work / _JOURNAL).read_bytes())
@@ -410,7 +412,7 @@ def _put_back(folder: Path) -> None:
 
 
 def _is_new(place: Path, digest: str) -> bool:
-    """Return whether a place holds the new content, or nothing."""
+    """Return whether a path holds the new content, or nothing."""
     if not os.path.lexists(place):
         return True
     plain = place.is_file() and not place.is_symlink()
@@ -464,7 +466,7 @@ def _pieces(content: bytes) -> Iterator[memoryview]:
 
 
 def sync(folder: Path) -> None:
-    """Force the folder's entries to disk, where the system lets a folder be opened."""
+    """Force the folder's entries to disk, if the system lets a folder be opened."""
     with contextlib.suppress(OSError):
         handle = os.open(folder, os.O_RDONLY)
         try:

@@ -1,9 +1,9 @@
-"""The tables in which the file of an evening keeps its entries, now and in earlier formats.
+"""The tables where an evening's file keeps its entries, now and in earlier formats.
 
-Format 3 has one table for all that is entered, in strands: 1, 2, ... are the tournaments of the
-night, `team` its team nights, `phones` what phones did. Format 1 (version 0.2.0) and format 2 had a
-table for a tournament, with its authors and its forms next to it, another for team nights, and one
-or two for phones.
+Format 3 has one table for all entries, in strands: 1, 2, ... are the night's tournaments, `team` is
+its team nights, and `phones` is what phones did. Format 1 (version 0.2.0) and format 2 had a table
+for a tournament, with separate tables for authors and forms, another for team nights, and one or
+two for phones.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import sqlite3
 FORMAT = 3
 ENTRIES = "entry"
 TOURNAMENT, TEAM_NIGHT, PHONES = "1", "team", "phones"
-"""The strands of the first tournament of the night, of its team nights, and of phones."""
+"""The strands for the night's first tournament, its team nights, and phones."""
 
 _COLUMNS = "strand, number, at, kind, what, author, form"
 _TABLE = f"""
@@ -50,7 +50,7 @@ def has_table(base: sqlite3.Connection, table: str) -> bool:
 
 
 def source(base: sqlite3.Connection) -> str:
-    """Return what entries are selected from, in whatever format they were written."""
+    """Return the table or subquery that entries are selected from, in any format."""
     parts = _earlier(base)
     if has_table(base, ENTRIES):
         if not parts:
@@ -61,7 +61,7 @@ def source(base: sqlite3.Connection) -> str:
 
 
 def _earlier(base: sqlite3.Connection) -> list[str]:
-    """Return what selects the entries in the tables of earlier formats."""
+    """Return the query that selects the entries from an earlier format's tables."""
     names = base.execute("SELECT name FROM sqlite_master WHERE type = 'table'")
     there = {name for (name,) in names} & {*_EARLIER}
     parts = []
@@ -89,7 +89,7 @@ def _earlier(base: sqlite3.Connection) -> list[str]:
 
 
 def bring_up_to_date(base: sqlite3.Connection) -> None:
-    """Make the table of the entries, and move those of an earlier format into it."""
+    """Create the table of entries, and move an earlier format's entries into it."""
     base.execute(_TABLE)
     for earlier in _earlier(base):
         base.execute(f"INSERT INTO {ENTRIES} SELECT {_COLUMNS} FROM ({earlier})")  # noqa: S608

@@ -1,7 +1,6 @@
-"""The log of a night in its file: entries in strands, each only ever added to.
+"""A night's log in its file: entries in strands, to which entries are only ever added.
 
-A form that comes in a second time adds nothing: its number is kept with the first entry that it
-made.
+A form that comes in a second time adds nothing: its number is stored with the first entry it made.
 """
 
 from __future__ import annotations
@@ -27,19 +26,19 @@ State = TypeVar("State")
 
 
 Row: TypeAlias = tuple[int, str, str, str, str]
-"""The number, time, kind, details and author of an entry."""
+"""An entry's number, time, kind, details and author."""
 
 
 class TakenBeforeError(InputError):
-    """A form that comes in again, whatever it added the first time."""
+    """Raised for a form that comes in again, whatever it added the first time."""
 
 
 @dataclass(frozen=True)
 class Rules(Generic[Entered, State]):
-    """How the entries of a strand are read, and the state that they make.
+    """How a strand's entries are read, and the state they add up to.
 
-    `event` makes an entry of a time, a content and an author; `fold` raises an error if the state
-    can't be shown.
+    `event` makes an entry from a time, its content and an author; `fold` raises an error if the
+    state can't be shown.
     """
 
     kinds: Kinds[Any]
@@ -47,7 +46,7 @@ class Rules(Generic[Entered, State]):
     fold: Callable[[Sequence[Entered]], State]
 
     def state(self, path: str | Path, events: Sequence[Entered]) -> State:
-        """Return the state after a file's entries; a DataError names the first that doesn't fit."""
+        """Return the state after a file's entries; DataError names the first that doesn't fit."""
         try:
             return self.fold(events)
         except FAULTS:
@@ -57,7 +56,7 @@ class Rules(Generic[Entered, State]):
             raise
 
     def rows(self, events: Sequence[Entered], first: int = 1) -> list[Row]:
-        """Return entries as they are stored; an InputError if one couldn't be read again."""
+        """Return entries as stored; raise InputError if one couldn't be read again."""
         rows = [
             (k, one.at, self.kinds.name(one.what), self.kinds.text(one.what), one.by)
             for k, one in enumerate(events, first)
@@ -67,12 +66,12 @@ class Rules(Generic[Entered, State]):
         return rows
 
     def read(self, at: Any, kind: Any, what: Any, author: Any) -> Entered:
-        """Return an entry from its columns; an InputError if a column isn't what it should be."""
+        """Return an entry from its columns; raise InputError if a column is invalid."""
         return self.event(at, _what(self.kinds, at, kind, what, author), author)
 
 
 def entry_words(number: object, kind: object) -> str:
-    """Return what an entry of the file is called.
+    """Return what messages call an entry in the file.
 
     >>> entry_words(3, "late")
     'entry 3 (late)'
@@ -82,7 +81,7 @@ def entry_words(number: object, kind: object) -> str:
 
 @lru_cache(maxsize=8192)
 def _what(kinds: Kinds[Any], at: Any, kind: Any, what: Any, author: Any) -> Any:
-    """Return what happened; a page reads all entries again after each new one."""
+    """Return an event from its row; a page reads all entries again after each new one."""
     for name, column in (("at", at), ("kind", kind), ("what", what), ("author", author)):
         if not isinstance(column, str):
             raise InputError("{column} isn't text", column=name)
@@ -100,7 +99,7 @@ def _what(kinds: Kinds[Any], at: Any, kind: Any, what: Any, author: Any) -> Any:
 def entries(
     base: sqlite3.Connection, path: str | Path, strand: str, rules: Rules[Entered, State]
 ) -> list[Entered]:
-    """Return the entries of a strand in order; a DataError if one is damaged."""
+    """Return a strand's entries in order; raise DataError if one is damaged."""
     asked = f"SELECT number, at, kind, what, author FROM {source(base)} "  # noqa: S608
     found = []
     for number, *row in base.execute(f"{asked} WHERE strand = ? ORDER BY number", (strand,)):
@@ -110,21 +109,21 @@ def entries(
 
 
 def was_taken(base: sqlite3.Connection, strand: str, form: str | None) -> bool:
-    """Return whether a form was taken for a strand, even if it added nothing."""
+    """Return whether a form was accepted for a strand, even if it added nothing."""
     asked = f"SELECT 1 FROM {source(base)} WHERE strand IN (?, ?) AND form = ?"  # noqa: S608
     found = base.execute(asked, (strand, _taken(strand), form)) if form else None
     return found is not None and found.fetchone() is not None
 
 
 def forms_with(path: str | Path, beginning: str) -> set[str]:
-    """Return the forms that start so, in all strands."""
+    """Return the forms with this prefix, in all strands."""
     with opened(path) as base:
         asked = f"SELECT form FROM {source(base)} WHERE substr(form, 1, ?) = ?"  # noqa: S608
         return {form for (form,) in base.execute(asked, (len(beginning), beginning))}
 
 
 def entries_of(path: str | Path, form: str) -> list[int]:
-    """Return the numbers of the entries that a form made, with what came with them by itself."""
+    """Return the numbers of the entries that a form made, including automatic ones."""
     with opened(path) as base:
         rows = f"SELECT strand, number, at, author, form FROM {source(base)}"  # noqa: S608
         first = base.execute(f"{rows} WHERE form = ?", (form,)).fetchone()
@@ -140,7 +139,7 @@ def entries_of(path: str | Path, form: str) -> list[int]:
 
 
 def _taken(strand: str) -> str:
-    """Return the strand of the forms that added nothing to another."""
+    """Return the strand for forms that added nothing to another strand."""
     return f"{strand} taken"
 
 
@@ -153,7 +152,7 @@ def add(
     count: int = 0,
     form: str | None = None,
 ) -> None:
-    """Add entries to a strand that has some already, from a form."""
+    """Add a form's entries to a strand that already has some."""
     if source(base) != ENTRIES:
         bring_up_to_date(base)
     base.executemany(
@@ -172,6 +171,6 @@ def add(
 
 
 def tournaments(base: sqlite3.Connection) -> list[int]:
-    """Return the numbers of the tournaments in a file."""
+    """Return the numbers of a file's tournaments."""
     asked = f"SELECT DISTINCT strand FROM {source(base)}"  # noqa: S608
     return sorted(int(strand) for (strand,) in base.execute(asked) if str(strand).isdigit())

@@ -1,4 +1,4 @@
-"""The prize money of an evening in its file, by event."""
+"""An evening's prize money in its file, by event."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _EARLIER_PRIZES = "prize"  # of the one tournament that a file had
 
 
 def write_prizes(base: sqlite3.Connection, money: PrizeMoney, event: int) -> None:
-    """Keep the prize money of an event, instead of what was kept before."""
+    """Store an event's prize money, replacing any stored before."""
     base.execute(_PRIZES)
     if (earlier := _prizes(base, 1)) and has_table(base, _EARLIER_PRIZES):
         base.execute("INSERT OR IGNORE INTO prizes VALUES (1, ?, ?, ?, ?, ?)", earlier)
@@ -42,13 +42,13 @@ def _prizes(base: sqlite3.Connection, event: int) -> tuple[float, float, float, 
 
 
 def prizes_in(base: sqlite3.Connection, path: str | Path, event: int) -> PrizeMoney | None:
-    """Return the prize money of an event in a file that is open; None: none was kept."""
+    """Return an event's prize money from an open file; None if none was stored."""
     row = _prizes(base, event)
     with named(path, say("its prizes")):
         return PrizeMoney(*row) if row else None
 
 
 def kept_prizes(path: str | Path, event: int = 1) -> PrizeMoney | None:
-    """Return the prize money of an event; None: none was kept."""
+    """Return an event's prize money; None if none was stored."""
     with opened(path) as base:
         return prizes_in(base, path, event)

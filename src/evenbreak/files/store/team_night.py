@@ -1,7 +1,7 @@
-"""The team night in the file of an evening: events are only ever added, as those of a tournament.
+"""The team night in an evening's file: events are only ever added, as for a tournament.
 
-Each event has its author, and the number of the form that it came in: a form that comes in a
-second time adds nothing.
+Each event has its author, and the number of the form it came in: a form that comes in a second time
+adds nothing.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from evenbreak.teams.evening.events import KINDS, Event, What
 from evenbreak.teams.evening.fold import TeamEvening, team_evening
 
 Decide = Callable[[list[Event], TeamEvening | None], Sequence[What]]
-"""From all events so far and the state after them to what happens now."""
+"""From all events so far, and the state after them, to new events."""
 
 
 def read_team_events(path: str | Path) -> list[Event]:
-    """Return the events of all team nights in a file, if any; a DataError if it can't be read."""
+    """Return all the events of a file's team nights; raise DataError if it can't be read."""
     if not is_there(path):
         return []
     with opened(path) as base:
@@ -34,8 +34,8 @@ def add_team_events(
     """Add events to a team night; return the state after them, and whether there are any.
 
     The file is created if needed. No one else can add anything while `decide` returns the events;
-    if it raises an error, nothing is added. A `form` (its id) that was taken before adds nothing. A
-    DataError if the file is no evening's, or can't be read or written.
+    if it raises an error, nothing is added. A `form` (its ID) that was accepted before adds
+    nothing. Raises DataError if it isn't an evening's file, or can't be read or written.
     """
 
     def write(base: sqlite3.Connection) -> tuple[TeamEvening | None, bool]:
@@ -52,9 +52,9 @@ def add_team_events(
 
 
 def team_night_of(path: str | Path, events: Sequence[Event]) -> TeamEvening | None:
-    """Return the state after the events of a file; None before a night starts.
+    """Return the state after a file's events; None before a night starts.
 
-    The DataError names the entry that doesn't fit.
+    DataError names the entry that doesn't fit.
     """
     return _RULES.state(path, events)
 

@@ -1,8 +1,8 @@
-"""Tokens of other programs in the file of an evening: what each may enter, and its hash alone.
+"""Other programs' tokens in an evening's file: what each may enter, and only its hash.
 
-A token is 160 random bits. It is shown once, when it is created; the file has its SHA-256, so that
-no one can use what they read there. Every server on the file looks each time whether it is there
-still. It is no entry of the log: an undo neither revokes it nor brings it back.
+A token is 160 random bits. It is shown once, when it is created; the file has only its SHA-256,
+which no one can use as a token. Every server on the file checks each time that the token still
+exists. Tokens aren't log entries: an undo neither revokes one nor brings it back.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ CREATE TABLE IF NOT EXISTS token (
 
 @dataclass(frozen=True)
 class Token:
-    """What is known of a token.
+    """A token's name, scope and use.
 
     Its scope is scores, director, or table:4 for the match on the fourth table; `used` is the time
     of the last entry made with it, '' if there is none or it wasn't looked up.
@@ -56,12 +56,12 @@ class Token:
 
     @property
     def table(self) -> int:
-        """The number of the only table whose match it may enter; 0 if it may enter all."""
+        """The number of the only table whose match it may enter; 0 for all tables."""
         return int(self.scope.removeprefix(_AT_TABLE)) if self.scope.startswith(_AT_TABLE) else 0
 
     @property
     def author(self) -> str:
-        """Who enters something with it, as it is kept."""
+        """The author stored with its entries."""
         return PROGRAM + self.name
 
     def allows(self, move: str) -> bool:
@@ -71,15 +71,15 @@ class Token:
 
 
 def at_table(number: int) -> str:
-    """Return the scope of a token for the match on one table."""
+    """Return the scope of a token for one table's match."""
     return f"{_AT_TABLE}{number}"
 
 
 def create_token(path: str | Path, name: str, scope: str, at: str) -> str:
     """Create a token and return it: it can't be shown again.
 
-    It's an InputError if another program has the name, or there are too many. The scope is that of
-    `Token`.
+    Raises InputError if another program has the name, or there are too many tokens. The scope is as
+    in `Token`.
     """
     called = clean_name(name)
     if not is_name(called) or len(called) > _LONGEST:
@@ -102,7 +102,7 @@ def create_token(path: str | Path, name: str, scope: str, at: str) -> str:
 
 
 def revoke_token(path: str | Path, name: str) -> None:
-    """Revoke a token at once, on every server; an InputError if no program of this name has one."""
+    """Revoke a token at once, on every server; raise InputError if no program has this name."""
     with changing(path) as base:
         base.execute(_TABLE)
         if not base.execute("DELETE FROM token WHERE name = ?", (name,)).rowcount:
@@ -110,7 +110,7 @@ def revoke_token(path: str | Path, name: str) -> None:
 
 
 def kept_tokens(path: str | Path, *, used: bool = False) -> dict[str, Token]:
-    """Return the tokens of a file by hash, the oldest first; `used` adds their last entries."""
+    """Return a file's tokens by hash, oldest first; `used` adds the times of their last entries."""
     with opened(path) as base:
         found = _tokens(base, path) if has_table(base, "token") else {}
         if not used:
@@ -124,7 +124,7 @@ def kept_tokens(path: str | Path, *, used: bool = False) -> dict[str, Token]:
 
 
 def token_in(tokens: dict[str, Token], text: str) -> Token | None:
-    """Return the token that a text is, None if it is none."""
+    """Return the token that a string matches; None if there is none."""
     hashed = _hash(text)
     same = (
         one for kept, one in tokens.items() if hmac.compare_digest(kept.encode(), hashed.encode())

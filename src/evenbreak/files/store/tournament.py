@@ -1,7 +1,7 @@
-"""The tournament in the file of an evening: events are only ever added.
+"""The tournament in an evening's file: events are only ever added.
 
 Two programs can use one file: each checks its move against the state at that moment, while the
-other waits. The events can also be a CSV file, from which the state follows as well.
+other waits. The events can also be a CSV file, from which the same state follows.
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.words import Command, say
 
 Night: TypeAlias = Mapping[int, Evening]
-"""The events of a night by their numbers, each knowing of the others."""
+"""A night's events by number; each event knows about the others."""
 TAKEN = say("that was already entered; it wasn't entered a second time")
 
 
 def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: int = 0) -> Evening:
-    """Write the first events of a tournament to a new file, or to that of a team night.
+    """Write a tournament's first events to a new file, or to a team night's file.
 
-    `in_place_of` is the number of events of the tournament that this one replaces. A DataError if
-    the file already has another tournament, or can't be written; an InputError if the events don't
-    start a tournament.
+    If it replaces a tournament, `in_place_of` is the old one's number of events. Raises DataError
+    if the file already has another tournament, or can't be written, and InputError if the events
+    don't start a tournament.
     """
     state = _shown(evening(events))
 
@@ -57,7 +57,7 @@ def new_tournament(path: str | Path, events: Sequence[Event], *, in_place_of: in
 
 
 def _clear(base: sqlite3.Connection) -> None:
-    """Take a tournament out of a file, with what phones sent and its prizes."""
+    """Remove a tournament from a file, with what phones sent and its prizes."""
     for table in ("prize", "prizes"):
         base.execute(f"DROP TABLE IF EXISTS {table}")
     bring_up_to_date(base)
@@ -65,23 +65,23 @@ def _clear(base: sqlite3.Connection) -> None:
 
 
 def delete_tournament(path: str | Path) -> None:
-    """Take the tournament out of a file, without a copy; a DataError if that's impossible."""
+    """Remove the tournament from a file, without a copy; raise DataError if that fails."""
     with changing(path) as base:
         _clear(base)
         renew(base, path, {})
 
 
 def keep_prizes(path: str | Path, money: PrizeMoney, event: int = 1) -> None:
-    """Keep the prize money of an event, instead of what was kept before."""
+    """Store an event's prize money, replacing any stored before."""
     with changing(path) as base:
         write_prizes(base, money, event)
         _renew(base, path)
 
 
 def renew_views(path: str | Path) -> None:
-    """Bring the views of a file up to date if an earlier version has written to it.
+    """Bring a file's views up to date if an earlier version has written to it.
 
-    A file that cannot be written to now, or not be shown, stays as it is.
+    A file that can't be written to now, or can't be shown, stays as it is.
     """
     with suppress(DataError):
         with opened(path) as base:
@@ -97,18 +97,18 @@ def _renew(base: sqlite3.Connection, path: str | Path) -> None:
 
 
 def _entered(base: sqlite3.Connection, path: str | Path) -> dict[int, list[Event]]:
-    """Return the entries of each event of the night."""
+    """Return the entries of each of the night's events."""
     return {n: entries(base, path, str(n), _RULES) for n in tournaments(base)}
 
 
 def begin_beside(
     path: str | Path, begin: Callable[[Evening], Sequence[Event]], *, form: str | None = None
 ) -> int:
-    """Start another event on the tables of the tournament in a file; return its number.
+    """Start another event on the tables of a file's tournament; return its number.
 
-    `begin` returns its first entries, given the state of the first event. A TakenBeforeError if the
-    form (its id) was taken before; an InputError for a chip tournament, whose tables are never
-    free; a DataError if the file has no tournament, or can't be read or written.
+    `begin` returns its first entries, given the state of the first event. Raises TakenBeforeError
+    if the form (its ID) was accepted before, InputError for a chip tournament, whose tables are
+    never free, and DataError if the file has no tournament, or can't be read or written.
     """
     with changing(path) as base:
         strands = _strands(base, path)
@@ -132,12 +132,12 @@ def begin_beside(
 
 
 def read_events(path: str | Path, event: int = 1) -> list[Event]:
-    """Return the entries of a tournament, or of another event of its night (DataError: none)."""
+    """Return the entries of a tournament, or of another of its night's events (DataError: none)."""
     return read_night(path, event)[event]
 
 
 def event_numbers(path: str | Path) -> list[int]:
-    """Return the numbers of the events of the night in a file; [1] if there is none yet."""
+    """Return the numbers of the night's events in a file; [1] if there are none yet."""
     if not is_there(path):
         return [1]
     with opened(path) as base:
@@ -145,25 +145,26 @@ def event_numbers(path: str | Path) -> list[int]:
 
 
 def read_night(path: str | Path, event: int = 1) -> dict[int, list[Event]]:
-    """Return the entries of all events of a night by number; a DataError if `event` is missing."""
+    """Return the entries of all a night's events by number; DataError if `event` is missing."""
     with opened(path) as base:
         return _strands(base, path, event)
 
 
 def read_tournament(path: str | Path, event: int = 1) -> Evening:
-    """Return the state of a tournament, or of another event of its night (DataError: none)."""
+    """Return the state of a tournament, or of another of its night's events (DataError: none)."""
     return night_of(path, read_night(path, event))[event]
 
 
 def night_of(path: str | Path, strands: Mapping[int, Sequence[Event]]) -> dict[int, Evening]:
-    """Return the state of each event of a night; a DataError names the entry that doesn't fit."""
+    """Return the state of each of a night's events; DataError names an entry that doesn't fit."""
     return together({n: _RULES.state(path, events) for n, events in strands.items()})
 
 
 def earlier_nights(places: Iterable[str | Path]) -> tuple[EarlierNight, ...]:
-    """Return the pace of earlier tournaments at their venue, oldest first.
+    """Return the pace of earlier tournaments at the same venue, oldest first.
 
-    Of a folder, all files of tournaments are used. A DataError if a file can't be read as one.
+    In a folder, all tournament files are used. Raises DataError if a file can't be read as a
+    tournament.
     """
     return nights_until(_states(places))
 
@@ -177,7 +178,7 @@ def _states(places: Iterable[str | Path]) -> Iterator[Evening]:
 
 
 def tournaments_in(folder: str | Path) -> Iterator[tuple[str, Evening]]:
-    """Yield every tournament in a folder, with the name of its file; other files are left alone."""
+    """Yield every tournament in a folder, with its file's name; other files are ignored."""
     for path in sorted(Path(folder).glob("*.db")):
         try:
             yield path.stem, read_tournament(path)
@@ -197,12 +198,12 @@ def add_events(
 ) -> tuple[Evening, Evening]:
     """Add events to a tournament, and return its state before and after.
 
-    What follows from them in other events of its night is added at once, or nothing is. No one else
-    can add events while `decide` returns them, given the state; an error from it, or from `check`,
-    which gets the states before and after, adds nothing. `more` returns automatic entries such as
-    calls, each with the number of its event, given the night before and after. A `form` (its id)
-    taken before is a TakenBeforeError; a file that can't be read or written, or is no tournament's,
-    a DataError.
+    Their consequences in the night's other events are added in the same step, or nothing is. No one
+    else can add events while `decide` returns them, given the state; if it raises an error, or
+    `check` does, which gets the states before and after, nothing is added. `more` returns automatic
+    entries such as calls, each with its event's number, given the night before and after. Raises
+    TakenBeforeError if the `form` (its ID) was accepted before, and DataError if the file can't be
+    read or written, or isn't a tournament's.
     """
     with changing(path) as base:
         if was_taken(base, str(event), form):
@@ -235,7 +236,7 @@ def add_events(
 
 
 def _shown(state: Evening) -> Evening:
-    """Return a state; one that cannot be shown is never written."""
+    """Return a state; a state that can't be shown is never written."""
     if state.drawn:
         _ = state.on_tables, state.live, state.ratings, state.whole
         for match in state.standing.to_play:
@@ -244,7 +245,7 @@ def _shown(state: Evening) -> Evening:
 
 
 def _refuse_tables(added: Sequence[Event], event: int) -> None:
-    """Refuse to change the tables in another event than that which has them."""
+    """Refuse to change the tables in any event but the one that has them."""
     tables = ("tables", "labels", "reserved", "streamed", "slower")
     for one in added if event > 1 else ():
         if isinstance(one.what, Changed) and any(getattr(one.what, k) is not None for k in tables):
@@ -252,7 +253,7 @@ def _refuse_tables(added: Sequence[Event], event: int) -> None:
 
 
 def _strands(base: sqlite3.Connection, path: str | Path, event: int = 1) -> dict[int, list[Event]]:
-    """Return the entries of each event of the night; refuse a file without a certain one."""
+    """Return the entries of each of the night's events; reject a file without a certain event."""
     found = _entered(base, path)
     if event in found:
         return found
@@ -275,7 +276,7 @@ _BEGINNING = ",".join(TITLES[:4])  # of the lists of 0.2.0 too, which have no au
 
 
 def event_rows(events: Sequence[Event]) -> list[tuple[int, str, str, str, str]]:
-    """Return the rows below `TITLES`; `what` holds the details as JSON."""
+    """Return the rows for the columns in `TITLES`; `what` holds the details as JSON."""
     return _RULES.rows(events)
 
 
@@ -289,7 +290,7 @@ def is_event_list(path: str | Path) -> bool:
 
 
 def read_event_list(path: str | Path) -> list[Event]:
-    """Return the events in a CSV file; a DataError if they are not those of a tournament."""
+    """Return the events in a CSV file; raise DataError if they aren't a tournament's."""
     text = text_of(Path(path).read_bytes(), str(path)).read()
     reader = csv.reader(text.splitlines()[1:])
     events = []

@@ -1,13 +1,14 @@
-"""The matches, players and standings of a night as views in its file, next to the log.
+"""A night's matches, players and standings as views in its file, next to the log.
 
-They are for other programs, which read them by SQL. The rows are those of the fold of the log, and
-they change in the same transaction as it: whoever reads the file sees both before an entry, or both
-after it. Only rows that have changed are written.
+They are for other programs, which read them with SQL. The rows follow from the log and change in
+the same transaction: a reader sees both before an entry, or both after it. Only rows that have
+changed are written.
 
-The views stand on tables of their own, so that their columns have types, and no one who looks at a
-view can change it. `events` says up to which entry they go: a file to which an earlier version has
-added entries is behind until the next entry of this one. So is a file whose views cannot be
-written, say because a table of someone else's has the name of one: no entry is refused for that.
+The views are based on tables of their own, so that their columns have types, and no one who reads a
+view can change it. `events` has the last entry they include: if an earlier version has added
+entries to a file, the views are out of date until this version adds one. The same goes for a file
+whose views can't be written, say because someone else's table has a view's name: no entry is
+refused for that.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ _TYPES = {int: "INTEGER", bool: "INTEGER", float: "REAL", str: "TEXT"}
 
 
 class EventRow(NamedTuple):
-    """An event of the night, and the last entry of which the rows know."""
+    """One of the night's events, and the last entry that the rows include."""
 
     name: str | None
     format: str
@@ -47,7 +48,7 @@ class EventRow(NamedTuple):
 
 
 class _View(NamedTuple):
-    """A view: its name, the kind of its rows, their order, and columns that are calculated."""
+    """A view: its name, the class of its rows, their order, and calculated columns."""
 
     name: str
     rows: type[Any]
@@ -56,12 +57,12 @@ class _View(NamedTuple):
 
     @property
     def table(self) -> str:
-        """The table on which it stands."""
+        """The table it is based on."""
         return f"{self.name}_rows"
 
     @property
     def statements(self) -> dict[str, str]:
-        """What makes the table and the view, by name."""
+        """The statements that create the table and the view, by name."""
         types = get_type_hints(self.rows).items()
         columns = [f"{name} {_TYPES[(get_args(kind) or (kind,))[0]]}" for name, kind in types]
         names = ", ".join(self.rows._fields)
@@ -102,7 +103,7 @@ def _statements() -> dict[str, str]:
 
 
 def are_current(base: sqlite3.Connection) -> bool:
-    """Return whether the views of a file are those of this version, and know of all its entries."""
+    """Return whether a file's views are this version's, and include all its entries."""
     if not _are_there(base):
         return False
     entered = f"SELECT COUNT(DISTINCT strand) FROM {ENTRIES} WHERE strand NOT GLOB '*[^0-9]*'"  # noqa: S608
@@ -116,7 +117,7 @@ def _are_there(base: sqlite3.Connection) -> bool:
 
 
 def renew(base: sqlite3.Connection, path: str | Path, night: Mapping[int, Evening]) -> None:
-    """Write what has changed in the rows of a night, in the transaction that changes its log.
+    """Write the changed rows of a night, in the same transaction as its log entry.
 
     Rows of events not in `night` are removed.
     """
@@ -130,7 +131,7 @@ def renew(base: sqlite3.Connection, path: str | Path, night: Mapping[int, Evenin
 
 @contextmanager
 def apart(base: sqlite3.Connection, path: str | Path) -> Iterator[None]:
-    """Keep what the block writes to the views only as a whole, and go on with the rest without."""
+    """Keep all of what the block writes to the views, or none; either way, continue after it."""
     base.execute("SAVEPOINT views")
     try:
         yield
@@ -143,7 +144,7 @@ def apart(base: sqlite3.Connection, path: str | Path) -> Iterator[None]:
 
 
 def _make(base: sqlite3.Connection) -> None:
-    """Make the tables and views, instead of those of an earlier version."""
+    """Create the tables and views, replacing those of an earlier version."""
     there = base.execute("SELECT type, name, sql FROM sqlite_master WHERE sql NOT NULL").fetchall()
     for view in _VIEWS:
         for kind, name, text in there:
@@ -174,7 +175,7 @@ def _rows(
 def _write(
     base: sqlite3.Connection, view: _View, rows: Mapping[tuple[int, int], tuple[Any, ...]]
 ) -> None:
-    """Write the rows that are not as they were, and remove those that are gone."""
+    """Write the rows that have changed, and remove those that are gone."""
     before = {
         (event, row): tuple(rest)
         for event, row, *rest in base.execute(f"SELECT * FROM {view.table}")  # noqa: S608

@@ -1,1 +1,1 @@
-"""Tables: from the bytes of a file to columns of values, with all that is wrong at once."""
+"""Tables: from a file's bytes to columns of values, reporting all problems at once."""

@@ -1,4 +1,4 @@
-"""Dates in the cells of a table, in the orders in which people write day, month and year."""
+"""Dates in a table's cells, in the various orders of day, month and year."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ _EITHER = re.compile(r"(\d{1,2})([-/])(\d{1,2})\2(\d{4})" + _TIME, re.ASCII)
 class Day(Column):
     """Dates; a time after a date is ignored.
 
-    With dots the day comes first, in 2024-09-03 and 2024/9/3 the year. In 9/3/2024 the month
-    may come first or the day: `order` says which, or else any cell of the column in which only
-    one of them is possible. If nothing does, the order is `open`: one problem of the table.
+    With dots, the day comes first; in 2024-09-03 and 2024/9/3, the year does. In 9/3/2024 the month
+    or the day may come first: `order` says which, or else any cell in the column where only one
+    order is possible. If nothing does, the order is `open`: one problem for the whole table.
     """
 
     order: DateOrder | None = None
@@ -47,11 +47,11 @@ class Day(Column):
 
     @property
     def wanted(self) -> str:
-        """What a cell should be."""
+        """What a cell should contain."""
         return say("a date")
 
     def read(self, table: TextTable, name: str) -> Values:
-        """Read a column; what leaves the order of day and month open is one problem."""
+        """Read a column; an ambiguous order of day and month is one problem."""
         if self.order is not None:
             one_of(self.order, "dates", ORDERS)
             return super().read(table, name)
@@ -66,9 +66,9 @@ class Day(Column):
 
 
 def read_date(text: str, order: DateOrder | None = None) -> np.datetime64 | None:
-    """Return the date that a text states, read as in `Day`; None where it states none.
+    """Return the date that a string states, read as in `Day`; None if it states none.
 
-    Without an order 9/13/2024 is a date and 9/3/2024 is none, since it may be two.
+    Without an order, 9/13/2024 is a date and 9/3/2024 isn't, because it could be either of two.
 
     >>> read_date("3.9.2024"), read_date("9/3/2024", "mdy"), read_date("9/3/2024")
     (np.datetime64('2024-09-03'), np.datetime64('2024-09-03'), None)
@@ -87,7 +87,7 @@ def read_date(text: str, order: DateOrder | None = None) -> np.datetime64 | None
 
 
 def is_two_dates(text: str) -> bool:
-    """Return whether a text is a date whose order of day and month has to be known.
+    """Return whether a string is a date whose order of day and month must be known.
 
     >>> is_two_dates("9/3/2024"), is_two_dates("9/13/2024"), is_two_dates("9/9/2024")
     (True, False, False)
@@ -97,7 +97,7 @@ def is_two_dates(text: str) -> bool:
 
 
 def _either(text: str) -> dict[DateOrder, np.datetime64 | None] | None:
-    """Return the date by each order of day and month, if a text has this form."""
+    """Return the date in each order of day and month, if a string has this form."""
     match = _EITHER.fullmatch(text)
     if match is None:
         return None
@@ -113,9 +113,9 @@ def _day(year: str, month: str, day: str) -> np.datetime64 | None:
 
 
 def _order_in(table: TextTable, name: str) -> tuple[DateOrder | None, bool]:
-    """Return the order that a column's own dates settle, and whether they leave it open.
+    """Return the order shown by a column's own dates, and whether they leave it open.
 
-    Where they leave it open, or contradict each other, that is added to the table's problems.
+    If they leave it open, or contradict each other, that is added to the table's problems.
     """
     distinct, codes = table.columns[name]
     settled: dict[DateOrder, str] = {}
@@ -156,7 +156,7 @@ def _order_in(table: TextTable, name: str) -> tuple[DateOrder | None, bool]:
 
 
 def _settling(texts: list[str]) -> Iterator[tuple[DateOrder, str]]:
-    """Yield the texts in which only one order of day and month is possible, with that order."""
+    """Yield the strings in which only one order of day and month is possible, with that order."""
     for text in texts:
         either = _either(text)
         if either is None:

@@ -1,4 +1,4 @@
-"""Names written as Lee, Ann: put as Ann Lee where nearly all names of a column are written so."""
+"""Names written as Lee, Ann: converted to Ann Lee if nearly all in a column are like that."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _TEAM_ROW = re.compile(
 
 
 def given_name_first(name: str) -> str:
-    """Return a name with the given name first; as it is where no comma is between the two.
+    """Return a name with the given name first; unchanged if it has no comma.
 
     >>> given_name_first("Lee, Ann"), given_name_first("Sammy Davis, Jr."), given_name_first("Bo")
     ('Ann Lee', 'Sammy Davis, Jr.', 'Bo')
@@ -33,10 +33,10 @@ def given_name_first(name: str) -> str:
 
 
 def with_given_names_first(table: TextTable, names: Sequence[str]) -> TextTable:
-    """Return a table with the names of some columns so, and a warning, if it has them as Lee, Ann.
+    """Return a table with Lee, Ann converted in some columns, and a warning if any were.
 
-    Columns where more than a few are not are left as they are; other columns that name one of the
-    players follow.
+    Columns where more than a few names aren't written that way are left alone; other columns that
+    name one of the players are converted along with them.
     """
     turned: dict[str, str] = {}
     for column in names:
@@ -68,9 +68,9 @@ def with_given_names_first(table: TextTable, names: Sequence[str]) -> TextTable:
 
 
 def with_full_names(table: TextTable) -> TextTable:
-    """Return a table of players with given name and surname in one, where it has them in two.
+    """Return a table of players with given names and surnames joined, if it splits them.
 
-    Next to a given name the column of the player has the surname, as Name next to Vorname.
+    Next to a column of given names, the player column has the surnames, like Name next to Vorname.
     """
     last = next((name for name in ("surname", "player") if name in table), "")
     if "given_name" not in table or not last:
@@ -85,16 +85,16 @@ def with_full_names(table: TextTable) -> TextTable:
 
 
 def _begins_with(rest: str, given: str) -> bool:
-    """Return whether a name has the given name in it: Ann Lee has Ann, and Diaz has no Di."""
+    """Return whether a name includes the given name: Ann Lee includes Ann, but Diaz not Di."""
     words, first = ([key_of(word) for word in text.split()] for text in (rest, given))
     return words[: len(first)] == first and len(words) > len(first)
 
 
 def with_teams_of_titles(table: TextTable) -> TextTable:
-    """Return a list of players without the rows that only name the team of those below.
+    """Return a list of players without rows that only name the team of the players below.
 
-    Such a row has a name and nothing else: that of a team, where it says so (Team: Racks), or
-    where nearly all players are written as Lee, Ann and it is not. The first row must be one.
+    Such a row has a name and nothing else. It is a team's name if it says so (Team: Racks), or if
+    nearly all players are written as Lee, Ann and it isn't. The first row must be such a row.
     """
     others = [table.cells(name) for name in table.found - {"player"}]
     if "player" not in table or "team" in table or not others or not len(table):

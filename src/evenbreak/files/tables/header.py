@@ -1,4 +1,4 @@
-"""The header of a table: which of its titles are the columns that a reader asks for."""
+"""A table's header: which of its titles are the columns that a reader needs."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from evenbreak.files.tables.titles import key_of, keys_of
 from evenbreak.words import Parameter, Sentence, listed, say, say_count
 
 MOST_ABOVE = 30
-"""The header is looked for in this many rows."""
+"""How many rows are searched for the header."""
 
 UNREAD = "-"
-"""The title by which a column is not read."""
+"""The title for a column that shouldn't be read."""
 
 _NUMBER = re.compile(r"[+-]?[0-9]+([.,][0-9]+)?", re.ASCII)
-"""What stands in a row of values, but hardly in a header."""
+"""Something found in a row of values, but hardly ever in a header."""
 
 Hint = Callable[[Mapping[str, int], Sequence[str], Sequence[Sequence[str]]], str]
-"""Says what to do about missing columns: given the places of those that are known, all titles, and
-some rows below the header."""
+"""Says what to do about missing columns, given the places of known columns, all titles, and some
+rows below the header."""
 
 
 class Fit(NamedTuple):
     """How well a row fits as the header; the greatest fits best.
 
     `complete`: it has every required column or a substitute. `above` is minus the number of rows
-    above it: the first of equals is taken. `rows` is 2 where a row of Home and Away is above Player
-    and Score.
+    above it, so that the first of several equals is chosen. `rows` is 2 if a row with Home and Away
+    is above Player and Score.
     """
 
     complete: bool
@@ -47,10 +47,11 @@ class Fit(NamedTuple):
 
 
 class Header:
-    """The names by which a reader knows its columns, besides those by language.
+    """The names by which a reader knows its columns, apart from those by language.
 
-    `instead` has sets of columns that can replace a required one; `called` the titles of columns in
-    this file, - for a column not to be read; with `maybe`, those that the file lacks are ignored.
+    `instead` has sets of columns that can replace a required column; `called` has this file's
+    column titles, - for a column that shouldn't be read; with `maybe`, titles that the file lacks
+    are ignored.
     """
 
     def __init__(
@@ -80,7 +81,7 @@ class Header:
                     self._means[key] = (*self._means.get(key, ()), name)
 
     def best(self, rows: Sequence[Sequence[str]]) -> Fit:
-        """Return how well the header fits that is most likely, and where it stands."""
+        """Return how well the likeliest header fits, and where it is."""
         fits = [self._fit(titles, -above) for above, titles in enumerate(rows[:MOST_ABOVE])]
         complete = [fit for fit in fits if fit.complete]
         if not complete:
@@ -105,7 +106,7 @@ class Header:
         return max(fits, key=lambda fit: (fit.titles, fit.above), default=nothing)
 
     def titles(self, rows: Sequence[Sequence[str]], fit: Fit) -> Sequence[str]:
-        """Return the titles of the header that fits so."""
+        """Return the titles in the header with this fit."""
         if fit.rows == 1:
             return told_apart(rows[-fit.above])
         return self._of_two(*rows[-fit.above : fit.below])
@@ -116,9 +117,9 @@ class Header:
         return self._fit(self._of_two(*rows[above : above + 2]), -above, 2)
 
     def _of_two(self, upper: Sequence[str], lower: Sequence[str]) -> list[str]:
-        """Return the titles of a header of two rows: of a title that is not known, the lower part.
+        """Return the titles in a two-row header; for an unknown title, its lower part.
 
-        That part has to be known, and to stand once: Player above Last name is the Last name.
+        That part must be known, and appear only once: Player above Last name becomes Last name.
         """
         titles = _joined(upper, lower)
         lower = [*lower, *[""] * (len(titles) - len(lower))]
@@ -138,10 +139,10 @@ class Header:
         return Fit(complete, many, sum(bool(title.strip()) for title in titles), above, rows)
 
     def _named(self, titles: Sequence[str]) -> list[str]:
-        """Return the column that each title means, '' where none; two may mean the same.
+        """Return the column that each title means, '' if none; two titles may mean the same one.
 
-        A title that may mean several columns means the first that no other title means: Home is
-        the player, unless there is a Home player, too.
+        A title that may mean several columns means the first that no other title means: Home is the
+        player, unless there is also a Home player.
         """
         called = {key_of(title): name for name, title in self._called.items()}
         settled = set(self._called)
@@ -169,9 +170,9 @@ class Header:
         problems: Problems,
         sample: Sequence[Sequence[str]] = (),
     ) -> tuple[dict[str, int], list[str]]:
-        """Return the place of each column, and the titles that are not used.
+        """Return each column's place, and the unused titles.
 
-        Missing and repeated columns are added to the problems; `sample` has some rows below.
+        Missing and repeated columns are added to the problems; `sample` has some of the rows below.
         """
         places: dict[str, int] = {}
         unused = []
@@ -231,18 +232,18 @@ class Header:
         return places, unused
 
     def _missing(self, found: Collection[str]) -> list[str]:
-        """Return the required columns that are not found, and not replaced."""
+        """Return the required columns that are missing and haven't been replaced."""
         return [name for name in self.required if not self.has(name, found)]
 
     def has(self, name: str, found: Collection[str]) -> bool:
-        """Return whether a column is among those found, or others that can take its place are."""
+        """Return whether a column, or others that can replace it, have been found."""
         return name in found or any(
             set(found) >= set(group) for group in self._instead.get(name, ())
         )
 
 
 def _joined(upper: Sequence[str], lower: Sequence[str]) -> list[str]:
-    """Return the titles of a header of two rows, of which the upper one has merged cells.
+    """Return the titles in a two-row header whose upper row has merged cells.
 
     >>> _joined(["Date", "Home", "", "Away", ""], ["", "Player", "Score", "Player", "Score"])
     ['Date', 'Home Player', 'Home Score', 'Away Player', 'Away Score']
@@ -255,7 +256,7 @@ def _joined(upper: Sequence[str], lower: Sequence[str]) -> list[str]:
 
 
 def missing_column(name: str, aliases: Sequence[str], titles: str = "") -> Sentence:
-    """Return what to say of a missing column, and what else it may be called.
+    """Return the message about a missing column, with other names for it.
 
     >>> missing_column("rating", ["points"], "'name', 'club'")
     "there's no column 'rating' among 'name', 'club'. Add it (it may also be called 'points')."

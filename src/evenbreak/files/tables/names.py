@@ -1,4 +1,4 @@
-"""Names of players: cleaned, matched with those they mean, and found as people type them."""
+"""Player names: cleaned, matched, and found as people type them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from evenbreak.words import listed, say
 _SIDES = {"a": 1, "playera": 1, "1": 1, "player1": 1, "b": 2, "playerb": 2, "2": 2, "player2": 2}
 
 LONGEST_NAME = 200
-"""Letters of a name; where a quotation mark is missing, half a file may be in one cell."""
+"""The most characters in a name; if a quotation mark is missing, half a file may be in a cell."""
 
 NAME = say("a name of up to {most} printable characters", most=LONGEST_NAME)
 
@@ -39,15 +39,15 @@ _HIDDEN = re.compile(
     )
     + "]"
 )
-"""What has no place in a name: letters that cannot be seen or that turn the text around them (as
-U+202E does), and code points that are no letters. Joiners stay; some scripts need them."""
+"""Characters not allowed in a name: invisible ones, ones that turn the text around them (as U+202E
+does), and invalid code points. Joiners stay; some scripts need them."""
 
 
 def clean_name(text: str) -> str:
-    r"""Return a name as it is printed: in Unicode's NFC, without hidden letters or extra blanks.
+    r"""Return a printable name: in Unicode NFC, without invisible characters or extra spaces.
 
-    The apostrophes by which `evenbreak.files.csv_writer` keeps a spreadsheet from running a formula
-    are removed too.
+    The apostrophes that `evenbreak.files.csv_writer` adds to keep a spreadsheet from running a
+    formula are also removed.
 
     >>> clean_name(" Zoe\u0308  Kestleman "), clean_name("'=cmd()"), clean_name("Bo\u202e")
     ('Zoë Kestleman', '=cmd()', 'Bo')
@@ -60,7 +60,7 @@ def clean_name(text: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Name(Column):
-    """Names of players or teams, cleaned; with `given_first` Lee, Ann becomes Ann Lee."""
+    """Names of players or teams, cleaned; with `given_first`, Lee, Ann becomes Ann Lee."""
 
     filled: bool = True
     write: str = say("a name")
@@ -68,7 +68,7 @@ class Name(Column):
 
     @property
     def wanted(self) -> str:
-        """What a cell should be."""
+        """What a cell should contain."""
         return NAME
 
     def meaning(self, text: str) -> Any:
@@ -77,7 +77,7 @@ class Name(Column):
         return name if is_name(name) else None
 
     def fault(self, text: str) -> str:
-        """Return what is wrong with a cell that has no name."""
+        """Return what is wrong with a cell that contains no name."""
         name = clean_name(text)
         if len(name) <= LONGEST_NAME:
             return super().fault(text)
@@ -92,7 +92,7 @@ class Name(Column):
 
 @dataclass(frozen=True, kw_only=True)
 class PlayerPlace(Name):
-    """Names of players as places in a list: `places` has that of each text."""
+    """Player names as places in a list: `places` has each string's place."""
 
     places: Mapping[str, int]
     write: str = say("the player's name")
@@ -106,7 +106,7 @@ class PlayerPlace(Name):
 
 
 def hidden_letter_warnings(table: TextTable, columns: Sequence[str]) -> list[str]:
-    """Return a warning for each name that has lost letters which cannot be seen."""
+    """Return a warning for each name from which invisible characters were removed."""
     texts = {text: None for column in columns for text in table.columns[column].distinct}
     warnings = [
         warning(
@@ -128,7 +128,7 @@ def hidden_letter_warnings(table: TextTable, columns: Sequence[str]) -> list[str
 
 
 def same_name(name: str) -> str:
-    """Return what names have in common that differ only in case or blanks: one player's.
+    """Return a key shared by names that differ only in case or spacing, and so are one player's.
 
     >>> same_name("Ann Lee") == same_name("ann  LEE") == same_name("AnnLee")
     True
@@ -137,11 +137,11 @@ def same_name(name: str) -> str:
 
 
 class PlayerNames:
-    """The players named in some columns of a table.
+    """The players named in some of a table's columns.
 
-    Names that differ only in case or blanks are one player's. Of the spellings of a name the one in
-    `means` is used, otherwise the most frequent. `players` are the names that are meant, sorted;
-    `places` has the place there of each text.
+    Names that differ only in case or spacing belong to one player. The spelling in `means` is used,
+    or else the most frequent one. `players` are the resolved names, sorted; `places` has each
+    string's place among them.
     """
 
     def __init__(self, table: TextTable, columns: Sequence[str], means: Mapping[str, str]) -> None:
@@ -163,7 +163,7 @@ class PlayerNames:
         self.places = {text: self._place[name] for text, name in meant.items() if is_name(name)}
 
     def _spellings(self, rows: Mapping[str, int]) -> dict[str, str]:
-        """Return the spelling to use of all names that differ only in case or blanks."""
+        """Return the spelling to use for names that differ only in case or spacing."""
         counts: Counter[str] = Counter()
         for text, count in rows.items():
             counts[self._unaliased(text)] += count
@@ -174,10 +174,10 @@ class PlayerNames:
         return PlayerPlace(places=self.places).read(table, name)
 
     def read_side(self, table: TextTable, name: str, a: Values, b: Values) -> Values:
-        """Read a column that names one of the two players, as a, b or by name: 1 or 2.
+        """Read a column that names one of the two players, as a, b or by name, as 1 or 2.
 
-        A player may be called A or B: a name as written means the player before the letter
-        does. Upper and lower case of names may differ.
+        A player may be called A or B: an exact name takes precedence over the letter. Case is
+        ignored in names.
         """
         distinct, codes = table.columns[name]
         sides = np.array([_SIDES.get(letters(text), 0) for text in distinct], dtype=np.int8)
@@ -212,7 +212,7 @@ class PlayerNames:
         return np.array([self._place.get(self._meant(text), -1) for text in texts], dtype=np.int64)
 
     def merged(self) -> dict[str, str]:
-        """Return the names that differ in case or blanks from the one they are read as."""
+        """Return the names that differ in case or spacing from the name they are read as."""
         written = {unicodedata.normalize("NFC", text) for text in self._written}
         meant = {
             text: self._spelling[same_name(text)]
@@ -226,14 +226,14 @@ class PlayerNames:
         }
 
     def renamed(self) -> dict[str, str]:
-        """Return the names that mean another one, each with that one."""
+        """Return the names that mean another name, each with that name."""
         clean = sorted({clean_name(text) for text in self._written})
         return {name: meant for name in clean if (meant := self._alias_of(name))}
 
     def _alias_of(self, text: str) -> str:
-        """Return the name that a text means by the aliases, '' if it is no alias.
+        """Return the name that an alias stands for; '' if the string isn't an alias.
 
-        An alias as written comes before one that differs in case or blanks.
+        An exact alias takes precedence over one that differs in case or spacing.
         """
         if not self._means:
             return ""
@@ -255,7 +255,7 @@ def _side(places: NDArray[np.int64], a: Values, b: Values) -> NDArray[np.int8]:
 
 
 def is_name(name: str) -> bool:
-    r"""Return whether a clean name can be printed: not empty, nor too long, nor with control signs.
+    r"""Return whether a clean name can be printed: not empty, not too long, no control characters.
 
     >>> is_name("Zoë"), is_name("Bo\x07"), is_name("")
     (True, False, False)
@@ -269,9 +269,9 @@ MOST_HINTS = 3
 
 
 class KnownNames:
-    """The names of a league, and the place of each.
+    """A league's names, and each name's place.
 
-    Upper and lower case and blanks may differ where that leaves no doubt.
+    Case and spacing are ignored unless that would be ambiguous.
 
     >>> names = KnownNames(["Ann Lee", "Bo Diaz"])
     >>> names.place("ann  lee"), names.place("Ann")
@@ -291,16 +291,16 @@ class KnownNames:
         self._hints: dict[str, str] = {}
 
     def place(self, name: str) -> int | None:
-        """Return where a name stands in the list, or None if it is unknown or ambiguous."""
+        """Return a name's place in the list, or None if it is unknown or ambiguous."""
         same = [name] if name in self._exact else self._same.get(same_name(name), [])
         return self._exact[same[0]] if len(same) == 1 else None
 
     def nearest(self, name: str) -> str | None:
-        """Return the name nearest to one that was not found, None if none is near."""
+        """Return the name closest to one that wasn't found; None if none is close."""
         return next(iter(self._near(name.casefold())), None)
 
     def hint(self, name: str) -> str:
-        """Return which names may have been meant by one that was not found, '' if none."""
+        """Return a hint about the names that may have been meant, '' if there are none."""
         if name not in self._hints:
             near = list(map(quoted, self._near(name.casefold())))
             hint = say(" (did you mean {names}?)", names=listed(near, "or")) if near else ""

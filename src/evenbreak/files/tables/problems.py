@@ -1,4 +1,4 @@
-"""Everything that is wrong with a file, collected to be corrected in one go."""
+"""Everything that is wrong with a file, collected so it can be corrected in one go."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_LISTED = 12
 def quoted(text: str) -> str:
     r"""Return text quoted for a message: short, on one line, harmless to a terminal.
 
-    A tab is shown as the blank that it looks like.
+    A tab is shown as the space it looks like.
 
     >>> quoted("six\nhundred"), quoted("9" * 50)
     ("'six\\nhundred'", "'9999999999999999999999999999999999999999'...")
@@ -31,7 +31,7 @@ def quoted(text: str) -> str:
 
 
 def printable(text: str) -> str:
-    r"""Return text with everything unprintable escaped, so that it stays on one line.
+    r"""Return text with everything unprintable escaped, so it stays on one line.
 
     >>> printable("Zoë's\nfile\x1b.csv")
     "Zoë's\\nfile\\x1b.csv"
@@ -43,7 +43,7 @@ def printable(text: str) -> str:
 
 
 def quoted_list(names: Sequence[str]) -> str:
-    """Return names as a message lists them.
+    """Return names in the form of a list for a message.
 
     >>> quoted_list([" name", "club"])
     "'name', 'club'"
@@ -56,7 +56,7 @@ def quoted_list(names: Sequence[str]) -> str:
 def first_ones(
     warnings: Sequence[str], most: int, source: str, rest: Callable[[int], str]
 ) -> list[str]:
-    """Return the first warnings of a file, and what `rest` says of the number that is left.
+    """Return a file's first warnings, plus `rest` with the number left over.
 
     >>> first_ones(["r.csv: a", "r.csv: b"], 1, "r.csv", lambda n: say("and {n} more", n=n))
     ['r.csv: a', 'r.csv: and 1 more']
@@ -71,7 +71,7 @@ _OF_FILE, _OF_LINE = "{source}: {text}", "{source}:{line}: {text}"
 
 
 def warning(source: str, line: Any, template: str, /, **values: Any) -> Sentence:
-    """Return what is to be known of a line of a file, or of the file: template and values.
+    """Return a warning about a line in a file, or the whole file, as a template and values.
 
     >>> warning("r.csv", None, "is empty"), warning("r.csv", 7, "{a}-{b} is tied", a=5, b=5)
     ('r.csv: is empty', 'r.csv:7: 5-5 is tied')
@@ -86,7 +86,7 @@ def warning(source: str, line: Any, template: str, /, **values: Any) -> Sentence
 
 
 def form_warning(source: str, line: Any, template: str, /, **values: Any) -> Sentence:
-    """Return a warning about how a file is written: the answer is the same whether it is heeded.
+    """Return a warning about a file's format, which doesn't affect the answer.
 
     >>> form_warning("r.csv", None, "columns not used: {titles}", titles="'Referee'")
     "r.csv: columns not used: 'Referee'"
@@ -96,7 +96,7 @@ def form_warning(source: str, line: Any, template: str, /, **values: Any) -> Sen
 
 
 def source_of_form(text: str) -> str | None:
-    """Return the file that a warning is about, if that is about how the file is written.
+    """Return the file that a warning is about, if it is about the file's format.
 
     >>> source_of_form(form_warning("r.csv", 3, "is a header")), source_of_form("r.csv: a row")
     ('r.csv', None)
@@ -106,7 +106,7 @@ def source_of_form(text: str) -> str | None:
 
 
 def of_list(problem: str, name: str = "") -> str:
-    """Return a problem or a warning as one of a list, whose file has no name worth saying.
+    """Return a problem or a warning as a list item that doesn't repeat the file's name.
 
     >>> tied = warning("/tmp/list.csv", 7, "is tied")
     >>> of_list(tied), of_list(tied, "Racks")
@@ -123,7 +123,7 @@ def of_list(problem: str, name: str = "") -> str:
 
 
 def refusal(source: str, template: str, line: Any = None, /, **values: Any) -> DataError:
-    """Return the error that refuses a file for one reason, in a line if it is there.
+    """Return the error that rejects a file for one reason, at a line if there is one.
 
     >>> str(refusal("r.csv", "has {n} sheets", n=2))
     'r.csv: has 2 sheets'
@@ -132,12 +132,12 @@ def refusal(source: str, template: str, line: Any = None, /, **values: Any) -> D
 
 
 class Problems:
-    """The problems of one file, reported in the order of its lines.
+    """One file's problems, reported in line order.
 
     Parameters
     ----------
     source
-        the name of the file in the messages.
+        the file's name in messages.
 
     >>> problems = Problems("players.csv")
     >>> problems.add(7, "rating 'six' is not a number; write digits")
@@ -159,7 +159,7 @@ class Problems:
     def add(self, line: int | None, template: str, /, **values: Any) -> None:
         """Add a problem: its line (None: the whole file), what is wrong and what to do.
 
-        The template and its values are those of `evenbreak.words.say`.
+        The template and its values are as for `evenbreak.words.say`.
         """
         problem = template if isinstance(template, Sentence) else say(template, **values)
         self._found.append((line or 0, problem))
@@ -172,7 +172,7 @@ class Problems:
         Parameters
         ----------
         lines
-            the line of each row of the table.
+            the line of each row in the table.
         rows
             the rows at fault.
         message
@@ -181,38 +181,38 @@ class Problems:
         self._found += [(int(lines[row]), message(int(row))) for row in rows]
 
     def include(self, others: Problems) -> None:
-        """Add the problems of another list of the same file."""
+        """Add the problems in another list for the same file."""
         self._found += others._found
 
     @property
     def lines(self) -> set[int]:
-        """The lines that have problems; 0 is the whole file."""
+        """The lines with problems; 0 is the whole file."""
         return {line for line, _ in self._found}
 
     @property
     def by_line(self) -> Sequence[tuple[int, str]]:
-        """The problems in the order in which they were found, each with its line."""
+        """The problems in the order they were found, each with its line."""
         return tuple(self._found)
 
     def outside(self, lines: Collection[int]) -> Problems:
-        """Return the problems that are not in some lines."""
+        """Return the problems outside some lines."""
         rest = Problems(self.source)
         rest._found = [(line, text) for line, text in self._found if line not in lines]
         return rest
 
     def listed(self) -> tuple[str, ...]:
-        """Return the problems, one per line, those of the file as a whole first."""
+        """Return the problems, one per line, starting with those of the whole file."""
         # Stable: problems of one line stay in the order in which they were found.
         ordered = sorted(self._found, key=lambda problem: problem[0])
         return tuple(warning(self.source, line, problem) for line, problem in ordered)
 
     def raise_any(self) -> None:
-        """Raise all problems, if there are any.
+        """Raise all problems, if any.
 
         Raises
         ------
         DataError
-            with one line per problem, those of the whole file first.
+            with one line per problem, starting with those of the whole file.
         """
         if self._found:
             raise DataError(self.listed())

@@ -1,6 +1,6 @@
-"""The rows of a file, from its bytes: text in any encoding, CSV, workbooks, other programs' files.
+"""A file's rows, from its bytes: text in any encoding, CSV, workbooks, other programs' files.
 
-Whatever format a file has, it becomes a header and rows of cells here, each with its line.
+Whatever its format, a file becomes a header and rows of cells here, each with its line.
 """
 
 from __future__ import annotations
@@ -44,32 +44,32 @@ MAGIC = {
 
 
 MOST_BYTES = 256 << 20
-"""The largest file that is held in memory: some five million matches."""
+"""The largest file held in memory: some five million matches."""
 
 PIECE = 1 << 20
-"""How much of a larger one is looked at at once."""
+"""How much of a larger file is read at a time."""
 
 Content: TypeAlias = bytes | Path
-"""What is in a file: its bytes, or where it is larger than `MOST_BYTES`, the file itself."""
+"""A file's content: its bytes, or if it's larger than `MOST_BYTES`, the file itself."""
 
 
 class Text(NamedTuple):
-    """The text of a file; `warnings` says whether its encoding was a guess."""
+    """A file's text; `warnings` says whether its encoding was a guess."""
 
     body: Content
     encoding: str
     warnings: list[str]
 
     def read(self) -> str:
-        """Return all of it."""
+        """Return all of the content."""
         with _stream(self.body) as stream:
             return stream.read().decode(self.encoding)
 
 
 def content_of(path: str | Path) -> tuple[str, bytes]:
-    """Return what to call a file in messages, and its bytes; '-' is standard input.
+    """Return what messages call a file, and its bytes; '-' is standard input.
 
-    A DataError if there is no such file, or it is larger than any list of a league.
+    Raises DataError if there is no such file, or if it is larger than any league's list.
     """
     source, content = table_content(path)
     if isinstance(content, Path):
@@ -78,7 +78,7 @@ def content_of(path: str | Path) -> tuple[str, bytes]:
 
 
 def table_content(path: str | Path) -> tuple[str, Content]:
-    """Return the same of a file that may be larger than what is held in memory."""
+    """Return the same for a file that may be too large to hold in memory."""
     if str(path) == "-":
         if sys.stdin is None:
             raise refusal("stdin", "is closed. Name a file, or pipe one into the command.")
@@ -120,7 +120,7 @@ def _stream(content: Content) -> BinaryIO:
 
 
 def pieces_of(content: Content) -> Iterator[bytes]:
-    """Yield what is in a file, piece by piece."""
+    """Yield a file's content, piece by piece."""
     if isinstance(content, bytes):
         yield content
         return
@@ -130,7 +130,7 @@ def pieces_of(content: Content) -> Iterator[bytes]:
 
 
 def fingerprint(content: Content) -> str:
-    """Return the SHA-256 of what is in a file."""
+    """Return the SHA-256 of a file's content."""
     made = hashlib.sha256()
     for piece in pieces_of(content):
         made.update(piece)
@@ -138,7 +138,7 @@ def fingerprint(content: Content) -> str:
 
 
 def head_of(content: Content) -> bytes:
-    """Return the beginning of what is in a file."""
+    """Return the beginning of a file's content."""
     if isinstance(content, bytes):
         return content[:1024]
     with content.open("rb") as stream:
@@ -146,9 +146,9 @@ def head_of(content: Content) -> bytes:
 
 
 def text_of(content: Content, source: str) -> Text:
-    r"""Return the text of a file: UTF-8, UTF-16 with a byte order mark, or else Windows-1252.
+    r"""Return a file's text: UTF-8, UTF-16 with a byte order mark, or else Windows-1252.
 
-    It's a DataError if there is none.
+    Raises DataError if there is no text.
 
     >>> text_of("\ufeffZoë".encode("utf-16-be"), "r.csv").read()
     'Zoë'
@@ -185,9 +185,9 @@ def text_of(content: Content, source: str) -> Text:
 
 
 def _looked_through(content: Content, encoding: str) -> tuple[int, int, bool]:
-    """Return the line of what is not in an encoding, that of a NUL, and whether nothing is there.
+    """Return the lines of the first undecodable byte and the first NUL, and whether it's empty.
 
-    A line is 0 where there is none. NULs are looked for in the whole file, whatever else is wrong.
+    A line is 0 if there is none. The whole file is searched for NULs, whatever else is wrong.
     """
     decoder = codecs.getincrementaldecoder(encoding)()
     wide = encoding == "utf-16"
@@ -212,14 +212,14 @@ ROWS_AT_A_TIME = 1024  # few enough to stay in the processor's cache
 SEPARATORS = (",", ";", "\t")
 
 Rows = tuple[list[int], list[list[str]]]
-"""Some rows: the line in which each begins, and its cells."""
+"""Some rows: the line where each starts, and its cells."""
 
 _DECLARED = re.compile(rb'(?:\xef\xbb\xbf)?"?sep=([^\w\s"\x80-\xff]|\t)"?[ \t]*(?=[\r\n])', re.I)
 """A first line with which Excel declares the separator, such as sep=;"""
 
 
 def first_rows(content: Content, encoding: str) -> dict[str, Rows]:
-    """Return the first rows by each separator; by one only where a first line declares it."""
+    """Return the first rows for each separator, or only for the one that a first line declares."""
     declared = _declared(content, encoding)
     separators = (declared[1].decode(),) if declared else SEPARATORS
     return {separator: next(csv_rows(content, encoding, separator, [])) for separator in separators}
@@ -236,10 +236,10 @@ def _declared(content: Content, encoding: str) -> re.Match[bytes] | None:
 def csv_rows(
     content: Content, encoding: str, separator: str, unreadable: list[int]
 ) -> Iterator[Rows]:
-    """Yield the rows that are not blank, `ROWS_AT_A_TIME` at once.
+    """Yield the rows that aren't blank, `ROWS_AT_A_TIME` at a time.
 
-    Lines that cannot be split into cells are added to `unreadable`. A first line that declares
-    the separator reads as a blank one, so that lines keep their numbers.
+    Lines that can't be split into cells are added to `unreadable`. A first line that declares the
+    separator is read as a blank line, so that lines keep their numbers.
     """
     declared = _declared(content, encoding)
     lines: list[int] = []
@@ -268,13 +268,13 @@ def csv_rows(
 
 
 PATIENCE = 60.0
-"""Seconds in which a workbook must have been read."""
+"""How many seconds reading a workbook may take."""
 
 _ZIP = b"PK\x03\x04"
 
 
 class Sheet(NamedTuple):
-    """The rows of a sheet that are not blank, with their line numbers from 1."""
+    """A sheet's nonblank rows, with their line numbers from 1 up."""
 
     name: str
     lines: list[int]
@@ -287,12 +287,12 @@ def is_spreadsheet(content: bytes) -> bool:
 
 
 def sheets_of(content: bytes, source: str) -> list[Sheet]:
-    """Return the visible sheets of a workbook that hold anything.
+    """Return a workbook's visible sheets, except empty ones.
 
     Numbers are written as they are (1500, not 1500.0), dates as 2024-09-03, times of day as 7:05,
-    which is what a spreadsheet makes of a score of 7:5. A process of its own reads it, so that a
-    workbook that asks for all the memory ends only that process. It's a DataError if the file is no
-    workbook, is damaged, locked, too large, or empty.
+    which is what a spreadsheet makes of a score of 7:5. It is read in a separate process, so that a
+    workbook that uses up all the memory ends only that process. Raises DataError if the file isn't
+    a workbook, or is damaged, locked, too large, or empty.
     """
     # -I and -S: nothing from the current folder or the environment is imported there.
     bundled = getattr(sys, "frozen", False)  # there is no Python but the program itself
@@ -316,18 +316,18 @@ def sheets_of(content: bytes, source: str) -> list[Sheet]:
 
 
 SAMPLE = 2000
-"""How many rows are looked at to guess what the columns are."""
+"""How many rows are used to guess what the columns are."""
 
 
 class Export(NamedTuple):
-    """The matches in a file that another program saved; their lines count the matches."""
+    """The matches in a file saved by another program; their line numbers count matches."""
 
     sheet: Sheet
     warnings: list[str]
 
 
 class TableRows(NamedTuple):
-    """The rows of a file, from the header on; no titles if it has none.
+    """A file's rows, starting with the header; no titles if it has no header.
 
     `unreadable` are lines that can't be split into cells, complete once `body` is used up.
     """
@@ -346,9 +346,9 @@ def table_rows(
     header: Header,
     exported: Callable[[bytes, str], Export | None] | None = None,
 ) -> TableRows:
-    """Return the rows of a file in any format; a DataError if it holds no table.
+    """Return the rows of a file in any format; raise DataError if it holds no table.
 
-    `exported` reads the exports of other programs, and returns None for other files.
+    `exported` reads other programs' exports, and returns None for other files.
     """
     if isinstance(content, Path):
         # Only a table of text can be read piece by piece.
@@ -415,7 +415,7 @@ def _of_sheet(sheet: Sheet, source: str, header: Header) -> TableRows:
 
 
 def _skipped(lines: list[int], rows: list[list[str]], fit: Fit, source: str) -> list[str]:
-    """Return a note of the rows above the header."""
+    """Return a note about the rows above the header."""
     rows = rows[: -fit.above]
     texts = [" ".join(filter(None, map(str.strip, row))) for row in rows]
     if not any(texts):

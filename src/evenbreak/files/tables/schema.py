@@ -1,8 +1,8 @@
-"""A kind of file as its columns: what each is called, what its cells mean, and what must be there.
+"""A type of file, defined by its columns: names, cell contents, and which are required.
 
-A schema reads a file in one pass; each kind of column adds the cells that it cannot read to the
-table's `problems` and goes on, so that everything wrong with a file is found at once. The
-reference's tables of columns are made from the schemas.
+A schema reads a file in one pass; each column type adds the cells it can't read to the table's
+`problems` and goes on, so that everything wrong with a file is found at once. The column tables in
+the reference are made from the schemas.
 """
 
 from __future__ import annotations
@@ -40,12 +40,12 @@ LONGEST_WHOLE = 20  # characters; Python refuses to read numbers of thousands of
 
 @dataclass(frozen=True, kw_only=True)
 class Column:
-    """A column of a kind of file; its class says what the cells mean.
+    """A column in a type of file; its class defines what the cells mean.
 
-    `also` are other names, separated by commas; `instead` sets of columns that can replace it, each
-    as names separated by blanks. With `filled`, no cell may be empty; `empty` says what an empty
-    cell means, such as "for a new player" (None: other columns settle that), and `nothing` is its
-    value. `write` is the remedy for an unreadable cell, '' for the usual one.
+    `also` are other names, separated by commas; `instead` has sets of columns that can replace it,
+    each as names separated by spaces. With `filled`, no cell may be empty; `empty` says what an
+    empty cell means, such as "for a new player" (None: that depends on other columns), and
+    `nothing` is its value. `write` is the remedy for an unreadable cell, '' for the usual one.
     """
 
     also: str = field(default="", kw_only=False)
@@ -62,17 +62,17 @@ class Column:
 
     @property
     def aliases(self) -> tuple[str, ...]:
-        """Its other names, one by one."""
+        """Its other names, one at a time."""
         return tuple(self.also.split(", ")) if self.also else ()
 
     @property
     def wanted(self) -> str:
-        """What a cell should be."""
+        """What a cell should contain."""
         return say("any text")
 
     @property
     def usual(self) -> str:
-        """What to write instead of a cell where `write` does not say it."""
+        """What to write instead of a cell, if `write` doesn't say."""
         return self.wanted
 
     @property
@@ -86,15 +86,15 @@ class Column:
         return say("Write {it}, or leave it empty {meaning}.", it=it, meaning=self.empty)
 
     def called(self, also: str, about: str = "", **changes: Any) -> Self:
-        """Return a column whose cells mean the same, with other names."""
+        """Return a column with the same cell type and other names."""
         return replace(self, also=also, about=about, **changes)
 
     def meaning(self, text: str) -> Any:
-        """Return the value of a cell that is not empty; None where it has none."""
+        """Return the value of a nonempty cell; None if it has none."""
         return text
 
     def fault(self, text: str) -> str:
-        """Return what is wrong with a cell that has no meaning, and what to do."""
+        """Return what is wrong with an unreadable cell, and what to do."""
         if not text:
             return say("is empty. {remedy}", remedy=self.remedy)
         return say(
@@ -105,9 +105,9 @@ class Column:
         )
 
     def read(self, table: TextTable, name: str) -> Values:
-        """Read a column, adding each cell without a meaning to the table's problems.
+        """Read a column, adding each unreadable cell to the table's problems.
 
-        One that the file lacks is empty throughout, which is not a further problem.
+        A column that the file lacks is all empty, which isn't an additional problem.
 
         >>> from evenbreak.files.tables.problems import Problems
         >>> from evenbreak.files.tables.table import Texts
@@ -148,12 +148,12 @@ class Column:
 
 @dataclass(frozen=True, kw_only=True)
 class Text(Column):
-    """Any text; `form` gives it the form in which it is used."""
+    """Any text; `form` converts it to the form in which it is used."""
 
     form: Callable[[str], str] = str
 
     def meaning(self, text: str) -> str:
-        """Return the text in its form."""
+        """Return the text in that form."""
         return self.form(text)
 
 
@@ -169,7 +169,7 @@ class Whole(Column):
 
     @property
     def wanted(self) -> str:
-        """What a cell should be."""
+        """What a cell should contain."""
         return say("a whole number from {least} to {most:,}", least=self.least, most=self.most)
 
     @property
@@ -189,9 +189,9 @@ class Whole(Column):
 class Number(Column):
     """Numbers from `least` to `most`.
 
-    A comma is read as the decimal point, as spreadsheets in many languages write it. A cell
-    such as 1,500 is refused where 1500 is possible too. With `grouped` so is 1.500, unless
-    another cell, such as 92.5, shows that the point is a decimal point.
+    A comma is read as the decimal point, as spreadsheets in many languages write it. A cell such as
+    1,500 is rejected if it could also mean 1500. With `grouped`, so is 1.500, unless another cell,
+    such as 92.5, shows that the point is a decimal point.
     """
 
     least: int
@@ -203,7 +203,7 @@ class Number(Column):
 
     @property
     def wanted(self) -> str:
-        """What a cell should be."""
+        """What a cell should contain."""
         return say("a number from {least:,} to {most:,}", least=self.least, most=self.most)
 
     def meaning(self, text: str) -> float | None:
@@ -212,7 +212,7 @@ class Number(Column):
         return number if number is not None and self.least <= number <= self.most else None
 
     def read(self, table: TextTable, name: str) -> Values:
-        """Read a column; a cell that may be either of two numbers is a problem too."""
+        """Read a column; a cell that could be either of two numbers is also a problem."""
         distinct, codes = table.columns[name]
         two_ways = _read_two_ways(distinct, min(self.most, LARGEST_GROUPED), points=self.grouped)
         for row in np.flatnonzero(two_ways[codes]):
@@ -231,9 +231,9 @@ class Number(Column):
 
 @dataclass(frozen=True, kw_only=True)
 class Word(Column):
-    """Words with the values that they have in `values`, compared by letters and digits alone.
+    """Words with the values in `values`, comparing only letters and digits.
 
-    `choices` are the words that a message proposes.
+    `choices` are the words that a message suggests.
     """
 
     values: Mapping[str, Any]
@@ -244,7 +244,7 @@ class Word(Column):
 
     @property
     def wanted(self) -> str:
-        """What a cell should be."""
+        """What a cell should contain."""
         return self.choices
 
     def meaning(self, text: str) -> Any:
@@ -264,23 +264,23 @@ class YesNo(Word):
 
 @dataclass(frozen=True, kw_only=True)
 class Parsed(Column):
-    """What `parse` reads from a text; it returns None where a text has no meaning."""
+    """What `parse` reads from a string; it returns None if the string means nothing."""
 
     parse: Callable[[str], Any]
     kind: str
 
     @property
     def wanted(self) -> str:
-        """What a cell should be."""
+        """What a cell should contain."""
         return self.kind
 
     def meaning(self, text: str) -> Any:
-        """Return the value of a text."""
+        """Return a string's value."""
         return self.parse(text)
 
 
 class Schema:
-    """The columns of a kind of file by name; `rows` is '' where a file without rows is fine."""
+    """A file type's columns by name; `rows` is '' if a file without rows is fine."""
 
     def __init__(self, rows: str = "", /, **columns: Column) -> None:
         self.rows = rows
@@ -290,7 +290,7 @@ class Schema:
         return self.columns[name]
 
     def __or__(self, more: Schema) -> Schema:
-        """Return the schema with more columns; those of `more` count where both have one."""
+        """Return the schema with more columns; `more` takes precedence over existing columns."""
         return Schema(self.rows or more.rows, **{**self.columns, **more.columns})
 
     def but(self, **changes: Mapping[str, Any]) -> Schema:
@@ -299,11 +299,11 @@ class Schema:
         return Schema(self.rows, **{**self.columns, **changed})
 
     def only(self, *names: str) -> Schema:
-        """Return the schema of some columns."""
+        """Return a schema with only some of the columns."""
         return Schema(self.rows, **{name: self[name] for name in names})
 
     def header(self) -> Header:
-        """Return the header by which the columns are found in a file."""
+        """Return the header definition used to find the columns in a file."""
         return Header(self._names(needed=True), self._names(needed=False), self._instead())
 
     def _instead(self) -> dict[str, list[list[str]]]:
@@ -317,7 +317,7 @@ class Schema:
         return {name: c.aliases for name, c in self.columns.items() if c.needed == needed}
 
     def text(self, path: str | Path, **how: Any) -> TextTable:
-        """Return the table in a file as text, whose cells are still to be read."""
+        """Return the table in a file as text, with its cells still to be read."""
         needed, optional = (self._names(needed=needed) for needed in (True, False))
         table = read_table(path, needed, optional, self._instead(), rows=self.rows, **how)
         if "given_name" in self.columns:
@@ -326,19 +326,20 @@ class Schema:
         return with_given_names_first(table, names)
 
     def of(self, table: TextTable) -> TextTable:
-        """Return a table with what its cells mean; those without a meaning are its problems."""
+        """Return a table with its cells' values, adding unreadable cells to its problems."""
         read = {name: column.read(table, name) for name, column in self.columns.items()}
         return replace(table, read=read)
 
     def read(self, path: str | Path, **how: Any) -> TextTable:
-        """Return the table in a file, its cells read; problems are not raised yet."""
+        """Return the table in a file with its cells read, but without raising problems yet."""
         return self.of(self.text(path, **how))
 
 
 def _read_two_ways(texts: Sequence[str], at_most: int, *, points: bool) -> NDArray[np.bool_]:
-    """Return which numbers may have a decimal sign or a sign that groups thousands.
+    """Return which numbers may have a sign that is either a decimal or a thousands separator.
 
-    A point is one of them only if `points`, and if no other number shows that it is decimal.
+    A point is ambiguous only with `points`, and only if no other number shows that it is a decimal
+    point.
     """
     grouped = [_GROUPED.fullmatch(text) is not None for text in texts]
     others = (text for text, group in zip(texts, grouped, strict=True) if not group)

@@ -1,4 +1,4 @@
-"""Titles of the two sides of a match: which is which, and titles that stand twice, once a side."""
+"""Titles for a match's two sides: which is which, and titles that appear twice, once per side."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from evenbreak.files.tables.titles import PLAYERS, SIDES, key_of, keys_of, marks
 _PART = re.compile(r"[^\W\d_]+|\d+")
 
 _REPEATED = re.compile(r"(.+?)[._]1")
-"""How programs write a title that is there already: SL, SL.1."""
+"""How programs write a title that already exists: SL, SL.1."""
 
 
 def order_of(one: str, other: str) -> int:
-    """Return 1 if two titles of a kind name the first side and the other, -1 the other way, else 0.
+    """Return 1 if two similar titles name the first side and the second, -1 if reversed, else 0.
 
     >>> order_of("Tore H", "Tore G"), order_of("Gastpunkte", "Heimpunkte"), order_of("A", "S B")
     (1, -1, 0)
@@ -26,7 +26,7 @@ def order_of(one: str, other: str) -> int:
 
 
 def _unlike(one: str, other: str) -> tuple[str, str]:
-    """Return the keys of what differs in two titles of a kind; nothing where they are of none."""
+    """Return keys for where two similar titles differ; nothing if they aren't similar."""
     parts = [*map(key_of, _PART.findall(one))], [*map(key_of, _PART.findall(other))]
     if len(parts[0]) == len(parts[1]):
         unlike = [(a, b) for a, b in zip(*parts, strict=True) if a != b]
@@ -41,7 +41,7 @@ def _side(one: str, other: str) -> int:
 
 
 def _ends(one: str, other: str) -> tuple[str, str]:
-    """Return the parts of two words that differ, if what they share is one word before or after.
+    """Return the differing parts of two words that share one word before or after.
 
     >>> _ends("heimpunkte", "gastpunkte"), _ends("heim", "gast")
     (('heim', 'gast'), ('heim', 'gast'))
@@ -58,10 +58,10 @@ def _ends(one: str, other: str) -> tuple[str, str]:
 
 
 def told_apart(titles: Sequence[str]) -> list[str]:
-    """Return titles of which those that stand twice, once a side, name the side of each.
+    """Return titles with the side added to those that appear twice, once per side.
 
-    A title belongs to the side of the player or team that it follows; where the first stands
-    before either, each belongs to the side that comes next.
+    A title belongs to the side of the player or team it follows; if the first comes before either,
+    each belongs to the side that comes next.
 
     >>> told_apart(["Home Player", "SL", "Wins", "Away Player", "SL", "Wins", "Innings"])
     ['Home Player', 'Home SL', 'Home Wins', 'Away Player', 'Away SL', 'Away Wins', 'Innings']
@@ -102,13 +102,13 @@ class _Mark(NamedTuple):
 
 
 def _first_writing(title: str, before: Sequence[str]) -> str:
-    """Return a title without the number by which a program tells it from an earlier one."""
+    """Return a title without the number that a program added to tell it from an earlier one."""
     again = _REPEATED.fullmatch(title.strip())
     return again[1] if again and again[1] in map(str.strip, before) else title
 
 
 def _marks_of(both: Sequence[int], marked: Mapping[int, _Mark]) -> Sequence[_Mark]:
-    """Return the marks of two columns of one title; none where the order leaves it open."""
+    """Return the marks for two columns with the same title; none if the order is ambiguous."""
     if not {*both}.isdisjoint(marked):
         return [marked[place] for place in both] if {*both} <= marked.keys() else ()
     before = [max((p for p in marked if p < place), default=None) for place in both]
@@ -124,7 +124,7 @@ def _marks_of(both: Sequence[int], marked: Mapping[int, _Mark]) -> Sequence[_Mar
 
 @cache
 def _mark(key: str) -> _Mark | None:
-    """Return what names the side in the title of a player or team, by its key.
+    """Return the part of a player or team title that names the side, by its key.
 
     >>> _mark("homeplayer"), _mark("player2").on("Race"), _mark("home sl")
     (_Mark(side=0, word='Home', first=True), 'Race 2', None)

@@ -1,8 +1,9 @@
-"""Names that may mean one player: spelt differently, mistyped, or with a shortened given name.
+"""Names that may belong to one player: spelled differently, mistyped, or with a short given name.
 
-Mistyped names are found without comparing every pair: names that differ in one letter are the
-same with that letter left blank, and one with a letter left out is the other without it. So the
-work grows with the number of names and not with its square, however many of them are alike.
+Mistyped names are found without comparing every pair: names that differ in one letter become equal
+when that letter is left blank, and a name with a missing letter equals the other name without that
+letter. So the work grows with the number of names and not with its square, however many of them are
+similar.
 """
 
 from __future__ import annotations
@@ -19,17 +20,17 @@ from evenbreak.ratings.results_frame import without_accents
 from evenbreak.words import listed, say
 
 SHORTEST_WORD = 4
-"""Letters that the longer of two words needs for a slip: Tim is not Tom mistyped."""
+"""The least length of the longer word for a typo: Tim isn't Tom mistyped."""
 
 ALIKE = 3
-"""Letters that two given names share at the beginning if one may be short for the other."""
+"""How many initial letters two given names share if one may be short for the other."""
 
 BLANK, SWAPPED = "_", "~"
 MARKS = {BLANK, SWAPPED}
-"""Stand for any letter, and for the next two in either order; no word has them."""
+"""Placeholders for any letter, and for the next two in either order; no word has them."""
 
 MOST_LISTED = 20
-"""How many groups of similar names are listed; the rest are counted."""
+"""How many groups of similar names are listed; the others are only counted."""
 
 Words = tuple[str, ...]
 
@@ -42,14 +43,14 @@ _LONG = re.compile(rf"\S{{{SHORTEST_WORD},}}")
 def similar_names(
     names: Iterable[str], met: Iterable[tuple[str, str]] = ()
 ) -> list[tuple[str, ...]]:
-    """Return groups of different names that may mean one player.
+    """Return groups of different names that may belong to one player.
 
-    First come names that differ in case, blanks, punctuation, accents (ä, a and ae are the same) or
-    the order of words; then names whose given names share the first three letters, or that have an
-    extra word, such as a second surname; then names one typo apart, in a word of four letters or
-    more. Each kind is in the order of the names, and no group is part of another. Groups of the
-    second and third kind are left out if all pairs in them have `met`: players don't play
-    themselves. Groups of the first kind stay: someone has entered one player twice.
+    First come names that differ in case, spacing, punctuation, accents (ä, a and ae are the same)
+    or word order; then names whose given names share the first three letters, or that have an extra
+    word, such as a second surname; then names one typo apart, in a word of at least four letters.
+    Each kind is sorted by name, and no group is part of another. Groups of the second and third
+    kind are left out if all pairs in them have `met`: players don't play themselves. Groups of the
+    first kind stay: someone has entered one player twice.
     """
     words = {name: split for name in sorted(set(names)) if (split := _words(name))}
     bare = {name: tuple(map(_without_umlauts, split)) for name, split in words.items()}
@@ -72,7 +73,7 @@ def similar_names(
 def similar_name_warnings(
     groups: Sequence[tuple[str, ...]], source: str, remedy: str, *, of: str = "player"
 ) -> list[str]:
-    """Return a warning for each group of names in a file that may mean one player, or team.
+    """Return a warning for each group of names in a file that may belong to one player or team.
 
     >>> similar_name_warnings([("CY", "Cy")], "r.csv", "If so, keep one of them.")
     ["r.csv: 'CY' and 'Cy' may be the same player. If so, keep one of them."]
@@ -94,13 +95,13 @@ def similar_name_warnings(
 
 
 def _words(name: str) -> Words:
-    """Return the words of a name, given names first, without accents and in one case."""
+    """Return a name's words, given names first, without accents or capitals."""
     last, _, given = name.partition(",")
     return tuple(_WORD.findall(without_accents(f"{given} {last}")))
 
 
 def _without_umlauts(word: str) -> str:
-    """Return a word with ae, oe and ue as a, o and u, as ä, ö and ü have become already."""
+    """Return a word with ae, oe and ue as a, o and u, which ä, ö and ü have already become."""
     return _UMLAUT.sub(r"\1", word)
 
 
@@ -113,7 +114,7 @@ def _in_order(words: Words) -> str:
 
 
 def _given_name(words: Words) -> Hashable:
-    """Return the beginning of a given name and all that follows it; None where there is none."""
+    """Return the start of a given name and everything after it; None if there is no given name."""
     given, *rest = words
     if len(given) < ALIKE or not given.isalpha() or not rest or len(rest[-1]) == 1:
         return None
@@ -121,7 +122,7 @@ def _given_name(words: Words) -> Hashable:
 
 
 def _with_one_more_name(words: Mapping[str, Words]) -> Iterator[tuple[str, ...]]:
-    """Yield pairs of names of which one has a word more: a second surname, or Big before Al."""
+    """Yield pairs of names in which one has an extra word: a second surname, or Big before Al."""
     names = defaultdict(list)
     for name, split in words.items():
         names[split].append(name)
@@ -136,7 +137,7 @@ def _with_one_more_name(words: Mapping[str, Words]) -> Iterator[tuple[str, ...]]
 def _alike(
     words: Mapping[str, Words], key: Callable[[Words], Hashable]
 ) -> Iterator[tuple[str, ...]]:
-    """Yield the groups of names that have the same key."""
+    """Yield groups of names with the same key."""
     groups = defaultdict(list)
     for name, split in words.items():
         groups[key(split)].append(name)
@@ -145,7 +146,7 @@ def _alike(
 
 
 def _a_slip_apart(words: Mapping[str, Words]) -> Iterator[tuple[str, ...]]:
-    """Yield the groups of names that one slip in a long word makes the same."""
+    """Yield groups of names that are the same except for one typo in a long word."""
     spelt: defaultdict[str, list[str]] = defaultdict(list)
     for name, split in words.items():
         spelt[" ".join(split)].append(name)
@@ -165,9 +166,9 @@ def _a_slip_apart(words: Mapping[str, Words]) -> Iterator[tuple[str, ...]]:
 
 
 def _slips(text: str) -> Iterator[str]:
-    """Yield a text with a letter of a long word left out, left spaces or swapped with the next.
+    """Yield a string with one letter of a long word left out, left blank or swapped with the next.
 
-    Digits are never a slip: numbered names keep theirs.
+    Digits are never treated as typos: numbered names keep them.
 
     >>> list(_slips("jo wu99"))
     ['jo u99', 'jo _u99', 'jo ~uw99', 'jo w99', 'jo w_99']
@@ -187,7 +188,7 @@ def _slips(text: str) -> Iterator[str]:
 def _largest(
     ranked: Iterable[tuple[int, tuple[str, ...]]],
 ) -> Iterator[tuple[int, tuple[str, ...]]]:
-    """Yield the groups that are not part of another, of equal ones the first."""
+    """Yield the groups that aren't part of another; of equal groups, yield the first."""
     holding: dict[str, set[int]] = defaultdict(set)
     by_size = sorted(ranked, key=lambda entry: (-len(entry[1]), entry))
     for number, (kind, group) in enumerate(by_size):

@@ -1,7 +1,7 @@
-"""A table in a file as columns of text, each row with the line it starts in.
+"""A table in a file as columns of text, each row with the line where it starts.
 
-Every table comes in through here: format, names of columns and shape of the rows are settled.
-What the cells mean is for `evenbreak.files.tables.schema` and the reader of each kind of file.
+Every table is read here, which takes care of the format, the column names and the row widths. What
+the cells mean is up to `evenbreak.files.tables.schema` and each file type's reader.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from evenbreak.files.tables.rows import Export, Rows, fingerprint, table_content
 from evenbreak.words import say, say_count
 
 ENOUGH_ROWS = 10
-"""Where so many rows or cells are wrong, and all of them, that is one problem."""
+"""If this many rows or cells are wrong, and they all are, they count as one problem."""
 
 
 class Texts(NamedTuple):
-    """A column of text: the distinct cells, and for each row the position of its cell in them.
+    """A column of text: the distinct cells, and each row's position among them.
 
-    Most columns repeat a few texts, so the meaning of each is calculated only once.
+    Most columns repeat a few strings, so each one's value is calculated only once.
     """
 
     distinct: list[str]
@@ -49,7 +49,7 @@ class Texts(NamedTuple):
 
 
 class Values(NamedTuple):
-    """A column as read: `good` cells could be read or may be empty, `stated` ones aren't empty."""
+    """A column's values; `good` cells are valid or may be empty, `stated` cells aren't empty."""
 
     values: NDArray[Any]
     good: NDArray[np.bool_]
@@ -59,30 +59,30 @@ class Values(NamedTuple):
 @array_values
 @dataclass(frozen=True, eq=False)
 class TextTable:
-    """The rows of a file that have the shape of its header; `table["x"]` has the values of x.
+    """The rows of a file that match its header; `table["x"]` has the values of column x.
 
     Parameters
     ----------
     source
-        the name of the file in messages.
+        the file's name in messages.
     lines
-        the line in which each row starts (1 is the first line of the file), rising.
+        the line where each row starts (1 is the file's first line), ascending.
     columns
-        all columns that were asked for, by the names they were asked for, their cells
-        stripped of surrounding blanks; a column that the file lacks is empty throughout.
+        all requested columns, by the requested names, with cells stripped of surrounding spaces; a
+        column that the file lacks is all empty.
     problems
-        what is wrong so far; a reader adds to it and calls `raise_any` at the end, so
-        that all problems of a file are reported at once.
+        what is wrong so far; a reader adds to it and calls `raise_any` at the end, so that all of a
+        file's problems are reported at once.
     warnings
-        what a person should know although the file can be used, one per line.
+        things to know although the file can be used, one per line.
     sha256
-        the fingerprint of what was read.
+        the fingerprint of the bytes read.
     titles
-        what the file calls the columns that it has.
+        the file's titles for the columns it has.
     header
-        the line in which the header starts.
+        the line where the header starts.
     read
-        what the cells mean, by column, where a schema has read them.
+        the cells' values by column, if a schema has read them.
     """
 
     source: str
@@ -106,7 +106,7 @@ class TextTable:
         return name in self.found
 
     def repeated(self) -> NDArray[np.bool_]:
-        """Return which rows are the same as an earlier one in every column that was read."""
+        """Return which rows repeat an earlier row in every column that was read."""
         same, many = np.zeros(len(self), dtype=np.int64), 1
         for distinct, codes in (self.columns[name] for name in self.found):
             if many * len(distinct) > np.iinfo(np.int64).max:
@@ -118,10 +118,10 @@ class TextTable:
         return again
 
     def note(self, rows: Any, template: str, /, **values: Any) -> None:
-        """Note a problem in a row, in several, or in those of a mask.
+        """Note a problem in a row, in several rows, or in the rows of a mask.
 
-        The template and its values are those of `evenbreak.words.say`; of an array each row has
-        its own value.
+        The template and its values are as for `evenbreak.words.say`; in an array, each row has its
+        own value.
         """
         mask = isinstance(rows, np.ndarray) and rows.dtype == bool
         for row in np.flatnonzero(rows) if mask else np.atleast_1d(np.asarray(rows, dtype=int)):
@@ -132,7 +132,7 @@ class TextTable:
             self.problems.add(int(self.lines[row]), template, **own)
 
     def without(self, lines: Collection[int]) -> TextTable:
-        """Return the table without the rows in some lines, and without its problems there."""
+        """Return the table without the rows on some lines, and without those rows' problems."""
         kept = ~np.isin(self.lines, list(lines))
         columns = {}
         for name, (distinct, codes) in self.columns.items():
@@ -142,7 +142,7 @@ class TextTable:
         return replace(self, lines=self.lines[kept], columns=columns, problems=problems, read={})
 
     def cells(self, name: str) -> list[str]:
-        """Return the text of a column, row by row; '' throughout where the file lacks it."""
+        """Return a column's text, row by row; all '' if the file lacks the column."""
         distinct, codes = self.columns[name]
         return [distinct[code] for code in codes.tolist()]
 
@@ -159,38 +159,38 @@ def read_table(
     hint: Hint | None = None,
     exported: Callable[[bytes, str], Export | None] | None = None,
 ) -> TextTable:
-    r"""Read a CSV file, or a sheet of a workbook, as columns of text.
+    r"""Read a CSV file, or a sheet in a workbook, as columns of text.
 
-    A CSV file is UTF-8 or UTF-16 with a byte order mark, UTF-8 without, or else Windows-1252
-    with a warning; comma, semicolon or tab, or what a first line such as `sep=|` declares; LF,
-    CRLF or CR; quoted cells may contain line ends. Of a workbook (.xlsx, .ods) the first sheet
-    is read whose header fits. Names of columns are compared without regard to case, blanks and
-    punctuation. Lines above the header are skipped and unknown columns ignored with a warning,
-    blank rows without.
+    A CSV file is UTF-8 or UTF-16 with a byte order mark, UTF-8 without, or else Windows-1252 with a
+    warning; comma, semicolon or tab, or what a first line such as `sep=|` declares; LF, CRLF or CR;
+    quoted cells may contain line breaks. In a workbook (.xlsx, .ods), the first sheet whose header
+    fits is read. Column names are compared without regard to case, spacing and punctuation. Lines
+    above the header are skipped and unknown columns are ignored, both with a warning; blank rows
+    are ignored without one.
 
     Parameters
     ----------
     required, optional
-        for each column its other names.
+        each column's other names.
     instead
-        for a required column the sets of columns that can take its place.
+        sets of columns that can replace a required column.
     rows
         what its rows are, such as matches: a file without any has a problem; '' if that is
         checked elsewhere.
     called
-        for some columns the title that they have in this file.
+        this file's titles for some columns.
     maybe
-        whether those of them that the file lacks are left aside.
+        whether titles that the file lacks are ignored.
     hint
-        what to do where required columns are missing (see `Header`).
+        what to do if required columns are missing (see `Header`).
     exported
-        reads the exports of other programs, if they may be given too.
+        reads other programs' exports, if they are accepted too.
 
     Returns
     -------
     TextTable
-        missing columns and rows of the wrong shape are in its `problems`, not raised
-        yet: a reader may find more.
+        missing columns and rows of the wrong width are in its `problems`, not raised yet, because a
+        reader may find more.
 
     Raises
     ------
@@ -256,7 +256,7 @@ def _add_unreadable(lines: list[int], problems: Problems) -> None:
 def _columns(
     parts: Iterator[Rows], width: int, places: Mapping[str, int], problems: Problems
 ) -> tuple[NDArray[np.int64], dict[str, Texts]]:
-    """Return the line of each row that has the header's width, and its cells by column."""
+    """Return the line of each row that matches the header's width, and its cells by column."""
     # Each text gets the next free number when it is first met.
     numbers = {name: defaultdict[str, int](count().__next__) for name in places}
     codes = {name: array("q") for name in places}
@@ -277,7 +277,7 @@ def _columns(
 
 
 def _fits(line: int, row: list[str], width: int, problems: Problems) -> bool:
-    """Return whether a row has the header's width; blank cells beyond it do no harm."""
+    """Return whether a row has the header's width; extra blank cells do no harm."""
     if len(row) == width or (len(row) > width and not "".join(row[width:]).strip()):
         return True
     if "".join(row).strip():

@@ -1,7 +1,8 @@
-"""What columns are called in leagues of six languages, and the words for matches not played.
+"""Column titles used by leagues in six languages, and words for unplayed matches.
 
-One declaration: readers, the proposals of columns and the reference go by it. No title is a single
-letter, which means different things by language: G is won in French, and drawn in Dutch.
+They are declared only here, for readers, suggested columns and the reference. No title is a single
+letter, because letters mean different things in different languages: G means won in French and
+drawn in Dutch.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ SIDES: Mapping[str, tuple[str, str]] = {
     "nl": ("thuis", "uit, gast, gasten"),
     "pl": ("gospodarz, gospodarze", "gość, goście"),
 }
-"""The two sides of a match; by themselves the players, or the teams where players have titles."""
+"""The two sides of a match; alone, these mean the players, or the teams if players have titles."""
 
 _PLAYER: _Words = {
     "en": "player, name, player name",
@@ -188,7 +189,7 @@ WHOLE: Mapping[str, _Words] = {
     },
 }
 
-"""What other columns are called besides their English names."""
+"""Other columns' titles besides their English names."""
 
 BYES: Mapping[str, str] = {
     "en": "bye",
@@ -198,7 +199,7 @@ BYES: Mapping[str, str] = {
     "nl": "vrij",
     "pl": "pauza, wolny los",
 }
-"""What stands in place of an opponent, or of a score, where somebody has a bye."""
+"""What is written in place of an opponent, or of a score, for a bye."""
 
 NOT_YET: Mapping[str, str] = {
     "en": "scheduled, postponed, cancelled, canceled, not played, unplayed, pending, upcoming, "
@@ -209,7 +210,7 @@ NOT_YET: Mapping[str, str] = {
     "nl": "uitgesteld, afgelast, niet gespeeld, gepland",
     "pl": "przełożony, odwołany, nierozegrany, zaplanowany",
 }
-"""What a status is called of a match that has not been played."""
+"""Statuses of a match that hasn't been played."""
 
 PLAYED: Mapping[str, str] = {
     "en": "played, complete, completed, final, finished, done, closed, ok, confirmed, approved",
@@ -219,7 +220,7 @@ PLAYED: Mapping[str, str] = {
     "nl": "gespeeld, afgelopen, bevestigd",
     "pl": "rozegrany, zakończony, potwierdzony",
 }
-"""What a status is called of one that has."""
+"""Statuses of a match that has been played."""
 
 
 OTHER_COUNTS: Mapping[str, str] = {
@@ -231,11 +232,11 @@ OTHER_COUNTS: Mapping[str, str] = {
     "nl": "beurten, hoogste serie, tafel, wedstrijd",
     "pl": "podejścia, odstawne, stół, mecz",
 }
-"""Numbers of a match that are never the games that somebody won."""
+"""Numbers about a match that are never games won."""
 
 
 def key_of(text: str) -> str:
-    """Return what a title or a word is compared by: letters and digits, in one case.
+    """Return a title or word in the form used for comparing: letters and digits, in one case.
 
     >>> key_of("Extérieur") == key_of("exterieur"), key_of("W/O"), key_of("Gość")
     (True, 'wo', 'gosc')
@@ -248,7 +249,7 @@ def key_of(text: str) -> str:
 
 
 def words_of(*declared: Mapping[str, str]) -> frozenset[str]:
-    """Return the keys of the words in some declarations.
+    """Return the keys of all words in some declarations.
 
     >>> sorted(words_of({"de": "spielfrei, Freilos", "en": "bye"}))
     ['bye', 'freilos', 'spielfrei']
@@ -266,10 +267,10 @@ UNPLAYED, WAS_PLAYED = words_of(NOT_YET), words_of(PLAYED)
 
 @cache
 def titles_of(column: str) -> Mapping[str, tuple[str, ...]]:
-    """Return what a column may be called besides its English names, by language.
+    """Return a column's titles besides its English names, by language.
 
-    A column of one side, such as `player_a` or `home_score`, is called by the side and by what it
-    holds, in either order; one of a player or a team also by the side alone.
+    The title of a one-sided column, such as `player_a` or `home_score`, names the side and the
+    content, in either order; for a player or a team, the side alone is enough.
 
     >>> titles_of("player_a")["de"][:3], titles_of("race")["pl"]
     (('Heim', 'Spieler Heim', 'Heim Spieler'), ('dystans', 'do wygranych'))
@@ -282,7 +283,7 @@ def titles_of(column: str) -> Mapping[str, tuple[str, ...]]:
 
 
 def _side_of(column: str) -> tuple[str, int] | None:
-    """Return what a column holds of one side, and of which: 0 or 1."""
+    """Return what a one-sided column holds, and for which side: 0 or 1."""
     if column in ("home", "away"):
         return "team", int(column == "away")
     if column in ("home_score", "away_score"):
@@ -303,16 +304,16 @@ def _with_side(what: str, side: int, lang: str) -> Iterator[str]:
 
 @cache
 def keys_of(column: str) -> tuple[str, ...]:
-    """Return the keys of all that a column may be called by language."""
+    """Return the keys of all titles for a column, by language."""
     titles = titles_of(column)
     return tuple(dict.fromkeys(key_of(title) for lang in titles for title in titles[lang]))
 
 
 @cache
 def marks() -> Collection[tuple[str, str]]:
-    """Return the keys that tell two titles of a kind apart: those of the first side and the other.
+    """Return the keys that tell two similar titles apart: the first side's and the second's.
 
-    Single letters count in pairs alone: H and G are Heim and Gast, T and U thuis and uit.
+    Single letters count only in pairs: H and G are Heim and Gast, T and U are thuis and uit.
     """
     pairs = {tuple(pair) for pair in ("ab", "12", "hg", "ha", "hv", "rv", "de", "lv", "tu")}
     for first, other in SIDES.values():

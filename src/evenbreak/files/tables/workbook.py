@@ -1,7 +1,7 @@
-"""What reads a workbook, in a process of its own, which may use so much memory and no more.
+"""Reading a workbook in a separate process with a memory limit.
 
 `spreadsheet` starts this file as a program. It imports nothing else of this package, so that it
-starts in a moment. Before a sheet is opened, all XML in the workbook is looked through: the reader
+starts in a moment. Before a sheet is opened, all XML in the workbook is scanned, because the reader
 makes room for every cell between the first and the last, however few are filled.
 """
 
@@ -20,16 +20,16 @@ from typing import Any
 from xml.parsers import expat
 
 AS_READER = "--read-workbook"
-"""The first word of a bundled program that is to read a workbook."""
+"""The first argument that makes a bundled program read a workbook."""
 
 MOST_BYTES = 400_000_000
-"""The most that a workbook may hold once unpacked."""
+"""The largest size of an unpacked workbook."""
 
 MOST_CELLS = 20_000_000
-"""The most cells of a sheet, empty ones between others included."""
+"""The most cells in a sheet, including empty ones between others."""
 
 MOST_MEMORY = 3 << 29
-"""Bytes of memory with which a workbook must be read, where the system can limit that."""
+"""How much memory reading a workbook may use, in bytes, if the system can limit it."""
 
 _MOST_ROWS, _MOST_COLUMNS = 1_048_576, 16_384  # of a sheet in Excel and in LibreOffice
 _PIECE = 1 << 16
@@ -43,13 +43,13 @@ _FAR = "has cells far away from the others. Delete them."
 
 
 class UnreadableError(Exception):
-    """Why a workbook is not read."""
+    """Why a workbook can't be read."""
 
 
 def read(content: bytes) -> list[tuple[str, list[int], list[list[str]]]]:
-    """Return the visible sheets of a workbook: the name, the rows' numbers, their cells as text.
+    """Return a workbook's visible sheets: the name, the rows' numbers, their cells as text.
 
-    UnreadableError if it is no workbook, is damaged or locked, or would fill the memory.
+    Raises UnreadableError if it isn't a workbook, is damaged or locked, or would fill the memory.
     """
     from python_calamine import CalamineWorkbook, SheetTypeEnum, SheetVisibleEnum
 
@@ -71,7 +71,7 @@ def read(content: bytes) -> list[tuple[str, list[int], list[list[str]]]]:
 
 
 def _look_through(content: bytes) -> None:
-    """Refuse what is no workbook, and one that would fill the memory."""
+    """Reject a file that isn't a workbook, or that would fill the memory."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             parts = archive.infolist()
@@ -92,7 +92,7 @@ def _look_through(content: bytes) -> None:
 
 
 def _look_at(file: Any, *, lenient: bool) -> None:
-    """Look through a part of a workbook if it is XML; in old drawings of notes it may be wrong."""
+    """Scan a part of a workbook if it is XML; in old drawings of notes, it may be invalid."""
     piece = file.read(_PIECE)
     if not piece.lstrip(b"\xef\xbb\xbf\xff\xfe\0 \t\r\n").startswith(b"<"):
         return
@@ -108,7 +108,7 @@ def _look_at(file: Any, *, lenient: bool) -> None:
 
 
 class _Bounds:
-    """Where the cells of a sheet are, as its XML goes by; refuses those that are far away."""
+    """Where a sheet's cells are, as its XML is read; rejects cells that are too far away."""
 
     def __init__(self) -> None:
         self.parser = expat.ParserCreate()
@@ -175,7 +175,7 @@ class _Bounds:
             self._fill()
 
     def _fill(self) -> None:
-        """Take note of the filled cells that end here."""
+        """Record the filled cells that end here."""
         top, left = self.row - self.rows + 1, self.column - self.columns + 1
         inside = self.top <= top and self.row <= self.bottom
         if inside and self.left <= left and self.column <= self.right:
@@ -188,7 +188,7 @@ class _Bounds:
 
 
 def _number(text: str | None, usual: int, most: int) -> int:
-    """Return a row, or how often something is repeated, if a sheet can have so many."""
+    """Return a row, or a repeat count, if a sheet can have that many."""
     if text is None:
         return usual
     if not _NUMBER.fullmatch(text) or not 1 <= int(text) <= most:
@@ -198,7 +198,7 @@ def _number(text: str | None, usual: int, most: int) -> int:
 
 @cache
 def column_of(letters: str) -> int:
-    """Return the number of a column.
+    """Return a column's number.
 
     >>> column_of("A"), column_of("XFD")
     (1, 16384)
@@ -255,7 +255,7 @@ def _limit_memory(most: int) -> None:
 
 
 def main() -> None:
-    """Read the workbook that comes in, and write its sheets, or why it is not read, as JSON."""
+    """Read the workbook from stdin, and write its sheets, or why it can't be read, as JSON."""
     _limit_memory(int(sys.argv[1]))
     sys.path[:] = sys.argv[2:]
     try:

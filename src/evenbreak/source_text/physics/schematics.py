@@ -1,4 +1,4 @@
-"""The schematic figures of sections 1 to 4: arrows on balls, their directions computed."""
+"""The schematic figures in sections 1 to 4: arrows on balls, with computed directions."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ _FRICTION = 0.2
 """Friction between the balls, exaggerated to show its effect."""
 _OFFSET = 0.5
 _SPEED = 1.5
-"""The length of the arrow of V_0 in Fig. 4.2; the radius of a ball is 1."""
+"""The length of the arrow for V_0 in Fig. 4.2; a ball's radius is 1."""
 
 Pair = Sequence[float]
 
 
 def friction_at_hit() -> Axes:
-    """Fig. 1.1: the forces on two balls that touch, and the turn that friction gives them."""
+    """Fig. 1.1: the forces on two touching balls, and the rotation caused by friction."""
     axes = _sheet((-1.35, 3.35), (-1.5, 1.5), (7.4, 4.9))
     for x, way in ((0.0, -1.0), (2.0, 1.0)):
         _ball(axes, (x, 0.0))
@@ -40,7 +40,7 @@ def friction_at_hit() -> Axes:
 
 
 def tip_forces() -> Axes:
-    """Fig. 1.2: the force of a tip, taken apart into one to the center and one of friction."""
+    """Fig. 1.2: the tip's force, split into one toward the center and one from friction."""
     axes = _sheet((-2.3, 1.35), (-1.25, 1.25), (7.0, 4.8))
     _ball(axes, (0.0, 0.0))
     depth = math.sqrt(1.0 - _OFFSET**2)
@@ -62,7 +62,7 @@ def tip_forces() -> Axes:
 
 
 def sliding_draw() -> Axes:
-    """Fig. 2.1: a ball that slides forward and spins back, and the force of the cloth."""
+    """Fig. 2.1: a ball that slides forward with backspin, and the cloth's force."""
     axes = _sheet((-1.9, 2.3), (-0.35, 2.25), (7.0, 4.6))
     axes.plot([-1.9, 2.3], [0.0, 0.0], color="0.5", lw=1.2, zorder=0)
     _ball(axes, (0.0, 1.0))
@@ -86,7 +86,7 @@ def velocity_triangle() -> Axes:
 
 
 def hit_from_above() -> Axes:
-    """Fig. 4.2: a hit in its two frames, with what friction adds to one ball and takes away."""
+    """Fig. 4.2: a hit in its two frames, with the effect of friction on each ball."""
     axes = _sheet((-1.25, 3.3), (-2.4, 1.75), (7.2, 6.6))
     way = np.array([math.cos(_CUT), -math.sin(_CUT)])
     left = np.array([math.sin(_CUT), math.cos(_CUT)])
@@ -156,7 +156,7 @@ def tilted_axis() -> Axes:
 
 
 def _velocities(cut: float) -> Any:
-    """Return the level velocities of object ball and cue ball after a stun shot, V_0 = 1."""
+    """Return the level velocities of object ball and cue ball after a stun shot with V_0 = 1."""
     hit = collide(cut, 0.0, mu=_FRICTION, friction="shepard")
     return np.array([hit.object_velocity[:2], hit.cue_velocity[:2]])
 
@@ -185,7 +185,7 @@ def _arrow(
     lw: float = 1.4,
     ls: str = "-",
 ) -> FancyArrowPatch:
-    """Draw a vector from a point, with its name beside the fraction `at` of its length."""
+    """Draw a vector from a point, with its name at the fraction `at` of its length."""
     from matplotlib.patches import FancyArrowPatch
 
     tail, along = np.asarray(start, float), np.asarray(vector, float)
@@ -232,7 +232,7 @@ def _angle(
     radius: float = 0.13,
     named: float = 0.5,
 ) -> None:
-    """Mark the angle between two directions; `named` is how far along it its name goes."""
+    """Mark the angle between two directions; `named` is how far along it its name is."""
     begin, end = (math.atan2(way[1], way[0]) for way in (start, stop))
     turn = begin + np.linspace(0.0, math.remainder(end - begin, 2.0 * math.pi), 41)
     arc = np.asarray(corner, float)[:, None] + radius * np.array([np.cos(turn), np.sin(turn)])

@@ -40,7 +40,7 @@ from evenbreak.source_text.published import Answers, Inputs
 _P1 = ContactPoint(-math.sqrt(0.5), 1.0)
 _P2 = ContactPoint(-0.5, 0.5)
 _POINTS = {"P1": _P1, "P2": _P2}
-"""The contact points of P3.8, to the right of the center, where y is below 0."""
+"""The contact points in P3.8, to the right of the center, where y is negative."""
 
 
 def _hit(i: Inputs) -> CenterHit:
@@ -68,7 +68,7 @@ def _spin(i: Inputs) -> tuple[float, float]:
 
 
 def _nearest(i: Inputs) -> ContactPoint:
-    """Return the nearest point of the line on which a point of the small circle lies."""
+    """Return the nearest point on the line through a point of the small circle."""
     height = i["z_0/R"]
     return small_circle_point(roll_side(math.sqrt(height * (1.0 - height)), height))
 
@@ -83,7 +83,7 @@ def _searched_side() -> float:
 
 
 def _contact_slopes(i: Inputs) -> float:
-    """Return the spread of z/y over a slide, from the motion and spin of the ball."""
+    """Return the spread of z/y during a slide, from the ball's motion and spin."""
     ball, speed = Ball(), 1.0
     struck = ContactPoint(i["y/R"], i["z/R"])
     around = speed / ball.radius
@@ -155,4 +155,4 @@ ANSWERS: Answers = {
         1.0 - roll_speed(1.0, spin_of_offset(i["b/R"]))
     ),
 }
-"""How each quantity of these problems is computed."""
+"""How each quantity in these problems is computed."""

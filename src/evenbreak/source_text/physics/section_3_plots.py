@@ -1,7 +1,7 @@
-"""The plots of section 3, where the tip meets the ball and the speed it gives, with their numbers.
+"""The plots in section 3, on where the tip hits the ball and its speed, with their numbers.
 
-The copy of the text that was read has lost the legends of its plots, and with them the values of
-most curves. Those in capitals are our choice, here and in `section_4_plots`.
+Our copy of the text has lost its plots' legends, and with them the values for most curves. The
+values in capitals are our choice, here and in `section_4_plots`.
 """
 
 from __future__ import annotations
@@ -38,13 +38,13 @@ SIDES_IN_ROLL = tuple(half / 2 for half in range(-7, 8))
 """Fig. 3.1b: the sidespins J_z in natural roll."""
 
 MINIMAL_SIDE = 2.0
-"""Fig. 3.2: the sidespin J_z in natural roll of the line drawn."""
+"""Fig. 3.2: the sidespin J_z in natural roll for the line drawn."""
 
 MASS_RATIOS = (Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(1, 4))
-"""Figs. 3.3 and 3.4: mass of the ball over mass of the stick; the text works with the last two."""
+"""Figs. 3.3 and 3.4: the ball's mass divided by the stick's; the text uses the last two."""
 
 LARGEST_OFFSET = 0.7
-"""Figs. 3.3 and 3.4: the largest offset b/R, where even a tip of friction 1 slips."""
+"""Figs. 3.3 and 3.4: the largest offset b/R, at which even a tip with friction 1 slips."""
 
 _OFFSETS = [k / 100 for k in range(-round(100 * LARGEST_OFFSET), round(100 * LARGEST_OFFSET) + 1)]
 
@@ -53,7 +53,7 @@ _QUARTERS = {0.0: "", 0.25: "¼", 0.5: "½", 0.75: "¾"}
 
 
 def same_sidespin() -> Figure:
-    """Fig. 3.1: the contact points of equal sidespin, just after the tip and in natural roll."""
+    """Fig. 3.1: the contact points for equal sidespin, just after the tip and in natural roll."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(9.3, 5.0), layout="constrained")
@@ -117,7 +117,7 @@ def stick_speeds() -> Axes:
 
 
 def lag_speeds() -> Axes:
-    """Fig. 3.4: the speed of natural roll, by height of the tip; the best one for a lag."""
+    """Fig. 3.4: the speed in natural roll, by tip height; the best height for a lag."""
     axes = _speeds(
         "height above the center $b/R$", "$V_{b,NR} / V_0$ = speed of roll / speed of stick"
     )
@@ -153,7 +153,7 @@ def _ratio_curves(axes: Axes, ratio_of: Callable[[Any, Any], Any]) -> None:
 
 
 def ball_view(axes: Axes, title: str) -> None:
-    """Draw the outline of the ball and the cloth, y growing to the left as the player sees it.
+    """Draw the outline of the ball and the cloth, with y increasing to the player's left.
 
     >>> from evenbreak.plots.picture import new_axes
     >>> axes = new_axes("", "")
@@ -177,9 +177,9 @@ def draw_line(axes: Axes, y: Any, z: Any, *, lw: float = 1.0) -> None:
 
 
 def roll_chord(point: ContactPoint) -> ContactPoint:
-    """Return where the line from (0, 0) through a point of the small circle leaves the ball.
+    """Return where the line from (0, 0) through a point on the small circle leaves the ball.
 
-    The line's nearest point to the center halves the chord.
+    The line's closest point to the center bisects the chord.
 
     >>> roll_chord(ContactPoint(0.5, 0.5))
     ContactPoint(y=1.0, z=1.0)
@@ -196,7 +196,7 @@ def roll_height(axes: Axes) -> None:
 
 
 def draw_small_circle(axes: Axes) -> None:
-    """Draw the circle of the contact points nearest to the center, for every sidespin."""
+    """Draw the circle of contact points closest to the center, for every sidespin."""
     turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 182)[1:-1]
     circle = small_circle_point(3.5 * np.tan(turn))
     y, z = (np.concatenate([[0.0], part, [0.0]]) for part in circle)
@@ -204,7 +204,7 @@ def draw_small_circle(axes: Axes) -> None:
 
 
 def angle_arc(axes: Axes, point: ContactPoint, radius: float, name: str) -> None:
-    """Mark the angle at (0, 0) between the upright and the line to a point."""
+    """Mark the angle at (0, 0) between the vertical and the line to a point."""
     end = np.arctan2(point.y, point.z)
     turn = np.linspace(0.0, end, 31)
     axes.plot(radius * np.sin(turn), radius * np.cos(turn), color="black", lw=0.8)
@@ -224,7 +224,7 @@ def name_point(
 
 
 def _same_sidespin() -> Records:
-    """Yield the two ends of each straight line of Fig. 3.1, on the outline of the ball."""
+    """Yield the two ends of each straight line in Fig. 3.1, on the ball's outline."""
     for side in SIDES_AFTER_TIP:
         y = -offset_for(side)
         half = math.sqrt(1.0 - y * y)
@@ -239,7 +239,7 @@ def _line(panel: str, side: float, low: ContactPoint, high: ContactPoint) -> Map
 
 
 def _small_circle() -> Records:
-    """Yield the points of the small circle, and how far they are from the center of the ball."""
+    """Yield the points on the small circle, and their distances from the ball's center."""
     for side in (quarter / 4 for quarter in range(-40, 41)):
         y, z = small_circle_point(side)
         yield record({"sidespin": side}, {"y": y, "z": z, "offset": math.hypot(y, z - 1.0)})
@@ -262,10 +262,10 @@ def _best_lags() -> Records:
 
 
 def figure_tables() -> Tables:
-    """Return the numbers behind each plot of section 3, by the name of the figure.
+    """Return the numbers behind each plot in section 3, by figure name.
 
-    Lengths are in ball radii, y to the left and z above the cloth; `m` is the mass of the ball
-    over that of the stick.
+    Lengths are in ball radii, y to the left and z above the cloth; `m` is the ball's mass divided
+    by the stick's.
 
     >>> [str(cell) for cell in figure_tables()["figure_3_4_best"][2].values()]
     ['0.3333333333', '0.238278', '1.199078']

@@ -1,4 +1,4 @@
-"""Section 4, P4.1 to P4.27: the hit of two balls, and where the cue ball goes once it rolls."""
+"""Section 4, P4.1 to P4.27: two balls colliding, and where the cue ball goes once it rolls."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def _spins(i: Inputs) -> tuple[float, float, float]:
 
 
 def _hit(i: Inputs) -> Collision:
-    """Return the hit by the text's law of friction."""
+    """Return the hit under the text's friction law."""
     return collide(*_spins(i), speed=i.get("V_0", 1.0), friction="shepard")
 
 
@@ -68,7 +68,7 @@ def _upward_share(hit: Collision) -> float:
 
 
 def _along_centers(hit: Collision, vector: Any) -> Any:
-    """Turn a vector from the frame of the shot to that of the line of centers."""
+    """Transform a vector from the shot's frame to that of the line of centers."""
     sin, cos = math.sin(hit.cut), math.cos(hit.cut)
     x, y, z = vector
     return np.array([x * cos - y * sin, x * sin + y * cos, z])
@@ -105,7 +105,7 @@ def _spin_left(i: Inputs) -> float:
 
 
 def _slope(function: Callable[[float], float], at: float) -> float:
-    """Return the derivative of a smooth function, to nine digits or more."""
+    """Return a smooth function's derivative, to at least nine digits."""
     step = 3e-4
     near = function(at + step) - function(at - step)
     far = function(at + 2.0 * step) - function(at - 2.0 * step)
@@ -169,7 +169,7 @@ def _gained(i: Inputs, *, jump: bool) -> Any:
 
 
 def _contact(i: Inputs) -> float:
-    """Return y/R of the point of the cue ball that touches: to the right of its center."""
+    """Return y/R for the cue ball's contact point, to the right of its center."""
     return -math.sin(i["alpha"])
 
 
@@ -181,7 +181,7 @@ _SMALL = 1e-5
 """A cut, in radians, that stands for the limit of small cuts."""
 
 _FULL = 1e-9
-"""A cut, in radians, of a nearly full hit."""
+"""A cut, in radians, for a nearly full hit."""
 
 _NATURAL, _STUN, _REVERSE = 1.0, 0.0, -1.0
 
@@ -195,7 +195,7 @@ def _theta(i: Inputs) -> float:
 
 
 def _velocity(i: Inputs, ball: str, axis: int) -> float:
-    """Return a velocity just after a hit without friction, over V_0."""
+    """Return a velocity just after a frictionless hit, divided by V_0."""
     hit = collide(i["alpha"], _NATURAL, mu=0.0)
     return float(getattr(hit, f"{ball}_velocity")[axis])
 
@@ -231,7 +231,7 @@ def _share_after() -> float:
 
 
 def _common_splits() -> list[float]:
-    """Return every J at which one cut splits the energy just after the hit and in natural roll."""
+    """Return every J at which some cut splits the energy just after the hit and in natural roll."""
 
     def apart(spin: float) -> float:
         return float(split_cut(spin)) - float(split_roll_cut(spin))
@@ -253,7 +253,7 @@ def _mean_slope(topspin: float) -> float:
 
 
 def _estimated_right_angle() -> float:
-    """Return where twice the deflection of a stun shot is a right angle."""
+    """Return where twice a stun shot's deflection is a right angle."""
     return float(
         brentq(lambda cut: 2.0 * deflection(cut, _STUN) - 0.5 * math.pi, 0.1, 1.5, xtol=1e-15)
     )
@@ -264,7 +264,7 @@ def _estimate_error(i: Inputs) -> float:
 
 
 def _in(unit: float, function: Callable[[float], Any]) -> Callable[[Inputs], Any]:
-    """Return how to compute an angle that depends on the topspin alone."""
+    """Return a function for an angle that depends only on the topspin."""
     return lambda i: function(i["Jy"]) / unit
 
 
@@ -443,4 +443,4 @@ ANSWERS: Answers = {
         DEGREE, right_angle_cut
     ),
 }
-"""How each quantity of these problems is computed."""
+"""How each quantity in these problems is computed."""

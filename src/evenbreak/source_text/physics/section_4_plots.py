@@ -1,4 +1,4 @@
-"""The plots of section 4 and their numbers: throw, its sensitivity, the cue ball's deflection."""
+"""The plots in section 4 and their numbers: throw, its sensitivity, the cue ball's deflection."""
 
 from __future__ import annotations
 
@@ -45,16 +45,16 @@ TOPSPINS = (0.0, 0.1, 0.25, 0.5, 1.0)
 """Fig. 4.4: the topspins or draws `|J_y|`; stun and natural roll are named in the text."""
 
 LARGEST_SPIN = 2.0
-"""Figs. 4.4 and 4.5: both spins run from minus this value to plus this value."""
+"""Figs. 4.4 and 4.5: both spins range from minus this value to plus this value."""
 
 LEVELS = tuple(2.0**power for power in range(-4, 7))
-"""Fig. 4.5: the sensitivities of the contours; each is twice the one before."""
+"""Fig. 4.5: the contours' sensitivities; each is twice the previous one."""
 
 INSET = 0.1
 """Fig. 4.5: how far the inset reaches from the point where nothing slips."""
 
 TIP_LINE_CUT = math.pi / 6.0
-"""Fig. 4.8: the cut angle, chosen as that of a half-ball hit."""
+"""Fig. 4.8: the cut angle, chosen as a half-ball hit's."""
 
 _SPINS = [k / 10 for k in range(-20, 21)]
 
@@ -68,12 +68,12 @@ _NAMES = {0.0: ", stun", 1.0: ", natural roll"}
 _SIDE = r"sidespin $J_{0z}$ = $R\omega_{0z}/V_0$"
 _TOPSPIN = r"topspin $J_{0y}$ = $R\omega_{0y}/V_0$"
 _POINTS = 121
-"""Grid points from the center of the contour plot to its edge."""
+"""The number of grid points from the contour plot's center to its edge."""
 _LARGEST_DRAWN = 8.0
 """Contours above this would crowd the whole plot; the inset shows them."""
 _SMALLEST_ENLARGED = 2.0
 _NEAR = 1e-9
-"""How close to its step the curve of a stun shot is drawn."""
+"""How close to its step a stun shot's curve is drawn."""
 
 
 def throw_factors() -> Axes:
@@ -105,7 +105,7 @@ def throw_factors() -> Axes:
 
 
 def sensitivity() -> Figure:
-    """Fig. 4.5: how fast the throw factor changes with the spin; contours a factor 2 apart."""
+    """Fig. 4.5: how fast the throw factor changes with spin; contours are a factor of 2 apart."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(9.3, 5.1), layout="constrained")
@@ -239,7 +239,7 @@ def _points() -> Records:
 
 
 def _tip_line() -> Records:
-    """Yield the points of the line of Fig. 4.8, from the cloth to the edge of the ball."""
+    """Yield the points on the line in Fig. 4.8, from the cloth to the ball's edge."""
     nearest = small_circle_point(gearing_side(TIP_LINE_CUT))
     heights = {
         "on the cloth": 0.0,
@@ -255,9 +255,9 @@ def _tip_line() -> Records:
 
 
 class MarkedPoint(NamedTuple):
-    """A point of Fig. 4.7: a cut angle, in radians, and the curve on which it is special.
+    """A point in Fig. 4.7: a cut angle, in radians, and the curve on which it is special.
 
-    `topspin` is J_y of the curve: 1 in natural roll, 0 for stun, -1 in reverse natural roll.
+    `topspin` is the curve's J_y: 1 for natural roll, 0 for stun, -1 for reverse natural roll.
     """
 
     letter: str
@@ -277,7 +277,7 @@ class MarkedPoint(NamedTuple):
 
 
 def marked_points() -> tuple[MarkedPoint, ...]:
-    """Return the points that are marked in Fig. 4.7, curve by curve.
+    """Return the points marked in Fig. 4.7, curve by curve.
 
     >>> [(point.letter, round(math.degrees(point.cut), 3)) for point in marked_points()][-3:]
     [('G', 45.0), ('H', 39.232), ('I', 56.789)]
@@ -340,7 +340,8 @@ _BESIDE = {
     "H": (8, 7),
     "I": (9, 6),
 }
-"""Where a letter stands beside its point, in points of the page; the others are on the slope."""
+"""Where a letter is placed next to its point, in typographic points; other letters follow the
+slope."""
 
 
 def _mark(axes: Axes, slope: Axes) -> None:
@@ -359,7 +360,7 @@ def _letter(axes: Axes, point: MarkedPoint, height: float, beside: tuple[float, 
 
 
 def _key(axes: Axes) -> None:
-    """Say what the letters stand for, column by column."""
+    """Explain the letters, column by column."""
     points = marked_points()
     columns = [
         (0.44, "left", "", [point.letter for point in points]),
@@ -376,12 +377,12 @@ def _key(axes: Axes) -> None:
 
 
 def _slope(point: MarkedPoint) -> str:
-    """Return a slope with three decimals, a true minus sign, and no sign of zero."""
+    """Return a slope with three decimals, a true minus sign, and no sign for zero."""
     return f"{round(point.slope, 3) + 0.0:.3f}".replace("-", "\N{MINUS SIGN}")
 
 
 def figure_tables() -> Tables:
-    """Return the numbers behind each plot of section 4, by the name of the figure.
+    """Return the numbers behind each plot in section 4, by figure name.
 
     Lengths are in ball radii, y to the left and z above the cloth; angles are in degrees.
     """

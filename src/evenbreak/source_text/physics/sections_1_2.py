@@ -1,4 +1,4 @@
-"""Sections 1 and 2, P1.1 to P2.6: balls, friction, table speed, the miscue; sliding and rolling."""
+"""Sections 1 and 2, P1.1 to P2.6: balls, friction, table speed, miscues; sliding and rolling."""
 
 from __future__ import annotations
 
@@ -61,11 +61,11 @@ _ENERGY = OUNCE * INCH**2
 """One oz in^2/s^2 in joules."""
 
 _LONG = 1e3
-"""Seconds after which any block has stopped."""
+"""A time in seconds by which any block has stopped."""
 
 
 def _second_moment(first: int, second: int) -> float:
-    """Return the mass integral of the product of two coordinates, over M R^2, by quadrature."""
+    """Return the mass integral of two coordinates' product, over M R^2, by quadrature."""
     ball = Ball()
     nodes, weights = np.polynomial.legendre.leggauss(12)
     radius = 0.5 * ball.radius * (nodes + 1.0)[:, None, None]
@@ -111,7 +111,7 @@ def _full_throw(i: Inputs) -> float:
 
 
 _MU = 0.1
-"""Any coefficient would do: the answers do not depend on it."""
+"""Any coefficient would do: the answers don't depend on it."""
 
 
 def _rolling_energy() -> Energy:
@@ -124,7 +124,7 @@ def _shares() -> tuple[float, float]:
 
 
 def _stopped_spin() -> float:
-    """Return the J at which V_NR, linear in J, is 0."""
+    """Return the J at which V_NR, which is linear in J, is 0."""
     without, each = roll_speed(1.0, 0.0), roll_speed(0.0, 1.0)
     return float(-without / each)
 
@@ -136,16 +136,16 @@ def _mean_drag_speed(i: Inputs) -> float:
 
 
 def _time_saved(i: Inputs) -> float:
-    """Return the share of time saved, compared with rolling at the speed of arrival."""
+    """Return the share of time saved, compared with rolling at the arrival speed."""
     return 1.0 - float(roll_speed(1.0, i["J"])) / _mean_drag_speed(i)
 
 
 def _drift_saved(i: Inputs) -> float:
-    """Return the share of sideways drift saved on a table that is not level.
+    """Return the share of sideways drift saved on a table that isn't level.
 
-    Compared with rolling at the speed of arrival. A rolling ball accelerates down a slope beta by
-    5/7 g sin(beta). For a ball that slides for a time T, the sideways slip grows as gravity makes
-    it and falls as friction uses it up, 7/2 as fast as friction pulls: with s = T - t left,
+    The comparison is with rolling at the arrival speed. A rolling ball accelerates down a slope
+    beta by 5/7 g sin(beta). For a ball that slides for a time T, the sideways slip increases due to
+    gravity and decreases due to friction, 7/2 as fast as friction pulls: with s = T - t left,
 
         slip = g sin(beta) s ln(T/s),   acceleration = g sin(beta) (1 - 2/7 ln(T/s))
 
@@ -171,7 +171,7 @@ def _spread(i: Inputs) -> float:
 
 
 def _parabola(i: Inputs) -> float:
-    """Return the distance along the force, from that across it at the end of the slide."""
+    """Return the distance along the force, given the distance across it at the end of the slide."""
     shot = _masse(i)
     along = -shot.slip / np.hypot(*shot.slip)
     across = np.array([along[1], -along[0]])
@@ -305,4 +305,4 @@ ANSWERS: Answers = {
     # Numbers that the text takes as given.
     ("P2.5", "g on the moon, in/s^2"): lambda _: MOON_GRAVITY / INCH,
 }
-"""How each quantity of these problems is computed."""
+"""How each quantity in these problems is computed."""

@@ -1,6 +1,6 @@
-"""P5.20 to P5.27, Tables 5.4 and 5.5 and the ladder: what is read off the limit of a chain.
+"""P5.20 to P5.27, Tables 5.4 and 5.5 and the ladder: answers read off a chain's limit.
 
-The one-ball game, who breaks next and what that is worth, drills, leads, and ratings.
+These are the one-ball game, who breaks next and what that is worth, drills, leads, and ratings.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from evenbreak.source_text.published import Answers, Derived, Inputs, Row, formu
 from evenbreak.stats import Distribution
 
 SHOTS = ((0.1, 0.9), (0.9, 0.1), (0.9, 0.9), (0.5, 0.5), (0.25, 0.33), (0.4, 0.8), (0.3, 0.3))
-"""The pairs p1, p2 of the table in P5.22."""
+"""The pairs p1, p2 in the table in P5.22."""
 _NODES = ("W", "S1", "S2", "L")
 _P1, _P2 = 0.4, 0.8
 _STARTS: dict[str, dict[str, float]] = {
@@ -97,7 +97,7 @@ PAIRS = (
     (0.1, 0.5),
     (0.95, 0.94),
 )
-"""The rows p1, p2 of Table 5.4."""
+"""The rows p1, p2 in Table 5.4."""
 
 
 def _share(inputs: Inputs, name: str) -> float:
@@ -139,12 +139,12 @@ def _p5_25() -> Iterator[Row]:
 
 
 DRILL_P = ("0.5", "0.6", "0.7", "0.8", "0.9", "0.95", "0.99")
-"""The shot chances of Table 5.5."""
+"""The shot chances in Table 5.5."""
 LEVELS = 9
 HANDICAPS = ((1, 5), (2, 4), (3, 3), (4, 2), (5, 1))
-"""The leads m, n of P5.27."""
+"""The leads m, n in P5.27."""
 CHARTS = (8, 10, 12, 20)
-"""The charts of Table 5.6."""
+"""The charts in Table 5.6."""
 
 
 @cache
@@ -237,7 +237,7 @@ ANSWERS: Answers = {
     ("P5.27", "number of nodes"): lambda i: len(chain_of(_ahead_chain(i)).states),
     ("P5.27", "number of eigenvalues 1"): lambda i: spectrum(chain_of(_ahead_chain(i)), 2).units,
 }
-"""How each quantity of these problems is computed."""
+"""How each quantity in these problems is computed."""
 
 DERIVED: Derived = {
     "P5.20": partial(_surface, "P5.20", "infinite"),

@@ -23,11 +23,11 @@ from evenbreak.stats import (
 
 _LONGEST = 10
 EVENINGS = ((4, "2/3"), (120, "0.52"), (3, "1/2"))
-"""Games N and chances p for which P5.9 is worked out."""
+"""The games N and chances p for which P5.9 is computed."""
 
 
 def match_probability(p: Fraction, m: int, n: int) -> Fraction:
-    """Return W(p; m, n) without rounding, by the sum of P5.5 over the loser's games.
+    """Return W(p; m, n) without rounding, using P5.5's sum over the loser's games.
 
     >>> match_probability(Fraction(2, 3), 3, 2)
     Fraction(16, 27)
@@ -65,12 +65,12 @@ def _root(function: Any, low: float, high: float) -> float:
 
 
 def _crossing(n: int) -> float:
-    """Return where the curves 2n:n and (2n + 2):(n + 1) cross, p above 1/2."""
+    """Return where the curves 2n:n and (2n + 2):(n + 1) cross, for p above 1/2."""
     return _root(lambda p: _win(p, 2 * n, n) - _win(p, 2 * n + 2, n + 1), 0.55, 0.9)
 
 
 def _fair(n: int) -> float:
-    """Return the p with which the race 2n:n is even."""
+    """Return the p for which the race 2n:n is even."""
     return _root(lambda p: _win(p, 2 * n, n) - 0.5, 0.5, 0.9)
 
 
@@ -153,11 +153,11 @@ def _p5_10() -> Iterator[Row]:
 
 
 SCORE_P = range(50, 100, 10)
-"""The shot chances of Table 5.3, in hundredths."""
+"""The shot chances in Table 5.3, in hundredths."""
 INNINGS = (1, 2, 4, 8, 16)
-"""The innings of Table 5.3."""
+"""The innings in Table 5.3."""
 SAFETIES = (10, 9, 8, 7, 6, 5)
-"""The factors on the first shot of the table in P5.15, in tenths."""
+"""The factors on the first shot in the table in P5.15, in tenths."""
 _PLAYER = Fraction(24, 25)
 
 
@@ -283,7 +283,7 @@ ANSWERS: Answers = {
     ("P5.17", "standard deviation"): lambda i: _score(i).sd,
     ("P5.17", "relative deviation"): lambda i: _score(i).relative_sd,
 }
-"""How each quantity of these problems is computed."""
+"""How each quantity in these problems is computed."""
 
 DERIVED: Derived = {
     "P5.4": _p5_4,

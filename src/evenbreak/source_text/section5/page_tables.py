@@ -1,4 +1,4 @@
-"""The tables of section 5 in Markdown, as the page shows them."""
+"""The tables in section 5 in Markdown, as the page shows them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _STARTS = {"v": "from S1", "w": "from S2", "half v, half w": "from either, half 
 
 
 def _lines_table(header: Sequence[str], cells: Iterable[tuple[str, str]]) -> str:
-    """Return a table from its cells, line by line, each with the name of its line."""
+    """Return a table from its cells, line by line, each with its line's name."""
     lines: dict[str, list[str]] = {}
     for name, cell in cells:
         lines.setdefault(name, [name]).append(cell)
@@ -26,7 +26,7 @@ def _lines_table(header: Sequence[str], cells: Iterable[tuple[str, str]]) -> str
 
 
 def score_table(rows: Rows) -> str:
-    """Return a table of P5.6, row m and column n."""
+    """Return a table for P5.6, with rows m and columns n."""
     header = ["m \\ n", *(name.removeprefix("n_") for name in list(rows[0])[1:])]
     cells = [list(row.values()) for row in rows]
     return markdown_table(header, [[f"**{m}**", *map(_chance, chances)] for m, *chances in cells])
@@ -43,7 +43,7 @@ def _pair(row: Mapping[str, Any], name: str, decimals: int) -> str:
 def _pairs_table(
     rows: Rows, *, header: Sequence[str], plain: Sequence[str], decimals: Mapping[str, int]
 ) -> str:
-    """Return a table: some columns as they are, then computed numbers beside printed ones."""
+    """Return a table: some columns unchanged, then computed numbers next to printed ones."""
     return markdown_table(
         header,
         [
@@ -54,7 +54,7 @@ def _pairs_table(
 
 
 def _table_5_1(rows: Rows) -> str:
-    """Return the critical values, the printed ones below."""
+    """Return the critical values, with the printed ones below."""
     return markdown_table(
         ["P", *(str(row["coverage"]) for row in rows)],
         [
@@ -65,7 +65,7 @@ def _table_5_1(rows: Rows) -> str:
 
 
 def _table_5_3(rows: Rows) -> str:
-    """Return mode, mean and median of scores, a column for each number of innings."""
+    """Return the mode, mean and median of scores, with a column for each number of innings."""
     cells = {(row["p"], row["m"]): row for row in rows}
     chances = list(dict.fromkeys(p for p, _ in cells))
     return markdown_table(
@@ -79,7 +79,7 @@ def _table_5_3(rows: Rows) -> str:
 
 
 def _table_5_6(rows: Rows) -> str:
-    """Return the four charts side by side, the printed differences beside those of the rule."""
+    """Return the four charts side by side, with the printed differences next to the rule's."""
     charts: dict[int, list[list[str]]] = {number: [] for number in CHARTS}
     for row in rows:
         span, printed = _span(row, ""), _span(row, "_printed")
@@ -102,7 +102,7 @@ def _span(row: Mapping[str, Any], end: str) -> str:
 
 
 def off_rule_table(rows: Rows) -> str:
-    """Return where the charts have not the race nearest to even."""
+    """Return where the charts don't have the most nearly even race."""
     return markdown_table(
         ["chart", "difference", "race in the text", "W", "race nearest 1/2", "W"],
         [
@@ -120,7 +120,7 @@ def off_rule_table(rows: Rows) -> str:
 
 
 def eight_ball_table(rows: Rows) -> str:
-    """Return the shares of the levels of the 8-ball drill, and what they come to."""
+    """Return the shares of the 8-ball drill's levels, and the result."""
     names = list(rows[0])[1:]
     whole = {"mode", "median"}
     return markdown_table(
@@ -157,7 +157,7 @@ TABLES: Mapping[int, Callable[[Rows], str]] = {
 
 
 def triangle_table() -> str:
-    """Return Pascal's triangle, row n and column m."""
+    """Return Pascal's triangle, with rows n and columns m."""
     rows = pascals_triangle()
     return markdown_table(
         ["n \\ m", *range(len(rows))],
@@ -166,7 +166,7 @@ def triangle_table() -> str:
 
 
 def games_table(rows: Rows) -> str:
-    """Return what P5.9 gives for some numbers of games."""
+    """Return P5.9's results for some numbers of games."""
     return _lines_table(
         ["games", "N p − q", "mode", "number of modes", "mean", "standard deviation"],
         ((row["inputs"], short(row["computed"])) for row in rows if row["inputs"]),
@@ -174,7 +174,7 @@ def games_table(rows: Rows) -> str:
 
 
 def matrix_table(name: str, tables: Tables) -> str:
-    """Return a matrix in symbols, from the formulas among the tables."""
+    """Return a matrix in symbols, from the formulas in the tables."""
     entries = [
         (row["inputs"].split()[1], row["computed"].replace("-", "−"))
         for row in chain.from_iterable(tables.values())
@@ -185,7 +185,7 @@ def matrix_table(name: str, tables: Tables) -> str:
 
 
 def polynomials(rows: Rows) -> str:
-    """Return W of P5.27 as a ratio of polynomials for each handicap."""
+    """Return P5.27's W as a ratio of polynomials for each handicap."""
     return markdown_table(
         ["match", "W"],
         [
@@ -197,7 +197,7 @@ def polynomials(rows: Rows) -> str:
 
 
 def eigenvalues(rows: Rows) -> str:
-    """Return the eigenvalues of P5.23 for the shots of its table."""
+    """Return P5.23's eigenvalues for the shots in its table."""
     values = [
         rounded(row["computed"], 4) for row in rows if row["quantity"].startswith("eigenvalue ")
     ]
@@ -205,7 +205,7 @@ def eigenvalues(rows: Rows) -> str:
 
 
 def products_table(findings: Sequence[Finding]) -> str:
-    """Return the sixteen means of P5.18."""
+    """Return the sixteen means in P5.18."""
     means = [
         (row.inputs.split()[0], f"{computed:.6g}")
         for row, computed, _ in findings
@@ -216,7 +216,7 @@ def products_table(findings: Sequence[Finding]) -> str:
 
 
 def table_5_22(findings: Sequence[Finding]) -> str:
-    """Return the seven shots of P5.22 by both look-aheads."""
+    """Return the seven shots in P5.22 under both look-aheads."""
     return _lines_table(
         ["shot", "W infinite", "text", "W two shots", "text"],
         (
@@ -229,7 +229,7 @@ def table_5_22(findings: Sequence[Finding]) -> str:
 
 
 def steps_table(rows: Rows) -> str:
-    """Return the densities of P5.23, step by step, and their limits."""
+    """Return P5.23's probability vectors, step by step, and their limits."""
     densities = ((*row["quantity"].rpartition(", "), row["computed"]) for row in rows)
     return _lines_table(
         ["p1 = 0.4, p2 = 0.8", "W", "S1", "S2", "L"],

@@ -1,4 +1,4 @@
-"""The figures of section 5, all computed again: plots, the numbers behind them, and diagrams."""
+"""The figures in section 5, all recomputed: plots, the numbers behind them, and diagrams."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def _race_curves(axes: Axes, p: NDArray[np.float64], lengths: Iterable[int]) -> 
 
 
 def one_ball() -> Figure:
-    """Fig. 5.3: the one-ball game, by the infinite and by the two-shot look-ahead."""
+    """Fig. 5.3: the one-ball game, with infinite and with two-shot look-ahead."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(9.0, 4.7), layout="constrained")
@@ -93,7 +93,7 @@ def one_ball() -> Figure:
 
 
 def break_formats() -> Figure:
-    """Fig. 5.6: player 1's share of the games by break format, and WB less LB."""
+    """Fig. 5.6: player 1's share of the games by break format, and WB minus LB."""
     figure, panels = share_panels(x=_BREAK_1, y=_BREAK_2)
     names = ("Winner breaks", "Loser breaks", "Alternate breaks")
     titles = [f"{name}: player 1's share $W$" for name in names]
@@ -153,10 +153,10 @@ def ahead_matches() -> Axes:
 def diagram_graphs() -> Mapping[str, nx.DiGraph[Any]]:
     """Return the graphs behind the diagrams, by name.
 
-    An arc carries its symbol as `label`, a node its `place` (x, y), its `kind` and, where someone
-    has won there, the `winner`.
+    An arc carries its symbol as `label`, a node its `place` (x, y), its `kind` and, if someone has
+    won there, the `winner`.
 
-    Source: Figs. 5.2, 5.4, 5.5, 5.7 and 5.10, and the diagrams of problem P5.24.
+    Source: Figs. 5.2, 5.4, 5.5, 5.7 and 5.10, and the diagrams in problem P5.24.
 
     >>> graph = diagram_graphs()["figure_5_5"]
     >>> graph.edges["S1", "W"]["label"]
@@ -184,11 +184,11 @@ _HUNDREDTHS = [k / 100 for k in range(101)]
 
 
 _INSIDE = [k / 20 for k in range(1, 20)]
-"""The grid of the contour plots; at a corner the limit may depend on the direction of approach."""
+"""The contour plots' grid; at a corner, the limit may depend on the direction of approach."""
 
 
 def figure_tables() -> Tables:
-    """Return the numbers behind each plot of section 5, by the name of the figure."""
+    """Return the numbers behind each plot in section 5, by figure name."""
     tables = {
         "figure_5_1": _curves(
             {

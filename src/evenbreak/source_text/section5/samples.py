@@ -1,4 +1,4 @@
-"""P5.1 to P5.3, P5.18 and P5.19: averages and spread, samples, and was it luck."""
+"""P5.1 to P5.3, P5.18 and P5.19: averages and spread, samples, and whether it was luck."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from evenbreak.stats import (
 _FIRST, _SECOND = (0, 1, 1, 4, 5), (0, 1, 1, 8, 9)
 _SLIPS = (1, 2, 3, 4)
 _ROWS = 10
-"""The rows of Pascal's triangle, below its tip."""
+"""The rows in Pascal's triangle, below its tip."""
 _POPULATION = (1, 2, 4, 5)
 _SCORES = (50, 44, 46, 52, 47, 51, 49, 45, 48, 50)
 _NEW = 53
@@ -173,7 +173,7 @@ ANSWERS: Answers = {
     ("P5.19", "chance of a score so far out"): lambda i: 1.0 - coverage_within(_cautious_units(i)),
     ("P5.19", "confidence, 1 less that chance"): lambda i: coverage_within(_cautious_units(i)),
 }
-"""How each quantity of these problems is computed."""
+"""How each quantity in these problems is computed."""
 
 DERIVED: Derived = {
     "P5.1": _p5_1,

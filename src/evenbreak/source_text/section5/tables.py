@@ -1,4 +1,4 @@
-"""The tables of section 5: Tables 5.1 to 5.6, and one for each of problems P5.1 to P5.27."""
+"""The tables in section 5: Tables 5.1 to 5.6, and one for each problem from P5.1 to P5.27."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ _SIZE = 10
 
 
 def table_rows(findings: Iterable[Finding], table: str) -> Rows:
-    """Return one of Tables 5.1 to 5.5: its inputs, each quantity and the printed one next to it.
+    """Return one of Tables 5.1 to 5.5: its inputs, and each quantity next to the printed one.
 
-    A KeyError if no number of that table is among the findings.
+    Raises KeyError if no number in that table is among the findings.
     """
     rows: dict[tuple[Any, ...], dict[str, Any]] = {}
     for published, computed, _ in findings:
@@ -43,7 +43,7 @@ def table_rows(findings: Iterable[Finding], table: str) -> Rows:
 
 
 def score_tables() -> Tables:
-    """Return the four tables of P5.6: scores P(p; m, n) and matches W(p; m, n), by file name."""
+    """Return P5.6's four tables: scores P(p; m, n) and matches W(p; m, n), by file name."""
     tables = {}
     for p in (Fraction(1, 2), Fraction(2, 3)):
         end = f"p_{p.numerator}_{p.denominator}"
@@ -58,9 +58,9 @@ def _square(p: Fraction, chance: Callable[[Fraction, int, int], Any], first: int
 
 
 def chart_rows() -> Rows:
-    """Return Table 5.6: each race of the four charts, where the rule has it and where it stands.
+    """Return Table 5.6: each race in the four charts, with its place by the rule and as printed.
 
-    The rule takes the race of the chart with W nearest 1/2.
+    The rule takes the chart's race with W closest to 1/2.
     """
     return [
         {
@@ -82,7 +82,7 @@ def chart_rows() -> Rows:
 
 
 def off_rule_rows() -> Rows:
-    """Return the places where a chart of Table 5.6 has not the race with W nearest 1/2."""
+    """Return the places where a chart in Table 5.6 doesn't have the race with W closest to 1/2."""
     return [
         {
             "chart": number,
@@ -100,7 +100,7 @@ def off_rule_rows() -> Rows:
 
 
 def eight_ball_rows() -> Rows:
-    """Return where the 8-ball drill after exercise 5.1 settles, as Table 5.5 for 9-ball."""
+    """Return where the 8-ball drill after exercise 5.1 settles, like Table 5.5 for 9-ball."""
     rows = []
     for p in DRILL_P:
         law = drill_statistics(Drill.eight_ball(float(p))).distribution
@@ -133,7 +133,7 @@ def ladder_rows(findings: Iterable[Finding]) -> Rows:
 
 
 def _column(name: str) -> str:
-    """Return a quantity as the name of a column; P is what a critical value covers.
+    """Return a quantity as a column name; P is what a critical value covers.
 
     >>> _column("median/mean"), _column("W winner breaks"), _column("P")
     ('median_over_mean', 'w_winner_breaks', 'coverage')
@@ -156,7 +156,7 @@ _PROBLEM_OF = {
 
 
 def file_of(problem: str) -> str:
-    """Return the name of a problem's file, without its ending.
+    """Return a problem's file name, without its extension.
 
     >>> file_of("P5.7")
     'problem_5_07'
@@ -165,7 +165,7 @@ def file_of(problem: str) -> str:
 
 
 def problem_tables(findings: Iterable[Finding]) -> Tables:
-    """Return the answer of each problem by file name: printed numbers, then the rest."""
+    """Return each problem's answer by file name: printed numbers, then the rest."""
     printed: dict[str, list[dict[str, Any]]] = {}
     for finding in findings:
         home = finding.published.problem

@@ -1,8 +1,8 @@
 """A bracket: matches with two slots each, and where winners and losers go next.
 
-A slot holds a player from the start, or is filled from an earlier match or group. A player
-with no next match has finished and takes a place. Byes are resolved when a bracket is built,
-so every match in it has two players.
+A slot either has a player from the start or is filled from an earlier match or group. A player with
+no next match has finished and takes a place. Byes are resolved when a bracket is built, so every
+match in it has two players.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Place(NamedTuple):
-    """A finishing place, or several that are not played off: 5-6 is `Place(5, 6)`.
+    """A finishing place, or several that aren't played off: 5-6 is `Place(5, 6)`.
 
     >>> str(Place(1, 1)), str(Place(5, 6)), str(Place(1, 1, "consolation"))
     ('1', '5-6', 'consolation 1')
@@ -34,12 +34,12 @@ class Place(NamedTuple):
 
 
 class Source(NamedTuple):
-    """Where the player of a slot comes from.
+    """Where a slot's player comes from.
 
     Parameters
     ----------
     outcome
-        'winner' or 'loser' of that match, or the rank in that group, 1 for its winner.
+        'winner' or 'loser' of that match, or the rank in that group, with 1 for its winner.
     via
         1 or 2: the player comes only if they were in that slot of the earlier match, and the
         slot stays empty otherwise. None: either slot.
@@ -51,12 +51,12 @@ class Source(NamedTuple):
 
 
 Slot: TypeAlias = int | Source
-"""A player, by position in the bracket's list from 0 on, or the source of a later player."""
+"""A player, by position in the bracket's list (from 0), or the source of a later player."""
 
 
 @dataclass(frozen=True)
 class Match:
-    """A match of a bracket.
+    """A match in a bracket.
 
     Parameters
     ----------
@@ -65,9 +65,9 @@ class Match:
     side
         the part of the bracket: 'winners', 'losers', 'final', 'group A'.
     round
-        the round on that side, from 1 on.
+        the round on that side, counting from 1.
     winner_place, loser_place
-        the place of a winner or loser with no next match; None if there always is one.
+        the place of a winner or loser with no next match; None if there is always a next match.
     """
 
     name: str
@@ -83,7 +83,7 @@ class Group:
     """A group in which everyone plays everyone.
 
     Players are ranked by matches won. Ties are broken by matches won among the tied players,
-    again among those who are still tied, and finally by lot.
+    repeatedly among those still tied, and finally by lot.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ class Group:
     pairs
         the two players of each match, by position.
     places
-        the place of each rank, best first; None for a rank that qualifies.
+        each rank's place, best first; None for a rank that qualifies.
     """
 
     name: str
@@ -106,7 +106,7 @@ class Group:
 
 @dataclass(frozen=True)
 class RunnersUp:
-    """The players of one rank in all groups, of whom the best advance.
+    """The players with one rank in all groups, of whom the best advance.
 
     They are compared by the share of matches won, which counts alike in groups of any size. Ties
     are broken by lot.
@@ -114,14 +114,14 @@ class RunnersUp:
     Parameters
     ----------
     rank
-        the rank, from 1 on.
+        the rank, counting from 1.
     weights
-        the groups by name, and what a match won counts in each: the same for all shares.
+        how much a match won in each group counts, by group name, so that equal shares are equal.
     places
-        the place of each, best first; None for those who advance.
+        each player's place, best first; None for those who advance.
     settled
-        in a tournament under way: the player of this rank in finished groups, and the weight of
-        their matches won.
+        in a tournament in progress: the player with this rank in each finished group, and the
+        weight of their matches won.
     """
 
     rank: int
@@ -131,12 +131,12 @@ class RunnersUp:
 
     @property
     def name(self) -> str:
-        """Their name in a source: the rank. Groups are named by letters."""
+        """Their name in a source: the rank. Groups are named with letters."""
         return str(self.rank)
 
     @property
     def going_on(self) -> int:
-        """How many of them go on."""
+        """How many of them advance."""
         return self.places.count(None)
 
 
@@ -154,7 +154,7 @@ class Bracket:
     Parameters
     ----------
     format
-        the kind of tournament, in words.
+        the type of tournament, in words.
     players
         the names, in seed order.
     matches
@@ -162,7 +162,7 @@ class Bracket:
     byes
         (match, player) for each first match that is a bye, for the printed sheet.
     runners_up
-        the players of one rank in the groups, if only the best of them go on.
+        the players with one rank in the groups, if only the best of them advance.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> bracket = single_elimination(["Ann", "Bo", "Cy"])
@@ -183,7 +183,7 @@ class Bracket:
 
     @cached_property
     def places(self) -> tuple[Place, ...]:
-        """All finishing places, best first; those of a consolation event come last."""
+        """All finishing places, best first; a consolation event's places come last."""
         found = {match.winner_place for match in self.matches}
         found |= {match.loser_place for match in self.matches}
         found |= {place for group in self.groups for place in group.places}
@@ -196,9 +196,9 @@ class Bracket:
     def graph(self) -> nx.DiGraph[str]:
         """The matches as a frozen directed graph.
 
-        A node is a match (with `side`, `round` and `slots`) or a group. An arc gives the slot
-        that the winner or the loser goes to (`winner=2`, `loser=1`), or the slot for each rank
-        of a group (`ranks={1: 2}`). A node named by a rank stands for the runners-up.
+        A node is a match (with `side`, `round` and `slots`) or a group. An arc gives the slot that
+        the winner or the loser goes to (`winner=2`, `loser=1`), or the slot for each rank in a
+        group (`ranks={1: 2}`). A node named after a rank stands for the runners-up.
         """
         import networkx as nx
 
@@ -228,7 +228,7 @@ class Bracket:
 
     @cached_property
     def outlets(self) -> dict[str, list[Source]]:
-        """The slots that wait for someone from a match, a group or the runners-up, by its name."""
+        """The slots waiting for someone from a match, a group or the runners-up, by its name."""
         found: dict[str, list[Source]] = {}
         for match in self.matches:
             for slot in match.slots:
@@ -243,7 +243,7 @@ class Bracket:
 
     @cached_property
     def going(self) -> dict[str, GoesOn]:
-        """For each match whether its winner and loser have a next match."""
+        """Whether each match's winner and loser have a next match."""
         slots = [slot for match in self.matches for slot in match.slots]
         waiting = {slot for slot in slots if isinstance(slot, Source)}
 
@@ -264,7 +264,7 @@ class Bracket:
         Raises
         ------
         InputError
-            if the bracket has no match of this name.
+            if the bracket has no match with this name.
         """
         if name not in self.by_name:
             raise InputError(
@@ -275,7 +275,7 @@ class Bracket:
         return self.by_name[name]
 
     def player(self, name: str) -> int:
-        """Return the position of a player.
+        """Return a player's position.
 
         Raises
         ------

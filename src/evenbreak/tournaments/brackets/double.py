@@ -1,8 +1,8 @@
 """Double elimination: in full, down to a number of qualifiers, or in pods.
 
-The losers' side plays two rounds for each round of the winners' side: first its survivors
-play each other, then they meet the players who drop from the winners' side. The order of
-the drops decides how many rematches there are.
+The losers' side plays two rounds for each round of the winners' side: first its survivors play each
+other, then they meet the players who drop from the winners' side. The order of the drops determines
+how many rematches there are.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from evenbreak.words import Parameter
 
 Drops: TypeAlias = Literal["fewest rematches", "usual", "straight"]
 DROPS: tuple[Drops, ...] = get_args(Drops)
-"""The patterns of drops, by name."""
+"""The drop patterns, by name."""
 
 # The masks of each round of drops, by number of lines; later rounds are straight.
 _MASKS: dict[Drops, dict[int, tuple[int, ...]]] = {
@@ -69,12 +69,12 @@ _MASKS: dict[Drops, dict[int, tuple[int, ...]]] = {
 def drop_orders(
     size: int, drops: Drops | Sequence[Sequence[int]], *, pod: int | None = None
 ) -> list[list[int]]:
-    """Return, for each round of drops, whose loser drops into each match, from 1 on.
+    """Return, for each round of drops, whose loser drops into each match, counting from 1.
 
     'straight': the loser of match i drops into match i; 'usual': what most programs do; 'fewest
     rematches': the flips with the fewest expected rematches among equal players; or the orders
-    themselves, from the first round of drops on. Drops stay within pods of `pod` lines, if there
-    are pods. An InputError if an order doesn't name each match once.
+    themselves, starting with the first round of drops. Drops stay within pods of `pod` lines, if
+    there are pods. Raises InputError if an order doesn't name each match once.
 
     >>> drop_orders(16, "fewest rematches")
     [[4, 3, 2, 1], [1, 2], [1]]
@@ -140,14 +140,14 @@ def double_elimination(
         play double elimination until this many are left, half on each side, then single
         elimination; a power of 2. None: double elimination to the end.
     drops
-        where losers drop to: 'fewest rematches', 'usual' or 'straight' (see `drop_orders`), or
-        one list for each round of drops: for each match of the losers' side, the match of the
-        winners' side, from 1 on, whose loser drops into it.
+        where losers drop to: 'fewest rematches', 'usual' or 'straight' (see `drop_orders`), or one
+        list for each round of drops: for each match on the losers' side, the match on the winners'
+        side, counting from 1, whose loser drops into it.
     placement
         how qualifiers from the losers' side are paired with those from the winners' side:
         'half shift' crosses the halves of the bracket, 'redraw' pairs them at random.
     rng
-        the random numbers of a redraw.
+        the random number generator for a redraw.
     lines
         as in `single_elimination`.
 
@@ -195,7 +195,7 @@ def pods(
     players, lines
         as in `single_elimination`; each pod takes the next `size` lines.
     size
-        the lines of a pod: 4, 8 or 16.
+        the lines in a pod: 4, 8 or 16.
     qualifiers
         how many qualify from each pod. 1: the winners of its two sides play one deciding
         match (P1, P2, ...). 2: both qualify, into different halves of the knockout.
@@ -240,7 +240,7 @@ def pods(
 def double_down(
     entrants: list[DraftSlot], last: int, drops: Drops | Sequence[Sequence[int]]
 ) -> tuple[list[Draft], list[DraftSlot], list[DraftSlot], list[Rank]]:
-    """Return both sides down to `last` players: matches, survivors of each side, and places.
+    """Return both sides played down to `last` players: matches, each side's survivors, and places.
 
     >>> drafts, winning, losing, ranks = double_down([0, 3, 1, 2], 2, "straight")
     >>> [draft.name for draft in drafts], winning[0].match, losing[0].match
@@ -274,9 +274,9 @@ def double_down(
 
 
 def losers_qualifiers(bracket: Bracket) -> tuple[Slot, ...]:
-    """Return where the losers' qualifiers of a double elimination come from.
+    """Return where a double elimination's losers'-side qualifiers come from.
 
-    They are in the order of the matches of the knockout that they go into.
+    They are in the order of the knockout matches that they go into.
 
     Raises
     ------
@@ -295,7 +295,7 @@ def losers_qualifiers(bracket: Bracket) -> tuple[Slot, ...]:
 
 
 def redrawn(bracket: Bracket, qualifiers: Sequence[Slot]) -> Bracket:
-    """Return a double elimination with its losers' qualifiers in another order.
+    """Return a double elimination with its losers'-side qualifiers in another order.
 
     >>> straight = redrawn(double_elimination(8, qualifiers=4), [Source("L2.1", "winner"),
     ...                                                         Source("L2.2", "winner")])
@@ -315,7 +315,7 @@ def redrawn(bracket: Bracket, qualifiers: Sequence[Slot]) -> Bracket:
 def to_the_end(
     entrants: list[DraftSlot], drops: Drops | Sequence[Sequence[int]], *, true_final: bool
 ) -> tuple[list[Draft], list[Rank]]:
-    """Return the matches of a double elimination, byes among them, and the places.
+    """Return a double elimination's matches, including byes, and the places.
 
     >>> [draft.name for draft in to_the_end([0, 3, 1, 2], "straight", true_final=True)[0]]
     ['W1.1', 'W1.2', 'L1.1', 'W2.1', 'L2.1', 'F', 'F2']

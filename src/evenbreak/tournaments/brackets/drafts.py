@@ -14,14 +14,14 @@ from evenbreak.errors import InputError
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Place, Slot, Source
 
 FEWEST, MOST = 2, 256
-"""The smallest and the largest number of players in a bracket."""
+"""The smallest and largest number of players in a bracket."""
 
 DraftSlot: TypeAlias = Slot | None
 """A slot that may hold a bye: None."""
 
 
 class Draft(NamedTuple):
-    """A match of the full grid, before byes are resolved."""
+    """A match in the full grid, before byes are resolved."""
 
     name: str
     side: str
@@ -32,7 +32,7 @@ class Draft(NamedTuple):
 class Rank(NamedTuple):
     """The players who leave the tournament at one point, and how many places they share.
 
-    `seats` is None if there is one place for each of those listed.
+    `seats` is None if there is one place for each listed player.
     """
 
     leaving: tuple[Source, ...]
@@ -94,9 +94,9 @@ def bracket_of(
     groups: Sequence[Group] = (),
     consolation: Iterable[Rank] = (),
 ) -> Bracket:
-    """Return the bracket that a full grid makes once its byes are resolved.
+    """Return the bracket made from a full grid by resolving its byes.
 
-    Each draft comes after those that feed it; ranks, best first, are who leaves the tournament, or
+    Each draft comes after those that feed it; ranks, best first, list who leaves the tournament, or
     the consolation event, at which point.
     """
     sent: dict[Source, DraftSlot] = {}

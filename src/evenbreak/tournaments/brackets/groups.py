@@ -1,4 +1,4 @@
-"""Round robin, alone or in groups before a knockout."""
+"""Round robins, alone or in groups before a knockout."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def round_robin(players: Sequence[str] | int, *, times: int = 1) -> Bracket:
     players
         names, or their number.
     times
-        matches of each pair.
+        how many matches each pair plays.
 
     >>> [match.name for match in round_robin(4).matches]
     ['R1.1', 'R1.2', 'R2.1', 'R2.2', 'R3.1', 'R3.2']
@@ -53,11 +53,11 @@ def groups_then_knockout(
     times: int = 1,
     third_place: bool = False,
 ) -> Bracket:
-    """Return round-robin groups whose best players go on to a knockout.
+    """Return round-robin groups whose best players advance to a knockout.
 
-    Seeds are dealt to the groups in a snake: 1 to A, 2 to B, and so on, then back. A group
-    winner first meets a runner-up of another group, and two qualifiers from one group are in
-    different halves of the knockout, except the best runners-up.
+    Seeds are dealt to the groups in a snake: 1 to A, 2 to B, and so on, then back. A group winner
+    first meets another group's runner-up, and two qualifiers from one group are in different halves
+    of the knockout, except the best runners-up.
 
     Parameters
     ----------
@@ -66,8 +66,8 @@ def groups_then_knockout(
     qualifiers
         how many qualify from each group.
     knockout_size
-        how many qualify in all, instead of that: as many from each group as can be, and the best
-        of the next rank by the share of matches won.
+        how many qualify in all, instead: as many as possible from each group, plus the best of the
+        next rank by the share of matches won.
     times
         how often each pair in a group plays.
     third_place
@@ -78,7 +78,7 @@ def groups_then_knockout(
     InputError
         if a group would be too small, or only one player would qualify.
 
-    16 of 5 groups are the first three of each and the best of those who are fourth:
+    16 from 5 groups are the top three in each, and the best fourth-placed player:
 
     >>> groups_then_knockout(20, 5, knockout_size=16).runners_up.places
     (None, Place(first=17, last=20, event=''), Place(first=17, last=20, event=''),
@@ -132,7 +132,7 @@ def groups_then_knockout(
 
 
 def final_of_groups(groups: int) -> str:
-    """Return the name of the final after groups: of six and more one is called F itself.
+    """Return the final's name after groups: with six or more groups, one is called F itself.
 
     >>> final_of_groups(5), final_of_groups(6)
     ('F', 'KF')
@@ -177,7 +177,7 @@ def _group(
 
 
 def _dealt(players: int, groups: int, number: int) -> list[int]:
-    """Return the members of a group when seeds are dealt in a snake."""
+    """Return a group's members when seeds are dealt in a snake."""
     turns = range((players + groups - 1) // groups)
     seats = (turn * groups + (number if turn % 2 == 0 else groups - 1 - number) for turn in turns)
     return [seat for seat in seats if seat < players]
@@ -204,7 +204,7 @@ def _group_places(sizes: list[int], going_on: int, best: int) -> tuple[Place | N
 
 
 def _field(groups: int, going_on: int, best: int) -> list[DraftSlot]:
-    """Return the lines of the knockout."""
+    """Return the knockout's lines."""
     first: list[DraftSlot] = [Source(_letters(k), 1) for k in range(groups)]
     if going_on == 2 and not best and groups & (groups - 1) == 0 and groups > 1:
         # Groups in pairs (A, B), (C, D): 1A-2B in the upper half, 1B-2A in the lower.

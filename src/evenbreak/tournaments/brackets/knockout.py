@@ -1,4 +1,4 @@
-"""Single elimination, single elimination with a consolation event, king of the hill."""
+"""Single elimination, single elimination with a consolation event, and king of the hill."""
 
 from __future__ import annotations
 
@@ -62,13 +62,13 @@ def consolation(
 ) -> Bracket:
     """Return a single-elimination bracket with a consolation event.
 
-    Players who lose their first match go to the consolation event, a single elimination of
-    its own. After a bye, the first match is the one in the second round.
+    Players who lose their first match go to the consolation event, a separate single elimination.
+    After a bye, a player's first match is the one in the second round.
 
     Parameters
     ----------
     players, lines
-        as in `single_elimination`; 4 players or more.
+        as in `single_elimination`; at least 4 players.
 
     >>> bracket = consolation(8)
     >>> [str(place) for place in bracket.places]
@@ -96,7 +96,7 @@ def king_of_the_hill(players: Sequence[str] | int) -> Bracket:
     Parameters
     ----------
     players
-        the names in the order in which they come to the table, or the number of players.
+        the names in the order they come to the table, or the number of players.
 
     >>> [match.slots for match in king_of_the_hill(["Ann", "Bo", "Cy"]).matches]
     [(0, 1), (Source(match='W1.1', outcome='winner', via=None), 2)]
@@ -118,7 +118,7 @@ def king_of_the_hill(players: Sequence[str] | int) -> Bracket:
 
 
 FINALS = ("F", "KF")
-"""The names of a final: the second where a group is called F."""
+"""A final's possible names: the second is used if a group is called F."""
 
 
 def knockout(
@@ -129,7 +129,7 @@ def knockout(
     last: str = "F",
     third_place: bool = False,
 ) -> tuple[list[Draft], list[Rank]]:
-    """Return the matches of a knockout, and who leaves it at which point, best first.
+    """Return a knockout's matches, and who leaves it at which point, best first.
 
     The number of entrants, one per line, is a power of 2; matches are named by the letter: W1.1,
     ...
@@ -159,7 +159,7 @@ def knockout(
 
 
 def checked_lines(lines: Sequence[int | None] | None, players: int) -> list[int | None]:
-    """Return the given first-round lines if they are valid, or those of standard seeding."""
+    """Return the given first-round lines if they are valid, or those from standard seeding."""
     if lines is None:
         return seeded_lines(players)
     listed = list(lines)
@@ -185,7 +185,7 @@ def _had_bye(drafts: list[Draft], match: Draft, slot: int) -> bool:
 
 
 def _with_byes(entrants: list[DraftSlot]) -> list[DraftSlot]:
-    """Return the entrants on the lines of a bracket, with byes for the first of them."""
+    """Return the entrants on a bracket's lines, with byes for the top ones."""
     if len(entrants) == bracket_size(len(entrants)):
         return entrants
     return [None if k is None else entrants[k] for k in seeded_lines(len(entrants))]
@@ -198,9 +198,9 @@ Name = TypeVar("Name")
 
 
 def standard_lines(size: int) -> list[int]:
-    """Return the seeds, from 1 on, in the order of the first-round lines (a power of 2).
+    """Return the seeds, counting from 1, in the order of the first-round lines (a power of 2).
 
-    Seeds 1 and 2 can meet only in the final, seeds 1 to 4 only in the last four, and so on.
+    Seeds 1 and 2 can only meet in the final, seeds 1 to 4 only in the last four, and so on.
 
     >>> standard_lines(8)
     [1, 8, 4, 5, 2, 7, 3, 6]
@@ -212,7 +212,7 @@ def standard_lines(size: int) -> list[int]:
 
 
 def bracket_size(players: int) -> int:
-    """Return the number of lines for so many players: a power of 2, at least 2.
+    """Return the number of lines for this many players: a power of 2, at least 2.
 
     >>> bracket_size(5), bracket_size(8)
     (8, 8)
@@ -221,7 +221,7 @@ def bracket_size(players: int) -> int:
 
 
 def seeded_lines(players: int) -> list[int | None]:
-    """Return the player on each line, from 0 on, or None for a bye; top seeds get the byes.
+    """Return the player on each line, counting from 0, or None for a bye; top seeds get the byes.
 
     >>> seeded_lines(3)
     [0, None, 1, 2]
@@ -230,12 +230,12 @@ def seeded_lines(players: int) -> list[int | None]:
 
 
 def by_rating(players: Sequence[Name], ratings: Sequence[float]) -> list[Name]:
-    """Return the players, highest rating first; equal ratings stay in the order given.
+    """Return the players, highest rating first; players with equal ratings keep their order.
 
     Raises
     ------
     InputError
-        if there is not one number for each player.
+        if there isn't one number per player.
 
     >>> by_rating(["Ann", "Bo", "Cy"], [500, 640, 500])
     ['Bo', 'Ann', 'Cy']
@@ -258,21 +258,21 @@ def blind_draw(players: Sequence[Name], rng: np.random.Generator) -> list[Name]:
 def apart_by_club(players: Sequence[Name], clubs: Sequence[str | None]) -> list[Name]:
     """Return the seeds with clubmates kept as far apart as their tiers allow.
 
-    Players move only within their tier: seeds 3-4, 5-8, 9-16 and so on; seeds 1 and 2 stay.
-    The search minimizes a penalty for each pair of clubmates, four times as high for each
-    round earlier that they can meet, by the best swap as long as a swap helps.
+    Players move only within their tier: seeds 3-4, 5-8, 9-16 and so on; seeds 1 and 2 stay. The
+    search minimizes a penalty for each pair of clubmates, four times as high for each round earlier
+    that they can meet, by making the best swap as long as one helps.
 
     Parameters
     ----------
     players
         the players in seed order.
     clubs
-        each player's club; None for a player without one.
+        each player's club; None for a player without a club.
 
     Raises
     ------
     InputError
-        if there is not one club for each player.
+        if there isn't one club per player.
 
     >>> apart_by_club(["A", "B", "C", "D"], ["East", "West", "West", "East"])
     ['A', 'B', 'D', 'C']
@@ -304,7 +304,7 @@ def apart_by_club(players: Sequence[Name], clubs: Sequence[str | None]) -> list[
 def _gains(
     early: NDArray[np.float64], club: NDArray[np.int64], tier: NDArray[np.int64]
 ) -> NDArray[np.float64]:
-    """Return the change of the penalty if seeds i and j swap; 0 where they may not."""
+    """Return how the penalty changes if seeds i and j swap; 0 if they may not."""
     _, own = np.unique(club, return_inverse=True)
     members = np.equal.outer(np.arange(own.max() + 1), own)
     near = early @ members.T  # of each seed's line to the members of each club

@@ -11,19 +11,19 @@ from evenbreak.tournaments.brackets.drafts import Draft, DraftSlot, Rank, bracke
 
 
 def laid_out(form: str, players: tuple[str, ...], drafts: Sequence[Draft]) -> Bracket:
-    """Return the bracket of a list of matches, in any order.
+    """Return the bracket for a list of matches, in any order.
 
     A slot has a player, by position, a bye (None), or the winner or loser of another match. A match
-    between the winner and the loser of one other match is a second final, played if the undefeated
-    player lost that match. An InputError if a match leads to itself, two matches take one player,
-    or there is no final.
+    between the winner and the loser of the same match is a second final, played if the undefeated
+    player lost that match. Raises InputError if a match leads to itself, two matches take one
+    player, or there is no final.
     """
     ordered = [_with_undefeated(draft, drafts) for draft in _in_order(drafts)]
     return bracket_of(form, players, ordered, _ranks(ordered))
 
 
 def _in_order(drafts: Sequence[Draft]) -> list[Draft]:
-    """Return the matches so that each comes after those that feed it, the final last."""
+    """Return the matches ordered so that each comes after those that feed it, the final last."""
     by_name = {draft.name: draft for draft in drafts}
     feeds: dict[str, set[str]] = {name: set() for name in by_name}
     taken: set[Source] = set()
@@ -78,7 +78,7 @@ def _with_undefeated(draft: Draft, drafts: Sequence[Draft]) -> Draft:
 
 
 def _ranks(drafts: Sequence[Draft]) -> list[Rank]:
-    """Return who leaves at which point: the nearer to the final, the better the place."""
+    """Return who leaves at which point: the closer to the final, the better the place."""
     ends = [draft for draft in drafts if draft.side in ("final", "second final")]
     if not ends or len(ends) > 2:
         raise InputError("the bracket has {what} finals", what=len(ends) or "no")

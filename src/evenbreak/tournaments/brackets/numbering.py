@@ -1,4 +1,4 @@
-"""The number of each match, as printed sheets have it: 1, 2, 3, ... in the order of play."""
+"""The number of each match, as on printed sheets: 1, 2, 3, ... in the order of play."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from evenbreak.tournaments.brackets.bracket import Bracket, Match, Source
 
 _OWN = re.compile(r"R?(\d+)")
-"""A match that is called by a number of its own, such as the racks of a chip tournament."""
+"""A match whose name is its number, such as the racks in a chip tournament."""
 
 _LAST = {"pod final": 1, "knock-out": 2, "third place": 3, "final": 4, "second final": 5}
 """What is played after both sides of a bracket, and after its groups."""
@@ -17,11 +17,12 @@ _Time = tuple[int, int, int]
 
 
 def match_numbers(bracket: Bracket, first: Mapping[str, int] | None = None) -> dict[str, int]:
-    """Return the number of each match by name, in the order in which rounds can be played.
+    """Return each match's number by name, in the order in which rounds can be played.
 
     Rounds of the winners' side alternate with those of the losers' side: W1, W2, L1, L2, W3, L3,
-    L4, W4, ... A match has a higher number than those that feed it. Byes are not matches and have
-    no number; a second final has the last one. Numbers in `first` are kept, and the rest follow.
+    L4, W4, ... A match has a higher number than the matches that feed it. Byes aren't matches and
+    have no number; a second final has the last number. Numbers in `first` are kept, and the others
+    follow.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> match_numbers(double_elimination(5))
@@ -41,7 +42,7 @@ def match_numbers(bracket: Bracket, first: Mapping[str, int] | None = None) -> d
 
 
 def _time(match: Match) -> _Time:
-    """Return when the round of a match is played, to be compared with that of others."""
+    """Return a sort key for when a match's round is played."""
     if match.side in _LAST:
         return _LAST[match.side], match.round, 0
     if match.side == "losers":

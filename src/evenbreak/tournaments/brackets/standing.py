@@ -14,19 +14,19 @@ from evenbreak.league.tables.ladder import places_by_wins
 from evenbreak.tournaments.brackets.bracket import Bracket, Group, Match, Slot, Source, some_of
 
 NOBODY = -1
-"""The player of a slot that stays empty, as in a second final that is not needed."""
+"""The player in a slot that stays empty, as in a second final that isn't needed."""
 
 Results: TypeAlias = Mapping[str, str | Sequence[str]]
 """The winner of each decided match, by match name.
 
-For a group whose ties were broken by lot, also its players in final order, by group name; so too
-for the runners-up, by their rank.
+For a group whose ties were broken by lot, also its players in final order, by group name; the same
+goes for the runners-up, by their rank.
 """
 
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """A bracket at one moment of the tournament.
+    """A bracket at one moment in the tournament.
 
     Parameters
     ----------
@@ -35,9 +35,9 @@ class Standing:
     seats
         the players in each match's two slots: a position, NOBODY, or None if not known yet.
     sent
-        the players who came out of decided matches and groups.
+        the players who advanced from decided matches and groups.
     assumed
-        what-if results: those of matches whose players are not known yet.
+        what-if results: those of matches whose players aren't known yet.
     """
 
     bracket: Bracket
@@ -57,7 +57,7 @@ class Standing:
 
     @cached_property
     def remaining(self) -> Bracket:
-        """The undecided matches, with the players who are known already in their slots."""
+        """The undecided matches, with their slots' players as far as they are known."""
         groups = tuple(group for group in self.bracket.groups if not self._settled(group))
         still = {name for group in groups for name in group.matches}
         matches = tuple(
@@ -74,7 +74,7 @@ class Standing:
 
     @cached_property
     def runners_up(self) -> list[tuple[str, int, int]]:
-        """The runner-up of each finished group, by position, and the weight of their wins."""
+        """Each finished group's runner-up, by position, and the weight of their wins."""
         return _runners_up(self.bracket, self.winners, self.sent)
 
     def _seated(self, match: Match) -> Match:
@@ -178,7 +178,7 @@ def _settled_ranks(
     winners: dict[str, int],
     given: dict[str, str | Sequence[str]],
 ) -> dict[Source, int]:
-    """Return the final ranking of a group, or nothing while it is open."""
+    """Return a group's final ranking, or nothing while it is open."""
     if not all(name in winners for name in group.matches):
         return {}
     if group.name in given:
@@ -197,7 +197,7 @@ def _in_given_order(
     members: Sequence[int],
     given: dict[str, str | Sequence[str]],
 ) -> list[int]:
-    """Return the final order of a group, or of the runners-up, that the results say."""
+    """Return the final order of a group, or of the runners-up, as stated in the results."""
     order = [bracket.player(player) for player in given[name]]
     if sorted(order) != sorted(members):
         raise InputError(
@@ -228,7 +228,7 @@ def _best_runners_up(
     sent: Mapping[Source, int],
     given: dict[str, str | Sequence[str]],
 ) -> dict[Source, int]:
-    """Return the order of the runners-up, or nothing while it is open who of them goes on."""
+    """Return the runners-up's order, or nothing while it is open which of them advance."""
     found = _runners_up(bracket, winners, sent)
     if bracket.runners_up is None or len(found) < len(bracket.groups):
         return {}

@@ -1,7 +1,7 @@
 """Swiss tournaments: no one is knocked out; each round pairs players with equal scores.
 
-A round can be paired only when the one before it is over, so a Swiss is not a bracket.
-Pairings come from caissify-pairings, an extra: `pip install 'evenbreak[swiss]'`.
+A round can be paired only when the previous one is over, so a Swiss isn't a bracket. Pairings come
+from caissify-pairings, an extra: `pip install 'evenbreak[swiss]'`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ System: TypeAlias = Literal["dutch", "casual"]
 
 
 class Pairing(NamedTuple):
-    """Two players who meet; `second` is None for a bye, `winner` is None until it is played."""
+    """Two paired players; `second` is None for a bye, `winner` is None until it is played."""
 
     first: str
     second: str | None = None
@@ -54,8 +54,8 @@ class Swiss:
     players
         the names in seed order.
     system
-        the pairing system: 'dutch' follows the rules of chess (FIDE C.04.3); 'casual' is
-        simpler and a hundred times as fast, but may pair two players twice.
+        the pairing system: 'dutch' follows the rules of chess (FIDE C.04.3); 'casual' is simpler
+        and a hundred times as fast, but may pair two players twice.
     """
 
     players: tuple[str, ...]
@@ -98,20 +98,20 @@ def swiss_round(
     *,
     without: Collection[str] = (),
 ) -> list[Pairing]:
-    """Return the pairings of the next round.
+    """Return the next round's pairings.
 
     Parameters
     ----------
     played
         the rounds so far, complete with winners.
     without
-        the players who have gone home and are no longer paired; in the first round all are.
+        players who have gone home and are no longer paired; everyone is paired in the first round.
 
     Raises
     ------
     InputError
-        if a round is not complete, fewer than two players are left, all rounds are over, or the
-        extra is not installed.
+        if a round is incomplete, fewer than two players are left, all rounds are over, or the extra
+        isn't installed.
     """
     check_rounds(event, played)
     if len(played) == event.rounds:
@@ -166,10 +166,10 @@ def swiss_standings(event: Swiss, played: Sequence[Sequence[Pairing]]) -> list[S
 def swiss_bracket(
     event: Swiss, drawn: Sequence[Sequence[Pairing]] = (), *, to_come: bool = True
 ) -> Bracket:
-    """Return the matches of a Swiss: of the rounds that are drawn, and of those to come.
+    """Return a Swiss tournament's matches, in rounds already drawn and in upcoming rounds.
 
-    Who meets who in an upcoming round is not known. In its place, winners meet winners and
-    losers meet losers of the round before; that is good enough for how long it takes.
+    Pairings in an upcoming round aren't known. Instead, the previous round's winners play each
+    other, and so do its losers; that is good enough for estimating how long it takes.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ def swiss_bracket(
 
 
 def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:
-    """Raise an error if a round has a player twice, lacks one of a later round, or a winner."""
+    """Raise an error if a round repeats a player, lacks one who plays later, or lacks a winner."""
     if len(played) > event.rounds:
         raise InputError(
             "{played} rounds have been played, but the event has only {rounds}",
@@ -241,7 +241,7 @@ def check_rounds(event: Swiss, played: Sequence[Sequence[Pairing]]) -> None:
 
 
 def _histories(event: Swiss, played: Sequence[Sequence[Pairing]]) -> list[dict[str, Any]]:
-    """Return each player's history as the pairing engine wants it; the first player is white."""
+    """Return each player's history in the pairing engine's format; the first player is white."""
     rows: dict[str, dict[str, Any]] = {
         player: {
             "id": number,

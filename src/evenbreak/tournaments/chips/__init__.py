@@ -1,1 +1,1 @@
-"""Chip tournaments: lose a rack, lose a chip; out without chips."""
+"""Chip tournaments: lose a rack, lose a chip; out when you have no chips left."""

@@ -17,7 +17,7 @@ from evenbreak.errors import InputError
 
 
 class ChipRow(NamedTuple):
-    """The chips of players rated `rating_from` or more; -inf for the weakest players' row."""
+    """The chips for players rated `rating_from` or more; -inf for the weakest players' row."""
 
     rating_from: Annotated[float, Meta(le=1_000_000)]
     chips: int
@@ -30,7 +30,7 @@ class ChipChart:
     Parameters
     ----------
     rows
-        the rows in the order of the ratings, the first for the weakest players.
+        the rows in order of rating, the first for the weakest players.
 
     Raises
     ------
@@ -68,7 +68,7 @@ class ChipChart:
                 )
 
     def chips(self, ratings: ArrayLike) -> NDArray[np.int64]:
-        """Return the chips of each rating.
+        """Return the chips for each rating.
 
         Raises
         ------
@@ -120,7 +120,7 @@ CHIP_CHARTS: dict[str, ChipChart] = {
 
 
 def chip_chart(name: str | ChipChart) -> ChipChart:
-    """Return a chart by its name.
+    """Return a chart by name.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """How fair a chip chart is, and the chips that make it fairer.
 
-A fair chart gives each of n players the chance 1/n. The simulations that compare charts share
-their luck, so that differences of a few parts in a thousand are real.
+A fair chart gives each of n players the chance 1/n. The simulations that compare charts share their
+luck, so differences of a few parts per thousand are real.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _MOST_STEPS = 60
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class ChipFairness:
-    """The title odds of a field with given chips."""
+    """A field's title odds with given chips."""
 
     ratings: Floats
     chips: Ints
@@ -34,7 +34,7 @@ class ChipFairness:
 
     @property
     def edge(self) -> Floats:
-        """How many times an equal share each player's title odds are, less 1: 0 is fair."""
+        """How many times an equal share each player's title odds are, minus 1: 0 is fair."""
         return np.asarray(len(self.chips) * self.odds.title - 1.0)
 
     @property
@@ -59,7 +59,7 @@ def chip_fairness(
     runs: int = 10_000,
     seed: int = 0,
 ) -> ChipFairness:
-    """Return the fairness of a chip chart to a field of players.
+    """Return how fair a chip chart is to a field of players.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def chip_fairness(
     tables, runs
         as in `play_chips`.
     seed
-        the same seed gives two charts the same luck.
+        two charts with the same seed get the same luck.
 
     >>> found = chip_fairness([650, 500, 400, 350], "hoboken")
     >>> found.chips, found.edge.round(1)
@@ -97,24 +97,24 @@ def fairest_chips(
     runs: int = 10_000,
     seed: int = 0,
 ) -> ChipFairness:
-    """Return the chips that make the title odds of a field as equal as a search can.
+    """Return the chips that make a field's title odds as equal as a search can make them.
 
     Parameters
     ----------
     bands
-        the ratings at which a row of the chart starts, for one more row than there are of
-        these; players of one row have the same chips. None: a row for each rating.
+        the ratings at which chart rows start, not counting the lowest row; players in one row have
+        the same chips. None: a row for each rating.
     fewest, most
-        the fewest and the most chips of a player. More chips make a longer and fairer event.
+        the fewest and the most chips a player can have. More chips make a longer and fairer event.
     scale, break_advantage, tables, runs, seed
         as in `chip_fairness`.
 
     Notes
     -----
-    It starts with chips in the middle and moves one chip at a time, up for the row that is
-    worst off or down for the one that is best off, and then for all weaker or all stronger rows
-    together, as long as the spread of the title odds gets smaller. Stronger players never have
-    more chips than weaker ones.
+    It starts in the middle of the range and moves one chip at a time, up for the row that is worst
+    off or down for the row that is best off, and then for all weaker or all stronger rows together,
+    as long as the spread of the title odds gets smaller. Stronger players never have more chips
+    than weaker players.
 
     >>> found = fairest_chips([650, 500, 400, 350], most=8, runs=4000)
     >>> bool(found.spread < chip_fairness([650, 500, 400, 350], "hoboken").spread)
@@ -156,7 +156,7 @@ def fairest_chips(
 
 
 def _rows_of(ratings: Floats, bands: Sequence[float] | None) -> Ints:
-    """Return the row of each player, 0 for the weakest."""
+    """Return each player's row, 0 for the weakest."""
     if bands is None:
         _, row = np.unique(ratings, return_inverse=True)
         return row.astype(np.int64)
@@ -167,7 +167,7 @@ def _rows_of(ratings: Floats, bands: Sequence[float] | None) -> Ints:
 
 
 def _steps(counts: Ints, row: Ints, edge: Floats, low: int, high: int) -> list[Ints]:
-    """Return the charts one chip away, the most promising first."""
+    """Return the charts one chip away, most promising first."""
     of_row = np.bincount(row, edge) / np.bincount(row)
     found = []
     for k in np.argsort(-np.abs(of_row)).tolist():

@@ -1,9 +1,9 @@
 """The end of a chip tournament, exactly: heads-up, and the last players at one table.
 
-Heads-up, with a and b chips, player 1 wins by taking b racks before losing a: a race, with
-the chance W(p; b, a). With three or more the winner stays, the loser pays a chip and goes
-to the end of the line: a Markov chain over who is where in the line and everyone's chips.
-Chips are only ever lost, so the chain has no cycles.
+Heads-up, with a and b chips, player 1 wins by taking b racks before losing a: a race, with the
+chance W(p; b, a). With three or more players, the winner stays, and the loser pays a chip and goes
+to the end of the line: a Markov chain over the line's order and everyone's chips. Chips are only
+ever lost, so the chain has no cycles.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from evenbreak.matches.win import race_win_probability
 from evenbreak.tournaments.chips.play import checked_racks
 
 State: TypeAlias = tuple[tuple[int, ...], tuple[int, ...]]
-"""The line (who stays at the table, the challenger, who waits), and everybody's chips."""
+"""The line (who stays at the table, the challenger, who is waiting), and everyone's chips."""
 
 _MOST_STATES = 400_000
 
@@ -46,10 +46,10 @@ def heads_up(p: float, chips: int, other_chips: int) -> float:
 
 @dataclass(frozen=True)
 class LastPlayers:
-    """The last players of a chip tournament at one table, as a game to walk.
+    """A chip tournament's last players at one table, as a walkable game.
 
-    `line` has who is at the table, the challenger, then who waits; racks[i][j] = P(i, at the table,
-    beats the challenger j).
+    `line` has the player at the table, the challenger, then the players waiting; racks[i][j] = P(i,
+    at the table, beats the challenger j).
     """
 
     chips: tuple[int, ...]
@@ -58,11 +58,11 @@ class LastPlayers:
 
     @property
     def start(self) -> State:
-        """The line and the chips now."""
+        """The current line and chips."""
         return self.line, self.chips
 
     def moves(self, state: State) -> dict[State, float]:
-        """Return the chance of each next state; none when one player is left."""
+        """Return each next state's chance; none when one player is left."""
         line, chips = state
         if len(line) < 2:
             return {}
@@ -76,7 +76,7 @@ class LastPlayers:
         return law
 
     def winner(self, state: State) -> int | None:
-        """Return who has won, from 1 on, or None."""
+        """Return who has won, counting from 1, or None."""
         line, _ = state
         return line[0] + 1 if len(line) == 1 else None
 
@@ -111,11 +111,12 @@ def last_players(
     Parameters
     ----------
     chips
-        everyone's chips: two players or more, as a rule up to four.
+        everyone's chips: at least two players, usually up to four.
     racks
         racks[i, j] = P(i, who stays at the table, beats the challenger j).
     line
-        who is where, by position: who stays, the challenger, then who waits; None: as listed.
+        the players' order, by position: who stays, the challenger, then who is waiting; None: as
+        listed.
 
     Raises
     ------

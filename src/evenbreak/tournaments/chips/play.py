@@ -1,10 +1,9 @@
-"""Chip tournaments played out, many at once.
+"""Chip tournaments simulated, many at once.
 
-At each table the winner stays; the loser pays a chip and goes to the end of the line, and
-whoever is first in it comes to the table. Tables finish their racks in random order. There
-are never more tables in use than leave someone to wait; the last four are at one table.
-Where it does not matter who breaks, the last two are not played out: their chances are
-those of a race.
+At each table, the winner stays; the loser pays a chip and goes to the end of the line, and the
+first player in line comes to the table. Tables finish their racks in random order. There are never
+so many tables in use that no one is waiting; the last four players are at one table. If it doesn't
+matter who breaks, the last two aren't played out: they have the same chances as in a race.
 """
 
 from __future__ import annotations
@@ -34,13 +33,13 @@ class ChipOdds:
     error
         the standard errors of `p_place`.
     racks_mean
-        the mean number of racks, before the last two players unless they were played out too.
+        the mean number of racks, until two players are left unless those were played out too.
     runs
-        number of tournaments played.
+        the number of tournaments simulated.
     lengths
-        of each tournament, if all racks last equally long: in racks one after another.
+        each tournament's length in consecutive racks, if all racks last equally long.
     by_sample
-        P(each player wins) by each sample of the ratings, one per column.
+        P(each player wins) for each sample of the ratings, one per column.
     """
 
     p_place: Floats
@@ -72,18 +71,18 @@ def play_chips(
     Parameters
     ----------
     chips
-        each player's chips at the start.
+        each player's starting chips.
     racks
-        racks[i, j] = P(i, who stays at the table, beats the challenger j). A third axis, if there
-        is one, is for samples of the ratings, which take turns.
+        racks[i, j] = P(i, who stays at the table, beats the challenger j). A third axis, if any, is
+        for samples of the ratings, which are used in turn.
     line
-        the order in which players come to the tables; None: drawn again for each run.
+        the order in which players come to the tables; None: drawn anew for each run.
     in_use
-        on how many tables the first of them are; None: as many as leave someone to wait.
+        how many tables are in use at the start; None: as many as possible with someone waiting.
     to_the_end
-        whether the last two are played out too, for how long it takes.
+        whether the last two are played out too, to see how long that takes.
     rng
-        where pseudo-random numbers come from; None: a generator with the seed 0.
+        the random number generator; None: a generator with seed 0.
 
     Raises
     ------
@@ -118,7 +117,7 @@ def play_chips(
 
 
 def tables_in_use(left: int, tables: int) -> int:
-    """Return how many tables are in use: so many that someone waits, except heads-up.
+    """Return how many tables are in use: so many that someone is waiting, except heads-up.
 
     >>> [tables_in_use(left, 4) for left in (2, 4, 5, 8, 16)]
     [1, 1, 2, 3, 4]
@@ -162,7 +161,7 @@ class _Room:
         self.running = np.flatnonzero(self.left > self.last)
 
     def play_out(self) -> None:
-        """Play the last two out too."""
+        """Play out the last two too."""
         self.last = 1
         self.running = np.flatnonzero(self.left > 1)
 
@@ -191,7 +190,7 @@ class _Room:
             self.running = run[self.left[run] > self.last]
 
     def places(self) -> tuple[Floats, Floats, Floats]:
-        """Return P(each player has each place), the errors, and P(win) by sample of the ratings."""
+        """Return P(each player gets each place), the errors, and P(win) by rating sample."""
         count = self.chips.shape[1]
         law = np.zeros((count, count))
         squares = np.zeros((count, count))
@@ -233,14 +232,14 @@ class _Room:
         self.length[run] += 1
 
     def _next(self, run: Ints) -> Ints:
-        """Take the first of the line."""
+        """Take the first players in line."""
         player: Ints = self.line[run, self.head[run]]
         self.head[run] = (self.head[run] + 1) % self.line.shape[1]
         self.length[run] -= 1
         return player
 
     def _close(self, run: Ints, at: Ints, winner: Ints) -> None:
-        """Close a table: its winner waits, and the last table takes its number."""
+        """Close a table: its winner goes to wait, and the last table gets its number."""
         self._wait(run, winner)
         last = self.open[run] - 1
         self.stays[run, at] = self.stays[run, last]
@@ -261,8 +260,8 @@ def rack_chances(
     scale
         a name, or the points that double the odds.
     break_advantage
-        by how many points the breaker plays better; the player who stays breaks. Negative
-        where the challenger breaks.
+        how many points better the breaker plays; the player who stays breaks. Negative if the
+        challenger breaks.
 
     >>> rack_chances([600, 500]).round(3)
     array([[0.5  , 0.667],
@@ -274,7 +273,7 @@ def rack_chances(
 
 
 def checked_racks(racks: ArrayLike, players: int) -> Floats:
-    """Return the table of the chances of a rack, if it has the right shape."""
+    """Return the array of rack chances, if it has the right shape."""
     table = floats(racks, "racks", low=0.0, high=1.0)
     if table.shape != (players, players):
         raise InputError(
@@ -287,5 +286,5 @@ def checked_racks(racks: ArrayLike, players: int) -> Floats:
 
 
 def break_matters(racks: Floats) -> bool:
-    """Return whether it makes a difference who of two stays and who challenges."""
+    """Return whether it makes a difference which of two players stays and which challenges."""
     return bool(np.abs(racks + racks.T - 1.0)[~np.eye(len(racks), dtype=bool)].max() > 1e-12)

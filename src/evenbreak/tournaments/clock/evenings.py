@@ -1,7 +1,7 @@
-"""Evenings played out: who wins, in how many games, in how many minutes, in each run.
+"""Evenings simulated: who wins, in how many games, in how many minutes, in each run.
 
-All luck comes from the seed in a fixed order, so that two evenings with the same seed differ
-only by what was changed: a race, a pace, a number of tables.
+All luck comes from the seed in a fixed order, so that two evenings with the same seed differ only
+in what was changed: a race, a pace, a number of tables.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ from evenbreak.tournaments.odds.races import PairOdds
 
 
 class InPlay(NamedTuple):
-    """A match under way.
+    """A match in progress.
 
     Parameters
     ----------
     started
-        in minutes since the first start of the event.
+        in minutes since the event's first start.
     games
-        the games played so far, if its score is known. The odds of the match must then be those
-        from this score (`from_score`).
+        the games played so far, if the score is known. The match odds must then be from this score
+        (`from_score`).
     scored
-        when it had this score; None: not known.
+        when the score was recorded; None: not known.
     """
 
     match: str
@@ -48,8 +48,8 @@ class InPlay(NamedTuple):
 class Evenings:
     """Many evenings: rows are runs, columns the matches still to be played.
 
-    `needed` is False for a second final that isn't played. Minutes of a match under way are from
-    now on; `turnover` is the time that its table needs after it; players are positions.
+    `needed` is False for a second final that isn't played. A match in progress has its remaining
+    minutes; `turnover` is the time its table needs afterward; players are positions.
     """
 
     names: tuple[str, ...]
@@ -72,7 +72,7 @@ def play_evenings(
     runs: int = 2000,
     seed: int = 0,
 ) -> Evenings:
-    """Return many evenings from the present state on; `clock` counts from the first start."""
+    """Return many evenings from the current state on; `clock` counts from the first start."""
     remaining = now.remaining
     names = tuple(match.name for match in remaining.matches if match.name not in now.winners)
     for name in names:
@@ -114,7 +114,7 @@ def play_evenings(
 
 
 def _decided(now: Standing, runs: int) -> dict[str, Bools]:
-    """Return the results of the matches of groups that are not settled."""
+    """Return the results of the matches in unsettled groups."""
     found = {}
     for name, won in now.winners.items():
         first = now.seats[name][0]
@@ -140,9 +140,9 @@ def _under_way(
     clock: float,
     rng: np.random.Generator,
 ) -> tuple[Bools, Floats]:
-    """Return who wins a match under way, and the minutes it still takes.
+    """Return who wins a match in progress, and its remaining minutes.
 
-    Given the minutes it has taken so far, longer lengths are the likelier.
+    The minutes it has taken so far make greater lengths likelier.
     """
     one, other = now.seats.get(now.bracket.match(match.match).name, (None, None))
     if match.match in now.winners or one is None or other is None or NOBODY in (one, other):
@@ -168,10 +168,10 @@ def _under_way(
 def minutes_left(
     chances: Floats, usual: Floats, match_sd: float, evening: Floats, elapsed: float, rng: Generator
 ) -> tuple[Ints, Floats]:
-    """Return how a match under way ends in each run, and its remaining minutes, shape (runs,).
+    """Return how a match in progress ends in each run, and its remaining minutes, shape (runs,).
 
-    `chances` and `usual` are the chance of each way to end, and its minutes in all at the usual
-    pace; given the `elapsed` minutes, longer ways are likelier. `evening` is the pace of each run.
+    `chances` has each possible ending's chance, and `usual` its total minutes at the usual pace;
+    the `elapsed` minutes make longer endings likelier. `evening` is each run's pace.
     """
     median = evening[:, None] * np.maximum(usual, 1e-9) * lognormal(0.0, match_sd)
     with np.errstate(divide="ignore"):
@@ -192,8 +192,8 @@ _AT_ONCE = 0.62  # with table and players free, so many real turnovers take unde
 def turnovers(turnover: Turnover | None, luck: Floats) -> Floats:
     """Return the times between two matches on a table, from uniform random numbers.
 
-    None: as in real events with table and players free, 0 in 62 of 100 cases and otherwise the
-    usual time, 4.1 minutes on average.
+    None: as in real events when the table and the players are free, 0 in 62 of 100 cases and
+    otherwise the usual time, 4.1 minutes on average.
 
     >>> turnovers(None, np.array([0.6, 0.81]))
     array([0. , 7.5])

@@ -1,10 +1,9 @@
-"""The pace of a whole event: calibrated to real ones, learned from earlier nights and from tonight.
+"""A whole event's pace: calibrated to real events, adjusted to earlier nights and to tonight.
 
-The model is that of `evenbreak.matches.pace`: a match takes (overhead + per_game games) N A
-minutes, with the luck N of the match and the pace A of the evening lognormal with mean 1. Half of
-the variance of log A is the venue's: it is the same on all evenings there, and what is not known
-of it shrinks with each night that is learned. What tonight's matches say of log A is a normal
-posterior.
+The model is the one in `evenbreak.matches.pace`: a match takes (overhead + per_game games) N A
+minutes, where the match's luck N and the evening's pace A are lognormal with mean 1. Half of the
+variance of log A is due to the venue: it is the same on all evenings there, and the uncertainty
+about it shrinks with each night learned. Tonight's matches give a normal posterior for log A.
 """
 
 from __future__ import annotations
@@ -20,17 +19,17 @@ from evenbreak.checks import kind_of, positive
 from evenbreak.matches.pace import Pace, pace_of
 
 _EVENTS = {"8-ball": (0.97, 0.12), "9-ball": (0.97, 0.12), "10-ball": (0.895, 0.09)}
-"""What the pace of single matches is multiplied by in an event, and how much evenings vary.
+"""Multipliers for the pace of single matches in an event, and how much evenings vary.
 
-They are calibrated, not derived: docs/explanation/brackets.md says how. As in that calibration,
+They are calibrated, not derived; docs/explanation/brackets.md explains how. As in that calibration,
 rounds wait for each other.
 """
 _VENUE = 0.5  # of the variance of the pace of evenings
 _PRIOR_NIGHTS = 2.0  # that what is usual counts as, against the nights of a venue
 SLOWEST = 2.0
-"""By how much a night can be longer or shorter than usual and still say something of the pace."""
+"""How much longer or shorter than usual a night can be and still say something about the pace."""
 QUICKEST = 1.5
-"""The fewest minutes a game: a match that was shorter was called late, or typed in afterward."""
+"""The fewest minutes per game: a shorter match was called late, or entered afterward."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ class EarlierNight:
     discipline
         8-ball, 9-ball or 10-ball.
     ratio
-        its duration over the median expected at the usual pace.
+        its duration divided by the median expected at the usual pace.
     """
 
     at: str
@@ -53,12 +52,12 @@ class EarlierNight:
 
 
 def nights_of(discipline: str, earlier: Iterable[EarlierNight]) -> list[EarlierNight]:
-    """Return the nights of a discipline: those of another say nothing of its pace."""
+    """Return a discipline's nights: other disciplines' say nothing about its pace."""
     return [one for one in earlier if one.discipline == discipline]
 
 
 def venue_ratio(nights: Sequence[EarlierNight], prior_nights: float = _PRIOR_NIGHTS) -> float:
-    """Return the ratio of match times at a venue to the usual, from its nights of one discipline.
+    """Return the ratio of a venue's match times to the usual ones, from nights in one discipline.
 
     `prior_nights` nights at the usual pace are added; 0 gives the plain average.
 
@@ -70,16 +69,16 @@ def venue_ratio(nights: Sequence[EarlierNight], prior_nights: float = _PRIOR_NIG
 
 
 def event_pace(pace: Pace | str, earlier: Iterable[EarlierNight] = ()) -> Pace:
-    """Return the pace of a whole event: the calibrated one of a discipline, or a given pace.
+    """Return a whole event's pace: a discipline's calibrated pace, or a given pace.
 
     Parameters
     ----------
     pace
-        a discipline, or a `Pace`, which is returned as it is.
+        a discipline, or a `Pace`, which is returned unchanged.
     earlier
-        nights at the same venue. With y the logarithms of the ratios of the n nights of this
-        discipline, the venue's matches take exp(sum y / (n + 2)) times as long as usual, and
-        2 / (n + 2) of the variance between venues remains in `evening_sd`.
+        nights at the same venue. If y are the logarithms of the ratios for the n nights in this
+        discipline, the venue's matches take exp(sum y / (n + 2)) times as long as usual, and 2 / (n
+        + 2) of the variance between venues remains in `evening_sd`.
 
     Raises
     ------
@@ -117,19 +116,19 @@ class Timed(NamedTuple):
 
 
 def learned_pace(pace: Pace | str, played: Sequence[Timed]) -> Pace:
-    """Return the pace of this evening, learned from the matches played so far.
+    """Return this evening's pace, adjusted to the matches played so far.
 
     Parameters
     ----------
     pace
-        the pace before: a discipline, or a `Pace`.
+        the pace assumed before: a discipline, or a `Pace`.
     played
         this evening's matches with their games and minutes.
 
     Returns
     -------
     Pace
-        its `evening_sd` is what is left of the uncertainty about the evening.
+        its `evening_sd` is the remaining uncertainty about the evening.
 
     Raises
     ------
@@ -138,9 +137,9 @@ def learned_pace(pace: Pace | str, played: Sequence[Timed]) -> Pace:
 
     Notes
     -----
-    With r the logarithm of a match's minutes over their mean, n matches and the variances s²
-    of a match and t² of an evening, log A is normal with precision 1/t² + n/s² and mean
-    (-1/2 + sum of (r + s²/2) / s²) over that.
+    If r is the logarithm of a match's minutes divided by their mean, n is the number of matches,
+    and s² and t² are the variances of a match and of an evening, then log A is normal with
+    precision 1/t² + n/s² and mean (-1/2 + sum of (r + s²/2) / s²) divided by that.
 
     >>> slow = learned_pace(Pace(4, 6, 0.3, 0.15), [Timed(7, 60), Timed(9, 75), Timed(5, 45)])
     >>> round(slow.per_game, 2), round(slow.evening_sd, 3)

@@ -37,7 +37,7 @@ _WORK = 7e7  # what trying them may cost: calls x evenings x matches x matches
 
 
 class Start(NamedTuple):
-    """When a match starts, in minutes: in 10, 50 and 90 of 100 evenings it has started by then.
+    """When a match starts, in minutes: it has started by then in 10, 50 and 90 of 100 evenings.
 
     Parameters
     ----------
@@ -52,14 +52,14 @@ class Start(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A match that could be called next; NaN where it was not tried because there are many.
+    """A match that could be called next; NaN if it wasn't tried because there are many.
 
     Parameters
     ----------
     finish_mean
-        mean end of the evening, if it is called next.
+        the mean end of the evening, if this match is called next.
     later
-        minutes by which that is later than with the best call, on average.
+        how many minutes later that is than with the best call, on average.
     error
         the standard error of `later`.
     """
@@ -71,10 +71,10 @@ class Call(NamedTuple):
 
 
 def bands_of(finishes: Floats) -> tuple[tuple[float, float, float], float]:
-    """Return the times by which 10, 50 and 90 of 100 evenings end, and the worst standard error.
+    """Return the times by which 10, 50 and 90 of 100 evenings end, and the largest standard error.
 
-    The error is the spread over a time of so many evenings. It takes them as independent. Their
-    luck is spread evenly (a Latin hypercube), so the error is this at most.
+    The error treats the evenings as independent. Because their luck is spread evenly (a Latin
+    hypercube), this is an upper bound.
     """
     early, middle, late = np.quantile(finishes, QUANTILES).tolist()
     q = np.array(QUANTILES)
@@ -91,17 +91,17 @@ class Finish:
     Parameters
     ----------
     finishes
-        when each of the evenings that were played out ends.
+        when each simulated evening ends.
     starts
-        when each match starts in each evening, one column per match; NaN where it is not needed.
+        when each match starts on each evening, one column per match; NaN where it isn't needed.
     names
         the matches still to be played, as in the columns of `starts`.
     pace
-        how long matches take this evening.
+        this evening's pace.
     standing
-        where the tournament stands.
+        the tournament's current state.
     room
-        the tables, what is on them, and the evenings that are played on them.
+        the tables, what is on them, and the evenings played on them.
     """
 
     finishes: Floats
@@ -113,7 +113,7 @@ class Finish:
 
     @classmethod
     def planned(cls, room: Room, pace: Pace, where: Standing) -> Finish:
-        """Return when it ends if whatever has the longest way to the end goes first."""
+        """Return when it ends if matches with the longest remaining path go first."""
         plan, names = room.planned(), room.evenings.names
         starts = np.where(room.evenings.needed, plan.start, np.nan)
         for match in room.playing:
@@ -121,7 +121,7 @@ class Finish:
         return cls(room.ends(plan), starts, names, pace, where, room)
 
     def finish(self, q: float) -> float:
-        """Return the time by which the tournament has ended with chance q."""
+        """Return the time by which the tournament has ended with probability q."""
         return float(np.quantile(self.finishes, number(q, "q", low=0.0, high=1.0)))
 
     @property
@@ -131,7 +131,7 @@ class Finish:
 
     @property
     def error(self) -> float:
-        """The standard error of the worst of the `bands`; see `bands_of`."""
+        """The largest standard error of the `bands`; see `bands_of`."""
         return bands_of(self.finishes)[1]
 
     def start(self, match: str) -> Start:
@@ -164,7 +164,7 @@ class Finish:
         return means[0], means[1]
 
     def after_calls(self, names: Sequence[str]) -> Finish:
-        """Return when it ends and each match starts if some matches are called now."""
+        """Return when it ends and when each match starts if some matches are called now."""
         if not names:
             return self
         room = self.room
@@ -175,18 +175,19 @@ class Finish:
         return replace(self, finishes=room.ends(planned), starts=starts)
 
     def calls(self, tables: int = 1, ready: Sequence[str] | None = None) -> list[Call]:
-        """Return the matches that can be called next, the one with the soonest finish first.
+        """Return the matches that can be called next, soonest finish first.
 
-        All are tried on the same evenings, some of those played out, so that small differences
-        are real. Of many matches those with the longest remaining path are tried; the others
-        follow in that order, with NaN for what was not tried.
+        All are tried on the same evenings, a subset of the simulated ones, so small differences are
+        real. If there are many matches, those with the longest remaining paths are tried; the
+        others follow in that order, with NaN for numbers that weren't calculated.
 
         Parameters
         ----------
         tables
-            how many are free: the second match is the best with the first on a table, and so on.
+            how many are free: the second match is the best one given that the first is on a table,
+            and so on.
         ready
-            matches that can be called; None: those of the tournament.
+            the matches that can be called; None: the tournament's.
         """
         if ready is None:
             ready = [name for name in self.standing.to_play if name not in self.room.on_tables]
@@ -201,9 +202,9 @@ class Finish:
         return chosen + [Call(name, np.nan, np.nan, np.nan) for name in untried]
 
     def _ranked(self, tried: Sequence[str], called: Sequence[str], times: int) -> list[Call]:
-        """Return matches to call after some others, the one with the soonest finish first.
+        """Return matches to call after some others, soonest finish first.
 
-        This is asked so many times, which are given less work each.
+        It is called `times` times, so each call gets only a share of the work.
         """
         runs = int(_WORK / (times * len(tried) * len(self.names) ** 2))
         room = self.room.on_the_first(min(_TRIED, max(_FEWEST_TRIED, runs)))
@@ -220,7 +221,7 @@ class Finish:
         return sorted(calls, key=lambda call: call.later)
 
     def _most_urgent(self, ready: Sequence[str]) -> tuple[list[str], list[str]]:
-        """Return the matches to try calling, and the others, those that matter most first."""
+        """Return the matches to try calling, and the others, most important first."""
         if len(ready) <= _CALLS:
             return list(ready), []
         evenings = self.room.evenings
@@ -232,7 +233,7 @@ class Finish:
 
 @dataclass(frozen=True, eq=False)
 class Room:
-    """The tables, what is on them, and the evenings that are played on them."""
+    """The tables, what is on them, and the evenings played on them."""
 
     evenings: Evenings
     waits: Waiting
@@ -241,14 +242,14 @@ class Room:
     playing: tuple[InPlay, ...]
 
     def on_the_first(self, runs: int) -> Room:
-        """Return the same with the first of the evenings only."""
+        """Return the same with only the first few evenings."""
         evenings = self.evenings
         cells = (getattr(evenings, one.name)[:runs] for one in fields(evenings)[1:])
         return replace(self, evenings=Evenings(evenings.names, *cells))
 
     @property
     def on_tables(self) -> tuple[str, ...]:
-        """The matches under way."""
+        """The matches in progress."""
         return tuple(match.match for match in self.playing)
 
     def planned(self, first: Sequence[str] = ()) -> Schedule:
@@ -290,29 +291,29 @@ def finish(
 ) -> Finish:
     """Return when a tournament ends and when each match starts.
 
-    Whenever a table is free, the match with the longest way to the end starts on it.
+    Whenever a table is free, the match with the longest remaining path starts on it.
 
     Parameters
     ----------
     laws
-        who wins each match and in how many games, as `pair_odds` gives it.
+        who wins each match and in how many games, as from `pair_odds`.
     tables
-        their number, or when each is free, in minutes since the first start. The tables of matches
-        under way are among them.
+        their number, or when each is free, in minutes since the first start. Tables with matches in
+        progress are included.
     pace
         a discipline, calibrated to whole events, or a `Pace`.
     turnover
-        the time between two matches on a table with both players free; None: none in 62 of 100
-        cases, as in real events, and otherwise the usual one.
+        the time between two matches on a table when both players are free; None: 0 in 62 of 100
+        cases, as in real events, and otherwise the usual time.
     wait_for_rounds
-        whether a round starts only when the rounds that feed it are over, as it does on most
-        evenings; the pace of a discipline is calibrated for that.
+        whether a round starts only when the rounds that feed it are over, as on most evenings; a
+        discipline's pace is calibrated for that.
     played
-        games and minutes of the matches played so far, which show this evening's pace.
+        the games and minutes of the matches played so far, which show this evening's pace.
     now
         in minutes since the first start.
     runs, seed
-        of the simulated evenings: the same seed gives a changed evening the same luck.
+        for the simulated evenings: with the same seed, a changed evening gets the same luck.
 
     Raises
     ------
@@ -350,14 +351,14 @@ def finish(
 
 
 def minutes_later(one: Finish, other: Finish) -> tuple[float, float]:
-    """Return by how many minutes one evening ends later than the other, and its standard error.
+    """Return how many minutes later one evening ends than the other, and its standard error.
 
     Both must come from the same seed and runs: then they share their luck.
 
     Raises
     ------
     InputError
-        if they were played out different numbers of times.
+        if they were simulated different numbers of times.
     """
     if one.finishes.shape != other.finishes.shape:
         raise InputError(
@@ -376,7 +377,7 @@ def _start(times: Floats, runs: int) -> Start:
 
 
 def tables_free(tables: int | Sequence[float], clock: float, busy: int) -> Floats:
-    """Return from when on each table is free, those of the matches under way first."""
+    """Return when each table becomes free, starting with those of matches in progress."""
     if isinstance(tables, Sequence):
         free = np.sort(floats(tables, "tables", low=0.0))
     else:

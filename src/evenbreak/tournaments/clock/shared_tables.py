@@ -1,7 +1,7 @@
-"""When several tournaments end that are played on the same tables, and which match to call next.
+"""When several tournaments on the same tables end, and which match to call next.
 
-Their matches are one queue: a table that is free takes the match with the longest way to the end
-of its own tournament, whichever that is. The luck of different tournaments is independent.
+Their matches form one queue: a free table takes the match with the longest remaining path in its
+own tournament, whichever that is. The luck of different tournaments is independent.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from evenbreak.tournaments.clock.table_schedule import Waiting
 
 @dataclass(frozen=True, eq=False)
 class SharedTables:
-    """Tournaments on the same tables; `parts` are as if alone, from the same number of runs."""
+    """Tournaments on the same tables; `parts` are as if alone, with the same number of runs."""
 
     parts: tuple[Finish, ...]
     tables: int
 
     @cached_property
     def together(self) -> Finish:
-        """All of it as one tournament; a match is named by its part, a blank, and its name."""
+        """All of it as one tournament; a match is named by its part, a space, and its name."""
         rooms = [part.room for part in self.parts]
         names = tuple(f"{k} {name}" for k, part in enumerate(self.parts) for name in part.names)
         cells = (
@@ -51,7 +51,7 @@ class SharedTables:
         return Finish.planned(room, first.pace, first.standing)
 
     def calls(self, tables: int = 1) -> list[tuple[int, Call]]:
-        """Return the matches that can be called next, each with its part, as `Finish.calls`."""
+        """Return the matches that can be called next, each with its part, as in `Finish.calls`."""
         ready = [
             f"{k} {name}"
             for k, part in enumerate(self.parts)
@@ -65,7 +65,7 @@ class SharedTables:
         return found
 
     def after_calls(self, called: Sequence[tuple[int, str]]) -> list[Finish]:
-        """Return each part as it goes if some matches are called now; its end is that of all."""
+        """Return each part if some matches are called now; its end is the end of all parts."""
         night = self.together.after_calls([f"{k} {name}" for k, name in called])
         ends = np.cumsum([len(part.names) for part in self.parts])[:-1]
         return [

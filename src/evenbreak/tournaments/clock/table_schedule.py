@@ -1,7 +1,7 @@
-"""Matches on tables: whenever a table is free, the waiting match that matters most starts.
+"""Matches on tables: whenever a table is free, the most important waiting match starts.
 
-What matters is the longest path: the minutes of a match and of all that must follow it. The
-schedule of list scheduling is at most 2 - 1/tables times as long as the best one.
+Importance means the longest path: the minutes for a match and everything that must follow it. List
+scheduling gives a schedule at most 2 - 1/tables times as long as the best one.
 
 R. L. Graham (1969), "Bounds on multiprocessing timing anomalies", SIAM Journal on Applied
 Mathematics 17.
@@ -29,7 +29,7 @@ class Schedule(NamedTuple):
 
 
 def longest_paths(waits: Waiting, minutes: Floats) -> Floats:
-    """Return for each match the minutes until the end if there were always a free table."""
+    """Return each match's minutes until the end if there were always a free table."""
     path = minutes.copy()
     for k in range(len(minutes) - 1, -1, -1):
         follow = np.flatnonzero(waits.after[k])
@@ -52,10 +52,11 @@ def schedule(
 ) -> Schedule:
     """Return when each match starts and ends.
 
-    Arrays have shape (runs, matches), `tables`, from when each is free, (runs, tables). `now` is
-    the earliest start. Of matches that can start, that with the largest `priority` goes first
-    (None: with the longest remaining path); but those in `first`, by position, start before all
-    others, even if their rounds would still wait. Matches `under_way` are on the first tables now.
+    Arrays have shape (runs, matches), but `tables`, when each becomes free, has shape (runs,
+    tables). `now` is the earliest start. Among matches that can start, the one with the largest
+    `priority` goes first (None: the longest remaining path); but those in `first`, by position,
+    start before all others, even if their rounds would still have to wait. Matches `under_way` are
+    on the first tables now.
     """
     taken = np.where(needed, minutes, 0.0)
     if priority is None:
@@ -84,7 +85,7 @@ def _fill(
     first: Sequence[int],
     under_way: Sequence[int],
 ) -> None:
-    """Schedule some runs: their minutes, what is needed, turnover, from when tables are free."""
+    """Schedule some runs, given minutes, needed matches, turnover, and when tables are free."""
     start, end = found
     taken, needed, turnover, free = of_some
     runs, count = taken.shape
@@ -139,7 +140,7 @@ class Waiting:
 
 
 def waiting(bracket: Bracket, names: Collection[str], *, for_rounds: bool) -> Waiting:
-    """Return which of some matches, those not over, wait for which.
+    """Return which of some unfinished matches wait for which.
 
     With `for_rounds`, a round starts only when all rounds that feed it, and the round before it in
     a group, are over.

@@ -1,1 +1,1 @@
-"""An evening as it is run: what happened, one event after another, and the state that follows."""
+"""Running an evening: what happened, one event after another, and the resulting state."""

@@ -1,8 +1,8 @@
-"""Several events of one night on one set of tables, and a second chance for those who are out.
+"""Several events on one night and one set of tables, and a second chance for players who are out.
 
-The tables, their names and the pace of the house are those of the first event. No one plays in two
-events at once, and no table has two matches: where an entry that is taken back would lead to that,
-the match that was called first goes back to the queue.
+The tables, their names and the venue's pace come from the first event. No one plays in two events
+at once, and no table has two matches: if taking back an entry would lead to that, the match that
+was called first goes back to the queue.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from evenbreak.tournaments.evening.roster import rename
 
 
 def together(states: Mapping[int, Evening]) -> dict[int, Evening]:
-    """Return the events of a night, each aware of the others; a lone event stays as it is."""
+    """Return a night's events, each aware of the others; a lone event is unchanged."""
     if len(states) < 2:
         return dict(states)
     first = min(states)
@@ -70,17 +70,17 @@ def _doubled(states: Mapping[int, Evening]) -> dict[int, set[Pairing]]:
 
 
 def with_entry(event: int, number: int) -> str:
-    """Return the author of what came by itself with an entry of another event."""
+    """Return the author of automatic entries that came with an entry in another event."""
     return f"{BY_ITSELF} {event}.{number}"
 
 
 def carried(
     before: Mapping[int, Evening], after: Mapping[int, Evening], event: int
 ) -> dict[int, list[Event]]:
-    """Return what the entries of one event add to the others of the night.
+    """Return what one event's entries add to the night's other events.
 
-    A person has one name in all of them. What an entry brought is taken back with it, and added
-    again with it, except the call of a match that has started since.
+    A person has the same name in all of them. Anything that came with an entry is taken back with
+    it, and added again with it, except the call for a match that has started since then.
     """
     then, now = before[event], after[event]
     first = len(then.log) + 1
@@ -108,7 +108,7 @@ def carried(
 
 
 def _has_begun(state: Evening, event: Event) -> bool:
-    """Return whether an entry calls a match that has started since."""
+    """Return whether an entry calls a match that has started since then."""
     call = event.what
     return isinstance(call, Called) and call.match in {*state.live, *state.counted}
 
@@ -116,7 +116,7 @@ def _has_begun(state: Evening, event: Event) -> bool:
 def coming_with(
     more: Sequence[tuple[int, What]], event: int, number: int, at: str
 ) -> dict[int, list[Event]]:
-    """Return what comes by itself with an entry of an event, such as calls, by events."""
+    """Return what comes automatically with an event's entry, such as calls, by event."""
     found: dict[int, list[Event]] = {}
     for n, what in more:
         by = BY_ITSELF if n == event else with_entry(event, number)
@@ -125,7 +125,7 @@ def coming_with(
 
 
 def out(state: Evening) -> list[str]:
-    """Return who is out of an elimination and has not gone home, the last out first."""
+    """Return the players who are out of an elimination and haven't gone home, last out first."""
     slots = [slot for one in state.bracket.matches for slot in one.slots]
     stays = {one.match for one in slots if isinstance(one, Source) and one.outcome == "loser"}
     lost = [
@@ -140,11 +140,11 @@ def out(state: Evening) -> list[str]:
 
 
 def second_chance(state: Evening, *, race: int | None = None, name: str = "") -> Opened:
-    """Return the start of a second event for those who are out of an elimination by now.
+    """Return the start of a second event for players who are out of an elimination by now.
 
-    It is a single elimination, to the losers' side's race by default. The last player out is the
-    first seed; more can enter until its draw. An InputError if the first is no elimination, or
-    fewer than two are out.
+    It is a single elimination, by default with the losers' side's race. The last player out is the
+    first seed; more players can enter until its draw. Raises InputError if the first event isn't an
+    elimination, or fewer than two players are out.
     """
     plan = state.plan
     if plan.form not in ELIMINATIONS or not state.drawn:

@@ -1,4 +1,4 @@
-"""Which match goes to which table: what is proposed, and what a result calls by itself."""
+"""Which match goes to which table: suggestions, and calls that a result makes automatically."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from evenbreak.tournaments.evening.fold import Evening
 
 
 def ready_matches(state: Evening, order: Sequence[str] = ()) -> list[str]:
-    """Return the matches that can be called now, the best first.
+    """Return the matches that can be called now, best first.
 
-    One that waits for someone is left out; one being played already comes first, one that was taken
-    off its table last. `order` ends the evening soonest, as far as calculated; others follow by
-    number.
+    A match that is waiting for someone is left out; a match already in play comes first, and a
+    match that was taken off its table comes last. `order` ends the evening soonest, as far as
+    calculated; others follow by number.
     """
     return [name for _, name in night_queue({0: state}, [(0, name) for name in order])]
 
@@ -21,9 +21,9 @@ def ready_matches(state: Evening, order: Sequence[str] = ()) -> list[str]:
 def night_queue(
     states: Mapping[int, Evening], order: Sequence[tuple[int, str]] = ()
 ) -> list[tuple[int, str]]:
-    """Return the matches of all events of a night that can be called now, as `ready_matches`.
+    """Return the callable matches in all a night's events, as in `ready_matches`.
 
-    Each is the number of its event and its name, and so is `order`.
+    Each is a pair of its event's number and its name, and so are those in `order`.
     """
     place = {one: k for k, one in enumerate(order)}
     found = []
@@ -60,7 +60,7 @@ def proposed_calls(
 ) -> list[tuple[int, Called]]:
     """Return a match for each free table, as long as there are any whose players are free.
 
-    `order` is as in `night_queue`; tables by default are those assigned automatically.
+    `order` is as in `night_queue`; by default, tables are those assigned automatically.
     """
     given = list(states[min(states)].free_tables if tables is None else tables)
     busy: set[str] = set()
@@ -78,11 +78,11 @@ def calls_after(
     after: Mapping[int, Evening],
     order: Sequence[tuple[int, str]] = (),
 ) -> list[tuple[int, Called]]:
-    """Return the calls that follow from a result by themselves, each with its event.
+    """Return the calls that follow from a result automatically, each with its event.
 
-    They go to the table that it frees, and are of whichever event is next. A table that was free
-    before with a match ready for it is left free: someone keeps it; one that only waited for a
-    match gets one.
+    They go to the table that it frees, whichever event is next. A table that was already free
+    although a match was ready is left free, because someone is keeping it; a table that was only
+    waiting for a match gets one.
     """
     kept = set(before[min(before)].free_tables) if night_queue(before) else set()
     tables = [one for one in after[min(after)].free_tables if one not in kept]

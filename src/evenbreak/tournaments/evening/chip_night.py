@@ -1,12 +1,12 @@
-"""The line of a chip night: who is at which table, who waits, and what everyone has left.
+"""A chip night's line: who is at which table, who is waiting, and everyone's remaining chips.
 
-The winner of a rack stays at the table. The loser pays a chip and goes to the end of the line, and
-the first in the line comes to the table. Tables close as the field gets smaller, so that someone
-waits until two are left.
+A rack's winner stays at the table. The loser pays a chip and goes to the end of the line, and the
+first player in line comes to the table. Tables close as the field gets smaller, so that someone is
+always waiting until two are left.
 
-A correction gives the chip back and takes it from the other player. Racks that were played since
-count as they were played, unless one of the two had no chips left then: such a rack is set aside.
-No one who is playing is called away, except a player whose chips are gone.
+A correction gives the chip back and takes one from the other player. Racks played since then count
+as they were played, unless one of the two had no chips left by then: such a rack is set aside. No
+one who is playing is called away, except a player whose chips are gone.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ from evenbreak.words import Parameter
 
 
 class Rack(NamedTuple):
-    """A rack that is being played or was, named R1, R2, ... in the order of their starts.
+    """A rack that is or was being played, named R1, R2, ... in starting order.
 
-    `after` is the rack on this table whose winner stays; None for the first.
+    `after` is the rack on this table whose winner stays; None for the first rack.
     """
 
     name: str
@@ -49,10 +49,10 @@ class Rack(NamedTuple):
 
 @dataclass(frozen=True)
 class ChipNight:
-    """A chip night at a moment.
+    """A chip night at one moment.
 
-    `chips` are those left, in the order of the draw; `line` waits, the next to play first; `gone`
-    are out or went home, the first first.
+    `chips` are those left, in draw order; `line` has the players waiting, next to play first;
+    `gone` are players who are out or went home, in order.
     """
 
     racks: Mapping[str, Rack]
@@ -63,17 +63,17 @@ class ChipNight:
 
     @property
     def playing(self) -> list[Rack]:
-        """The racks that are being played, by table."""
+        """The racks in play, by table."""
         return [self.racks[name] for _, name in sorted(self.tables.items())]
 
     @property
     def order(self) -> list[str]:
-        """Who is still in: those at the tables, then those in the line."""
+        """Who is still in: the players at the tables, then the line."""
         return [name for rack in self.playing for name in rack.players] + list(self.line)
 
     @property
     def bracket(self) -> Bracket:
-        """The racks as the matches of a bracket."""
+        """The racks as matches in a bracket."""
         seat = {name: k for k, name in enumerate(self.chips)}
         matches = [
             Match(rack.name, "Chips", 1, (seat[rack.players[0]], seat[rack.players[1]]))
@@ -83,14 +83,14 @@ class ChipNight:
 
 
 def rack_bracket(players: tuple[str, ...], racks: Sequence[Match] = ()) -> Bracket:
-    """Return a bracket of racks, in which everyone gets a place of their own."""
+    """Return a bracket of racks, in which everyone gets a separate place."""
     members = tuple(range(len(players)))
     ranks = Group("Chips", members, (), (), tuple(Place(k + 1, k + 1) for k in members))
     return Bracket("chip tournament", players, tuple(racks), (ranks,))
 
 
 def chips_of(plan: Plan, entrant: Entrant) -> int:
-    """Return the chips that an entrant starts with."""
+    """Return an entrant's starting chips."""
     if plan.chips is None:
         raise InputError(
             "a chip tournament needs a chip chart. Choose one with {chips}.",
@@ -100,7 +100,7 @@ def chips_of(plan: Plan, entrant: Entrant) -> int:
 
 
 def chip_night(events: Sequence[Event]) -> ChipNight:
-    """Return the state of a chip night after events none of which is undone.
+    """Return a chip night's state after events, none of which has been undone.
 
     >>> from evenbreak.tournaments import CHIP_CHARTS
     >>> players = tuple(Entrant(name, 620.0) for name in ("Ann", "Bo", "Cy"))
@@ -139,7 +139,7 @@ def chip_night(events: Sequence[Event]) -> ChipNight:
 
 
 class _Walk:
-    """A chip night on its way from event to event."""
+    """A chip night as it progresses from event to event."""
 
     def __init__(self, plan: Plan) -> None:
         self.plan, self.most = plan, plan.tables
@@ -165,7 +165,7 @@ class _Walk:
         self.line.append(entrant.name)
 
     def fill(self, at: str) -> None:
-        """Bring the first of the line to free tables."""
+        """Bring the first players in line to free tables."""
         while self.left > 1 and len(self.tables) < tables_in_use(self.left, self.most):
             table = next(k for k in range(1, self.most + 1) if k not in self.tables)
             self.seat(table, (self.line.pop(0), self.line.pop(0)), at)
@@ -177,7 +177,7 @@ class _Walk:
         self.racks[rack.name], self.tables[table] = rack, rack.name
 
     def result(self, result: Result, at: str) -> None:
-        """Enter the result of a rack, or correct it."""
+        """Enter or correct a rack's result."""
         rack = self.racks.get(result.match)
         if rack is None or {result.winner, result.loser} != set(rack.players):
             players = " against ".join(result.players)
@@ -197,7 +197,7 @@ class _Walk:
             self.seat(rack.table, (result.winner, self.line.pop(0)), at, rack.name)
 
     def correct(self, rack: Rack, winner: str) -> None:
-        """Let the other player of a rack have won it."""
+        """Give a rack to the other player."""
         before, self.won[rack.name] = self.won[rack.name], winner
         self.count()
         now = self.racks.get(self.tables.get(rack.table, ""))
@@ -212,7 +212,7 @@ class _Walk:
                 self.leave(name)
 
     def count(self) -> None:
-        """Count the chips; a rack of a player who had none left is set aside."""
+        """Count the chips; a rack credited to a player who had none left is set aside."""
         self.chips, self.aside = dict(self.start), set()
         for name, winner in self.won.items():
             one, other = self.racks[name].players
@@ -222,7 +222,7 @@ class _Walk:
                 self.aside.add(name)
 
     def swap(self, rack: Rack, wrong: str, right: str) -> None:
-        """Let the right player stay at a table whose next rack has just started."""
+        """Keep the right player at a table whose next rack has just started."""
         if wrong == right or wrong not in rack.players:
             return
         if right in rack.players:
@@ -239,7 +239,7 @@ class _Walk:
         self.racks[rack.name] = rack._replace(players=(players[0], players[1]))
 
     def leave(self, name: str) -> None:
-        """Let a player go: whoever they were playing stays, and the next comes to the table."""
+        """Let a player go: their opponent stays, and the next in line comes to the table."""
         if name in self.gone:
             return
         self.gone.append(name)
@@ -255,6 +255,6 @@ class _Walk:
             self.racks[rack.name] = rack._replace(players=(other, self.line.pop(0)))
 
     def closes(self, table: int) -> bool:
-        """Return whether a table whose rack is over is closed."""
+        """Return whether to close a table whose rack is over."""
         in_use = tables_in_use(self.left, self.most)
         return self.left < 2 or table > self.most or in_use < len(self.tables)

@@ -1,4 +1,4 @@
-"""What is to be expected of a chip night: who finishes where, and when it ends."""
+"""A chip night's outlook: who finishes where, and when it ends."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def drawn_skills(skills: Floats, covariance: Floats) -> Floats:
 
 
 def drawn_racks(state: Evening, drawn: Floats) -> Floats:
-    """Return P(i beats j in a rack) by each draw of the players' skills, the third axis."""
+    """Return P(i beats j in a rack) for each draw of the players' skills, the third axis."""
     each = drawn.T
     return np.asarray(state.scale.win_probability(each[:, None] - each))
 
@@ -97,10 +97,10 @@ def chip_minutes(
     tables: int | None = None,
     turnover: Turnover | None = None,
 ) -> Floats:
-    """Return the remaining minutes of the evening, in each of many evenings.
+    """Return the evening's remaining minutes, in each of many simulated evenings.
 
-    `win` as in `chip_odds`; a rack is a match of one game. Without a turnover, the time between two
-    racks is that which a match of one game needs anyway.
+    `win` is as in `chip_odds`; a rack is a one-game match. Without a turnover, the time between two
+    racks is what a one-game match includes anyway.
     """
     lengths = _played(state, win, tables, to_the_end=True).lengths
     rng = np.random.default_rng(0)

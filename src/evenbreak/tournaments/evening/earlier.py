@@ -1,4 +1,4 @@
-"""What a finished evening shows about the pace at its venue, for the next one there."""
+"""What a finished evening shows about its venue's pace, for the next evening there."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _MOST_NIGHTS = 20  # at a venue: it changes, and more of them would say no more
 def night_played(state: Evening) -> EarlierNight | None:
     """Return how long an evening took, and the time expected before its first match.
 
-    None if it doesn't show the pace: it isn't over, no match was called, tables or races were
-    changed, it is a chip tournament, or it took less than half or more than twice as long as usual,
-    as when results were typed in afterward.
+    Return None if it doesn't show the pace: it isn't over, no match was called, tables or races
+    were changed, it is a chip tournament, or it took less than half or more than twice as long as
+    usual, as when results were entered afterward.
     """
     calls = [k for k, one in enumerate(state.events) if isinstance(one.what, Called)]
     if not state.drawn or not calls or state.plan.form == "chips":
@@ -48,7 +48,7 @@ def night_played(state: Evening) -> EarlierNight | None:
 
 
 def nights_until(evenings: Iterable[Evening]) -> tuple[EarlierNight, ...]:
-    """Return the nights that evenings of a venue know of and those that they were, oldest first."""
+    """Return a venue's nights, oldest first: these evenings, and the nights they know about."""
     found: dict[str, EarlierNight] = {}
     for state in evenings:
         found |= {one.at: one for one in state.plan.earlier}

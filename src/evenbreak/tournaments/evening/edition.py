@@ -1,4 +1,4 @@
-"""What an evening takes over from the one before it, and its tables as they are typed."""
+"""What an evening takes over from the previous one, and its tables in typed form."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from evenbreak.tournaments.evening.format import names_text
 
 
 def tables_text(plan: Plan) -> str:
-    """Return the tables of a plan as `house_tables` reads them.
+    """Return a plan's tables in the form that `house_tables` reads.
 
     >>> tables_text(Plan("single", 5, tables=4, labels=("1", "2", "TV", "4")))
     '1-2, TV, 4'
@@ -22,10 +22,10 @@ def tables_text(plan: Plan) -> str:
 
 
 def next_edition(state: Evening, date: str = "") -> tuple[Plan, tuple[Entrant, ...]]:
-    """Return the plan and the entrants of an evening like an earlier one: same people and options.
+    """Return the plan and entrants for an evening like an earlier one: same people and options.
 
-    The people include those left out of the draw, or who asked to play. An InputError if its
-    bracket came from another program.
+    The people include anyone who was left out of the draw or asked to play. Raises InputError if
+    the bracket came from another program.
     """
     if state.plan.layout:
         raise InputError(

@@ -1,4 +1,4 @@
-"""What happens on the evening of a tournament: events, which are only ever added.
+"""What happens on a tournament evening: events, which are only ever added.
 
 An event is a frozen value; `KINDS` turns it into JSON and back.
 """
@@ -38,7 +38,7 @@ Error: TypeAlias = Annotated[float, Meta(ge=0, le=1_000_000)]
 
 
 BY_ITSELF = "by itself"
-"""Who makes the calls that follow from a result, as it is kept with them."""
+"""The author stored with calls that follow from a result."""
 
 
 @dataclass(frozen=True)
@@ -48,13 +48,13 @@ class Plan(Format, Occasion):
     `form` is double, single, pods, consolation, groups, round-robin, swiss, king-of-the-hill,
     chips, or the format of a bracket from another program, in words; that bracket is in `layout`.
     `final`, `drops` and `third_place` are as in `double_elimination` and `single_elimination`;
-    `qualifiers` are those of a double elimination, or of each group or pod, paired by `placement`:
-    half shift or redraw. `knockout_size` is how many go on from all groups together, `pod_size` the
-    lines of a pod. `seeding` is listed, rating, blind or drawn. `handicapped`: the stronger player
-    needs `race` games, the weaker gets the fairest number; with a `chart`, `race` isn't used.
-    `starter` is the rating of a new player, and `starter_error` its standard error. `earlier`
-    nights at this venue set the pace. `match_form` is the standard deviation of a game's log-odds
-    from match to match.
+    `qualifiers` is the number from a double elimination, or from each group or pod, paired by
+    `placement`: half shift or redraw. `knockout_size` is how many advance from all groups together,
+    and `pod_size` is the number of lines in a pod. `seeding` is listed, rating, blind or drawn.
+    `handicapped`: the stronger player needs `race` games, the weaker gets the fairest number; with
+    a `chart`, `race` isn't used. `starter` is a new player's rating, and `starter_error` its
+    standard error. `earlier` nights at this venue set the pace. `match_form` is the standard
+    deviation of a game's log-odds from match to match.
     """
 
     form: str
@@ -73,18 +73,18 @@ class Plan(Format, Occasion):
     match_form: Annotated[float, Meta(ge=0, le=MOST_FORM)] = 0.0
 
     def at_tables_of(self, house: Occasion) -> Plan:
-        """Return the plan with the tables, their names and the pace of another."""
+        """Return the plan with another plan's tables, table names and pace."""
         names = [one.name for one in fields(Occasion) if one.name not in ("name", "date")]
         return replace(self, **{name: getattr(house, name) for name in names})
 
     def newcomer(self, name: str) -> Entrant:
-        """Return a player of whom no rating is known."""
+        """Return a player whose rating isn't known."""
         return Entrant(name, self.starter, self.starter_error, provisional=True)
 
 
 @dataclass(frozen=True)
 class Entrant:
-    """A player with a rating, how far off it may be, and whether it rests on too few games."""
+    """A player with a rating, its error, and whether it is based on too few games."""
 
     name: str
     rating: Points
@@ -102,7 +102,7 @@ class Opened:
 
 @dataclass(frozen=True)
 class Drawn:
-    """The draw: the players in seed order; others who have entered go on the list of late players.
+    """The draw: the players in seed order; other entrants go on the list of late players.
 
     For an elimination also the position of the player on each first-round line (None: a bye).
     """
@@ -113,7 +113,7 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Late:
-    """A late entry: before the draw, onto the line of a bye, or to the end of a line of players."""
+    """A late entry: before the draw, onto a bye's line, or to the end of a line of players."""
 
     entrant: Entrant
     line: Seat | None = None
@@ -129,7 +129,7 @@ class Edited:
 
 @dataclass(frozen=True)
 class Renamed:
-    """A player's right name, at any time: all that was entered before is read with it."""
+    """A player's correct name, at any time: everything entered before is read with it."""
 
     name: str
     to: str
@@ -137,7 +137,7 @@ class Renamed:
 
 @dataclass(frozen=True)
 class Substituted:
-    """Someone replaces a player who has not played yet."""
+    """Someone replaces a player who hasn't played yet."""
 
     name: str
     entrant: Entrant
@@ -153,7 +153,7 @@ class Swapped:
 
 @dataclass(frozen=True)
 class CheckedIn:
-    """Whether a player is here, and whether they have paid; None: as before."""
+    """Whether a player is here, and whether they have paid; None: unchanged."""
 
     name: str
     arrived: bool | None = None
@@ -162,7 +162,7 @@ class CheckedIn:
 
 @dataclass(frozen=True)
 class Registered:
-    """Someone wants to play: let in as a late entry is, or declined."""
+    """Someone wants to play: accepted like a late entry, or declined."""
 
     name: str
     rating: Points | None = None
@@ -170,7 +170,7 @@ class Registered:
 
 @dataclass(frozen=True)
 class Declined:
-    """Someone who wanted to play does not."""
+    """Someone who wanted to play no longer does."""
 
     name: str
 
@@ -193,7 +193,7 @@ class Called:
 
 @dataclass(frozen=True)
 class CalledBack:
-    """A match is taken off its table, before it is over; its score is kept."""
+    """A match is taken off its table before it is over; its score is kept."""
 
     match: str
     players: tuple[str, str]
@@ -201,7 +201,7 @@ class CalledBack:
 
 @dataclass(frozen=True)
 class Waits:
-    """A match waits until it is called, or until another of these without a reason.
+    """A match waits until it is called, or until another `Waits` without a reason.
 
     `absent` players forfeit it at the time `until` ('': they don't).
     """
@@ -213,7 +213,7 @@ class Waits:
     reason: str = ""
 
     def __bool__(self) -> bool:
-        """Whether it waits; otherwise it waits no longer."""
+        """Whether it waits; otherwise, it no longer waits."""
         return bool(self.absent or self.until or self.reason)
 
 
@@ -230,12 +230,11 @@ class Scored:
 class Result:
     """A match was played by these players, or forfeited by the loser (with the score 0:0).
 
-    A correction is a result too: of two results of one match by the same players the later counts.
-    After a correction the director may let the matches stand that were played since: then
-    `winner` is the player who moved on, though the score says otherwise.
-    `race` is the games that each needed, where they are not those of the plan: with head starts of
-    another program, for example.
-    `ended` says why the race was not played out: "time" or "conceded"; "": it was.
+    A correction is a result too: if a match has two results with the same players, the later one
+    counts. After a correction, the director may let matches played since then stand: in that case,
+    `winner` is the player who moved on, even though the score says otherwise. `race` is the games
+    each player needed, if they differ from the plan's: with another program's head starts, for
+    example. `ended` says why the race wasn't played out: "time" or "conceded"; "": it was.
     """
 
     match: str
@@ -255,13 +254,13 @@ class Result:
 
     @property
     def games(self) -> dict[str, int]:
-        """The games that each player won."""
+        """The games each player won."""
         return dict(zip(self.players, self.score, strict=True))
 
 
 @dataclass(frozen=True)
 class Ranked:
-    """A tie was broken: the players of a group in their final order."""
+    """A tie was broken: a group's players in their final order."""
 
     group: str
     order: tuple[str, ...]
@@ -271,9 +270,9 @@ class Ranked:
 class LaterDraw:
     """Something was drawn during the evening.
 
-    The stage is R1, R2, ... for a round of a Swiss, whose order is the players in pairs (None: a
-    bye), or K1 for the losers' qualifiers of a knockout: the matches that they come from, in the
-    order of those that they go into.
+    The stage is R1, R2, ... for a Swiss round, whose order is the players in pairs (None: a bye),
+    or K1 for the losers'-side qualifiers in a knockout: the matches they come from, in the order of
+    the matches they go into.
     """
 
     stage: str
@@ -282,7 +281,7 @@ class LaterDraw:
 
 @dataclass(frozen=True)
 class Changed:
-    """Another part of the plan from now on; None: as before.
+    """A different part of the plan from now on; None: unchanged.
 
     Races change in the matches that have not started.
     """
@@ -347,7 +346,7 @@ KINDS: Kinds[What] = Kinds(
         "redone": Redone,
     }
 )
-"""What can happen, each kind by the name under which it is kept."""
+"""What can happen, each kind by the name under which it is stored."""
 
 
 @dataclass(frozen=True)
@@ -358,7 +357,7 @@ class Event(log.Event):
 
 
 def score_words(found: Result, needs: tuple[int, int] | None = None) -> Sentence:
-    """Return a result in words, with what its players needed where that was not the same.
+    """Return a result in words, including the players' targets if they differ.
 
     >>> score_words(Result("W1.1", ("Ann", "Bo"), (5, 7), "Bo"))
     'Bo beat Ann 7-5'

@@ -1,8 +1,8 @@
-"""The state of an evening, as the fold of its events.
+"""An evening's state, obtained by folding its events.
 
-A result counts if its two players are those who sit in the match. So when a correction sends
-someone else into a later match, the result of that match no longer counts but is kept, and counts
-again if the correction is undone.
+A result counts if its two players are the ones in the match. So if a correction sends someone else
+to a later match, that match's result no longer counts but is kept, and counts again if the
+correction is undone.
 """
 
 from __future__ import annotations
@@ -65,16 +65,17 @@ ELIMINATIONS = ("double", "single", "pods", "consolation")
 
 @dataclass(frozen=True, eq=False)
 class Evening:
-    """The state of an evening.
+    """An evening's state.
 
     `order` and `lines` are the draw: players in seed order, and on first-round lines. `records` are
-    all results of each match that were not undone, in the order in which they came in; `calls` and
-    `scores` are the last of each match and its players. `entries` has for each player the number of
-    the entry that brought them in, and their place in it: a rename keeps both; `former` maps old
-    names to those of now. `registered` want to play and aren't let in yet, with the rating that
-    they state. `waits` has why matches wait. `numbers` are those of `events` in the file, from 1;
-    `undone` has those taken back, the last one last, and `log` all entries. `elsewhere` are the
-    tables taken by other events of the night (`beside`), and `event` is the number of this one.
+    all of each match's results that haven't been undone, in the order they came in; `calls` and
+    `scores` are the last for each match and its players. `entries` has the number of the entry that
+    brought each player in, and their place in it: a rename keeps both; `former` maps old names to
+    current ones. `registered` players want to play and haven't been accepted yet, with the rating
+    they state. `waits` has the reasons why matches wait. `numbers` are the numbers of `events` in
+    the file, from 1; `undone` has those taken back, last one last, and `log` has all entries.
+    `elsewhere` are the tables taken by the night's other events (`beside`), and `event` is the
+    number of this one.
     """
 
     plan: Plan
@@ -108,7 +109,7 @@ class Evening:
 
     @cached_property
     def bracket(self) -> Bracket:
-        """The bracket; an InputError before the draw."""
+        """The bracket; raises InputError before the draw."""
         if not self.order:
             raise InputError(
                 "the draw hasn't been made yet; to make it: {draw}",
@@ -120,14 +121,14 @@ class Evening:
 
     @cached_property
     def whole(self) -> Bracket:
-        """The bracket with a stand-in for what is drawn in the course of the evening."""
+        """The bracket with a stand-in for anything drawn later in the evening."""
         if self.plan.form == "chips":
             return self.bracket
         return whole_bracket(self._drawn_up, self.plan, self.later)
 
     @cached_property
     def chip_night(self) -> ChipNight:
-        """Who is at which table of a chip tournament, who waits, and what everyone has left."""
+        """Who is at which table in a chip tournament, who is waiting, and everyone's chips."""
         return chip_night(self.events)
 
     @cached_property
@@ -136,7 +137,7 @@ class Evening:
 
     @cached_property
     def match_numbers(self) -> dict[str, int]:
-        """The number of each match; those that came of a late entry follow, as sheets are out."""
+        """Each match's number; matches added by a late entry come last, as sheets are out."""
         drawn = next((e.what for e in self.events if isinstance(e.what, Drawn)), None)
         first = None
         if drawn and self.lines is not None and len(drawn.order) < len(self.order):
@@ -146,7 +147,7 @@ class Evening:
         return match_numbers(self.whole, first)
 
     def number_of(self, match: str) -> int:
-        """Return the number of a match as people see it; 0 for one that is not in the bracket."""
+        """Return a match's number as people see it; 0 for a match that isn't in the bracket."""
         return self.match_numbers.get(match, 0) if self.order else 0
 
     def match_words(self, match: str) -> Sentence | str:
@@ -160,12 +161,12 @@ class Evening:
 
     @property
     def scale(self) -> Scale:
-        """The scale of the ratings."""
+        """The ratings' scale."""
         return scale_of(self.plan.scale)
 
     @property
     def races(self) -> Races:
-        """What is raced to."""
+        """The races."""
         return races_of(self.plan)
 
     @cached_property
@@ -175,7 +176,7 @@ class Evening:
 
     @cached_property
     def unrated(self) -> frozenset[str]:
-        """Whoever entered without a rating; no one where no one has one."""
+        """Players who entered without a rating; no one if no one has a rating."""
         plan = self.plan
         new = plan.starter, plan.starter_error
         found = {
@@ -187,7 +188,7 @@ class Evening:
 
     @cached_property
     def counted(self) -> dict[str, Result]:
-        """The result of each decided match, forfeits of players who went home among them."""
+        """Each decided match's result, including forfeits by players who went home."""
         return self._settled[0]
 
     @cached_property
@@ -202,7 +203,7 @@ class Evening:
 
     @property
     def results(self) -> dict[str, str | tuple[str, ...]]:
-        """The same, and the final order of each group whose ties were broken."""
+        """The same, plus the final order of each group whose ties were broken."""
         return self._settled[2]
 
     @cached_property
@@ -214,7 +215,7 @@ class Evening:
 
     @cached_property
     def on_tables(self) -> dict[str, OnTable]:
-        """The matches in play: a table is left when it, or one of its players, is called away."""
+        """The matches in play: a call can take a match or a player away from a table."""
         if self.plan.form == "chips":
             return {
                 one.name: OnTable(Called(one.name, one.table, one.players), one.since)
@@ -241,12 +242,12 @@ class Evening:
 
     @property
     def free_tables(self) -> list[int]:
-        """The tables on which no one plays, but for those that are given out by hand only."""
+        """The tables in use on which no one is playing, except those assigned by hand only."""
         return [table for table in self._unused if table not in self.plan.reserved]
 
     @property
     def kept_tables(self) -> list[int]:
-        """The tables on which no one plays that are given out by hand only."""
+        """The tables assigned by hand only on which no one is playing."""
         return sorted({*self.plan.reserved} & {*self._unused})
 
     @property
@@ -256,7 +257,7 @@ class Evening:
 
     @property
     def waiting_for(self) -> dict[str, Waits]:
-        """Why matches wait that could be played."""
+        """The reasons why playable matches wait."""
         return {
             name: one
             for (name, players), one in self.waits.items()
@@ -265,7 +266,7 @@ class Evening:
 
     @property
     def payers(self) -> int:
-        """How many players the pot is from: those who have paid, if anyone is noted to."""
+        """How many players the pot comes from: those marked as paid, if anyone is."""
         return len(self.paid) or len(self.entrants)
 
     def sitting(self, match: str) -> frozenset[str]:
@@ -274,7 +275,7 @@ class Evening:
         return frozenset(self.order[k] for k in seats if k is not None and k >= 0)
 
     def then(self, *events: Event) -> Evening:
-        """Return the state after more events; this one stays as it is, and so do others beside."""
+        """Return the state after more events; this state and others from it don't change."""
         after = evening([*self.log, *events])
         if self.event > 1:
             house = min((self, *self.beside), key=lambda one: one.event)
@@ -282,7 +283,7 @@ class Evening:
         return replace(after, elsewhere=self.elsewhere, beside=self.beside, event=self.event)
 
     def at_tables_of(self, house: Evening) -> Evening:
-        """Return the state with the tables of another event, wherever those have moved since."""
+        """Return the state with another event's tables, including later changes to them."""
         calls = dict(self.calls)
         for at, places in table_changes(house.events):
             for pairing, one in list(calls.items()):
@@ -296,12 +297,12 @@ class Evening:
         return replace(self, plan=self.plan.at_tables_of(house.plan), calls=calls)
 
     def pair(self, match: str) -> tuple[str, str]:
-        """Return the players of a match that can be played or was."""
+        """Return the players in a match that is or was playable."""
         one, other = (self.order[k] for k in self.standing.seats[match] if k is not None)
         return one, other
 
     def needed(self, match: str, players: tuple[str, str]) -> tuple[int, int]:
-        """Return the games that each of two players needs in a match, or needed in it."""
+        """Return the games that each of the two players needs, or needed, in a match."""
         if self.plan.form == "chips":
             return 1, 1  # a rack
         for played in reversed(self.records.get(match, ())):
@@ -315,11 +316,11 @@ class Evening:
         return int(m[0]), int(n[0])
 
     def result_words(self, result: Result) -> Sentence:
-        """Return a result in words, with what its players needed where that was not the same."""
+        """Return a result in words, including the players' targets if they differ."""
         return score_words(result, self.uneven_race(result))
 
     def uneven_race(self, result: Result) -> tuple[int, int] | None:
-        """Return the games that each player of a result needed; None: as many."""
+        """Return the games each player needed in a result; None if both needed the same."""
         known = self.drawn and result.match in self.bracket.by_name
         if not known or not self.entrants.keys() >= {*result.players}:
             return None
@@ -361,7 +362,7 @@ class Evening:
 
 
 def evening(events: Iterable[Event]) -> Evening:
-    """Return the state after events; an InputError if they are not those of an evening."""
+    """Return the state after events; raise InputError if they aren't an evening's."""
     log = tuple(events)
     history = read(log)
     kept = list(history.kept.values())
@@ -404,9 +405,9 @@ def evening(events: Iterable[Event]) -> Evening:
 
 
 def _as_named_now(event: Event, plan: Plan, order: Sequence[str]) -> Event:
-    """Return an event in the names that matches have now.
+    """Return an event with current match names.
 
-    The final after six and more groups was called F once, as the sixth group is.
+    The final after six or more groups used to be called F, like the sixth group.
     """
     what = event.what
     if plan.form != "groups" or not isinstance(what, Called | CalledBack | Scored | Result):
@@ -418,13 +419,13 @@ def _as_named_now(event: Event, plan: Plan, order: Sequence[str]) -> Event:
 
 
 def tied_ranks(now: Standing, group: Group) -> list[int]:
-    """Return how many players are ahead of each member of a group that is played out."""
+    """Return how many players are ahead of each member of a completed group."""
     winners = [now.winners[name] for name in group.matches]
     return ranked(group.members, group.pairs, winners)
 
 
 def _breaks_ties(now: Standing, tie: Ranked) -> bool:
-    """Return whether a final order is one that the results of its group allow."""
+    """Return whether a group's results allow a final order."""
     if now.bracket.runners_up and tie.group == now.bracket.runners_up.name:
         share = {now.bracket.players[player]: share for _, player, share in now.runners_up}
         shares = [share.get(name, 0) for name in tie.order]

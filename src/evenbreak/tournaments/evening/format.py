@@ -1,4 +1,4 @@
-"""What a plan has for its format: each part with its limits, as every interface asks for it."""
+"""A plan's format settings, each with its limits, as every interface asks for them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Few: TypeAlias = Annotated[int, Meta(ge=1, le=256)]
 
 DISCIPLINES = ("8-ball", "9-ball", "10-ball")
 MOST_PLAYERS, MOST_TABLES, LONGEST_RACE = 256, 1000, 100
-"""How large a tournament or a team night may be."""
+"""The largest size of a tournament or a team night."""
 
 Tables: TypeAlias = Annotated[
     Table, Field(Whole(1, MOST_TABLES), "The number of tables.", metavar="T", label=say("Tables"))
@@ -29,7 +29,7 @@ Tables: TypeAlias = Annotated[
 
 
 class HouseTables(NamedTuple):
-    """How many tables there are, and what the house calls them; None: nothing is said of it."""
+    """How many tables there are, and what the venue calls them; None: not stated."""
 
     many: int
     labels: tuple[str, ...] | None = None
@@ -43,7 +43,7 @@ LONGEST_LABEL = 12
 
 
 def names_in(text: str) -> tuple[str, ...]:
-    """Return the names of tables in a list; numbers may be a range.
+    """Return the table names in a list; numbers may be a range.
 
     >>> names_in("5-8, TV"), names_in("none")
     (('5', '6', '7', '8', 'TV'), ())
@@ -57,7 +57,7 @@ def names_in(text: str) -> tuple[str, ...]:
 
 
 def names_text(names: Sequence[str]) -> str:
-    """Return the names of tables as a list, as `names_in` reads it.
+    """Return table names as a list in the form `names_in` reads.
 
     >>> names_text(["1", "2", "3", "TV", "5"])
     '1-3, TV, 5'
@@ -75,7 +75,7 @@ def names_text(names: Sequence[str]) -> str:
 def house_tables(text: str) -> HouseTables:
     """Return how many tables there are, or their names.
 
-    An InputError if there are none, too many, or two of the same name.
+    Raises InputError if there are none, too many, or two with the same name.
 
     >>> house_tables("4"), house_tables("1-2, TV"), house_tables("1-4").labels
     (HouseTables(many=4, labels=None), HouseTables(many=3, labels=('1', '2', 'TV')), ())
@@ -144,9 +144,9 @@ FinalRace: TypeAlias = Annotated[
 
 @dataclass(frozen=True, kw_only=True)
 class Format:
-    """What a plan has for its format, all of which the terminal and the page ask for.
+    """A plan's format settings, which both the terminal and the page ask for.
 
-    A field added here is one of the plan, and of every question about a tournament.
+    A field added here is added to the plan, and to every question about a tournament.
     """
 
     final: Annotated[
@@ -274,11 +274,11 @@ class Format:
 
 @dataclass(frozen=True, kw_only=True)
 class Occasion:
-    """The house's facts about an evening: its name, its tables, its pace.
+    """The venue's facts about an evening: its name, its tables, its pace.
 
-    `labels` are the names of the tables, from the first; beyond them they have numbers. `reserved`
-    tables are assigned by hand only, `streamed` ones are filmed; `slower` is how many times as long
-    as usual matches take.
+    `labels` are the table names, starting with the first table; any further tables have numbers.
+    `reserved` tables are assigned by hand only, `streamed` ones are filmed; `slower` is how many
+    times as long as usual matches take.
     """
 
     tables: Tables = 4
@@ -290,7 +290,7 @@ class Occasion:
     slower: Slower = 1.0
 
     def table_name(self, table: int) -> str:
-        """Return what the house calls a table.
+        """Return the venue's name for a table.
 
         >>> plan = Occasion(labels=("1", "2", "TV"))
         >>> plan.table_name(3), plan.table_name(4)
@@ -299,7 +299,7 @@ class Occasion:
         return self.labels[table - 1] if table <= len(self.labels) else str(table)
 
     def table_number(self, text: str) -> int:
-        """Return the number of a table, by what the house calls it or by the number itself.
+        """Return a table's number, given the venue's name for it or the number itself.
 
         >>> plan = Occasion(labels=("1", "2", "TV"))
         >>> plan.table_number("tv"), plan.table_number("table 3"), plan.table_number("4")

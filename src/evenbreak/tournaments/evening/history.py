@@ -1,7 +1,7 @@
-"""How the entries of an evening are read: those that count, with the names that players have now.
+"""How an evening's entries are read: those that count, with the players' current names.
 
-A rename is read into all other entries, those before it too. Each entry names players as they were
-called when it was made; so a rename can be taken back by itself.
+A rename is applied to all other entries, even earlier ones. Each entry names players as they were
+called when it was made, so a rename can be taken back on its own.
 """
 
 from __future__ import annotations
@@ -26,21 +26,21 @@ Entered: TypeAlias = tuple[int, int]
 """A player, by the number of the entry that brought them in, and their place in it."""
 
 _NAMED = {"name", "names", "order", "players", "winner", "one", "other", "absent"}
-"""The fields of entries that hold names of players."""
+"""The entry fields that contain player names."""
 
 
 _NAMING = Opened | Late | Substituted | Renamed | Edited
 
 
 class ReadRename(Renamed):
-    """A rename that has been read into the other entries."""
+    """A rename that has been applied to the other entries."""
 
 
 @dataclass(frozen=True)
 class History:
-    """The entries of an evening: `kept` and `undone` (the last one last) by number from 1.
+    """An evening's entries: `kept` and `undone` (last one last) by number, from 1.
 
-    `former` maps earlier names of players to those of now.
+    `former` maps players' earlier names to their current ones.
     """
 
     kept: Mapping[int, Event]
@@ -50,9 +50,9 @@ class History:
 
 
 def read(events: Sequence[Event]) -> History:
-    """Return the entries of an evening as they are read.
+    """Return an evening's entries as they are read.
 
-    An InputError if something is undone that isn't there, or redone that wasn't undone.
+    Raises InputError if something is undone that doesn't exist, or redone that wasn't undone.
     """
     log: Log[Event] = Log(fixed=1)
     renames = any(isinstance(event.what, Renamed) for event in events)
@@ -85,7 +85,7 @@ def read(events: Sequence[Event]) -> History:
 
 
 def as_read(events: Sequence[Event]) -> list[Event]:
-    """Return all entries of an evening, those that are undone too, as they are read."""
+    """Return all of an evening's entries as they are read, including undone ones."""
     history = read(events)
     undone = {number: one.event for number, one in history.undone.items()}
     told = {**history.kept, **undone}
@@ -100,7 +100,7 @@ def _names(kept: Mapping[int, Event]) -> dict[str, Entered]:
 
 
 def _names_after(names: dict[str, Entered], number: int, what: What) -> dict[str, Entered]:
-    """Return who is called what after an entry; the names before it stay as they were."""
+    """Return who is called what after an entry; earlier names are unchanged."""
     match what:
         case Opened(entrants=entrants):
             return {one.name: (number, k) for k, one in enumerate(entrants)}
@@ -114,7 +114,7 @@ def _names_after(names: dict[str, Entered], number: int, what: What) -> dict[str
 
 
 def _read(event: Event, called: Mapping[str, Entered], now: Mapping[Entered, str]) -> Event:
-    """Return an entry with the names that players have now."""
+    """Return an entry with the players' current names."""
     what = event.what
     if isinstance(what, Renamed):
         return replace(event, what=ReadRename(what.name, what.to))

@@ -1,4 +1,4 @@
-"""What moves name, and what they refuse: matches, players, scores."""
+"""What moves refer to, and what they reject: matches, players, scores."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from evenbreak.tournaments.evening.plan import refuse_bye
 from evenbreak.words import listed, say
 
 ENDINGS = ("time", "conceded")
-"""Why a race was not played out."""
+"""Why a race wasn't played out."""
 
 _NUMBERED = re.compile(r"(?:#|match|rack|partie)?\s*(\d+)")
-"""A match by its number, in small letters and as people write it."""
+"""A match by its number, in lower case and as people write it."""
 
 
 def known_match(state: Evening, text: str, *, over: bool = False) -> str:
-    """Return the name of a match, given by its number or its name.
+    """Return a match's name, given its number or its name.
 
-    '12', '#12' and 'match 12' are the same. In a chip tournament a bare number is that of a table:
-    of the rack on it, or of the last one that is over.
+    '12', '#12' and 'match 12' are the same. In a chip tournament, a bare number is a table's, and
+    means the current or last rack there.
     """
     wanted = " ".join(text.split()).casefold()
     names = {name.casefold(): name for name in state.bracket.by_name}
@@ -54,15 +54,15 @@ def known_match(state: Evening, text: str, *, over: bool = False) -> str:
 
 
 def typed(state: Evening, match: str) -> str:
-    """Return how a match is given to a command: by its number, but for a rack."""
+    """Return what to type for a match in a command: its number, or a rack's name."""
     return match if state.plan.form == "chips" else str(state.number_of(match) or match)
 
 
 def known_player(state: Evening, text: str) -> str:
-    """Return the name of a player, in whatever case and spacing it was written.
+    """Return a player's name, however it was capitalized and spaced.
 
-    The beginning of a first or last name will do if no one else's starts like that. Accents may be
-    left out.
+    The beginning of a first or last name is enough if no one else's starts the same way. Accents
+    may be left out.
     """
     exact = " ".join(text.split()).casefold()
     wanted = without_accents(text)
@@ -87,7 +87,7 @@ def known_player(state: Evening, text: str) -> str:
 
 
 def check_entrant(state: Evening, entrant: Entrant, besides: str = "") -> None:
-    """Refuse an entrant without a name or rating of their own."""
+    """Reject an entrant who lacks a unique name or a valid rating."""
     refuse_bye(entrant.name)
     if not math.isfinite(entrant.rating):
         raise InputError(
@@ -103,7 +103,7 @@ def check_entrant(state: Evening, entrant: Entrant, besides: str = "") -> None:
 
 
 def entered(state: Evening, name: str) -> str:
-    """Return a name that is given in full: someone else's that starts like it never counts."""
+    """Return a name given in full, which never stands for someone else's longer name."""
     if name in state.entrants:
         return name
     full = known_player(state, name)
@@ -117,7 +117,7 @@ def entered(state: Evening, name: str) -> str:
 def games_in(
     state: Evening, name: str, pair: tuple[str, str], score: tuple[int, int] | str
 ) -> tuple[int, int]:
-    """Return the score of a result; in a chip tournament it may be the winner's name."""
+    """Return a result's score; in a chip tournament it may be the winner's name."""
     if not isinstance(score, str):
         return score
     if state.plan.form != "chips":
@@ -130,14 +130,14 @@ def games_in(
 
 
 def refuse_stranger(state: Evening, player: str, match: str, pair: tuple[str, str]) -> None:
-    """Refuse a player who is not in a match."""
+    """Reject a player who isn't in a match."""
     if player not in pair:
         names = {"player": player, "match": state.match_words(match), "a": pair[0], "b": pair[1]}
         raise InputError("{player} isn't in {match}, which is {a} against {b}", **names)
 
 
 def undecided(state: Evening, match: str) -> str:
-    """Return the name of a match that can be played now, or refuse it."""
+    """Return the name of a playable match; reject any other."""
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:
         raise InputError(
@@ -150,7 +150,7 @@ def undecided(state: Evening, match: str) -> str:
 
 
 def refuse_waiting(state: Evening, name: str) -> None:
-    """Refuse a match that cannot be played now."""
+    """Reject a match that can't be played now."""
     if name in state.standing.to_play:
         return
     if name in state.standing.winners:
@@ -173,10 +173,10 @@ def winner_of(
     ended: str = "",
     stated: str = "",
 ) -> str:
-    """Return the winner; refuse a score that does not end the race, unless it was cut short.
+    """Return the winner; reject a score that doesn't finish the race, unless it was cut short.
 
-    By time whoever needs fewer games wins; the winner of a tie, and of a match that was conceded,
-    must be stated.
+    If time ran out, the player who needs fewer games wins; the winner must be stated for a tie or a
+    conceded match.
     """
     one, other = score
     m, n = state.needed(name, pair)

@@ -1,4 +1,4 @@
-"""What is drawn in the course of an evening: rounds of a Swiss, qualifiers that are redrawn."""
+"""Draws later in an evening: Swiss rounds, and redrawn qualifiers."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from evenbreak.words import Command, listed
 
 
 def stage_to_draw(state: Evening) -> str | None:
-    """Return what is still to be drawn later: the next stage, or None."""
+    """Return the next stage still to be drawn, or None."""
     plan, later = state.plan, state.later
     if plan.form == "swiss":
         rounds = swiss_of(plan, state.order).rounds
@@ -24,7 +24,7 @@ def stage_to_draw(state: Evening) -> str | None:
 
 
 def can_draw(state: Evening) -> bool:
-    """Return whether the next stage can be drawn: all that it needs has been played."""
+    """Return whether the next stage can be drawn: everything it needs has been played."""
     if stage_to_draw(state) is None:
         return False
     if state.plan.form == "swiss":
@@ -35,7 +35,7 @@ def can_draw(state: Evening) -> bool:
 def draw_later(state: Evening, rng: np.random.Generator) -> LaterDraw:
     """Draw the next stage of an evening after its first draw.
 
-    An InputError if there is none, or it must wait for matches.
+    Raises InputError if there is none, or it must wait for matches.
     """
     stage = stage_to_draw(state)
     if stage is None:

@@ -1,7 +1,7 @@
-"""The matches, players and standings of an evening as rows: what is kept beside its log.
+"""An evening's matches, players and standings as rows, stored next to its log.
 
-Names and games are those of the fold, so that a row is right after whatever was entered: an undo, a
-correction, another name. Nothing in a row depends on the time at which it is read.
+Names and games come from the fold, so a row is right after any entry: an undo, a correction, a
+rename. Nothing in a row depends on when it is read.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from evenbreak.tournaments.odds.races import games_needed
 
 
 class MatchRow(NamedTuple):
-    """A match of the bracket, or one on hold because its players no longer belong in it.
+    """A match in the bracket, or one on hold because its players no longer belong in it.
 
     `match` is its number on every screen, None if it isn't in the bracket now; `code`, such as
     W1.2, is its name in the log. Scores include a match in play, and are None for a forfeit. The
@@ -65,9 +65,10 @@ class PlayerRow(NamedTuple):
 class StandingRow(NamedTuple):
     """How far a player has come.
 
-    Places are None until decided; players who share places have the first and the last. The side is
-    the event, such as consolation, None for the main one. Matches include forfeits, and a bye of a
-    Swiss is won. `buchholz` is the wins of a player's opponents in a Swiss.
+    Places are None until decided; players who share places have the first and the last of them. The
+    side is the event, such as consolation, or None for the main one. Matches include forfeits, and
+    a bye in a Swiss counts as won. `buchholz` is the number of wins by a player's opponents in a
+    Swiss.
     """
 
     place: int | None
@@ -84,9 +85,9 @@ class StandingRow(NamedTuple):
 
 
 class RankRow(NamedTuple):
-    """A player's rank, from 1, in a group, a Swiss or a chip tournament; equal players share it.
+    """A player's rank, from 1, in a group, a Swiss or a chip tournament; tied players share it.
 
-    Matches are those of the group, or of a Swiss's finished rounds, in which a bye is won.
+    Matches are those in the group, or in a Swiss's finished rounds, where a bye counts as won.
     """
 
     rank: int
@@ -98,7 +99,7 @@ class RankRow(NamedTuple):
 
 
 def match_rows(state: Evening) -> list[MatchRow]:
-    """Return the matches in the order of the bracket, then those on hold.
+    """Return the matches in bracket order, then those on hold.
 
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
     >>> from evenbreak.tournaments.evening.events import Result
@@ -164,7 +165,7 @@ def _named(state: Evening, seats: tuple[int | None, int | None]) -> tuple[str | 
 def _call(
     state: Evening, match: str, pair: tuple[str | None, ...], *, over: bool
 ) -> tuple[str | None, str | None]:
-    """Return the table that a match is or was on, and when it was called to it."""
+    """Return the table that a match is or was on, and when it was called there."""
     if state.plan.form == "chips":
         rack = state.chip_night.racks[match]
         return state.plan.table_name(rack.table), rack.since
@@ -174,13 +175,13 @@ def _call(
 
 
 def _ended(state: Evening, match: str, pair: tuple[str | None, ...]) -> str | None:
-    """Return when the first result of a match came in, whatever has corrected it since."""
+    """Return when a match's first result came in, ignoring later corrections."""
     played = state.records.get(match, ())
     return next((one.at for one in played if {*one.result.players} == {*pair}), None)
 
 
 def _races(state: Evening) -> dict[str, tuple[int, int]]:
-    """Return the games that each player needs, of all matches whose two players are known."""
+    """Return the games each player needs, for all matches whose two players are known."""
     found, to_find = dict[str, tuple[int, int]](), dict[int, list[tuple[str, float]]]()
     races = state.races
     for match in state.bracket.matches:
@@ -201,7 +202,7 @@ def _races(state: Evening) -> dict[str, tuple[int, int]]:
 
 
 def _on_hold(state: Evening) -> Iterator[MatchRow]:
-    """Yield the results that do not count: others sit in the match now."""
+    """Yield the results that don't count, because other players are in the match now."""
     for result, at in played_matches(state.records):
         counted = state.counted.get(result.match)
         if counted is not None and {*counted.players} == {*result.players}:
@@ -225,7 +226,7 @@ def _on_hold(state: Evening) -> Iterator[MatchRow]:
 
 
 def player_rows(state: Evening) -> list[PlayerRow]:
-    """Return the players in the order in which they entered."""
+    """Return the players in the order they entered."""
     seeds = {name: seed for seed, name in enumerate(state.order, 1)}
     return [
         PlayerRow(
@@ -285,9 +286,9 @@ def standing_rows(
 
 
 def group_rows(state: Evening) -> dict[str, list[RankRow]]:
-    """Return how each group stands, the best first, by what the bracket calls it.
+    """Return each group's standings, best player first, by the bracket's name for it.
 
-    Of a Swiss and of a chip tournament all players are one group, ''.
+    In a Swiss or a chip tournament, all players are one group, ''.
     """
     if not state.drawn:
         return {}
@@ -311,7 +312,7 @@ def group_rows(state: Evening) -> dict[str, list[RankRow]]:
 
 
 def _ranks(state: Evening, group: Group) -> list[RankRow]:
-    """Return how a group stands, its ties broken if they have been."""
+    """Return a group's standings, with ties broken if they have been."""
     won, lost = _record(state, group.matches)
     over = [
         (pair, state.order.index(state.counted[name].winner))
@@ -328,13 +329,13 @@ def _ranks(state: Evening, group: Group) -> list[RankRow]:
 
 
 def _record(state: Evening, matches: Iterable[str]) -> tuple[Counter[str], Counter[str]]:
-    """Return how many of some matches each player has won, and lost."""
+    """Return how many of some matches each player has won and lost."""
     results = [state.counted[name] for name in matches if name in state.counted]
     return Counter(one.winner for one in results), Counter(one.loser for one in results)
 
 
 def swiss_ranks(state: Evening) -> tuple[int, list[SwissRank]]:
-    """Return how many rounds of a Swiss are over, and its standings after them."""
+    """Return how many rounds of a Swiss are over, and the standings after them."""
     if state.plan.form != "swiss":
         return 0, []
     over = [
@@ -347,7 +348,7 @@ def swiss_ranks(state: Evening) -> tuple[int, list[SwissRank]]:
 
 
 def decided_places(state: Evening) -> dict[str, Place]:
-    """Return the places that are decided, by player; whoever is tied at the end shares places.
+    """Return the places decided, by player; players tied at the end share places.
 
     >>> from evenbreak.tournaments.evening.events import Drawn, Entrant, Event, Opened, Plan
     >>> from evenbreak.tournaments.evening.events import Result
@@ -369,7 +370,7 @@ def decided_places(state: Evening) -> dict[str, Place]:
 
 
 def _of_matches(now: Standing) -> dict[int, Place]:
-    """Return the places of those who have no next match after one."""
+    """Return the places of players who have no next match after a match."""
     found = {}
     for match in now.bracket.matches:
         goes, winner = now.bracket.going[match.name], now.winners.get(match.name, NOBODY)
@@ -383,7 +384,7 @@ def _of_matches(now: Standing) -> dict[int, Place]:
 
 
 def _of_groups(now: Standing) -> dict[int, Place]:
-    """Return the places of groups that are over, and of their runners-up who do not go on."""
+    """Return the places from finished groups, and from runners-up who don't advance."""
     found, bracket = {}, now.bracket
     groups = [(one.name, one.places) for one in bracket.groups]
     runners_up = (
@@ -413,7 +414,7 @@ def _of_chips(state: Evening) -> dict[str, Place]:
 
 
 def _shared(rows: Sequence[tuple[str, object]]) -> dict[str, Place]:
-    """Return the places of players, best first, who share them where they are level."""
+    """Return the places of players, best first, with tied players sharing places."""
     keys = [key for _, key in rows]
     found = {}
     for name, key in rows:

@@ -1,4 +1,4 @@
-"""What has happened in the matches of an evening: results, calls, scores, what they wait for."""
+"""What has happened in an evening's matches: results, calls, scores, reasons to wait."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from evenbreak.tournaments.evening.events import (
 )
 
 Pairing: TypeAlias = tuple[str, frozenset[str]]
-"""A match and its players: a correction may send others into it, and them back."""
+"""A match and its players: a correction may send others into it, or bring them back."""
 
 
 class Played(NamedTuple):
@@ -31,7 +31,7 @@ class Played(NamedTuple):
 
 
 def played_matches(records: Mapping[str, Sequence[Played]]) -> list[Played]:
-    """Return the last result of each two players in each match, those set aside among them."""
+    """Return the last result between each two players in each match, including those set aside."""
     found = {
         (name, frozenset(one.result.players)): one
         for name, played in records.items()
@@ -54,7 +54,7 @@ class LiveScore(NamedTuple):
     at: str
 
     def of(self, pair: tuple[str | None, ...]) -> tuple[int, int]:
-        """Return it in the order of its players."""
+        """Return it in its players' order."""
         return self.what.score if self.what.players == pair else self.what.score[::-1]
 
 
@@ -75,7 +75,7 @@ class Matches:
         return {*self.records, *(name for name, _ in (*self.calls, *self.scores))}
 
     def take(self, event: Event, *, in_pairs: bool) -> None:
-        """Let something happen; `in_pairs`: in a round of a Swiss."""
+        """Apply an event; `in_pairs`: in a Swiss round."""
         match event.what:
             case Result() as result:
                 self.records.setdefault(result.match, []).append(Played(result, event.at))
@@ -94,7 +94,7 @@ class Matches:
                 self.trade({name: now.name})
 
     def call(self, call: Called | CalledBack | Waits, at: str) -> None:
-        """Let a match come to a table, leave it, or wait."""
+        """Put a match on a table, take it off, or let it wait."""
         pairing = call.match, frozenset(call.players)
         if isinstance(call, Waits) and not call:
             self.waits.pop(pairing, None)
@@ -108,7 +108,7 @@ class Matches:
             self.calls[pairing] = OnTable(call, earlier.at if earlier and moved else at)
 
     def move(self, places: Mapping[int, int]) -> None:
-        """Let matches stay on tables that have other numbers now, and leave those that are gone."""
+        """Keep matches on renumbered tables, and remove them from tables that are gone."""
         self.calls = {
             key: one._replace(call=replace(one.call, table=places[one.call.table]))
             for key, one in self.calls.items()
@@ -116,7 +116,7 @@ class Matches:
         }
 
     def trade(self, names: Mapping[str, str]) -> None:
-        """Let players stand where others stood, in the last round and in what is called."""
+        """Put players where others were, in the last round and in calls."""
         if self.later:
             last = next(reversed(self.later))
             self.later[last] = tuple(names.get(str(name), name) for name in self.later[last])

@@ -52,9 +52,9 @@ __all__ = ["known_match", "known_player"]
 
 
 def draw(state: Evening, rng: np.random.Generator, *, without: Sequence[str] = ()) -> Drawn:
-    """Make the draw, as planned; players left out (`without`) may be let in late.
+    """Make the draw as planned; players left out (`without`) may be added late.
 
-    An InputError if it has been made, or there are too few players.
+    Raises InputError if it has already been made, or there are too few players.
     """
     if state.drawn:
         raise InputError(
@@ -79,9 +79,9 @@ def draw(state: Evening, rng: np.random.Generator, *, without: Sequence[str] = (
 def draw_next(
     state: Evening, rng: np.random.Generator, *, without: Sequence[str] = ()
 ) -> list[Drawn | LaterDraw]:
-    """Draw what comes next: the bracket, a round of a Swiss, or qualifiers.
+    """Make the next draw: the bracket, a Swiss round, or qualifiers.
 
-    An InputError if there is nothing to draw, or it must wait for matches.
+    Raises InputError if there is nothing to draw, or it must wait for matches.
     """
     if state.drawn:
         return [draw_later(state, rng)]
@@ -99,11 +99,11 @@ def result(
     ended: str = "",
     winner: str = "",
 ) -> Result:
-    """Return the entry of a result of a match that hasn't been decided.
+    """Return the entry for the result of an undecided match.
 
-    In a chip tournament the table's number will do for the match, and the winner for the score.
-    `ended`: why the race wasn't played out, "time" or "conceded". The winner is needed only where
-    the score doesn't show it.
+    In a chip tournament, the table's number is enough for the match, and the winner for the score.
+    `ended`: why the race wasn't played out, "time" or "conceded". The winner is needed only if the
+    score doesn't show it.
     """
     name = known_match(state, match)
     if (before := state.counted.get(name)) is not None:
@@ -129,7 +129,7 @@ def result(
 
 
 def taps(state: Evening, match: str, winner: str, games: int) -> tuple[int, int]:
-    """Return the score of a match from its winner and the loser's games."""
+    """Return a match's score, given its winner and the loser's games."""
     name = known_match(state, match)
     pair = state.pair(name)
     refuse_stranger(state, winner, name, pair)
@@ -159,9 +159,9 @@ def correct(
     ended: str = "",
     winner: str = "",
 ) -> Result:
-    """Correct the result of a match; in a chip tournament a table is that of its last rack.
+    """Correct a match's result; in a chip tournament, a table means its last rack.
 
-    With `follow` "keep" whoever has moved on stays, whatever the corrected score says.
+    If `follow` is "keep", the player who has moved on stays, whatever the corrected score says.
     """
     name = known_match(state, match, over=True)
     if name not in state.counted:
@@ -187,7 +187,7 @@ def correct(
 
 
 def _a_result(state: Evening, name: str) -> Command:
-    """Return the command that lets the first player of a match win it."""
+    """Return the command that makes the first player the winner of a match."""
     pair = state.pair(name)
     won = pair[0] if state.plan.form == "chips" else f"{state.needed(name, pair)[0]}-0"
     return Command("tournament result", typed(state, name), won)
@@ -202,10 +202,10 @@ def corrections(
     ended: str = "",
     winner: str = "",
 ) -> list[Called | Result]:
-    """Correct a result; with `follow` "stop" matches in play start again with their new players.
+    """Correct a result; if `follow` is "stop", matches in play start again with their new players.
 
-    The calls to their tables come before the correction: when it is taken back, all that was in
-    play goes on.
+    The calls to their tables come before the correction, so that if it is taken back, everything in
+    play continues.
     """
     found = correct(state, match, score, follow=follow, ended=ended, winner=winner)
     if follow != "stop":
@@ -253,7 +253,7 @@ def score(state: Evening, match: str, score: tuple[int, int]) -> Scored:
 
 
 def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
-    """Let a player, by their full name, forfeit a match; None: the only one they can play now."""
+    """Let a player, by full name, forfeit a match; None: the only one they can play now."""
     loser = entered(state, player)
     if match is None:
         ready = [name for name in state.standing.to_play if loser in state.pair(name)]
@@ -274,7 +274,7 @@ def forfeit(state: Evening, player: str, match: str | None = None) -> Result:
 
 
 def drop(state: Evening, player: str) -> Dropped:
-    """Let a player, by their full name, go home."""
+    """Let a player, by full name, go home."""
     name = entered(state, player)
     if name in state.dropped:
         raise InputError("{player} has already withdrawn", player=name)
@@ -284,10 +284,10 @@ def drop(state: Evening, player: str) -> Dropped:
 
 
 def late(state: Evening, entrant: Entrant) -> Late:
-    """Let a late player in: before the draw, or instead of the lowest seed's bye still open.
+    """Add a late player: before the draw, or in place of the lowest seed's open bye.
 
-    A bye is open as long as filling it changes no match that was played or called. In a chip
-    tournament a late player goes to the end of the line, as long as two are still in.
+    A bye is open as long as filling it changes no match that has been played or called. In a chip
+    tournament, a late player goes to the end of the line, as long as two players are still in.
     """
     check_entrant(state, entrant)
     if len(state.entrants) >= MOST_PLAYERS:
@@ -314,7 +314,7 @@ def late(state: Evening, entrant: Entrant) -> Late:
 
 
 def call(state: Evening, match: str, table: int | None) -> Called:
-    """Call a match to a table, or move it to another; None: the first that is free."""
+    """Call a match to a table, or move it to another; None: the first free table."""
     name = undecided(state, match)
     on, names = state.on_tables.get(name), state.plan.table_name
     if on is not None and table in (None, on.call.table):
@@ -369,7 +369,7 @@ def call(state: Evening, match: str, table: int | None) -> Called:
 
 
 def _on_table(state: Evening, table: int) -> str | None:
-    """Return the match that is played on a table."""
+    """Return the match being played on a table."""
     return next((n for n, one in state.on_tables.items() if one.call.table == table), None)
 
 
@@ -387,7 +387,7 @@ def change(
     streamed: tuple[int, ...] | None = None,
     slower: float | None = None,
 ) -> Changed:
-    """Change the occasion, the tables, or the races of the matches that have not started.
+    """Change the occasion, the tables, or the races of matches that haven't started.
 
     A match on a table that is closed goes back to the queue; its score is kept.
     """
@@ -430,7 +430,7 @@ def call_back(state: Evening, match: str) -> CalledBack:
 
 
 def edit(state: Evening, player: str, *, name: str = "", rating: float | None = None) -> Edited:
-    """Correct the name or the rating of a player, by their full name, before the draw."""
+    """Correct the name or rating of a player, by full name, before the draw."""
     before = state.entrants[entered(state, player)]
     if state.drawn:
         raise InputError(
@@ -448,13 +448,13 @@ def edit(state: Evening, player: str, *, name: str = "", rating: float | None = 
 
 
 def _rival(state: Evening, line: int) -> int:
-    """Return the seed of the player on the other line of a first match; -1 for a bye."""
+    """Return the seed of the opponent in a first match; -1 for a bye."""
     there = (state.lines or ())[line ^ 1]
     return -1 if there is None else there
 
 
 def _fits(state: Evening, entrant: Entrant, line: int) -> bool:
-    """Return whether all that was played and called stays as it is with a bye filled."""
+    """Return whether everything played and called stays the same if a bye is filled."""
     lines = list(state.lines or ())
     lines[line] = len(state.order)
     tried = replace(

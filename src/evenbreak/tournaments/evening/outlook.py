@@ -1,7 +1,7 @@
-"""What is to be expected of an evening at a moment: the odds, the finish, what would change it.
+"""An evening's outlook at one moment: the odds, the finish time, what would change it.
 
-Tonight's games say something about the players, and tonight's matches about the pace: both go
-into what is expected of the remaining matches.
+Tonight's games say something about the players, and tonight's matches say something about the pace:
+both are used in predicting the remaining matches.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ _TAIL = 1.2816  # standard errors from the middle: the tenth and the ninetieth p
 
 
 class _InScore(NamedTuple):
-    """A match in play: its players by position, the games that each needs and has won."""
+    """A match in play: its players by position, and the games that each needs and has won."""
 
     match: str
     seats: tuple[int, int]
@@ -70,10 +70,10 @@ class _InScore(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Outlook:
-    """A tournament under way, after its draw, at a moment.
+    """A tournament in progress, after its draw, at one moment.
 
     `walkovers` is the chance that a match not yet started is a walkover, for either player. Times
-    count from `origin`, by default the first match of the night.
+    are counted from `origin`, by default the night's first match.
     """
 
     state: Evening
@@ -83,7 +83,7 @@ class Outlook:
 
     @cached_property
     def start(self) -> datetime:
-        """When the first match of the night was called, or else the draw was made."""
+        """When the night's first match was called, or else when the draw was made."""
         if self.origin is not None:
             return self.origin
         each = [self.state.events, *(one.events for one in self.state.beside)]
@@ -95,7 +95,7 @@ class Outlook:
 
     @property
     def pace(self) -> Pace:
-        """How long matches take here, before any of tonight."""
+        """The pace here, before any of tonight's matches."""
         plan = self.state.plan
         return event_pace(plan.discipline, plan.earlier)
 
@@ -106,11 +106,11 @@ class Outlook:
 
     @cached_property
     def laws(self) -> dict[str, PairOdds]:
-        """Who wins each match in how many games, from its score on, if the ratings are right."""
+        """Who wins each match and in how many games, from its score on, with exact ratings."""
         return self.laws_of(self.state.races)
 
     def laws_of(self, races: Races) -> dict[str, PairOdds]:
-        """Return the same with other races in the matches that have not started."""
+        """Return the same with different races in matches that haven't started."""
         state = self.state
         laws = self._pair_odds(races)
         begun = {**state.on_tables, **state.live}
@@ -132,7 +132,7 @@ class Outlook:
         return pair_odds(state.whole, state.ratings, races, scale=state.scale, form=form)
 
     def _without_dropped(self, law: PairOdds) -> PairOdds:
-        """Return the odds of a match that players who have dropped out lose without a game."""
+        """Return the odds for a match in which players who have dropped out lose without a game."""
         ends = law.ends.copy()
         for name in self.state.dropped:
             gone = self.state.order.index(name)
@@ -158,7 +158,7 @@ class Outlook:
 
     @cached_property
     def as_if_sure(self) -> PlaceOdds:
-        """The odds from here on, if the ratings are right."""
+        """The odds from here on, with ratings treated as exact."""
         state = self.state
         rng = np.random.default_rng(0)
         chances = self.chances(state.ratings)
@@ -186,20 +186,20 @@ class Outlook:
 
     @property
     def _is_open(self) -> bool:
-        """Whether something is left to play, among players whose ratings may be off."""
+        """Whether anything is left to play between players whose ratings may be off."""
         to_come = bool(self.state.standing.to_play) or stage_to_draw(self.state) is not None
         return to_come and bool(self.errors.any())
 
     @cached_property
     def _drawn(self) -> Floats:
-        """What the skills may be, one per row, where the rest of the evening is simulated."""
+        """Draws of the skills, one per row, if the rest of the evening is simulated."""
         if self.state.plan.form == "chips":
             return drawn_skills(*self.skills)
         return drawn_ratings(*self.skills, _RATINGS // 2, np.random.default_rng(0))
 
     @cached_property
     def skills(self) -> tuple[Floats, Floats]:
-        """What the players' skills may be, given tonight's games: the mean and the covariance."""
+        """The players' skills, given tonight's games: the mean and the covariance."""
         state = self.state
         unrated = np.array([name in state.unrated for name in state.order])
         prior = skills_before(state.ratings, self.errors, unrated)
@@ -212,9 +212,9 @@ class Outlook:
 
     @cached_property
     def bands(self) -> dict[str, tuple[float, float]]:
-        """The title odds of each unrated player if they are weak, or strong.
+        """Each unrated player's title odds if they are weak, or strong.
 
-        See `UncertainOdds.bands`. Where qualifiers are still to be drawn, all without a rating are
+        See `UncertainOdds.bands`. If qualifiers are still to be drawn, all unrated players are
         weak, or strong, together.
         """
         state = self.state
@@ -232,7 +232,7 @@ class Outlook:
         return {name: (low, high) for name, (low, high) in every if name in state.unrated}
 
     def _redraw_odds(self, tail: float = 0.0) -> PlaceOdds:
-        """Return the odds if those without a rating are so many standard errors better."""
+        """Return the odds if unrated players are this many standard errors better."""
         state = self.state
         mean, covariance = self.skills if tail else (state.ratings, np.zeros((1, 1)))
         new = np.array([name in state.unrated for name in state.order])
@@ -255,12 +255,12 @@ class Outlook:
 
     @cached_property
     def errors(self) -> Floats:
-        """The uncertainty of the ratings, in seed order."""
+        """The uncertainty about the ratings, in seed order."""
         return np.array([self.state.entrants[name].standard_error for name in self.state.order])
 
     @cached_property
     def chances(self) -> Callable[[Floats], dict[str, Floats]]:
-        """The chances of the matches from here on, given the players' skills."""
+        """The matches' chances from here on, given the players' skills."""
         state, walkovers, in_score = self.state, self.walkovers, self._in_score
         form = state.plan.match_form
         usual = chances_given(state.whole, state.ratings, state.races, scale=state.scale, form=form)
@@ -307,7 +307,7 @@ class Outlook:
 
     @property
     def games(self) -> list[Games]:
-        """The games that were played tonight, those of matches in play with them."""
+        """Tonight's games, including those in matches still in play."""
         state = self.state
         everything: list[Result | Scored] = [one.what for one in state.live.values()]
         everything += [
@@ -319,9 +319,9 @@ class Outlook:
         ]
 
     def leverages(self, payouts: Sequence[float] | None = None) -> list[Leverage]:
-        """Return what each remaining match changes; nothing if the bracket is too large for that.
+        """Return what each remaining match changes; nothing if the bracket is too large.
 
-        That is the title, or the prizes with `payouts` for first place, second, ...
+        That is the title odds, or with `payouts` for first place, second, ..., the prizes.
         """
         state = self.state
         if stage_to_draw(state) is not None or state.plan.form in ("swiss", "chips"):
@@ -334,7 +334,7 @@ class Outlook:
 
     @cached_property
     def as_things_are(self) -> Finish:
-        """When it ends if nothing is changed, and the matches that are to be called now are."""
+        """When it ends if nothing changes, and the suggested matches are called now."""
         if self._shared is None:
             return self.uncalled.after_calls(self.to_call)
         called = [(k, name) for _, k, name in self._to_call]
@@ -342,12 +342,12 @@ class Outlook:
 
     @cached_property
     def uncalled(self) -> Finish:
-        """When it ends if it has the tables for itself and nothing is called now."""
+        """When it ends if it has the tables to itself and nothing is called now."""
         return self.finish()
 
     @cached_property
     def _events(self) -> list[Evening]:
-        """The events of the night that are drawn, in their order; they share the tables."""
+        """The night's events that have been drawn, in order; they share the tables."""
         every = sorted((self.state, *self.state.beside), key=lambda one: one.event)
         return [one for one in every if one.drawn and one.plan.form != "chips"]
 
@@ -370,7 +370,7 @@ class Outlook:
 
     @cached_property
     def _queue(self) -> list[tuple[int, Call]]:
-        """The matches of the night that can be called, each with its event, the best first."""
+        """The night's callable matches, each with its event, best first."""
         free = max(1, len(self.state.free_tables))
         every = (
             [(0, call) for call in self.uncalled.calls(free)]
@@ -389,17 +389,17 @@ class Outlook:
 
     @property
     def queue(self) -> list[tuple[int, str]]:
-        """The matches of the night that can be called, each with its event, the best first."""
+        """The night's callable matches, each with its event, best first."""
         return [(self._events[k].event, call.match) for k, call in self._queue]
 
     @property
     def calls(self) -> list[Call]:
-        """The matches that can be called, the best first; of a group round by round."""
+        """The callable matches, best first; in groups, round by round."""
         return [call for k, call in self._queue if k == self._part]
 
     @cached_property
     def _to_call(self) -> list[tuple[int, int, str]]:
-        """The tables that are free, each with the event and the match to call to it now."""
+        """The free tables, each with the event and the match to call to it now."""
         states = self._events
         playing = [one.call.players for state in states for one in state.on_tables.values()]
         busy, found = {player for pair in playing for player in pair}, []
@@ -416,12 +416,12 @@ class Outlook:
 
     @property
     def tables_to_call(self) -> dict[str, int]:
-        """The matches to call now as far as their players are free, each with its table."""
+        """The matches to call now if their players are free, each with its table."""
         return {name: table for table, k, name in self._to_call if k == self._part}
 
     @property
     def to_call(self) -> tuple[str, ...]:
-        """The matches to call now, one for each free table as far as their players are free."""
+        """The matches to call now, one per free table, if their players are free."""
         return tuple(self.tables_to_call)
 
     def finish(
@@ -451,7 +451,7 @@ class Outlook:
     def chip_finishes(
         self, *, tables: int | None = None, turnover: Turnover | None = None
     ) -> Floats:
-        """Return when a chip tournament ends in each of many evenings, as `finish` does."""
+        """Return when a chip tournament ends on each of many evenings, as `finish` does."""
         win = rack_chances(self.state.ratings, scale=self.state.scale)
         pace = learned_pace(self.pace, self.timed)
         later = chip_minutes(self.state, win, pace, tables=tables, turnover=turnover)
@@ -465,7 +465,7 @@ class Outlook:
 
     @property
     def timed(self) -> list[Timed]:
-        """The games and minutes of the matches that were called and played tonight."""
+        """The games and minutes of tonight's called and finished matches."""
         state, found = self.state, []
         chips = state.plan.form == "chips"
         for name, result in state.counted.items():

@@ -1,4 +1,4 @@
-"""The plan of an evening: the formats there are, and how one starts; its bracket, and its races."""
+"""An evening's plan: the available formats, how to start one, its bracket, and its races."""
 
 from __future__ import annotations
 
@@ -44,16 +44,16 @@ FORMATS = (
     "king-of-the-hill",
     "chips",
 )
-"""The formats that a tournament can be begun in."""
+"""The formats in which a tournament can be started."""
 
 FORMATS_WITH: Mapping[str, tuple[str, ...]] = {
     **{one.name: one.field.formats for one in declared(Format) if one.field.formats},
     "chips": ("chips",),
 }
-"""For the parts of a plan that only some formats have: which."""
+"""The formats for each part of a plan that only some formats have."""
 
 BYE = re.compile(r"byes?[\s\d]*", re.IGNORECASE)
-"""How a bye is written on a list."""
+"""How a bye is written in a list."""
 
 KNOCK_OUT = "K1"
 """The stage of the redraw: the first round of the knockout."""
@@ -62,11 +62,11 @@ TO_DRAW = "to draw"
 """In place of a match, the source of a player who is still to be drawn."""
 
 Drawn = Mapping[str, tuple[str | None, ...]]
-"""What has been drawn, by stage: the players of a round in pairs, or where qualifiers come from."""
+"""What has been drawn, by stage: a round's players in pairs, or where qualifiers come from."""
 
 
 def entrants_of(roster: Roster) -> tuple[Entrant, ...]:
-    """Return the players of a list; one whose error it does not state is rated exactly.
+    """Return a list's players; if it doesn't state an error, the rating counts as exact.
 
     >>> entrants_of(Roster(["Ann"], [600.0]))
     (Entrant(name='Ann', rating=600.0, standard_error=0.0, provisional=False),)
@@ -77,9 +77,10 @@ def entrants_of(roster: Roster) -> tuple[Entrant, ...]:
 
 
 def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
-    """Start an evening, if the plan suits those who have entered; more may enter later, or all.
+    """Start an evening, if the plan suits the entrants; more may enter later, or all of them.
 
-    An InputError if there are too few or too many players for the plan, or one of them is a bye.
+    Raises InputError if there are too few or too many players for the plan, or one of them is a
+    bye.
     """
     names = tuple(one.name for one in entrants)
     if len(names) == 1 or len(names) > MOST_PLAYERS:
@@ -103,7 +104,7 @@ def opened(plan: Plan, entrants: Sequence[Entrant]) -> Opened:
 
 
 def refuse_tables(plan: Plan) -> None:
-    """Refuse tables of which two have the same name, or which there are not."""
+    """Reject tables if two have the same name, or a table doesn't exist."""
     names = [plan.table_name(table).casefold() for table in range(1, plan.tables + 1)]
     for name in names:
         if not name.strip() or names.count(name) > 1:
@@ -118,7 +119,7 @@ def refuse_tables(plan: Plan) -> None:
 
 
 def refuse_bye(name: str) -> None:
-    """Refuse a bye instead of a player."""
+    """Reject a bye in place of a player."""
     if BYE.fullmatch(name):
         raise InputError(
             "{name!r} is a bye, not a player. Leave it out; the draw adds byes.", name=name
@@ -127,7 +128,7 @@ def refuse_bye(name: str) -> None:
 
 @lru_cache(maxsize=8)
 def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...] | None) -> Bracket:
-    """Return the bracket of a draw; that of the last draws is kept for the states that follow.
+    """Return a draw's bracket, caching the last ones for the states that follow.
 
     >>> bracket_of(Plan("single", 5), ("Ann", "Bo", "Cy"), (0, None, 1, 2)).byes
     (('W1.1', 0),)
@@ -163,7 +164,7 @@ def bracket_of(plan: Plan, order: tuple[str, ...], lines: tuple[int | None, ...]
 
 
 def groups_of(plan: Plan, players: int) -> int:
-    """Return the number of groups: unless given, groups of four, or of three and four.
+    """Return the number of groups: by default, groups of four, or of three and four.
 
     >>> [groups_of(Plan("groups", 5), players) for players in (8, 12, 14, 16)]
     [2, 3, 4, 4]
@@ -172,7 +173,7 @@ def groups_of(plan: Plan, players: int) -> int:
 
 
 def swiss_of(plan: Plan, order: tuple[str, ...]) -> Swiss:
-    """Return the Swiss of a plan: unless given, with as many rounds as a single elimination.
+    """Return a plan's Swiss: by default, with as many rounds as a single elimination.
 
     >>> swiss_of(Plan("swiss", 5), ("Ann", "Bo", "Cy", "Di", "Ed")).rounds
     3
@@ -181,7 +182,7 @@ def swiss_of(plan: Plan, order: tuple[str, ...]) -> Swiss:
 
 
 def bracket_now(bracket: Bracket, plan: Plan, drawn: Drawn) -> Bracket:
-    """Return the matches whose players' origin is known by what has been drawn so far."""
+    """Return the matches whose players' sources are known from what has been drawn so far."""
     if plan.form == "swiss":
         rounds = pairings(drawn)
         return swiss_bracket(swiss_of(plan, bracket.players), rounds, to_come=False)
@@ -194,7 +195,7 @@ def bracket_now(bracket: Bracket, plan: Plan, drawn: Drawn) -> Bracket:
 
 
 def whole_bracket(bracket: Bracket, plan: Plan, drawn: Drawn) -> Bracket:
-    """Return all matches, with a stand-in for what is still to be drawn."""
+    """Return all matches, with a stand-in for anything still to be drawn."""
     if plan.form == "swiss":
         return swiss_bracket(swiss_of(plan, bracket.players), pairings(drawn))
     if plan.placement == "redraw" and KNOCK_OUT in drawn:
@@ -203,7 +204,7 @@ def whole_bracket(bracket: Bracket, plan: Plan, drawn: Drawn) -> Bracket:
 
 
 def pairings(drawn: Drawn, counted: Mapping[str, Result] | None = None) -> list[list[Pairing]]:
-    """Return the rounds of a Swiss that are drawn, with the winners so far.
+    """Return a Swiss's drawn rounds, with the winners so far.
 
     >>> drawn = {"R1": ("Ann", "Bo", "Cy", None)}
     >>> pairings(drawn, {"R1.1": Result("R1.1", ("Ann", "Bo"), (3, 5), "Bo")})
@@ -227,7 +228,7 @@ def pairings(drawn: Drawn, counted: Mapping[str, Result] | None = None) -> list[
 
 
 def races_of(plan: Plan) -> Races:
-    """Return the races of a plan.
+    """Return a plan's races.
 
     >>> races_of(Plan("double", 7, losers_race=5)).losers
     5
@@ -242,10 +243,10 @@ def races_of(plan: Plan) -> Races:
 
 
 def table_places(before: Occasion, after: Occasion) -> dict[int, int]:
-    """Return the number now of each table that there still is, by its number before.
+    """Return the current number of each table that still exists, by its earlier number.
 
-    A table is known by its name. Where there are as many as before, one whose name is gone has
-    been given the new name that stands in its place.
+    Tables are identified by name. If there are as many tables as before, a table whose name is gone
+    has been given the new name in its place.
 
     >>> house = Plan("double", 5, tables=4, labels=("1", "2", "TV", "4"))
     >>> table_places(house, replace(house, tables=3, labels=("1", "2", "4")))
@@ -265,7 +266,7 @@ def table_places(before: Occasion, after: Occasion) -> dict[int, int]:
 
 
 def changed(plan: Plan, change: Changed, bracket: Bracket | None, begun: Iterable[str]) -> Plan:
-    """Return a plan with other tables or races; matches that have started keep their race.
+    """Return a plan with different tables or races; matches that have started keep their race.
 
     >>> changed(Plan("double", 5, tables=4), Changed(race=4), None, ()).race
     4
@@ -286,7 +287,7 @@ def changed(plan: Plan, change: Changed, bracket: Bracket | None, begun: Iterabl
 
 
 def table_changes(events: Sequence[Event]) -> list[tuple[str, dict[int, int]]]:
-    """Return when tables were opened, closed or renamed, and the number of each from then on."""
+    """Return when tables were opened, closed or renamed, and each one's number from then on."""
     found = []
     first = events[0].what
     plan = first.plan if isinstance(first, Opened) else None

@@ -1,4 +1,4 @@
-"""Who is in an evening: entered, here, late, in place of another, or gone home."""
+"""Who is in an evening: entered, here, late, replacing someone, or gone home."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ DrawnUp: TypeAlias = tuple[tuple[str, ...], tuple[int | None, ...] | None]
 
 
 class People:
-    """Who is in, in which order, who has come and paid, and who would like to play."""
+    """Who is in and in what order, who has checked in and paid, and who would like to play."""
 
     def __init__(self, entrants: Sequence[Entrant]) -> None:
         self.entrants = {one.name: one for one in entrants}
@@ -47,9 +47,9 @@ class People:
         return tuple(self.order), None if self.lines is None else tuple(self.lines)
 
     def take(self, what: What, *, in_pairs: bool = False) -> None:
-        """Apply an entry; with `in_pairs`, a round of a Swiss, its pairs aren't seeds.
+        """Apply an entry; with `in_pairs` (a Swiss round), its pairs aren't seeds.
 
-        An InputError for a player who hasn't entered, as in a damaged file.
+        Raises InputError for a player who hasn't entered, as in a damaged file.
         """
         for name in _names_in(what):
             if name not in self.entrants:
@@ -75,7 +75,7 @@ class People:
                 self.drop(name)
 
     def draw(self, draw: Drawn) -> None:
-        """Draw players; those who are left out may be let in late."""
+        """Draw players; anyone left out may be added late."""
         if len({*draw.order}) < len(draw.order):
             raise InputError("a player is in the draw twice")
         self.order = list(draw.order)
@@ -86,7 +86,7 @@ class People:
             del self.entrants[one.name]
 
     def let_in(self, late: Entrant, line: int | None) -> None:
-        """Let a player in: after the draw at the end, or on the line of a bye."""
+        """Add a player: after the draw, at the end or on a bye's line."""
         if late.name in self.entrants:
             raise InputError("{player} has already entered", player=late.name)
         self.registered.pop(late.name, None)
@@ -97,7 +97,7 @@ class People:
             self.order.append(late.name)
 
     def put(self, name: str, now: Entrant) -> None:
-        """Put an entrant in place of another."""
+        """Replace a player with an entrant."""
         if now.name != name and now.name in self.entrants:
             raise InputError("{player} has already entered", player=now.name)
         self.registered.pop(now.name, None)
@@ -108,7 +108,7 @@ class People:
         self.dropped = [n for n in self.dropped if n != name]  # somebody is here again
 
     def check_in(self, entry: CheckedIn) -> None:
-        """Let a player have come, or paid, or not."""
+        """Record that a player has come, or paid, or not."""
         for who, is_in in ((self.arrived, entry.arrived), (self.paid, entry.paid)):
             if is_in is not None:
                 (who.add if is_in else who.discard)(entry.name)
@@ -122,7 +122,7 @@ class People:
             self.tick(name)
 
     def tick(self, name: str, to: str = "") -> None:
-        """Let it be forgotten that a player has come and paid; or be so of another name."""
+        """Forget that a player has checked in and paid, or move that to another name."""
         for who in (self.arrived, self.paid):
             if name in who:
                 who.remove(name)

@@ -1,4 +1,4 @@
-"""Moves about who plays: check-in, other names, substitutes, places traded in the draw."""
+"""Moves about players: check-in, renames, substitutes, and swapping places in the draw."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from evenbreak.tournaments.evening.moves import late
 
 
 def rename(state: Evening, player: str, to: str) -> Renamed:
-    """Give a player, by their full name, another name, at any time."""
+    """Rename a player, by full name, at any time."""
     before = state.entrants[entered(state, player)]
     if to == player or not to.strip():
         raise InputError("{player} already has that name. Enter a different one.", player=player)
@@ -28,9 +28,9 @@ def rename(state: Evening, player: str, to: str) -> Renamed:
 
 
 def substitute(state: Evening, player: str, entrant: Entrant) -> Substituted:
-    """Let someone replace a player, by their full name, who has not played yet.
+    """Let someone replace a player, by full name, who hasn't played yet.
 
-    A match of theirs that has been called stays on its table.
+    If their match has been called, it stays on its table.
     """
     name = entered(state, player)
     check_entrant(state, entrant)
@@ -39,9 +39,9 @@ def substitute(state: Evening, player: str, entrant: Entrant) -> Substituted:
 
 
 def swap(state: Evening, one: str, other: str) -> Swapped:
-    """Let two players, by their full names, trade places in the draw.
+    """Let two players, by full name, trade places in the draw.
 
-    In a Swiss they trade opponents in the round that is being played.
+    In a Swiss, they trade opponents in the current round.
     """
     if not state.drawn:
         raise InputError("there's no draw yet, so players can't trade places")
@@ -62,7 +62,7 @@ def swap(state: Evening, one: str, other: str) -> Swapped:
 
 
 def _refuse_begun(state: Evening, player: str, *, this_round: bool = False) -> None:
-    """Refuse what can only be done before the first match of a player, or that of this round."""
+    """Reject what can only be done before a player's first match, or their match in this round."""
     if not state.drawn:
         return
     if state.plan.form == "chips":
@@ -90,7 +90,7 @@ def _refuse_begun(state: Evening, player: str, *, this_round: bool = False) -> N
 def check_in(
     state: Evening, player: str, *, arrived: bool | None = None, paid: bool | None = None
 ) -> CheckedIn:
-    """Note whether a player, by their full name, is here and has paid."""
+    """Record whether a player, by full name, is here and has paid."""
     name = entered(state, player)
     if arrived is None and paid is None:
         raise InputError("say whether {player} is here, or has paid", player=name)
@@ -106,14 +106,14 @@ def register(state: Evening, name: str, rating: float | None = None) -> Register
 
 
 def accept(state: Evening, name: str, *, unrated: bool = False) -> Late:
-    """Let in someone who asked to play, or was left out of the draw, maybe without their rating."""
+    """Accept someone who asked to play, or was left out of the draw, perhaps unrated."""
     rating = state.registered[_registered(state, name)]
     rating = None if unrated else rating
     return late(state, state.plan.newcomer(name) if rating is None else Entrant(name, rating))
 
 
 def decline(state: Evening, name: str) -> Declined:
-    """Take someone off the list of those who would like to play."""
+    """Take someone off the list of people who would like to play."""
     return Declined(_registered(state, name))
 
 

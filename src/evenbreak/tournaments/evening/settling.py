@@ -1,4 +1,4 @@
-"""What the director decides: matches of the wrong players that stand, ties that are broken."""
+"""The director's decisions: letting the wrong players' matches stand, and breaking ties."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from evenbreak.words import Command, listed
 def stand(state: Evening, match: str) -> list[Result]:
     """Let a match count that was played before a correction changed its players.
 
-    Those who had moved on into it from the corrected match stay where they are, as its winner, and
-    the corrected score is kept. Returns the corrected matches. An InputError if the match wasn't
-    played by other players, or an earlier one must be settled first.
+    A player who moved on into it from the corrected match stays where they are, as that match's
+    winner, and the corrected score is kept. Returns the corrected matches. Raises InputError if the
+    match wasn't played by other players, or an earlier match must be settled first.
     """
     if state.plan.form == "chips":
         raise InputError(
@@ -72,9 +72,9 @@ def stand(state: Evening, match: str) -> list[Result]:
 
 
 def tied_groups(state: Evening) -> list[str]:
-    """Return the groups that are played out and tied, so that it is open who goes on.
+    """Return the completed groups with ties that leave open who advances.
 
-    The runners-up count as a group, named by their rank, as soon as all groups are settled.
+    The runners-up count as a group, named after their rank, once all groups are settled.
     """
     found = [
         group.name
@@ -87,7 +87,7 @@ def tied_groups(state: Evening) -> list[str]:
 
 
 def _tied_runners(state: Evening) -> list[str]:
-    """Return what the runners-up are called if it is open who of them goes on."""
+    """Return the runners-up's name if it is open which of them advance."""
     runners_up, now = state.bracket.runners_up, state.standing
     if runners_up is None or len(now.runners_up) < len(state.bracket.groups):
         return []
@@ -95,7 +95,7 @@ def _tied_runners(state: Evening) -> list[str]:
 
 
 class TieBreak(NamedTuple):
-    """The order of a group after its ties are broken, by games won minus lost, then by lot."""
+    """A group's order after its ties are broken, by games won minus lost, then by lot."""
 
     ranked: Ranked
     difference: dict[str, int]
@@ -103,12 +103,12 @@ class TieBreak(NamedTuple):
 
 
 def break_ties(state: Evening, rng: np.random.Generator, *, only_lots: bool = False) -> TieBreak:
-    """Break the ties of a finished round robin; with `only_lots`, by lot alone.
+    """Break a finished round robin's ties; with `only_lots`, only by lot.
 
-    Players level in matches won, overall and among themselves, are ranked by games won minus games
-    lost in all their matches, and then by lot. Runners-up of several groups who are level in the
-    share of matches won are ranked by the same per match, and then by lot. An InputError if there
-    is no tie.
+    Players who are tied in matches won, overall and among themselves, are ranked by games won minus
+    games lost in all their matches, and then by lot. Runners-up from several groups who are tied in
+    the share of matches won are ranked by the same difference per match, and then by lot. Raises
+    InputError if there is no tie.
     """
     runners_up = state.bracket.runners_up
     broken = [runners_up.name] if runners_up and runners_up.name in state.results else []
@@ -156,7 +156,7 @@ def _runners_broken(
 
 
 def _differences(state: Evening, group: Group) -> dict[str, int]:
-    """Return the games won minus those lost of each player of a group."""
+    """Return the games won minus games lost for each player in a group."""
     difference = dict.fromkeys((state.order[k] for k in group.members), 0)
     for match in group.matches:
         result = state.counted[match]
@@ -172,7 +172,7 @@ def _by_key(
     difference: dict[str, int],
     rng: np.random.Generator,
 ) -> TieBreak:
-    """Return the players in the order of a key, those who are level in it by lot."""
+    """Return the players in the order of a key, breaking ties by lot."""
     names = list(key)
     lots = dict(zip(names, rng.permutation(len(names)).tolist(), strict=True))
     order = tuple(sorted(names, key=lambda name: (key[name], lots[name])))

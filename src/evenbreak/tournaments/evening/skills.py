@@ -1,8 +1,8 @@
 """What tonight's games show about the players' skills.
 
-Each skill is normal around its rating, with the rating's standard error; those of players without a
-rating are as far apart as the others' (`skills_before`). A game between two players is won with the
-chances of the scale. The posterior is approximated by a normal distribution at its mode (Laplace's
+Each skill is normal around its rating, with the rating's standard error; unrated players' skills
+have the same spread as the others' (`skills_before`). The chances in a game between two players are
+given by the scale. The posterior is approximated by a normal distribution at its mode (Laplace's
 method).
 """
 
@@ -32,12 +32,12 @@ class Games(NamedTuple):
 
 
 def skills_before(ratings: Floats, errors: Floats, unrated: Bools) -> tuple[Floats, Floats]:
-    """Return the mean and the covariance of the players' skills before any game.
+    """Return the mean and covariance of the players' skills before any game.
 
-    A player without a rating is one more of the field: as good on average as those with one, and
-    with the same spread. The starter's rating and error count as a few players of the field, so
-    that they decide where few are rated (the normal-inverse-chi-square posterior). The center of
-    the field isn't known for certain either, and is the same for all unrated players.
+    An unrated player is another member of the field: as good on average as the rated players, and
+    with the same spread. The starter's rating and error count as a few players in the field, so
+    that they decide when few players are rated (the normal-inverse-chi-square posterior). The
+    field's center isn't known for certain either, and is the same for all unrated players.
     """
     mean, covariance = ratings.astype(float).copy(), np.diag(errors.astype(float) ** 2)
     field = ratings[~unrated].astype(float)
@@ -58,11 +58,11 @@ def skills_before(ratings: Floats, errors: Floats, unrated: Bools) -> tuple[Floa
 def skills_tonight(
     ratings: Floats, spread: Floats, games: Sequence[Games], scale: Scale, form: float = 0.0
 ) -> tuple[Floats, Floats]:
-    """Return the mean and the covariance of the players' skills, given tonight's games.
+    """Return the mean and covariance of the players' skills, given tonight's games.
 
     `spread` has standard errors (0: exact) or a covariance matrix. `form` is the standard deviation
-    of a game's log-odds from match to match: with it, the games of one match count for less than as
-    many games of several.
+    of a game's log-odds from match to match: with it, games in a single match count for less than
+    the same number of games in several.
     """
     slope = math.log(2.0) / scale.points_per_doubling
     covariance = spread.astype(float) if spread.ndim == 2 else np.diag(spread.astype(float) ** 2)

@@ -1,8 +1,8 @@
-"""The story of a night: each player's chance of the title after each match, and what stood out.
+"""A night's story: each player's title odds after each match, and what stood out.
 
 The log is folded again up to each result, so that the story is the same wherever and whenever it is
-calculated. A corrected result counts as if it had been right at once; scores of matches in play are
-left out.
+calculated. A corrected result counts as if it had been right the first time; scores in matches
+still in play are left out.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from evenbreak.tournaments.evening.matches import Pairing
 from evenbreak.tournaments.evening.outlook import Outlook
 
 MOST_STEPS = 64
-"""Steps of a story: of a night with more results, those in between are left out."""
+"""The most steps in a story: if a night has more results, some in between are left out."""
 
 
 class Step(NamedTuple):
     """A result (None: the draw), and the title odds after it.
 
-    `chance` is the winner's in that match before it started, None if unknown, as for a forfeit;
-    `minutes` count from its call.
+    `chance` is the winner's chance in that match before it started, None if unknown, as for a
+    forfeit; `minutes` are counted from its call.
     """
 
     at: str
@@ -37,14 +37,14 @@ class Step(NamedTuple):
 
     @property
     def hill(self) -> bool:
-        """Whether both players were one game short of the match when the last game started."""
+        """Whether both players needed one more game when the last game started."""
         one = self.result
         return one is not None and one.race is not None and _is_hill(one.score, one.race)
 
 
 @dataclass(frozen=True)
 class Story:
-    """The story of a night so far, from the draw on if `whole`.
+    """A night's story so far, from the draw on if `whole`.
 
     `folded` has the events up to each step, for a later story that continues this one.
     """
@@ -55,7 +55,7 @@ class Story:
 
     @property
     def leaders(self) -> list[str]:
-        """Everyone, the best chance of the title now first; then the best chance ever."""
+        """Everyone, sorted by current title odds, then by their best title odds ever."""
         last, best = self.steps[-1].title, self.highest
         return sorted(best, key=lambda name: (-last[name], -best[name]))
 
@@ -66,19 +66,19 @@ class Story:
 
     @property
     def highest(self) -> dict[str, float]:
-        """The best chance of the title that each player has had."""
+        """Each player's best title odds so far."""
         names = self.steps[-1].title
         return {name: max(step.title.get(name, 0.0) for step in self.steps) for name in names}
 
     @property
     def upset(self) -> Step | None:
-        """The match whose winner had been given the least, if that was less than an even chance."""
+        """The match whose winner had the lowest chance, if that was below even."""
         found = [one for one in self.steps if one.chance is not None and one.chance < 0.5]
         return min(found, key=lambda one: one.chance or 0.0, default=None)
 
     @property
     def climb(self) -> tuple[str, float, float] | None:
-        """Whose chance of the title has grown most since the draw: from what, to what."""
+        """The player whose title odds have grown most since the draw: from what, to what."""
         first, last = self.steps[0].title, self.steps[-1].title
         name = max(last, key=lambda one: last[one] - first.get(one, 0.0))
         start = first.get(name, 0.0)
@@ -86,18 +86,18 @@ class Story:
 
     @property
     def closest(self) -> Step | None:
-        """The match that went to the last game and moved most of the title odds."""
+        """The match that went to the last game and moved the title odds most."""
         moved = [(self.moved(k), k) for k, one in enumerate(self.steps) if one.hill]
         return self.steps[max(moved)[1]] if moved else None
 
     @property
     def turn(self) -> Step | None:
-        """The match that moved most of the title odds, without the last one of the night."""
+        """The match that moved the title odds most, apart from the night's last match."""
         moved = [(self.moved(k), k) for k in range(1, len(self.steps) - self.over)]
         return self.steps[max(moved)[1]] if moved else None
 
     def moved(self, step: int) -> float:
-        """Return the share of the title odds that a step has moved."""
+        """Return the share of the title odds moved by a step."""
         before, after = self.steps[step - 1].title, self.steps[step].title
         return 0.5 * sum(abs(after[name] - before.get(name, 0.0)) for name in after)
 
@@ -113,7 +113,7 @@ def story_of(
     *,
     within: float = math.inf,
 ) -> Story:
-    """Return the story of a night so far, continuing an `earlier` one.
+    """Return a night's story so far, continuing an `earlier` one.
 
     After `within` seconds no second step is started; the story then isn't `whole`, and lacks its
     beginning, which takes longest.
@@ -134,7 +134,7 @@ def story_of(
 
 
 def _prefixes(state: Evening) -> list[tuple[Event, ...]]:
-    """Return the events up to the draw, and up to each result that counts, at most `MOST_STEPS`."""
+    """Return the events up to the draw and up to each counted result, at most `MOST_STEPS`."""
     counted: dict[Pairing, Result] = {
         (name, frozenset(one.players)): one for name, one in state.counted.items()
     }
@@ -161,7 +161,7 @@ def _prefixes(state: Evening) -> list[tuple[Event, ...]]:
 
 
 def _step(events: tuple[Event, ...]) -> Step:
-    """Return what the last of some events has made of the title odds."""
+    """Return how the last of some events changed the title odds."""
     last = events[-1]
     outlook = Outlook(evening(events), last.at)
     odds = outlook.odds

@@ -34,7 +34,7 @@ def wait(
     until: str = "",
     reason: str = "",
 ) -> Waits:
-    """Let a match wait, off its table; without a reason it waits no longer.
+    """Let a match wait, off its table; without a reason, it no longer waits.
 
     `absent` players forfeit it at the time `until`, such as 2025-03-01T20:15:00.
     """

@@ -1,6 +1,6 @@
-"""What can be taken back, the director's last entry first, and what an entry takes away.
+"""What can be taken back, starting with the director's last entry, and what an entry removes.
 
-An entry takes away matches in play, and results that no longer count.
+An entry can remove matches in play, and results that stop counting.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ from evenbreak.tournaments.evening.matches import LiveScore, OnTable
 from evenbreak.words import Sentence, say
 
 _LIGHT = Called | CalledBack | Scored | Waits | CheckedIn | Registered | Declined
-"""Entries that no result rests on."""
+"""Entries that no result depends on."""
 
 
 def own_last(state: Evening, by: str = "") -> int | None:
-    """Return the number of the last act of an author; all who direct are one author.
+    """Return the number of an author's last action; all directors count as one author.
 
-    Scores that players tap, or that a program enters, are no acts.
+    Scores tapped by players, or entered by a program, aren't actions.
     """
     phone = Event("", Undone(), by).by_phones
     for number, event in zip(state.numbers[:0:-1], state.events[:0:-1], strict=True):
@@ -50,10 +50,9 @@ def own_last(state: Evening, by: str = "") -> int | None:
 
 
 def undoable(state: Evening) -> dict[int, Event]:
-    """Return what can be taken back at once, by number: what the director did last, and players.
+    """Return what can be taken back at once, by number: the director's last action, and players'.
 
-    A result that both players entered can be taken back so until the director has entered
-    something since.
+    A result entered by both players can be taken back this way until the director enters something.
     """
     events = dict(zip(state.numbers, state.events, strict=True))
     own = own_last(state)
@@ -67,16 +66,16 @@ def undoable(state: Evening) -> dict[int, Event]:
 
 
 def free_entries(state: Evening) -> set[int]:
-    """Return the numbers of the entries that nothing depends on.
+    """Return the numbers of entries that nothing depends on.
 
-    Undoing them leaves every other result and every match in play as it is. Scores that players tap
-    are left out.
+    Undoing them leaves every other result and every match in play as it is. Scores tapped by
+    players are left out.
     """
     return {number for number in state.numbers[1:] if is_free(state, number)}
 
 
 def is_free(state: Evening, entry: int) -> bool:
-    """Return whether an entry is one that nothing follows from."""
+    """Return whether nothing follows from an entry."""
     events = dict(zip(state.numbers, state.events, strict=True))
     if entry not in events or entry == 1:
         return False
@@ -99,13 +98,13 @@ def is_free(state: Evening, entry: int) -> bool:
 
 
 def _own(events: Mapping[int, Event], entry: int) -> list[int]:
-    """Return what was entered with an entry, without the calls that were made by themselves."""
+    """Return what was entered with an entry, without automatic calls."""
     act = _act(events, entry) if isinstance(events[entry].what, Called | Result) else [entry]
     return [number for number in act if events[number].by != BY_ITSELF] or [entry]
 
 
 def _is_past(state: Evening, entry: int, match: str) -> bool:
-    """Return whether a match is over, or has been called again, since a call of it."""
+    """Return whether a match is over, or has been called again, since one of its calls."""
     if not state.drawn or match not in state.standing.to_play:
         return True
     return any(
@@ -115,7 +114,7 @@ def _is_past(state: Evening, entry: int, match: str) -> bool:
 
 
 def _open_behind(before: Evening, after: Evening) -> bool:
-    """Return whether a match of a Swiss is open again after which another round was drawn."""
+    """Return whether a match from an earlier Swiss round is open again."""
     if before.plan.form != "swiss" or not after.drawn:
         return False
     last = f"R{len(after.later)}."
@@ -124,7 +123,7 @@ def _open_behind(before: Evening, after: Evening) -> bool:
 
 
 def _leads_nowhere(state: Evening, what: object) -> bool:
-    """Return whether a result is one of a match from which none has started that it leads to."""
+    """Return whether a result's match leads only to matches that haven't started."""
     if not isinstance(what, Result) or not state.drawn or state.plan.form in ("chips", "swiss"):
         return False
     sources = {what.match, *(g.name for g in state.bracket.groups if what.match in g.matches)}
@@ -140,7 +139,7 @@ def _leads_nowhere(state: Evening, what: object) -> bool:
 def undo(state: Evening, entry: int | None = None) -> list[Undone]:
     """Undo an entry; None: the director's last one.
 
-    Calls that came with it, as when two matches trade tables, are undone too. An InputError if
+    Calls that came with it, as when two matches trade tables, are undone too. Raises InputError if
     something depends on it.
     """
     own = own_last(state)
@@ -154,7 +153,7 @@ def undo(state: Evening, entry: int | None = None) -> list[Undone]:
 
 
 def _why_not(state: Evening, events: Mapping[int, Event], entry: int) -> Sentence:
-    """Return why an entry cannot be taken back."""
+    """Return why an entry can't be taken back."""
     if not 1 <= entry <= len(state.log):
         return say("there is no entry {entry}", entry=entry)
     if entry in state.undone:
@@ -173,9 +172,9 @@ def _why_not(state: Evening, events: Mapping[int, Event], entry: int) -> Sentenc
 
 
 def _taken_back(state: Evening, events: Mapping[int, Event], entry: int) -> list[Undone]:
-    """Return what takes back an entry with what came with it, the last first.
+    """Return the entries that take back an entry and whatever came with it, last first.
 
-    A match that was called with a result and has started since stays on its table.
+    A match that was called with a result and has started since then stays on its table.
     """
     begun = {*state.live, *state.counted} if state.drawn else set()
     return [
@@ -190,8 +189,8 @@ def _taken_back(state: Evening, events: Mapping[int, Event], entry: int) -> list
 def redoable(state: Evening) -> int | None:
     """Return the entry that was undone last, unless the director has entered something since.
 
-    Of an act of several, such as a correction and the call that it needed, it is the one that the
-    act is called by, as when it is undone.
+    If an action has several entries, such as a correction and the call it needed, it is the one
+    that gives the action its name, as when it is undone.
     """
     if not state.undone:
         return None
@@ -204,13 +203,13 @@ def redoable(state: Evening) -> int | None:
 
 
 def _all_events(state: Evening) -> dict[int, Event]:
-    """Return all entries by number, those that were undone too."""
+    """Return all entries by number, including undone ones."""
     events = dict(zip(state.numbers, state.events, strict=True))
     return events | {number: one.event for number, one in state.undone.items()}
 
 
 def redo(state: Evening, entry: int | None = None) -> list[Redone]:
-    """Let an entry that was undone count again, with what came with it; None: the last one."""
+    """Let an undone entry count again, with whatever came with it; None: the last one."""
     last = redoable(state)
     if last is None or entry not in (None, last):
         raise InputError("there's nothing to redo")
@@ -218,7 +217,7 @@ def redo(state: Evening, entry: int | None = None) -> list[Redone]:
 
 
 def _act(events: Mapping[int, Event], number: int) -> list[int]:
-    """Return an entry with the calls that came with it, or with which it came."""
+    """Return an entry with the calls that came with it, or that it came with."""
     first = last = number
     while _came_with_next(events, first - 1):
         first -= 1
@@ -230,8 +229,8 @@ def _act(events: Mapping[int, Event], number: int) -> list[int]:
 def _came_with_next(events: Mapping[int, Event], number: int) -> bool:
     """Return whether an entry came with the next one.
 
-    It did if that one is a call that a result made by itself; or if it is a call that could not be
-    made alone: to a table that was taken, or of players who were not in the match.
+    It did if the next one is a result's automatic call, or if it is itself a call that couldn't
+    have been made alone: to a table that was taken, or for players who weren't in the match.
     """
     event, following = events.get(number), events.get(number + 1)
     if event is not None and following is not None and following.by == BY_ITSELF:
@@ -253,8 +252,8 @@ def _came_with_next(events: Mapping[int, Event], number: int) -> bool:
 class Loss(NamedTuple):
     """A match that is no longer played, or whose result no longer counts.
 
-    `table` is the one that it leaves, `score` the one that it loses; `result` is None for a match
-    in play.
+    `table` is the one it leaves, and `score` is the one it loses; `result` is None for a match in
+    play.
     """
 
     match: str
@@ -265,9 +264,9 @@ class Loss(NamedTuple):
 
 
 def losses(before: Evening, after: Evening) -> list[Loss]:
-    """Return what an entry takes away besides that which it is about.
+    """Return what an entry removes apart from its own subject.
 
-    Nothing of it is forgotten: a result counts again, and a match goes on at its score, as soon as
+    None of it is forgotten: a result counts again, and a match continues at its score, as soon as
     the same players are in the match.
     """
     if not before.drawn:
@@ -277,9 +276,9 @@ def losses(before: Evening, after: Evening) -> list[Loss]:
 
 
 def matches_of(before: Evening, after: Evening) -> set[str]:
-    """Return the matches that what was entered, or taken back, is about.
+    """Return the matches affected directly by what was entered or taken back.
 
-    Calls that come with a correction are of players who were not in the match before it.
+    Calls that come with a correction are for players who weren't in the match before it.
     """
     return {
         one.match
@@ -296,7 +295,7 @@ def _between(before: Evening, after: Evening) -> list[object]:
 
 
 def _names_after(before: Evening, after: Evening) -> dict[str, str]:
-    """Return what players are called after a rename; a substitute sits where another sat."""
+    """Return players' names after a rename or a substitution."""
     now = {who: name for name, who in after.entries.items()}
     names = {name: now[who] for name, who in before.entries.items() if who in now}
     for one in _between(before, after):

@@ -1,9 +1,9 @@
-"""The Calcutta: players are sold by auction, and the pot is paid to those who bought the best.
+"""The Calcutta: players are auctioned, and the pot is paid to the buyers of the best.
 
-A lot's fair share of the pot is the sum over places of payout times P(place). What a bid
-is worth depends on the whole pot, which no one knows before the last lot: the money bid so
-far, this bid, and what the lots still to come will bring. If those go for their fair shares
-f of the pot R in the end, and B has been bid so far,
+A lot's fair share of the pot is the sum over places of payout times P(place). A bid's value depends
+on the whole pot, which no one knows before the last lot: the money bid so far, this bid, and what
+the upcoming lots will bring. If these go for their fair shares f of the final pot R, and B has been
+bid so far,
 
     R = B + b + R (sum of f still to come),
 
@@ -24,15 +24,15 @@ from evenbreak.tournaments.odds.title import PlaceOdds
 
 @dataclass(frozen=True)
 class Lot:
-    """A lot of the auction.
+    """A lot in the auction.
 
     Parameters
     ----------
     fair_share
-        expected share of the pot.
+        the expected share of the pot.
     break_even
-        the bid at which it wins back its cost, on average; None where nothing has been sold yet: no
-        one knows then what the lots will bring.
+        the bid at which it wins back its cost, on average; None if nothing has been sold yet,
+        because no one knows then what the lots will bring.
     """
 
     player: str
@@ -41,12 +41,12 @@ class Lot:
 
 
 def fair_shares(odds: PlaceOdds, shares: Sequence[float]) -> dict[str, float]:
-    """Return each player's fair share of a pot that is paid by places.
+    """Return each player's fair share of a pot that is paid out by place.
 
     Parameters
     ----------
     shares
-        the part of the pot for first place, second, ...
+        the share of the pot for first place, second, ...
 
     >>> import numpy as np
     >>> from evenbreak.tournaments import single_elimination, title_odds
@@ -64,17 +64,16 @@ def calcutta(
     *,
     paid_out: float = 1.0,
 ) -> list[Lot]:
-    """Return the present value of the lots still to be sold.
+    """Return the current value of the lots still to be sold.
 
-    Each is valued as if it came next, and the others after it went for their fair shares of
-    the pot.
+    Each is valued as if it came next and the others then went for their fair shares of the pot.
 
     Parameters
     ----------
     fair
-        each player's fair share of what is paid out; they sum to 1.
+        each player's fair share of the payout; they sum to 1.
     paid_out
-        share of the pot that is paid out; the rest is the house's.
+        the share of the pot that is paid out; the rest goes to the house.
 
     Raises
     ------
@@ -103,15 +102,15 @@ def lot_worth(
 ) -> float:
     """Return a lot's expected winnings if it goes for a bid.
 
-    Half of it is worth half as much, and costs half the bid: a player who may buy half of
-    themselves should do so where this is more than the bid.
+    Half of a lot is worth half as much and costs half the bid: a player who may buy half of
+    themselves should do so if this is more than the bid.
 
     Parameters
     ----------
     fair, sold, paid_out
         as in `calcutta`.
     player, bid
-        the lot, and what it would go for.
+        the lot, and the price it would go for.
 
     >>> round(lot_worth({"Ann": 0.5, "Bo": 0.3, "Cy": 0.2}, {"Cy": 30}, "Bo", 60), 2)
     54.0
@@ -130,7 +129,7 @@ def lot_worth(
 
 @dataclass(frozen=True)
 class _Auction:
-    """The money bid so far, and the share of the pot of each lot still to come."""
+    """The money bid so far, and each upcoming lot's share of the pot."""
 
     bids: float
     to_come: dict[str, float]
@@ -139,7 +138,7 @@ class _Auction:
     def of(
         cls, fair: Mapping[str, float], sold: Mapping[str, float] | None, paid_out: float
     ) -> _Auction:
-        """Return the auction as it stands, checked."""
+        """Return the auction's current state, after checking it."""
         bids = dict(sold or {})
         part = number(paid_out, "paid_out", above=0.0, high=1.0)
         shares = {name: number(s, f"fair share of {name}", low=0.0) for name, s in fair.items()}
@@ -153,6 +152,6 @@ class _Auction:
         return cls(total, {name: part * s for name, s in shares.items() if name not in bids})
 
     def pot(self) -> float | None:
-        """Return the whole pot if all lots to come go for their fair shares."""
+        """Return the whole pot if all upcoming lots go for their fair shares."""
         left = 1.0 - sum(self.to_come.values())
         return self.bids / left if self.bids and left > 0.0 else None

@@ -1,4 +1,4 @@
-"""Payouts: which share of the prize money each place gets, by number of entrants."""
+"""Payouts: each place's share of the prize money, by number of entrants."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from evenbreak.words import joined, say
 
 
 class PayoutRow(NamedTuple):
-    """The shares of the places, for some numbers of entrants.
+    """The shares of the places for a range of entrants.
 
     Parameters
     ----------
     entrants_from, entrants_to
         None for no upper limit.
     shares
-        the part of the prize money for first place, second, ...; they sum to 1 at most, and
-        what is left is the house's.
+        the share of the prize money for first place, second, ...; they sum to at most 1, and any
+        remainder goes to the house.
     """
 
     entrants_from: int
@@ -75,7 +75,7 @@ class Payouts:
                 )
 
     def shares(self, entrants: int) -> tuple[float, ...]:
-        """Return the shares of the places for a number of entrants.
+        """Return the places' shares for a number of entrants.
 
         Raises
         ------
@@ -131,12 +131,12 @@ PAYOUTS: dict[str, Payouts] = {
 
 
 def payout_table(name_or_shares: str | Sequence[float] | Payouts) -> Payouts:
-    """Return a table by its name, or the one that always pays the same shares.
+    """Return a table by name, or a table that always pays the same shares.
 
     Raises
     ------
     InputError
-        if no table has this name, or the shares cannot be used.
+        if no table has this name, or the shares are invalid.
 
     >>> payout_table("40/30/20/10").shares(16)
     (0.4, 0.3, 0.2, 0.1)
@@ -166,19 +166,19 @@ _PERCENTS = re.compile(r"[0-9]{1,3}(\.[0-9]+)?(/[0-9]{1,3}(\.[0-9]+)?)*", re.ASC
 
 @dataclass(frozen=True)
 class PrizeMoney:
-    """The prize money of a tournament.
+    """A tournament's prize money.
 
     Parameters
     ----------
     fee
-        what each player pays to enter.
+        each player's entry fee.
     house
-        the part of the pot, from 0 to .99, that the house keeps.
+        the share of the pot, from 0 to .99, that the house keeps.
     payout
-        the name of a payout table, or what the places get in percent, such as 50/30/20; '' for
-        70/30 if fewer than 8 players enter, else 40/30/20/10.
+        the name of a payout table, or the places' percentages, such as 50/30/20; '' for 70/30 with
+        fewer than 8 players, else 40/30/20/10.
     unit
-        prizes are whole multiples of it, such as 5; 0: exact to the hundredth.
+        prizes are whole multiples of this, such as 5; 0: exact to the hundredth.
 
     Raises
     ------
@@ -204,25 +204,25 @@ class PrizeMoney:
         self.payouts(8)
 
     def pot(self, entrants: int) -> float:
-        """Return what is paid out, if the payout table pays all of it."""
+        """Return how much is paid out, if the payout table pays all of it."""
         return (self.fee * entrants + self.added) * (1.0 - self.house)
 
     def payouts(self, entrants: int) -> Payouts:
-        """Return the shares of the places."""
+        """Return the places' shares."""
         return _payouts(self.payout or ("70/30" if entrants < 8 else "40/30/20/10"))
 
     def amounts(self, entrants: int, payers: int | None = None) -> list[float]:
         """Return the money for first place, second, ...
 
-        Each is rounded down, to the hundredth or to a multiple of `unit`; what that leaves goes
-        to the first place, as far as it makes a whole unit. They never sum to more than the pot.
+        Each is rounded down to the hundredth or to a multiple of `unit`; what is left over goes to
+        first place, in whole units. They never sum to more than the pot.
 
         Parameters
         ----------
         entrants
-            decides how many places are paid.
+            how many entrants there are, which decides how many places are paid.
         payers
-            who have paid the fee; None: all entrants.
+            how many have paid the fee; None: all entrants.
         """
         pot = _hundredths(self.pot(entrants if payers is None else payers))
         step = max(1, round(self.unit * 100))
@@ -232,24 +232,24 @@ class PrizeMoney:
         return [one / 100.0 for one in paid]
 
     def left(self, entrants: int, payers: int | None = None) -> float:
-        """Return the remainder after rounding the money for the places."""
+        """Return what is left over after rounding the places' money."""
         pot = _hundredths(self.pot(entrants if payers is None else payers))
         money = self._for_places(pot, self.payouts(entrants).shares(entrants))
         return (money - _hundredths(sum(self.amounts(entrants, payers)))) / 100.0
 
     @staticmethod
     def _for_places(pot: int, shares: Sequence[float]) -> int:
-        """Return what the places get together, in hundredths."""
+        """Return how much the places get in all, in hundredths."""
         return min(pot, _hundredths(sum(shares) * pot / 100.0))
 
 
 def _hundredths(money: float) -> int:
-    """Return an amount in whole hundredths, rounded down, but for an error of arithmetic."""
+    """Return an amount in whole hundredths, rounded down, but correcting floating-point error."""
     return int(money * 100.0 + 1e-6)
 
 
 def shared_prize(amounts: Sequence[float], first: int, last: int, unit: float = 0.0) -> float:
-    """Return what each of the players gets who share the places `first` to `last`.
+    """Return what each player gets if several share the places `first` to `last`.
 
     >>> shared_prize([50.0, 30.0, 15.0, 10.0], 3, 4, 5.0), shared_prize([50.0], 5, 6)
     (10.0, 0.0)
@@ -262,7 +262,7 @@ def shared_prize(amounts: Sequence[float], first: int, last: int, unit: float = 
 def with_prizes(
     places: Sequence[tuple[str, str]], prizes: Sequence[float], unit: float = 0.0
 ) -> list[tuple[str, str, float]]:
-    """Return places, such as 5-6, with their pay in multiples of `unit`; shared places share it.
+    """Return places, such as 5-6, with their pay in multiples of `unit`; tied players split it.
 
     >>> with_prizes([("1", "Ann"), ("2-3", "Bo"), ("2-3", "Cy")], [100.0, 60.0, 30.0])
     [('1', 'Ann', 100.0), ('2-3', 'Bo', 45.0), ('2-3', 'Cy', 45.0)]

@@ -1,1 +1,1 @@
-"""Title odds: who finishes where, exactly, from the chances of each match."""
+"""Title odds: who finishes where, calculated exactly from each match's chances."""

@@ -1,4 +1,4 @@
-"""The chances of each match, as tables: P(i beats j) for every two players."""
+"""Each match's chances, as tables: P(i beats j) for every two players."""
 
 from __future__ import annotations
 
@@ -30,21 +30,21 @@ Win: TypeAlias = ArrayLike | Callable[[str, str], float] | HasWin
 """P(i beats j) for every two players: a table, or a function of two names."""
 
 Wins: TypeAlias = Win | Mapping[str, Win]
-"""One for all matches, or one for each match, by match name."""
+"""One for all matches, or a mapping with one per match, by match name."""
 
 
 @dataclass(frozen=True, eq=False)
 class Chances:
     """P(slot 1's player wins) for each match and every two players.
 
-    Tables have one extra row and column for an empty slot, against which everyone wins. A
-    third axis, if there is one, runs over samples.
+    Tables have one extra row and column for an empty slot, against which everyone wins. A third
+    axis, if any, runs over samples.
     """
 
     tables: Mapping[str, Floats]
 
     def of(self, match: str) -> Floats:
-        """Return the table of a match."""
+        """Return a match's table."""
         return self.tables[match]
 
     def each(self, match: str, first: NDArray[np.integer], second: NDArray[np.integer]) -> Floats:
@@ -56,7 +56,7 @@ class Chances:
 
 
 def of_samples(table: Floats, first: NDArray[np.integer], second: NDArray[np.integer]) -> Floats:
-    """Return the entries of a table; of one with a third axis, those of each sample."""
+    """Return entries of a table; if it has a third axis, each sample's entry."""
     if table.ndim == 2:
         found: Floats = table[first, second]
     else:
@@ -71,12 +71,12 @@ def chances_of(
     live: Mapping[str, float] | None = None,
     walkovers: float | Mapping[str, float] = 0.0,
 ) -> Chances:
-    """Return the tables of all undecided matches.
+    """Return all undecided matches' tables.
 
     `win` is P(i beats j) in the bracket's order, shape (n, n), or a function of two names, or a
     mapping of these by match; `live` is P(the player in slot 1 wins) for matches in play.
-    `walkovers` is the chance of a walkover, equally likely either way: one number, or by match. An
-    InputError if a chance is not a probability, the two chances of a pair do not add up to 1, or a
+    `walkovers` is the chance of a walkover, equally likely either way: one number, or by match.
+    Raises InputError if a chance isn't a probability, a pair's two chances don't add up to 1, or a
     match is unknown or has no table.
     """
     bracket, count = now.bracket, len(now.bracket.players)
@@ -145,7 +145,7 @@ def _table(given: Any, bracket: Bracket) -> Floats:
 
 
 def with_nobody(table: Floats) -> Floats:
-    """Return chances with a row and a column for no one, whom everyone beats."""
+    """Return chances with an added row and column for no one, whom everyone beats."""
     count = len(table)
     padded = np.ones((count + 1, count + 1, *table.shape[2:]))
     padded[:count, :count] = table

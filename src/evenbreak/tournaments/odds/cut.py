@@ -1,4 +1,4 @@
-"""A bracket cut in two: first rounds that are drawn by lot, later ones calculated exactly."""
+"""A bracket cut in two: early rounds that are sampled, later rounds calculated exactly."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from evenbreak.tournaments.odds.planning import elimination_order
 
 
 class Cut(NamedTuple):
-    """A bracket cut in two: the players of `rest` are the slots that the early matches fill.
+    """A bracket cut in two: the players of `rest` are slots filled by the early matches.
 
     `entrants` has what fills each: a source or a player.
     """
@@ -25,8 +25,8 @@ class Cut(NamedTuple):
 def cut_before(bracket: Bracket, most_states: float) -> Cut:
     """Return the bracket cut as early as the work on its later part allows.
 
-    It is cut by the number of matches that are still to come after a match, at most. Groups
-    are always early.
+    The cut is by the largest number of matches that can still follow a match. Groups are always
+    early.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> cut = cut_before(double_elimination(16), 1000)
@@ -42,9 +42,9 @@ def cut_before(bracket: Bracket, most_states: float) -> Cut:
 
 
 def exact_starts(bracket: Bracket, early: frozenset[str], most_states: float) -> Iterator[Bracket]:
-    """Yield the early rounds that can be calculated exactly: the most first, then fewer.
+    """Yield the early rounds that can be calculated exactly, the most first, then fewer.
 
-    First matches alone are left out: samples that are spread evenly have nothing wrong there.
+    First matches alone are left out, because evenly spread samples have no error there.
     """
     to_come = _to_come(bracket)
     large = {group.name for group in bracket.groups if len(group.matches) > MOST_MATCHES}
@@ -64,7 +64,7 @@ def exact_starts(bracket: Bracket, early: frozenset[str], most_states: float) ->
 
 
 def _to_come(bracket: Bracket) -> dict[str, int]:
-    """Return for each match how many matches its players can still have, with it."""
+    """Return how many matches each match's players can still have, including that match."""
     grouped = {name for group in bracket.groups for name in group.matches}
     longest: dict[str, int] = {}
     for match in reversed(bracket.matches):

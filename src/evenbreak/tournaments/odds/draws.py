@@ -1,6 +1,6 @@
-"""Odds before a draw: the qualifiers' redraw, the rounds of a Swiss, the lines of a blind draw.
+"""Odds before a draw: redrawn qualifiers, Swiss rounds, the lines of a blind draw.
 
-Each is sampled, with its standard error, where not every draw can be gone through.
+Draws are sampled, with standard errors, if there are too many to enumerate.
 """
 
 from __future__ import annotations
@@ -48,21 +48,21 @@ def redraw_odds(
     rng: np.random.Generator | None = None,
     **asked: Any,
 ) -> PlaceOdds:
-    """Return who finishes where if the losers' qualifiers are still to be drawn.
+    """Return who finishes where if the losers'-side qualifiers are still to be drawn.
 
     Parameters
     ----------
     bracket
-        a double elimination down to qualifiers; how its losers' qualifiers are placed does not
+        a double elimination down to qualifiers; how its losers'-side qualifiers are placed doesn't
         matter.
     win, results
         as in `title_odds`, before the knockout starts.
     samples
         how many redraws are sampled if there are more than 24.
     rng
-        where pseudo-random numbers come from then; None: a generator with the seed 0.
+        the random number generator in that case; None: a generator with seed 0.
     asked
-        other parameters of `title_odds`.
+        other parameters for `title_odds`.
 
     Raises
     ------
@@ -105,22 +105,22 @@ def swiss_odds(
     runs: int = 1000,
     rng: np.random.Generator | None = None,
 ) -> PlaceOdds:
-    """Return who finishes where in a Swiss.
+    """Return who finishes where in a Swiss tournament.
 
-    Rounds to come are paired by the 'casual' system, whatever the event's own is: it is a
+    Upcoming rounds are paired with the 'casual' system, whatever the event uses, because it is a
     hundred times as fast.
 
     Parameters
     ----------
     win
-        P(i beats j), a table in the order of the players; a third axis, if there is one, is
-        for samples of the ratings, which take turns.
+        P(i beats j), a table in the order of the players; a third axis, if any, is for samples of
+        the ratings, which are used in turn.
     played
-        the rounds so far. In the last one, matches without a winner are still to be played.
+        the rounds so far. In the last round, matches without a winner are still to be played.
     without
         as in `swiss_round`.
     rng
-        where pseudo-random numbers come from; None: a generator with the seed 0.
+        the random number generator; None: a generator with seed 0.
 
     Raises
     ------
@@ -164,7 +164,7 @@ def swiss_odds(
 def _begun(
     played: Sequence[Sequence[Pairing]],
 ) -> tuple[Sequence[Sequence[Pairing]], list[Pairing]]:
-    """Return the rounds that are over, and the one that is not."""
+    """Return the finished rounds, and the unfinished one."""
     if played and any(p.second is not None and p.winner is None for p in played[-1]):
         return played[:-1], list(played[-1])
     return played, []
@@ -184,10 +184,10 @@ def _won(pairing: Pairing, table: Floats, seat: dict[str, int], luck: float) -> 
 
 
 _CELLS = 4_000_000
-"""The largest number of states times draws that are processed at once."""
+"""The largest number of states times draws processed at once."""
 
 _PLAYED_EACH = 20
-"""How often the first rounds of a draw are played where its bracket is too large to be exact."""
+"""How often a draw's first rounds are simulated if its bracket is too large to be exact."""
 
 
 def blind_draw_odds(
@@ -198,26 +198,26 @@ def blind_draw_odds(
     samples: int = 400,
     rng: np.random.Generator | None = None,
 ) -> PlaceOdds:
-    """Return who finishes where before the draw, if everyone may be drawn to any line.
+    """Return who finishes where before the draw, if everyone is equally likely to be on any line.
 
     Parameters
     ----------
     bracket
-        who is on which line of it does not matter.
+        which player is on which line doesn't matter.
     win
         as in `title_odds`. Tables may have a third axis for samples of the ratings, an even number
-        of which the second half may mirror the first; then each sample has a draw of its own.
+        whose second half may mirror the first; then each sample has its own draw.
     walkovers
         as in `title_odds`.
     samples
-        how many draws are sampled otherwise; an odd number gets one more.
+        how many draws are sampled otherwise; odd numbers are rounded up to even.
     rng
-        where pseudo-random numbers come from; None: a generator with the seed 0.
+        the random number generator; None: a generator with seed 0.
 
     Raises
     ------
     InputError
-        if a chance cannot be used.
+        if a chance is invalid.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> better = np.array([[0.5, 2 / 3, 2 / 3], [1 / 3, 0.5, 0.5], [1 / 3, 0.5, 0.5]])
@@ -239,7 +239,7 @@ def blind_draw_odds(
 def _laws(
     bracket: Bracket, chances: Chances, orders: Ints, rng: np.random.Generator
 ) -> Iterator[Floats]:
-    """Yield the places of the players, for some draws at a time; they are the last axis."""
+    """Yield the players' places, for some draws at a time; draws are the last axis."""
     plan = exact_plan(bracket)
     if plan is None:
         now, many = standing(bracket), len(orders)
@@ -257,12 +257,12 @@ def _laws(
 
 
 def _by_player(law: Floats, seated: Ints) -> Floats:
-    """Return the places of each player, given those of whoever sits on each line."""
+    """Return each player's places, given those of the player on each line."""
     return np.take_along_axis(law, np.argsort(seated, axis=0)[:, None, :], axis=0)
 
 
 def _seated(chances: Chances, players: Ints, start: int) -> Chances:
-    """Return the chances of whoever sits on each line, in each draw from number `start` on."""
+    """Return the chances of the players on the lines, in each draw from number `start` on."""
     many = players.shape[1]
     who = np.concatenate([players, np.full((1, many), len(players))])
     made: dict[int, Floats] = {}

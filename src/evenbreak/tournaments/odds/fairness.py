@@ -1,8 +1,8 @@
 """Fairness of a whole tournament's races: title odds compared with an equal share.
 
-A chart that is fair match by match need not be fair over a tournament: small edges add up
-from round to round, and long rounds for those on the losers' side weigh on some players
-more than on others. In a tournament without favorites each of n players has 1/n.
+A chart that is fair match by match isn't necessarily fair over a tournament: small edges add up
+from round to round, and the losers' side's many rounds affect some players more than others. In a
+tournament without favorites, each of n players has a chance of 1/n.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ class Fairness:
     Parameters
     ----------
     edge
-        for each player, title odds in equal shares, less 1: 0 is fair, 1 is twice the share.
+        each player's title odds in equal shares, minus 1: 0 is fair, 1 is twice the share.
     upper_half
-        P(the title goes to the upper half by rating), of which a fair share is 1/2; a
-        player in the middle counts half.
+        P(the title goes to the upper half by rating), whose fair value is 1/2; a player in the
+        middle counts half.
     games_mean
-        expected games of the whole tournament.
+        the expected number of games in the whole tournament.
     """
 
     races: Races
@@ -67,7 +67,7 @@ def upper_half(ratings: Floats, title: Floats) -> float:
 
 
 def unfairness(title: Floats) -> float:
-    """Return the distance of title odds from equal: the root mean square, in equal shares.
+    """Return how far title odds are from equal: the root mean square, in equal shares.
 
     >>> unfairness(np.array([0.75, 0.25]))
     0.5
@@ -84,12 +84,12 @@ def tournament_fairness(
     break_advantage: float = 0.0,
     form: float = 0.0,
 ) -> Fairness:
-    """Return the fairness of a tournament's races to its players.
+    """Return how fair a tournament's races are to its players.
 
     Parameters
     ----------
     bracket
-        with the players on their lines.
+        the bracket, with the players on their lines.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> found = tournament_fairness(double_elimination(4), [620, 560, 500, 440], Races(7))
@@ -105,7 +105,7 @@ def tournament_fairness(
 def fairness_of(
     bracket: Bracket, ratings: Floats, races: Races, laws: Mapping[str, PairOdds]
 ) -> Fairness:
-    """Return how fair races are, given the odds of each match that they make."""
+    """Return how fair races are, given each match's odds under them."""
     odds = title_odds(bracket, laws)
     edge = len(ratings) * odds.title - 1.0
     return Fairness(races, odds, edge, upper_half(ratings, odds.title), _games(odds, laws))
@@ -123,7 +123,7 @@ def fairest_races(
     form: float = 0.0,
     most_games: float | None = None,
 ) -> list[Fairness]:
-    """Return all combinations of races by side, the fairest tournament first.
+    """Return all combinations of races by side, fairest tournament first.
 
     Parameters
     ----------
@@ -178,20 +178,20 @@ def _games(odds: TitleOdds, laws: Mapping[str, PairOdds]) -> float:
 
 
 RoundOf: TypeAlias = tuple[str, int]
-"""A round: its side of the bracket and its number there."""
+"""A round: its side of the bracket and its number on that side."""
 
 _PAIRS = 8  # pairs of changes that are tried at a time
 
 
 class FairestRounds(NamedTuple):
-    """The fairest races by round that were found: the games that the stronger player needs."""
+    """The fairest races by round that were found, as the stronger player's games."""
 
     games: Mapping[RoundOf, int]
     found: Fairness
 
 
 def round_of(match: Match) -> RoundOf:
-    """Return the round of a match; a second final has the race of the final."""
+    """Return a match's round; a second final has the same race as the final."""
     return ("final", 1) if match.side in ("final", "second final") else (match.side, match.round)
 
 
@@ -206,11 +206,11 @@ def fairest_rounds(
     scale: Scale | str | float = "fargo",
     form: float = 0.0,
 ) -> FairestRounds:
-    """Return races by round that make a tournament fairer, found by changing one or two at a time.
+    """Return races by round that make a tournament fairer, changing one or two at a time.
 
-    `games` is where to start: the games that the stronger player needs; each round's stay within
-    its `lengths`, and the tournament's mean within `games_mean`. At most `tries` tournaments are
-    tried. An InputError if a round has no race to start with.
+    `games` is the starting point: the stronger player's games; each round's number stays within its
+    `lengths`, and the tournament's mean within `games_mean`. At most `tries` tournaments are tried.
+    Raises InputError if a round has no race to start with.
     """
     search = _Search(bracket, ratings, scale, whole(tries, "tries", at_least=1), games_mean, form)
     missing = {round_of(match) for match in bracket.matches} - set(games) & set(lengths)
@@ -237,7 +237,7 @@ Step: TypeAlias = tuple[RoundOf, int]
 
 
 def _better(search: _Search, best: dict[RoundOf, int], steps: list[Step]) -> dict[RoundOf, int]:
-    """Return the best of the tournaments that one or two steps lead to, or the one at hand."""
+    """Return the best tournament that is one or two steps away, or the current one."""
     here = search.fairness(best)
     tried = {step: search.fairness(_after(best, [step])) for step in steps}
 
@@ -265,7 +265,7 @@ def _after(games: Mapping[RoundOf, int], steps: Iterable[Step]) -> dict[RoundOf,
 
 
 class _Search:
-    """The tournaments that have been tried."""
+    """The tournaments tried so far."""
 
     def __init__(
         self,

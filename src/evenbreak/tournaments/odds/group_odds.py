@@ -1,4 +1,4 @@
-"""Who comes first, second, ... in a group, by enumerating all its results."""
+"""Who comes first, second, ... in a group, by enumerating all possible results."""
 
 from __future__ import annotations
 
@@ -14,16 +14,17 @@ from scipy.sparse import csr_array
 from evenbreak.league.tables.ladder import places_by_wins
 
 MOST_MATCHES = 21
-"""The largest number of matches whose results are enumerated: 7 players who meet once."""
+"""The most matches whose results are enumerated: 7 players who meet once."""
 
 _CHUNK = 1 << 15
 
 
 class RankOrders(NamedTuple):
-    """The final order that each result of a group leads to.
+    """The final order for each combination of a group's results.
 
-    `order_of` numbers it for each combination of results, whose bit k is set if slot 1's player
-    wins match k; orders[o, i] is how many members are ahead of member i in order o, equal for ties.
+    `order_of` is the order's number for each combination of results, whose bit k is set if slot 1's
+    player wins match k; orders[o, i] is how many members are ahead of member i in order o, equal
+    for ties.
     """
 
     order_of: NDArray[np.int32]
@@ -32,7 +33,7 @@ class RankOrders(NamedTuple):
 
 @lru_cache(maxsize=16)
 def rank_orders(members: int, pairs: tuple[tuple[int, int], ...]) -> RankOrders:
-    """Return the final order of a group for each combination of results."""
+    """Return a group's final order for each combination of results."""
     count = 1 << len(pairs)
     codes = np.empty(count, dtype=np.int64)
     power = members ** np.arange(members)
@@ -53,7 +54,7 @@ def rank_orders(members: int, pairs: tuple[tuple[int, int], ...]) -> RankOrders:
 def rank_states(
     members: int, pairs: tuple[tuple[int, int], ...], ranks: tuple[int, ...]
 ) -> tuple[NDArray[np.int16], csr_array]:
-    """Return who can have the given ranks, and how likely that is for each final order.
+    """Return who can have the given ranks, and how likely that is in each final order.
 
     Remaining ties are broken by lot: all orders of tied players are equally likely. Ranks ascend
     from 0; states[s, k] is the member with rank ranks[k] in state s, and shares[s, o] = P(state s |
@@ -95,7 +96,7 @@ def _lots(ahead: tuple[int, ...], ranks: tuple[int, ...]) -> dict[tuple[int, ...
 
 
 def result_chances(chances: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Return the chance of each combination of results of a group's matches.
+    """Return the chance of each combination of results in a group's matches.
 
     Each is P(slot 1's player wins): a number, or an array over samples.
 

@@ -1,8 +1,8 @@
 """What a result would change: the leverage of each upcoming match.
 
-A player's title odds are linear in the chances of one match. So the difference between
-the odds after a win and after a loss of slot 1's player is a derivative, and one pass back
-through the joint distributions gives it for all matches at once.
+A player's title odds are linear in one match's chances. So the difference between the odds after
+slot 1's player wins and after they lose is a derivative, and one backward pass through the joint
+distributions gives it for all matches at once.
 """
 
 from __future__ import annotations
@@ -31,27 +31,26 @@ from evenbreak.tournaments.odds.rematches import (
 from evenbreak.tournaments.odds.title import prizes
 
 MOST_STATES = 2e7
-"""How many joint states times players one match may have for leverages to be calculated."""
+"""The most joint states times players that one match may have for leverages to be calculated."""
 
 
 @own_arrays
 @dataclass(frozen=True, eq=False)
 class Leverage:
-    """The effect of a match's result on each player.
+    """How a match's result affects each player.
 
     Parameters
     ----------
     players
-        by position, where they are known.
+        by position, if they are known.
     p_first
         P(the player in slot 1 wins).
     now
-        each player's expectation now: the chance of the title, or the prize.
+        each player's current title odds, or expected prize.
     if_first, if_second
-        the same given that the player in slot 1, in slot 2 wins; None where the two are
-        not known yet.
+        the same if the player in slot 1, or in slot 2, wins; None if the two aren't known yet.
     swing
-        expected change by the result, up or down.
+        the expected change from the result, up or down.
     """
 
     match: str
@@ -72,20 +71,20 @@ def leverages(
     live: Mapping[str, float] | None = None,
     walkovers: float | Mapping[str, float] = 0.0,
 ) -> list[Leverage]:
-    """Return the effect of each upcoming match's result.
+    """Return how each upcoming match's result affects each player.
 
     Parameters
     ----------
     bracket, win, results, live, walkovers
         as in `title_odds`; results only of matches whose players are known.
     payouts
-        the money for first place, second, ...: then it is the prize that changes. None: the
-        chance of the title.
+        the money for first place, second, ..., to see how prizes change; None: how title odds
+        change.
 
     Raises
     ------
     InputError
-        if a result is of a match whose players are not known, or the bracket is too large.
+        if there is a result for a match whose players aren't known, or the bracket is too large.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> coin = np.full((4, 4), 0.5)
@@ -161,7 +160,7 @@ def _lever(
 
 
 class _Prizes:
-    """What each player is paid at the end: a kind of reward for each."""
+    """Each player's pay at the end: a separate reward for each."""
 
     def __init__(self, bracket: Bracket, value: Floats) -> None:
         self.bracket = bracket
@@ -187,7 +186,7 @@ class _Prizes:
         return paid[0], paid[1]
 
     def of_group(self, step: GroupStep) -> Floats:
-        """Return what each order of a group pays, on average over the lots."""
+        """Return what each of a group's orders pays, averaged over lots."""
         members = step.group.members
         orders = rank_orders(len(members), step.pairs).orders
         by_rank = [0.0 if place is None else self.value[place] for place in step.group.places]

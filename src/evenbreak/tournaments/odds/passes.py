@@ -1,4 +1,4 @@
-"""Two passes over the matches: forward the joint distribution of open slots, backward rewards.
+"""Two passes over the matches: forward, the joint distribution of open slots; backward, rewards.
 
 With m(s) the probability of state s before a match and p(s) the chance that slot 1's player
 wins it in that state, the probabilities after the match are
@@ -38,11 +38,11 @@ _FEW = 4_000  # states, for which a sparse matrix takes longer to call than to m
 
 @dataclass(frozen=True, eq=False)
 class ForwardPass:
-    """The result of a forward pass; arrays have a last axis for samples, if there are any.
+    """The result of a forward pass; arrays have a last axis for samples, if any.
 
-    `meet` has the chance of each pair of a match, `first_wins` P(slot 1's player wins) given the
-    pair, ranks[i, k] = P(member i has rank k, from 0 on). `total` is the probability of the what-if
-    results; `after` has the state probabilities after each step, if they were kept.
+    `meet` has the chance of each possible pairing in a match, `first_wins` P(slot 1's player wins)
+    given the pair, ranks[i, k] = P(member i has rank k, from 0 on). `total` is the probability of
+    the what-if results; `after` has the state probabilities after each step, if they were kept.
     """
 
     meet: Mapping[str, Floats]
@@ -53,9 +53,9 @@ class ForwardPass:
 
 
 def forward_pass(plan: Plan, chances: Chances, *, keep: bool = False) -> ForwardPass:
-    """Return the chance of every pair in every match of a plan.
+    """Return the chance of every pairing in every match of a plan.
 
-    `keep` keeps the probabilities of all states.
+    With `keep`, the probabilities of all states are kept.
     """
     masses: dict[int, Floats] = {}
     meet: dict[str, Floats] = {}
@@ -78,7 +78,7 @@ def forward_pass(plan: Plan, chances: Chances, *, keep: bool = False) -> Forward
 
 
 def played(step: MatchStep, parts: list[Floats], p: Floats) -> tuple[Floats, Floats]:
-    """Return the chance of each pair of a match, and the probabilities of the states after it."""
+    """Return the chance of each pairing in a match, and the state probabilities after it."""
     if p.ndim == 1 and step.apart and all(part.ndim == 1 for part in parts):
         first, second = (
             np.bincount(branch.winner, part) for branch, part in zip(step.apart, parts, strict=True)
@@ -93,9 +93,9 @@ def played(step: MatchStep, parts: list[Floats], p: Floats) -> tuple[Floats, Flo
 
 
 def _beaten(branch: Apart, loser: Floats, win: Floats) -> Floats:
-    """Return the chance of what is kept of the loser's part, for each player who can win.
+    """Return what is kept of the loser's part, as a chance for each player who can win.
 
-    win[i, j] is the chance that the winner is i of his slot's players, if the other is j.
+    win[i, j] is the chance that the winner is player i of their slot, if the other is j.
     """
     return np.asarray(branch.kept @ (win[:, branch.loser] * loser).T)
 
@@ -122,9 +122,9 @@ def passed_on(step: MatchStep, mass: Floats, p: Floats) -> Floats:
 
 
 def split(step: MatchStep, mass: Floats, p: Floats) -> Iterator[Floats]:
-    """Yield the probability of each state and a win of slot 1, and of slot 2.
+    """Yield the probability of each state with a win for slot 1, and for slot 2.
 
-    The second is a product too: the difference would lose the digits of a rare win.
+    The second is a product too, because a difference would lose digits if a win is rare.
     """
     whole = mass[..., None] if p.ndim > mass.ndim else mass
     for side in (0, 1):  # one after the other: of many samples each is megabytes
@@ -142,7 +142,7 @@ def gathered(step: MatchStep, side: int, mass: Floats) -> Floats:
 
 
 def pairs(step: MatchStep, mass: Floats) -> Floats:
-    """Return the chance of each pair of a match from the probabilities of its states."""
+    """Return the chance of each pairing in a match, given its states' probabilities."""
     if step.pair is None or step.meeting is None:
         return mass
     if mass.ndim == 1 and len(mass) < _FEW:
@@ -190,17 +190,17 @@ def summed(index: Index | Players, mass: Floats, size: int) -> Floats:
 
 
 class Rewards(Protocol):
-    """The rewards of results; several kinds of reward are followed at once."""
+    """Rewards for results; several rewards are tracked at once."""
 
     def of_match(self, step: MatchStep) -> tuple[Floats, Floats]:
-        """Return the rewards of a win of slot 1 and of slot 2, each of shape (pairs, kinds)."""
+        """Return the rewards for a win by slot 1 and by slot 2, each of shape (pairs, kinds)."""
 
     def of_group(self, step: GroupStep) -> Floats:
-        """Return the mean reward of each final order of a group, of shape (orders, kinds)."""
+        """Return the mean reward for each of a group's final orders, of shape (orders, kinds)."""
 
 
 class ResultValues(NamedTuple):
-    """The values of the two results of a match.
+    """The values of a match's two results.
 
     For each pair, the chance that they meet times the expected reward from then on, given that slot
     1's player wins (`first`) or slot 2's (`second`).
@@ -218,10 +218,10 @@ def backward_pass(
     rewards: Rewards | None = None,
     kinds: int = 1,
 ) -> dict[str, ResultValues]:
-    """Return the values of the results of every match; the forward pass has kept all states.
+    """Return the values of every match's results; the forward pass has kept all states.
 
-    `at_end` is the value of the end for each step that leaves no slot open; without rewards only
-    the end has a value.
+    `at_end` is the final value for each step that leaves no slot open; without rewards, only the
+    end has a value.
     """
     values: dict[int, Floats] = {}
     found: dict[str, ResultValues] = {}
@@ -254,10 +254,10 @@ def backward_pass(
 
 
 def conditional(plan: Plan, chances: Chances, through: ForwardPass) -> ForwardPass:
-    """Return the chances of all pairs given that the what-if results happen.
+    """Return the chances of all pairings, conditional on the what-if results.
 
-    The forward pass has kept all states. An InputError if the results can't all happen, or a group
-    is still being played.
+    The forward pass has kept all states. Raises InputError if the results can't all happen, or a
+    group is still being played.
     """
     if any(isinstance(step, GroupStep) for step in plan.steps):
         raise InputError(
@@ -281,7 +281,7 @@ def conditional(plan: Plan, chances: Chances, through: ForwardPass) -> ForwardPa
 
 
 def _followed(step: MatchStep, side: int, after: Floats, pay: Floats | None, states: int) -> Floats:
-    """Return the value of each state before a match, given the slot that wins."""
+    """Return each state's value before a match, given the slot that wins."""
     branch = step.branches[side]
     value = after[branch.to]
     if branch.rows is not None:

@@ -36,8 +36,9 @@ class Branch:
 class Apart:
     """A branch of a match whose parts are summed before they are joined.
 
-    `winner` and `loser` are which of his slot's players wins or loses in each state of that part;
-    `kept` is the sparse matrix that sums the states of the loser's part that are one without them.
+    `winner` and `loser` say which of their slot's players wins or loses in each state of that part;
+    `kept` is the sparse matrix that sums states of the loser's part that become one without the
+    loser.
     """
 
     winner: Index
@@ -47,12 +48,12 @@ class Apart:
 
 @dataclass(frozen=True, eq=False)
 class MatchStep:
-    """One match. Its states are all pairs of states of the parts of the bracket that it joins.
+    """One match. Its states are all pairs of states from the parts of the bracket that it joins.
 
-    `joins` numbers the earlier steps whose open slots it joins, at most two, with `sizes` states
-    each. `first` and `second` are the distinct pairs of players who can meet; `pair` is that of
-    each state, None if states and pairs are the same. `size`, `slots` and `columns` are the states
-    after the match, the open slots, and the player in each of these by state.
+    `joins` has the numbers of the earlier steps whose open slots it joins, at most two, with
+    `sizes` states each. `first` and `second` are the distinct pairs of players who can meet; `pair`
+    is each state's pair, or None if states and pairs are the same. `size`, `slots` and `columns`
+    are the states after the match, the open slots, and the player in each of these by state.
     """
 
     name: str
@@ -79,10 +80,10 @@ class MatchStep:
 
     @cached_property
     def apart(self) -> tuple[Apart, Apart] | None:
-        """The two branches by the parts that the match joins; None where that saves nothing.
+        """The two branches by the parts that the match joins; None if that saves nothing.
 
-        A loser who is out leaves behind states of his part that differ in nothing else. They are
-        summed, for each winner, before the parts are joined.
+        When a loser is out, some states of their part no longer differ. These are summed, for each
+        winner, before the parts are joined.
         """
         if len(self.sizes) < 2 or self.pair is None or len(self.pair) < _FEW:
             return None
@@ -104,7 +105,7 @@ class MatchStep:
 
     @cached_property
     def distinct(self) -> bool:
-        """Whether every state and result leads to a state of its own after the match."""
+        """Whether every state and result leads to a distinct state after the match."""
         return self.open and self.size == 2 * math.prod(self.sizes)
 
     @property
@@ -115,7 +116,7 @@ class MatchStep:
 
 @dataclass(frozen=True, eq=False)
 class GroupStep:
-    """One group: who has each qualifying rank, from 0 on.
+    """One group: who has each qualifying rank, counting from 0.
 
     `pairs` are positions in the group; size, slots and columns are as for a match.
     """
@@ -140,14 +141,14 @@ Step: TypeAlias = MatchStep | GroupStep
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The steps, in the order in which they are processed."""
+    """The steps, in processing order."""
 
     bracket: Bracket
     steps: tuple[Step, ...]
 
     @cached_property
     def pairs(self) -> dict[str, tuple[NDArray[np.bool_] | None, Players, Players]]:
-        """For each match the pairs that are two players, not no one: which (None: all), and who."""
+        """For each match, the pairs that consist of two players: which (None: all), and who."""
         nobody, found = len(self.bracket.players), {}
         for step in self.steps:
             if isinstance(step, MatchStep):
@@ -158,12 +159,12 @@ class Plan:
 
     @property
     def states(self) -> int:
-        """The number of states of all steps together."""
+        """The total number of states in all steps."""
         return sum(step.size for step in self.steps)
 
     @property
     def numbers(self) -> int:
-        """How many numbers it holds, about; they are most of its memory."""
+        """About how many numbers it holds; these take up most of its memory."""
         held = [one.size * len(one.slots) for one in self.steps]
         for one in self.steps:
             if isinstance(one, MatchStep):
@@ -173,7 +174,7 @@ class Plan:
 
 
 def _kept(to: Index) -> Index:
-    """Return which states lead to the same, as numbers from 0 on."""
+    """Return which states lead to the same state, as numbers from 0 up."""
     return np.unique(to, return_inverse=True)[1].astype(np.int32)
 
 
@@ -184,14 +185,14 @@ def adding_up(index: Index, size: int) -> csc_array:
 
 
 def by_rows(sums: csc_array) -> csr_array:
-    """Return a matrix of `adding_up` in the form that multiplies fastest."""
+    """Return a matrix from `adding_up` in the form that multiplies fastest."""
     rows = sums.tocsr()
     rows.data = sums.data  # ones all the same, which all such matrices share
     return rows
 
 
 _SHARED = [(np.ones(0), np.arange(1, dtype=np.int32))]
-"""Ones, and 0, 1, 2, ...: of these all such matrices have the beginning."""
+"""Ones, and 0, 1, 2, ...: all such matrices share a prefix of these."""
 
 
 def _ones_and_starts(count: int) -> tuple[Floats, Index]:

@@ -1,8 +1,7 @@
-"""Building a plan: the states that can be reached, match by match.
+"""Building a plan: the reachable states, match by match.
 
-A state says who is in each open slot. A match that joins two parts of the bracket has all
-pairs of their states; after it, states that agree in the slots that are still open become
-one.
+A state says who is in each open slot. A match that joins two parts of the bracket has all pairs of
+their states; after it, states that agree in the slots still open are merged.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ from evenbreak.tournaments.odds.plan import (
 )
 
 MOST_STATES = 1e7
-"""The largest number of joint states of one match; takes some hundred megabytes."""
+"""The largest number of joint states in one match; takes some hundred megabytes."""
 
 _PESSIMISM = 30.0  # the estimate can be this many times too high
 _MOST_KEPT = 4_000_000  # numbers of all plans that are kept for later
@@ -46,7 +45,7 @@ class Table(NamedTuple):
 
 
 def plan_of(bracket: Bracket, assumed: tuple[tuple[str, int], ...] = ()) -> Plan:
-    """Return the plan of a bracket, however large, with what-if results of remaining matches."""
+    """Return a bracket's plan, however large, with what-if results for remaining matches."""
     plan = exact_plan(bracket, assumed, math.inf)
     assert plan is not None  # noqa: S101 - nothing is too many
     return plan
@@ -60,10 +59,10 @@ def exact_plan(
     assumed: tuple[tuple[str, int], ...] = (),
     most_states: float = MOST_STATES,
 ) -> Plan | None:
-    """Return the plan of a bracket, or None if it would be too large.
+    """Return a bracket's plan, or None if it would be too large.
 
     It is too large if one match would have more than `most_states` joint states, or all matches
-    together three times as many. Where the estimate is far beyond that, nothing is built; otherwise
+    together three times as many. If the estimate is far beyond that, nothing is built; otherwise,
     building stops before the first match that is too large. Plans are cached.
     """
     question = bracket, assumed, most_states
@@ -137,10 +136,10 @@ def match_step(
     nobody: int,
     result: int | None = None,
 ) -> MatchStep:
-    """Return the step of one match.
+    """Return one match's step.
 
-    `nobody` is the number that means no player, the number of players; `result` is an assumed
-    winner.
+    `nobody` is the number that means no player, which equals the number of players; `result` is an
+    assumed winner.
     """
     size, columns = _joined(tables)
     first, second = (
@@ -186,7 +185,7 @@ def match_step(
 
 
 def _joined(tables: list[Table]) -> tuple[int, dict[Source, Players]]:
-    """Return the joint states of up to two parts: all pairs of their states."""
+    """Return the joint states of at most two parts: all pairs of their states."""
     if not tables:
         return 1, {}
     if len(tables) == 1:
@@ -218,7 +217,7 @@ def _taken(column: Players, rows: Index | None) -> Players:
 def _keys(
     after: list[dict[Source, Players]], lengths: list[int], base: int
 ) -> tuple[list[NDArray[np.int64]], int]:
-    """Return a key for each state of each branch, equal for equal states, and an upper bound."""
+    """Return a key for each state in each branch, equal for equal states, and an upper bound."""
     keys = [np.zeros(length, dtype=np.int64) for length in lengths]
     top = 1
     for slot in after[0]:
@@ -239,7 +238,7 @@ def _keys(
 def _numbered(
     keys: list[NDArray[np.int64]] | list[Index], top: int
 ) -> tuple[NDArray[np.int64], list[Index]]:
-    """Return the distinct keys, ascending, and the position of each given key among them."""
+    """Return the distinct keys, ascending, and each given key's position among them."""
     if top <= _SPARE * sum(map(len, keys)) + 1000:
         there = np.zeros(top, dtype=bool)
         for part in keys:
@@ -254,7 +253,7 @@ def _numbered(
 
 
 def _in_order(to: list[Index], states: int) -> tuple[list[Index], NDArray[np.int64]]:
-    """Return the states after a match, numbered as they first come up, and where they do."""
+    """Return the states after a match, in order of first appearance, and their positions."""
     every = np.concatenate(to)
     first = np.empty(states, dtype=np.int64)
     first[every[::-1]] = np.arange(len(every))[::-1]
@@ -296,7 +295,7 @@ class _Cost(NamedTuple):
 
 
 def elimination_order(bracket: Bracket) -> Order:
-    """Return a cheap order in which to process the matches of a bracket.
+    """Return a cheap order for processing a bracket's matches.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> elimination_order(single_elimination(4))
@@ -326,7 +325,7 @@ class _Search:
         self.states = 0.0
 
     def offer(self, name: str) -> None:
-        """Put a match on the heap if both its slots are open, in place of its earlier entry."""
+        """Push a match onto the heap if both its slots are open, replacing its earlier entry."""
         item = self.items[name]
         if isinstance(item, Match) and not all(
             isinstance(slot, int) or slot in self.home for slot in item.slots
@@ -338,7 +337,7 @@ class _Search:
         heapq.heappush(self.heap, entry)
 
     def step(self) -> None:
-        """Take the cheapest match."""
+        """Pop the cheapest match."""
         total, _, name, version = heapq.heappop(self.heap)
         if version != self.version[name]:
             return
@@ -358,7 +357,7 @@ class _Search:
             self.offer(other)
 
     def cost(self, item: Match | Group) -> _Cost:
-        """Return the cost of a match if it came next."""
+        """Return what a match would cost if it came next."""
         if isinstance(item, Group):
             return self._group_cost(item)
         parts: list[_Part] = []
@@ -393,8 +392,8 @@ class _Search:
 def _ways(can_sit: list[int]) -> float:
     """Return the number of ways to fill the slots with different players.
 
-    `can_sit` holds a bit mask of players for each slot. The number is exact if the players of
-    any two slots are nested or disjoint, and about right otherwise.
+    `can_sit` holds a bit mask of players for each slot. The number is exact if any two slots' sets
+    of players are nested or disjoint, and about right otherwise.
     """
     ways = 1.0
     ordered = sorted(can_sit, key=int.bit_count)

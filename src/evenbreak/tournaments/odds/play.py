@@ -1,4 +1,4 @@
-"""Tournaments played out by pseudo-random numbers, many at once."""
+"""Tournaments simulated with pseudo-random numbers, many at once."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ def play_out(
     only: Collection[str] | None = None,
     given: Mapping[str, NDArray[np.bool_]] | None = None,
 ) -> PlayedOut:
-    """Play a bracket out `runs` times.
+    """Simulate a bracket `runs` times.
 
     Each match's pseudo-random numbers are spread evenly over the runs (a Latin hypercube): one in
-    each of `runs` equal parts of 0 to 1. They are drawn match after match, so that the same seed
-    gives matches of the same name the same luck whatever the chances are. Chances may have a third
-    axis for runs; matches and groups in `only` come with all that feed them; `given` is whether
-    slot 1's player wins in each run, where that is drawn elsewhere.
+    each of `runs` equal parts of 0 to 1. They are drawn match by match, so that with the same seed,
+    matches with the same name get the same luck whatever the chances are. Chances may have a third
+    axis for runs; matches and groups in `only` come with everything that feeds them; `given` says
+    whether slot 1's player wins in each run, if that is drawn elsewhere.
 
     M. D. McKay, R. J. Beckman, W. J. Conover (1979), "A comparison of three methods for selecting
     values of input variables", Technometrics 21.
@@ -65,7 +65,7 @@ def play_out(
     groups = _Groups(bracket, runs)
 
     def rank(after: str) -> None:
-        """Send those on whose rank in a group, or among the runners-up, a match has decided."""
+        """Advance players whose rank in a group, or among the runners-up, a match has decided."""
         for name, ordered in groups.ranked(after, first_won, rng):
             order[name] = ordered
             for slot in bracket.outlets.get(name, ()):
@@ -91,7 +91,7 @@ def play_out(
 def _sent_on(
     slot: Source, one: Players, other: Players, won: NDArray[np.bool_], nobody: int
 ) -> Players:
-    """Return who comes from a match to a slot that waits for its winner or loser."""
+    """Return who goes from a match to a slot that is waiting for its winner or loser."""
     from_1 = won if slot.outcome == "winner" else ~won
     player = np.where(from_1, one, other)
     if slot.via is not None:
@@ -105,7 +105,7 @@ def stratified_uniforms(rng: np.random.Generator, runs: int) -> Floats:
 
 
 class _Groups:
-    """The groups, and the runners-up of those that are over in each run."""
+    """The groups, and the runners-up from those that are over in each run."""
 
     def __init__(self, bracket: Bracket, runs: int) -> None:
         self.last = {group.matches[-1]: group for group in bracket.groups if group.matches}
@@ -117,7 +117,7 @@ class _Groups:
     def ranked(
         self, match: str, first_won: dict[str, NDArray[np.bool_]], rng: np.random.Generator
     ) -> Iterator[tuple[str, Players]]:
-        """Yield the groups, and the runners-up of all, whose order a match has decided."""
+        """Yield the groups, and the overall runners-up, whose order a match has decided."""
         runners_up, group = self.runners_up, self.last.get(match)
         if group is not None:
             order, wins = _ordered(group, first_won, rng)
@@ -138,7 +138,7 @@ def _ordered(
     first_won: dict[str, NDArray[np.bool_]],
     rng: np.random.Generator,
 ) -> tuple[Players, NDArray[np.int16]]:
-    """Return the players of a group in the order of their ranks, and their matches won."""
+    """Return a group's players in rank order, and their matches won."""
     seat = {player: k for k, player in enumerate(group.members)}
     runs = len(first_won[group.matches[0]])
     beats = np.zeros((runs, len(seat), len(seat)), dtype=np.int16)

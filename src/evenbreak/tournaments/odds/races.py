@@ -1,7 +1,7 @@
-"""What is played in each match: races by round and side, by a chart or fairest of a length.
+"""What is played in each match: races by round and side, from a chart or the fairest of a length.
 
-For every two players the odds of a match say who wins and in how many games. The chances of winning
-go into the title odds, the games into the time.
+For every two players, a match's odds say who wins and in how many games. The chances of winning
+determine the title odds, and the games determine the time.
 """
 
 from __future__ import annotations
@@ -59,23 +59,23 @@ class PairOdds:
 
     @cached_property
     def mean_games(self) -> Floats:
-        """The mean number of games of i against j."""
+        """The mean number of games when i plays j."""
         both = self.ends + self.ends.transpose(1, 0, 2)
         return np.asarray(both @ np.arange(both.shape[2]))
 
 
 @dataclass(frozen=True)
 class Races:
-    """The races of a tournament.
+    """A tournament's races.
 
     Parameters
     ----------
     race
-        on the winners' side, and wherever nothing else is said.
+        on the winners' side, and anywhere not specified otherwise.
     losers
         on the losers' side and in the consolation event; None: as on the winners' side.
     final
-        in the final, the second final with it; None: as on the winners' side.
+        in the final and the second final; None: as on the winners' side.
     by_match
         for single matches, by name.
 
@@ -90,7 +90,7 @@ class Races:
     by_match: Mapping[str, Race] = field(default_factory=dict)
 
     def of(self, match: Match) -> Race:
-        """Return the race of a match."""
+        """Return a match's race."""
         if match.name in self.by_match:
             return self.by_match[match.name]
         special = None
@@ -111,7 +111,7 @@ def pair_odds(
     breaks: BreakFormat = alternate_breaks,
     form: float = 0.0,
 ) -> dict[str, PairOdds]:
-    """Return the odds of each match, given the ratings: what `title_odds` takes as `win`.
+    """Return each match's odds, given the ratings: what `title_odds` takes as `win`.
 
     Parameters
     ----------
@@ -120,16 +120,16 @@ def pair_odds(
     scale
         a name, or the points that double the odds.
     break_advantage
-        points by which the breaker of a game plays better.
+        how many points better a game's breaker plays.
     breaks
         matters only with a break advantage; either player may win the lag.
     form
-        standard deviation of a game's log-odds from match to match; see `final_scores`.
+        the standard deviation of a game's log-odds from match to match; see `final_scores`.
 
     Raises
     ------
     InputError
-        if a rating or a race cannot be used, or form is not in 0 to 3.
+        if a rating or a race is invalid, or form isn't between 0 and 3.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> bracket = double_elimination(["Ann", "Bo"])
@@ -158,10 +158,10 @@ def from_score(
     p: float,
     form: float = 0.0,
 ) -> PairOdds:
-    """Return the odds of a match in play, for the two who play it.
+    """Return the odds for a match in play, for its two players.
 
-    p is P(the first player wins a game); `needs` count from the start. `form` is as in `pair_odds`;
-    the score shows some of it.
+    p is P(the first player wins a game); `needs` are counted from the start. `form` is as in
+    `pair_odds`; the score reveals some of it.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> start = pair_odds(single_elimination(2), [500, 500], 5)["F"]
@@ -195,9 +195,9 @@ def chances_given(
     breaks: BreakFormat = alternate_breaks,
     form: float = 0.0,
 ) -> Callable[[Floats], dict[str, Floats]]:
-    """Return a function from players' skills to the chances of each match, for `over_ratings`.
+    """Return a function from players' skills to each match's chances, for `over_ratings`.
 
-    The races are those of the ratings, as printed on the chart; the skills say who wins them.
+    The races depend on the ratings, as printed on the chart; the skills determine who wins them.
 
     Parameters
     ----------
@@ -283,7 +283,7 @@ def _in_form(
     breaks: BreakFormat,
     form: float,
 ) -> PairOdds:
-    """Return the odds averaged over day-to-day form, which leaves the chance of a game as it is."""
+    """Return the odds averaged over day-to-day form, which leaves a game's chance unchanged."""
     if form == 0.0:
         return _ends(points, needs, scale, advantage, breaks)
     center = np.asarray(scale.points(center_of_form(scale.log_odds(points), 0.0, form)))

@@ -1,8 +1,8 @@
-"""Expected rematches: how often two players meet who have met before.
+"""Expected rematches: how often two players meet again.
 
-Besides the chance of each joint state the chance is carried along that it holds *and* the
-players of two given open slots have met. Whoever has just played a match has met; winner
-and loser take their past meetings with them to their next slots.
+Along with the chance of each joint state, the chance is tracked that it holds *and* the players in
+two given open slots have met. The two players in a match have then met; winner and loser take their
+past meetings with them to their next slots.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from evenbreak.tournaments.odds.planning import exact_plan
 from evenbreak.tournaments.odds.play import play_out
 
 MOST_STATES = 1.5e6
-"""How many joint states one match may have for rematches to be exact."""
+"""The most joint states that one match may have for rematches to be exact."""
 
 _RUNS, _BATCHES = 40_000, 20
 
@@ -44,11 +44,11 @@ class Rematches:
     Parameters
     ----------
     by_match
-        P(each match is between two players who have met before in this tournament). Left out
-        are decided matches, matches within groups, and the second final, which is a rematch of
-        the first by its nature.
+        P(each match is between two players who have met before in this tournament). Decided
+        matches, matches within groups, and the second final, which is always a rematch, are left
+        out.
     error
-        the standard error of their sum; 0 where it is exact.
+        the standard error of their sum; 0 if it is exact.
     """
 
     by_match: Mapping[str, float]
@@ -56,7 +56,7 @@ class Rematches:
 
     @property
     def mean(self) -> float:
-        """The expected number of rematches still to come."""
+        """The expected number of upcoming rematches."""
         return sum(self.by_match.values())
 
 
@@ -74,10 +74,10 @@ def expected_rematches(
     win
         as in `title_odds`; None: all players are equal.
     results
-        the results so far; results of matches whose players are not known are not used.
+        the results so far; results of matches whose players aren't known are ignored.
     rng
-        where pseudo-random numbers come from if the bracket is too large to be exact; None: a
-        generator with the seed 0.
+        the random number generator if the bracket is too large to be exact; None: a generator with
+        seed 0.
 
     >>> from evenbreak.tournaments import double_elimination
     >>> rematches = expected_rematches(double_elimination(8))
@@ -96,9 +96,9 @@ def expected_rematches(
 
 
 def _met_so_far(now: Standing) -> Floats:
-    """Return 1 for the pairs who have met, with a row and a column for no one.
+    """Return 1 for each pair that has met, with an added row and column for no one.
 
-    Players of one group count: they will have met before anything else is played.
+    Players in the same group count: they will have met before anything else is played.
     """
     count = len(now.bracket.players)
     met = np.zeros((count + 1, count + 1))
@@ -140,7 +140,7 @@ def _joined_pasts(masses: list[Floats], pasts: list[_Met]) -> tuple[Floats, _Met
 
 
 def _share_met(plan: Plan, step: MatchStep, mass: Floats, past: _Met, before: Floats) -> float:
-    """Return P(the two of a match have met before)."""
+    """Return P(a match's two players have met before)."""
     earlier = before[step.first, step.second]
     long_ago = earlier if step.pair is None else earlier[step.pair]
     lately = past.get(frozenset(plan.bracket.by_name[step.name].slots))
@@ -187,7 +187,7 @@ def _past_after(
 
 
 def _played_out(now: Standing, chances: Chances, rng: np.random.Generator) -> Rematches:
-    """Return rematches counted over tournaments played out."""
+    """Return rematches counted over simulated tournaments."""
     remaining = now.remaining
     nobody = len(now.bracket.players)
     runs = _RUNS // _BATCHES
@@ -238,7 +238,7 @@ class Meeting(NamedTuple):
 
 
 def plan_meetings(plan: Plan, through: ForwardPass) -> dict[str, Meeting]:
-    """Return the meetings of a plan's matches from its forward pass."""
+    """Return the meetings in a plan's matches, given its forward pass."""
     found = {}
     for name, (there, first, second) in plan.pairs.items():
         meet, p = through.meet[name], through.first_wins[name]
@@ -273,7 +273,7 @@ def group_meetings(bracket: Bracket, chances: Chances) -> dict[str, Meeting]:
 
 
 def settled_ranks(now: Standing) -> dict[str, Floats]:
-    """Return the rank probabilities of groups that are over: zeros and ones."""
+    """Return the rank probabilities of finished groups: zeros and ones."""
     found = {}
     for group in now.bracket.groups:
         if Source(group.name, 1) in now.sent:
@@ -288,7 +288,7 @@ def settled_ranks(now: Standing) -> dict[str, Floats]:
 
 
 def meetings_so_far(now: Standing) -> dict[str, Meeting]:
-    """Return the meetings of decided matches: one pair each, none if it was not needed."""
+    """Return the meetings in decided matches: one pair each, or none if the match wasn't needed."""
     found = {}
     for name, won in now.winners.items():
         one, other = now.seats[name]
@@ -310,7 +310,7 @@ def place_odds(
 ) -> Floats:
     """Return P(each player has each place), shape (players, places) or (players, places, samples).
 
-    ranks[i, k] = P(member i has rank k, from 0 on); for the runners-up, i is any player.
+    ranks[i, k] = P(member i has rank k, counting from 0); for the runners-up, i is any player.
     """
     column = {place: k for k, place in enumerate(bracket.places)}
     samples = [part.probability.shape[1:] for part in meetings.values()]
@@ -339,7 +339,7 @@ def place_odds(
 def add_places(
     odds: Floats, column: Mapping[Place, int], match: Match, going: GoesOn, meeting: Meeting
 ) -> None:
-    """Add the places that a match decides: those of players without a next match."""
+    """Add the places decided by a match: the places of players without a next match."""
     if all(going.winner) and all(going.loser):
         return
     won = meeting.probability * meeting.first_wins

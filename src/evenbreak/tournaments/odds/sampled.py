@@ -1,10 +1,10 @@
-"""Odds by sampling the first rounds; the later rounds of each sample are exact.
+"""Odds from sampling the first rounds; each sample's later rounds are exact.
 
 Averages of exact conditional odds have a smaller variance than simulating everything
-(Rao-Blackwell). Two more things reduce it: the samples of a batch are stratified over the luck
-of each match (a Latin hypercube), and the exact chances of the first rounds correct for samples
-with too many wins of someone (control variates). All samples share one plan, so thousands of
-them take seconds. Standard errors come from the differences between batches.
+(Rao-Blackwell). Two more things reduce the variance: a batch's samples are stratified over each
+match's luck (a Latin hypercube), and the first rounds' exact chances correct for samples in which
+someone wins too often (control variates). All samples share one plan, so thousands of them take
+seconds. Standard errors come from the differences between batches.
 """
 
 from __future__ import annotations
@@ -34,16 +34,16 @@ from evenbreak.tournaments.odds.rematches import (
 )
 
 _STATES_PER_SAMPLE = 1e5
-"""The largest estimate of joint states for the later rounds of one sample."""
+"""The largest estimate of joint states for one sample's later rounds."""
 
 _BATCHES = 40  # of samples
 
 _CELLS = 80_000
-"""The largest number of states times samples that are processed at once."""
+"""The largest number of states times samples processed at once."""
 
 
 class SampledOdds(NamedTuple):
-    """Odds of the matches still to be played, without the places already taken.
+    """Odds for the matches still to be played, without the places already taken.
 
     `p_place` is P(each place) for each player, `error` its standard errors.
     """
@@ -65,7 +65,7 @@ class _Batch:
 def sampled_odds(
     now: Standing, chances: Chances, samples: int, rng: np.random.Generator
 ) -> SampledOdds:
-    """Return the odds of the matches still to be played, from at least so many samples."""
+    """Return the odds for the matches still to be played, from at least this many samples."""
     bracket = now.remaining
     sampler = _Sampler(now, bracket, chances, cut_before(bracket, _STATES_PER_SAMPLE))
     controls = controls_of(now, bracket, sampler.cut.early, chances)
@@ -88,8 +88,8 @@ def places_of_samples(
 ) -> Floats:
     """Return P(each place) for each player in each sample, shape (players, places, samples).
 
-    The third axis of the chances is the samples; each sample's first rounds are played `rounds`
-    times, and the places averaged.
+    The chances' third axis is the samples; each sample's first rounds are simulated `rounds` times,
+    and the places are averaged.
     """
     bracket = now.remaining
     cut = cut_before(bracket, _STATES_PER_SAMPLE)
@@ -103,7 +103,7 @@ def places_of_samples(
 
 
 class _Sampler:
-    """What all batches have in common."""
+    """What all batches share."""
 
     def __init__(
         self,
@@ -122,7 +122,7 @@ class _Sampler:
         self.at_once = max(1, _CELLS // largest)
 
     def batch(self, played: PlayedOut, size: int) -> _Batch:
-        """Return a batch, given the results of its first rounds."""
+        """Return a batch, given its first rounds' results."""
         batch = _Batch(np.zeros((size, self.nobody + 1, len(self.column))))
         self._early(batch, played, size)
         for start in range(0, size, self.at_once):
@@ -132,7 +132,7 @@ class _Sampler:
         return batch
 
     def meetings(self, counts: Mapping[str, Floats], samples: int) -> dict[str, Meeting]:
-        """Return the meetings of all samples."""
+        """Return all samples' meetings."""
         found = {}
         for name, count in counts.items():
             one, other = np.nonzero(count)
@@ -185,7 +185,7 @@ class _Sampler:
             batch.places[samples, players] += shares[k].T
 
     def _tables(self, who: NDArray[np.int64], rows: slice) -> Chances:
-        """Return the chances of the entrants of each of these samples."""
+        """Return the chances for these samples' entrants."""
         made: dict[int, Floats] = {}
         tables: dict[str, Floats] = {}
         for match in self.cut.rest.matches:
@@ -225,7 +225,7 @@ def early_places(
     second: Players,
     won: NDArray[np.bool_],
 ) -> list[tuple[Place, Players]]:
-    """Return the place and the player who takes it in each sample; -1 where no one does."""
+    """Return each sample's place and the player who takes it; -1 if no one does."""
     found = []
     ends = zip(places, (going.winner, going.loser), (won, ~won), strict=True)
     for place, on, sat_in_1 in ends:
@@ -273,10 +273,10 @@ _MOST_CONTROLS = 600
 
 @dataclass
 class Controls:
-    """The sums that the regression needs, batch by batch.
+    """The sums needed for the regression, batch by batch.
 
-    `slots` are those whose player is a control, and who can get there; `cells` the places (columns
-    of Y) that are controls themselves; `expected` is each control's exact mean.
+    `slots` are those whose player is a control, and who can get there; `cells` are the places
+    (columns of Y) that are controls themselves; `expected` is each control's exact mean.
     """
 
     slots: Mapping[Source, NDArray[np.int64]]
@@ -288,7 +288,7 @@ class Controls:
     products: Floats | float = 0.0
 
     def add(self, played: PlayedOut, places: Floats) -> None:
-        """Add a batch of samples: how their first rounds went, and what each says of the places."""
+        """Add a batch of samples: how their first rounds went, and the resulting places."""
         columns = [places[:, self.cells]]
         for slot, players in self.slots.items():
             columns.append(np.equal.outer(played.sent[slot], players).astype(float))
@@ -299,7 +299,7 @@ class Controls:
         self.products += x.T @ places
 
     def estimate(self) -> tuple[Floats, Floats]:
-        """Return the mean of the places and its standard error."""
+        """Return the places' means and standard errors."""
         x, y = (np.stack(part) for part in zip(*self.batches, strict=True))
         if self.expected.size:
             centered = self.squares - self.samples * np.outer(x.mean(axis=0), x.mean(axis=0))
@@ -319,10 +319,11 @@ class Controls:
 def slope_of(centered: Floats, joint: Floats, samples: int) -> tuple[Floats, int]:
     """Return the regression of Y on the controls X, and how many of these add information.
 
-    Controls that repeat others, or never vary, do no harm: the columns are scaled, and solved by
-    the eigenvectors of their correlations. Other threads go on meanwhile: scipy's `lstsq` would
-    stop them all, on a busy computer for half a second. `centered` and `joint` are the sums of
-    squares and products of X - mean X with itself, and with Y - mean Y.
+    Controls that repeat others, or never vary, do no harm: the columns are scaled, and the
+    regression is solved with the eigenvectors of their correlations. Other threads continue
+    meanwhile, whereas scipy's `lstsq` would stop them all, for half a second on a busy computer.
+    `centered` and `joint` are the sums of squares and products of X - mean X with itself, and with
+    Y - mean Y.
     """
     squares = np.diag(centered)
     varies = squares > 1e-12 * samples
@@ -339,10 +340,10 @@ def slope_of(centered: Floats, joint: Floats, samples: int) -> tuple[Floats, int
 def controls_of(
     now: Standing, bracket: Bracket, early: frozenset[str], chances: Chances
 ) -> Controls:
-    """Return the controls for samples of the early matches of a bracket.
+    """Return the controls for samples of a bracket's early matches.
 
-    They are who gets to which slot, and who leaves for which place, in as many of the early rounds
-    as can be calculated exactly.
+    They record who reaches which slot, and who takes which place, in as many of the early rounds as
+    can be calculated exactly.
     """
     for start in exact_starts(bracket, early, _STATES):
         plan = plan_of(start)
@@ -363,7 +364,7 @@ def controls_of(
 
 
 def _settled(whole: Bracket, start: Bracket, law: Floats) -> NDArray[np.bool_]:
-    """Return for each player and place whether it is open and the start alone decides it."""
+    """Return which chances of places are open, yet decided by the early rounds alone."""
     inside = {match.name for match in start.matches}
     late = {
         place
@@ -388,7 +389,7 @@ def _leading_out(bracket: Bracket, start: Bracket) -> list[Source]:
 def _coming(
     slot: Source, meetings: Mapping[str, Meeting], ranks: Mapping[str, Floats], start: Bracket
 ) -> Floats:
-    """Return P(each player comes to a slot)."""
+    """Return P(each player reaches a slot)."""
     law = np.zeros(len(start.players))
     for group in start.groups:
         if group.name == slot.match:

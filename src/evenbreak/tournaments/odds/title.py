@@ -1,9 +1,9 @@
 """Title odds: the chance of each place for each player, from any point of a tournament.
 
-Who is in each slot is a random variable, and the matches tie these variables together.
-Processing one match after another, and keeping only the joint distribution of the slots that
-are open, gives exact odds. Where that would take too many states, the first rounds are
-sampled, and the rest of each sample is exact.
+Who is in each slot is a random variable, and the matches tie these variables together. Processing
+one match after another, and keeping only the joint distribution of the open slots, gives exact
+odds. If that would take too many states, the first rounds are sampled, and the rest of each sample
+is exact.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 SAMPLES = 10_000
-"""The number of samples of the first rounds, where they are sampled."""
+"""The number of samples if the first rounds are sampled."""
 
 WALKOVERS = 0.047
 """The share of walkovers among real double-elimination matches (one city, 2017-2025)."""
@@ -56,7 +56,7 @@ class PlaceOdds:
     samples
         the number of samples behind the odds; 0 if they are exact.
     by_draw
-        P(each player wins) by each draw of the ratings, one per column; None if none were drawn.
+        P(each player wins) for each draw of the ratings, one per column; None if none were drawn.
     """
 
     bracket: Bracket
@@ -76,11 +76,11 @@ class PlaceOdds:
         return self.place(Place(1, 1))
 
     def place(self, place: Place) -> Floats:
-        """Return P(each player has this place), one of `bracket.places`."""
+        """Return P(each player gets this place), for one of `bracket.places`."""
         return self.p_place[:, self.bracket.places.index(place)]
 
     def to_frame(self) -> pd.DataFrame:
-        """Return P(each place) as a DataFrame: a row for each player, a column for each place.
+        """Return P(each place) as a DataFrame: a row per player, a column per place.
 
         >>> from evenbreak.tournaments import single_elimination
         >>> title_odds(single_elimination(["Ann", "Bo", "Cy"]), np.full((3, 3), 0.5)).to_frame()
@@ -104,8 +104,8 @@ class PlaceOdds:
         Parameters
         ----------
         payouts
-            the money for first place, second, ...; places that are not played off share
-            their money equally.
+            the money for first place, second, ...; places that aren't played off share their money
+            equally.
         """
         return self.p_place @ prizes(self.bracket, payouts)
 
@@ -118,9 +118,9 @@ class TitleOdds(PlaceOdds):
     Parameters
     ----------
     meetings
-        for each match, who meets who with what chance.
+        for each match, who meets who and how likely that is.
 
-    The other parameters are those of `PlaceOdds`.
+    The other parameters are as in `PlaceOdds`.
     """
 
     meetings: Mapping[str, Meeting]
@@ -136,7 +136,7 @@ class TitleOdds(PlaceOdds):
         return float(sum(meeting.played for meeting in self.meetings.values()))
 
     def expected_meetings(self) -> Floats:
-        """Return the expected number of meetings of every two players, a symmetric table."""
+        """Return the expected number of meetings between every two players, a symmetric table."""
         count = len(self.bracket.players)
         table = np.zeros((count, count))
         for meeting in self.meetings.values():
@@ -145,7 +145,7 @@ class TitleOdds(PlaceOdds):
 
 
 def prizes(bracket: Bracket, payouts: Sequence[float]) -> Floats:
-    """Return the prize of each of the bracket's places.
+    """Return the prize for each of the bracket's places.
 
     >>> from evenbreak.tournaments import single_elimination
     >>> prizes(single_elimination(8), [50, 30, 15, 5])
@@ -184,7 +184,7 @@ def title_odds(
     samples: int = SAMPLES,
     rng: np.random.Generator | None = None,
 ) -> TitleOdds:
-    """Return the chance of each place for each player.
+    """Return each player's chances of each place.
 
     Parameters
     ----------
@@ -198,20 +198,19 @@ def title_odds(
     live
         P(the player in slot 1 wins) for matches in play.
     walkovers
-        the chance that a match is a walkover, either way with equal chance: one number, or a
-        mapping by match name; `WALKOVERS` is that of real events.
+        the chance that a match is a walkover, equally likely either way: one number, or a mapping
+        by match name; `WALKOVERS` is the value for real events.
     most_states
-        the largest number of joint states of one match; beyond it, the first rounds are
-        sampled.
+        the largest number of joint states in one match; beyond that, the first rounds are sampled.
     samples
         the number of samples in that case.
     rng
-        the random numbers in that case; None: a generator with seed 0.
+        the random number generator in that case; None: a generator with seed 0.
 
     Raises
     ------
     InputError
-        if a chance or a result cannot be used, or the what-if results cannot all happen.
+        if a chance or a result is invalid, or the what-if results can't all happen.
 
     Notes
     -----
@@ -247,7 +246,7 @@ def odds_now(
     samples: int = SAMPLES,
     rng: np.random.Generator | None = None,
 ) -> TitleOdds:
-    """Return the chance of each place for each player, from the present state on."""
+    """Return each player's chances of each place, from the current state on."""
     remaining = now.remaining
     plan = exact_plan(remaining, tuple(now.assumed.items()), most_states)
     if plan is None:

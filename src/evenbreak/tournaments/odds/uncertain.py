@@ -1,8 +1,8 @@
-"""Title odds when the ratings are uncertain: averaged over what the ratings may be.
+"""Title odds when the ratings are uncertain: averaged over the possible ratings.
 
-Odds that take ratings for certain are too sure of themselves: a favorite by a rating of
-few games is a favorite in every match at once. Ratings are drawn from their joint distribution,
-each draw is solved, and the odds are averaged.
+Odds that treat ratings as certain are overconfident: a player who is the favorite because of a
+rating from few games is the favorite in every match at once. Ratings are drawn from their joint
+distribution, each draw is solved, and the odds are averaged.
 """
 
 from __future__ import annotations
@@ -49,13 +49,13 @@ class UncertainOdds:
     Parameters
     ----------
     averaged
-        the odds averaged over samples of the ratings; its `error` is that of the average.
+        the odds averaged over samples of the ratings; its `error` is the average's.
     as_if_sure
         the odds with the ratings treated as exact.
     bands
         two columns: each player's title odds, averaged over the fifth of the draws in which their
-        own rating is lowest, and over that in which it is highest. Their middles are the tenth
-        and the ninetieth percentile of what the rating may be.
+        own rating is lowest, and over the fifth in which it is highest. Their middles are the 10th
+        and 90th percentiles of the rating.
     """
 
     averaged: TitleOdds
@@ -82,15 +82,15 @@ def over_ratings(
     bracket, results, live, walkovers
         as in `title_odds`; results only of matches whose players are known.
     win_of
-        the chances of the matches, given the ratings: what `title_odds` takes as `win`.
+        a function from the ratings to the matches' chances: what `title_odds` takes as `win`.
     spread
-        how uncertain they are: a standard deviation for each player, or the covariance
-        matrix of all of them. Errors are normal.
+        how uncertain the ratings are: a standard deviation for each player, or a covariance matrix.
+        Errors are normal.
     samples
-        how many draws of the ratings, in pairs on either side of them; None: 200 to 2,000,
+        how many draws of the ratings, in pairs on either side of the mean; None: 200 to 2,000,
         fewer for larger brackets.
     rng
-        where pseudo-random numbers come from; None: a generator with the seed 0.
+        the random number generator; None: a generator with seed 0.
 
     Raises
     ------
@@ -137,9 +137,9 @@ def over_ratings(
 
 
 def title_bands(title: Floats, drawn: Floats) -> Floats:
-    """Return the title odds where a player's own rating is low, and where it is high.
+    """Return each player's title odds if their own rating is low, and if it is high.
 
-    `title` has a column, and `drawn` a row, per draw of the ratings.
+    `title` has a column, and `drawn` has a row, for each draw of the ratings.
     """
     fifth = max(1, len(drawn) // 5)
     by_skill = np.take_along_axis(title, np.argsort(drawn.T, axis=1, kind="stable"), axis=1)
@@ -148,7 +148,7 @@ def title_bands(title: Floats, drawn: Floats) -> Floats:
 
 
 def error_of_pairs(laws: Floats) -> Floats:
-    """Return the standard error of a mean of samples whose second half may mirror the first.
+    """Return the standard error of a mean over samples whose second half may mirror the first.
 
     Samples, an even number, are on the last axis.
     """
@@ -159,9 +159,9 @@ def error_of_pairs(laws: Floats) -> Floats:
 def drawn_ratings(mean: Floats, spread: ArrayLike, pairs: int, rng: np.random.Generator) -> Floats:
     """Return draws of the ratings, `pairs` and their mirror images in the second half, one per row.
 
-    The same generator gives the same draws on every machine: a covariance has many roots, of which
-    the symmetric one doesn't depend on the eigenvectors that a library happens to choose. `spread`
-    has standard deviations, or is the covariance matrix.
+    The same generator gives the same draws on every machine: a covariance has many roots, and the
+    symmetric root doesn't depend on the eigenvectors that a library happens to choose. `spread` has
+    standard deviations, or is the covariance matrix.
 
     >>> drawn_ratings(np.array([600.0, 500.0]), [30, 0], 1, np.random.default_rng(0)).round()
     array([[604., 500.],
@@ -195,14 +195,14 @@ def drawn_chances(
     *,
     walkovers: float | Mapping[str, float] = 0.0,
 ) -> dict[str, Floats]:
-    """Return the chances of each match by many draws of the ratings, which are the third axis.
+    """Return each match's chances for many draws of the ratings, which are the third axis.
 
     Parameters
     ----------
     drawn
-        the draws, one per row, as `drawn_ratings` returns them.
+        the draws, one per row, as from `drawn_ratings`.
 
-    The other parameters are those of `over_ratings`.
+    The other parameters are as in `over_ratings`.
 
     >>> def by_points(ratings):
     ...     return 1.0 / (1.0 + 2.0 ** ((ratings - ratings[:, None]) / 100.0))
@@ -261,7 +261,7 @@ def _exactly(
 
 
 def _add(sums: dict[str, Meeting], part: dict[str, Meeting], weight: float) -> None:
-    """Add meetings to sums, in which `first_wins` is P(they meet and slot 1's player wins)."""
+    """Add meetings to sums, where `first_wins` is P(they meet and slot 1's player wins)."""
     for name, (first, second, meet, p) in part.items():
         before = sums.get(name, Meeting(first, second, np.zeros(len(p)), np.zeros(len(p))))
         sums[name] = before._replace(
@@ -271,7 +271,7 @@ def _add(sums: dict[str, Meeting], part: dict[str, Meeting], weight: float) -> N
 
 
 def _stacked(draws: Iterator[Chances], many: int) -> Chances:
-    """Return the chances of the next samples as one, the samples as last axis."""
+    """Return the next samples' chances merged, with samples as the last axis."""
     first = next(draws)
     made: dict[int, Floats] = {}
     names: dict[int, str] = {}

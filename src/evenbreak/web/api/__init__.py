@@ -1,4 +1,4 @@
-"""The interface for other programs: its addresses, under /api/v1, and their description."""
+"""The API for other programs: its addresses, under /api/v1, and their description."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from evenbreak.web.api.resource import Call, Kept, Resource, routes_of
 
 @cache
 def description() -> dict[str, Any]:
-    """Return the OpenAPI document of the interface."""
+    """Return the API's OpenAPI document."""
     return describe(RESOURCES)
 
 
@@ -29,6 +29,6 @@ RESOURCES = [
         "/openapi.json", "This description of the interface.", _description, {"type": "object"}
     ),
 ]
-"""Every address of the interface."""
+"""Every address of the API."""
 
 ROUTES = routes_of(RESOURCES)

@@ -1,7 +1,8 @@
-"""Questions of other programs: `POST /api/v1/odds` answers what `evenbreak odds --json` prints.
+"""Other programs' questions: `POST /api/v1/odds` returns what `evenbreak odds --json` prints.
 
-The questions are those of the table of answers whose fields other computers may give: none names a
-file of this one, or code. They are calculated one at a time, next to the pages.
+These are the questions in the table of answers, with the fields that other computers may set: none
+of these names a file on this computer, or code. They are calculated one at a time, in the
+background.
 """
 
 from __future__ import annotations
@@ -24,11 +25,11 @@ from evenbreak.web.sessions import address_of
 from evenbreak.words import say
 
 MOST_SECONDS = 5.0
-"""Of the processor, for one question."""
+"""Processor time for one question."""
 MOST_WAITING = 8
-"""The most questions that wait for their answers."""
+"""The most questions that can be waiting for their answers."""
 MOST_OF_ONE = 2
-"""The most of them that one address can have waiting."""
+"""How many of these can come from one address."""
 
 
 async def _answered(command: str, call: Call) -> Response:
@@ -55,7 +56,7 @@ async def _answered(command: str, call: Call) -> Response:
 
 
 def answer_in_json(command: str, values: dict[str, Any]) -> bytes:
-    r"""Return the answer to a question, as `--json` prints it; refuse what takes long.
+    r"""Return the answer to a question, as `--json` prints it; reject long calculations.
 
     >>> answer_in_json("odds", {"p": 0.6, "race": (7, 5)})[:19]
     b'{\n  "p_game_a": 0.6'

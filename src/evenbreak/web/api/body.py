@@ -1,4 +1,4 @@
-"""The JSON in the body of a request, with limits on what can be in it."""
+"""The JSON in a request's body, with limits on its content."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LARGEST = 10**40
 def object_in(body: bytes) -> dict[str, Any]:
     """Return the JSON object in a body; an empty body is an empty object.
 
-    A ProblemError if it is something else, has a name twice, or is too deep or too large.
+    Raises ProblemError if it is something else, has a duplicate name, or is too deep or too large.
 
     >>> object_in(b'{"score": [7, 5]}'), object_in(b"")
     ({'score': [7, 5]}, {})
@@ -65,7 +65,7 @@ def _refuse_depth() -> NoReturn:
 
 
 def _check(value: Any, deeper: int = _DEEPEST) -> None:
-    """Refuse what is nested deeply, and numbers that no one means."""
+    """Reject deep nesting, and numbers that no one could mean."""
     if not deeper:
         _refuse_depth()
     if isinstance(value, int | float) and abs(value) >= _LARGEST:

@@ -1,4 +1,4 @@
-"""The description of the interface, as OpenAPI 3.1 has it, made of its resources."""
+"""The API's description in OpenAPI 3.1, generated from its resources."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _REFUSALS = {
 
 
 def describe(resources: Sequence[Resource]) -> dict[str, Any]:
-    """Return the OpenAPI document of addresses."""
+    """Return the OpenAPI document for some addresses."""
     kinds = [Problem, *(one.gives for one in resources if _is_typed(one.gives))]
     _, components = msgspec.json.schema_components(kinds, ref_template=_TEMPLATE)
     paths: dict[str, dict[str, Any]] = {}
@@ -70,9 +70,9 @@ def describe(resources: Sequence[Resource]) -> dict[str, Any]:
 
 
 def open_to_more(schema: Any) -> Any:
-    """Return a schema of answers that generators of clients read, and that more words fit later.
+    """Return an answer's schema in a form for client generators, with room for new words.
 
-    A client that knows the words of today only must not stop at a new one.
+    A client that knows only today's words must not fail on a new one.
 
     >>> open_to_more({"enum": ["free", "playing"]})["examples"]
     ['free', 'playing']
@@ -92,7 +92,7 @@ def open_to_more(schema: Any) -> Any:
 
 
 def operation_id(resource: Resource) -> str:
-    """Return what programs call a resource, such as get_tonight_bracket."""
+    """Return a resource's name in programs, such as get_tonight_bracket."""
     words = re.findall(r"\w+", resource.path.replace("-", "_").removesuffix(".json"))
     return "_".join([resource.method.lower(), *words])
 
@@ -152,7 +152,7 @@ def _parameters(one: Resource) -> Iterator[dict[str, Any]]:
 
 
 def body_schema(asks: Sequence[Declared]) -> dict[str, Any]:
-    """Return the schema of a body."""
+    """Return a body's schema."""
     required = [one.name for one in asks if one.required]
     return {
         "type": "object",
@@ -189,7 +189,7 @@ def _media(one: Resource) -> str:
 
 
 def schema_of_answer(one: Resource) -> dict[str, Any]:
-    """Return the schema of what a resource answers; dataclasses are named among the components."""
+    """Return the schema of a resource's answer; dataclasses are named in the components."""
     if not _is_typed(one.gives):
         return dict(one.gives)
     (schema,), _ = msgspec.json.schema_components([one.gives], ref_template=_TEMPLATE)

@@ -1,10 +1,10 @@
-"""Pages elsewhere that may use the interface from a browser (CORS): only those named.
+"""Web pages elsewhere that may use the API from a browser (CORS): only those named.
 
-No cookie counts below /api: a session of the director's would otherwise let any page enter things
-in their name. A page elsewhere reads, and writes with a token, only if `evenbreak serve
---allow-origin` names it; whoever sends no Origin is no page. Chrome 104 to 141 ask in a preflight
-whether a private address may be asked at all (Private Network Access); since 142 Chrome asks its
-user instead.
+Cookies don't count below /api: otherwise, a director's session would let any page enter things in
+their name. A page elsewhere can read, and write with a token, only if `evenbreak serve
+--allow-origin` names it; a request without an Origin doesn't come from a page. Chrome 104 to 141
+ask in a preflight whether a private address may be asked at all (Private Network Access); since
+142, Chrome asks its user instead.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ _PRIVATE = b"access-control-request-private-network"
 
 
 class Origins:
-    """Lets pages at some origins use the interface, and strips cookies from all who ask it."""
+    """Lets pages from some origins use the API, and strips cookies from all API requests."""
 
     def __init__(self, app: ASGIApp, *, origins: Collection[str] = ()) -> None:
         self.app = app
         self.origins = frozenset(one.encode() for one in origins)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer or refuse a request."""
+        """Answer or reject a request."""
         if scope["type"] != "http" or not scope["path"].startswith(f"{ROOT}/"):
             await self.app(scope, receive, send)
             return

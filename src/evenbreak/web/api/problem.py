@@ -1,4 +1,4 @@
-"""What the interface answers when it refuses: a problem as RFC 9457 has it, in JSON."""
+"""The API's error responses: problem details (RFC 9457) in JSON."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Lost:
 
 @dataclass(frozen=True)
 class Problem:
-    """Why a request is refused, in the language that it asks for (Accept-Language)."""
+    """Why a request is rejected, in the language it asks for (Accept-Language)."""
 
     title: Annotated[str, Meta(description="What HTTP calls it.", examples=["Bad Request"])]
     status: Annotated[int, Meta(description="The status of HTTP.", ge=400, le=599)]
@@ -56,9 +56,9 @@ class Problem:
 
 
 class ProblemError(RefusalError):
-    """A refused request to the interface: as a `RefusalError`, with the name of the parameter.
+    """A rejected API request: like a `RefusalError`, with the parameter's name.
 
-    `more` is what else the answer holds, such as `how` or what would be lost.
+    `more` is additional content for the answer, such as `how` or what would be lost.
     """
 
     def __init__(
@@ -79,14 +79,14 @@ class ProblemError(RefusalError):
 
 
 def is_asked(request: Request) -> bool:
-    """Return whether a request is for the interface."""
+    """Return whether a request is for the API."""
     return f"{request.url.path}/".startswith(f"{ROOT}/")
 
 
 def problem(
     request: Request, why: Exception, status: int, headers: Mapping[str, str] | None = None
 ) -> Response:
-    """Return why a request is refused."""
+    """Return why a request is rejected."""
     face = face_of(request)
     text = why.sentence if isinstance(why, EvenbreakError) else str(why)
     found = {
@@ -105,7 +105,7 @@ def problem(
 
 
 def face_of(request: Request) -> Face:
-    """Return how programs are told sentences: with parameters, and addresses for commands."""
+    """Return how sentences are phrased for programs, with parameters and addresses."""
     plain = page_face(language_of(request.headers.get("accept-language", "")))
 
     def command(name: str, words: Sequence[str]) -> str:
@@ -116,7 +116,7 @@ def face_of(request: Request) -> Face:
 
 
 def in_full(text: str, face: Face) -> str:
-    """Return what is said, with its capital and its full stop.
+    """Return a message with its capital letter and period.
 
     >>> from evenbreak.words import PYTHON, say
     >>> in_full(say("there is no entry {entry}", entry=9), PYTHON)
@@ -127,7 +127,7 @@ def in_full(text: str, face: Face) -> str:
 
 
 def encoded(value: Any, face: Face) -> bytes:
-    """Return a value as JSON, its sentences in the language of a face.
+    """Return a value as JSON, with its sentences in the output format's language.
 
     >>> from evenbreak.words import PYTHON, say
     >>> encoded({"title": say("Round {n}", n=2)}, PYTHON)

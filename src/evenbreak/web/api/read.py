@@ -1,7 +1,7 @@
 """What everyone may read about tonight, for other programs.
 
-It is what the pages show, made of the same views, so that a scoreboard on a stream and the wall
-say the same.
+It is based on the same views as the pages, so that a stream's scoreboard and the wall show the same
+thing.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def _all_matches(_: Call, seen: Seen, __: Sequence[Seen]) -> shapes.Matches:
 
 
 def _named(nights: Sequence[Seen]) -> dict[tuple[int, str], shapes.Match]:
-    """Return the matches of a night by event and name."""
+    """Return a night's matches by event and name."""
     return {
         (seen.event, box.match): match_of(seen, panel, box)
         for seen in nights
@@ -146,7 +146,7 @@ def _states(nights: Sequence[Seen]) -> dict[int, Evening]:
 
 
 def _order(nights: Sequence[Seen]) -> Sequence[tuple[int, str]]:
-    """Return the matches of the night in the order that ends it soonest, as last calculated."""
+    """Return the night's matches in the order that ends it soonest, as last calculated."""
     known = [one.known for one in nights if one.known and one.known.queue]
     return max(known, key=lambda one: one.at).queue if known else ()
 

@@ -1,7 +1,7 @@
-"""The addresses of the interface: what each is asked, and how an answer is sent.
+"""The API's addresses: their parameters, and how answers are sent.
 
-An answer is encoded as JSON, its sentences in the language of Accept-Language. Its ETag is a hash
-of its body: who sends it back as If-None-Match is answered 304 while nothing has changed.
+An answer is encoded as JSON, with sentences in the language of Accept-Language. Its ETag is a hash
+of its body: a client that sends it back as If-None-Match gets 304 while nothing has changed.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ from evenbreak.web.site import Site
 from evenbreak.words import say
 
 V1 = f"{ROOT}/v1"
-"""Where the addresses of this version begin."""
+"""The prefix of this version's addresses."""
 
 MOST_JSON = 64 << 10
-"""The largest body in JSON, in bytes."""
+"""The largest JSON body, in bytes."""
 
 EVENT = Declared(
     "event",
@@ -41,13 +41,13 @@ EVENT = Declared(
     ),
     None,
 )
-"""In the address also where the rest is in the body."""
+"""In the address even if the other parameters are in the body."""
 _MOST_KEPT = 100
 _SHOWN = 40  # characters of a wrong value that a problem repeats
 
 
 class Call(NamedTuple):
-    """An incoming request; values are checked by their kinds, with defaults filled in."""
+    """An incoming request, with its values checked and defaults filled in."""
 
     request: Request
     site: Site
@@ -56,13 +56,13 @@ class Call(NamedTuple):
 
 @dataclass(frozen=True)
 class Resource:
-    """An address of the interface: its parameters, its answer, who may ask.
+    """An API address: its parameters, its answer, who may ask.
 
     `path` is below /api/v1; `does` is its summary in OpenAPI and in the reference; `answer` returns
     a value that JSON can hold, a `Kept`, or a whole `Response`, described by `gives`, a frozen
-    dataclass or a JSON schema. `asks` are the parameters of the address (GET, and `EVENT`), or of
-    the JSON body (POST). The scope is "" for everyone on the network, "scores" or "director" for
-    those with a token.
+    dataclass or a JSON schema. `asks` are the parameters in the address (GET, and `EVENT`), or in
+    the JSON body (POST). The scope is "" for everyone on the network, and "scores" or "director"
+    for programs with a token.
     """
 
     path: str
@@ -76,24 +76,24 @@ class Resource:
 
     @property
     def query(self) -> tuple[Declared, ...]:
-        """The parameters of the address."""
+        """The parameters in the address."""
         return tuple(one for one in self.asks if self.method == "GET" or one is EVENT)
 
     @property
     def body(self) -> tuple[Declared, ...]:
-        """The parameters of the JSON body."""
+        """The parameters in the JSON body."""
         return tuple(one for one in self.asks if one not in self.query)
 
 
 class Kept(NamedTuple):
-    """An answer made once for all who ask, as long as the objects in `of` are the same."""
+    """An answer made once for all clients, as long as the objects in `of` are the same."""
 
     of: Sequence[object]
     make: Callable[[], Any]
 
 
 def routes_of(resources: Sequence[Resource]) -> list[Route]:
-    """Return the routes of addresses, one per path."""
+    """Return routes for addresses, one per path."""
     paths: dict[str, dict[str, Resource]] = {}
     for one in resources:
         paths.setdefault(one.path, {})[one.method] = one
@@ -134,7 +134,7 @@ async def _answer(resource: Resource, request: Request) -> Response:
 
 
 def _tagged(body: bytes) -> tuple[bytes, str]:
-    """Return a body and its ETag: a weak one, as it may be sent compressed."""
+    """Return a body and its ETag: a weak one, because the body may be sent compressed."""
     return body, f'W/"{hashlib.sha256(body).hexdigest()[:16]}"'
 
 
@@ -151,7 +151,7 @@ def _sent(request: Request, tagged: tuple[bytes, str], language: str) -> Respons
 
 
 async def body_of(request: Request) -> dict[str, Any]:
-    """Return the JSON object in the body of a request; an empty body is an empty object."""
+    """Return the JSON object in a request's body; an empty body is an empty object."""
     kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if not kind and not await request.body():
         return {}
@@ -166,7 +166,7 @@ async def body_of(request: Request) -> dict[str, Any]:
 
 
 def queried(asks: Sequence[Declared], request: Request) -> dict[str, Any]:
-    """Return the values of the parameters of an address."""
+    """Return the parameter values in an address."""
     given = request.query_params
     _check_names(asks, given)
     return {
@@ -186,7 +186,7 @@ def _texts_read(one: Declared, texts: Sequence[str]) -> Any:
 
 
 def loaded(asks: Sequence[Declared], body: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the values of the parameters of a JSON body."""
+    """Return the parameter values in a JSON body."""
     _check_names(asks, body)
     return {
         one.name: _checked(one, Declared.load, body[one.name])

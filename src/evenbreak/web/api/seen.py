@@ -1,4 +1,4 @@
-"""Tonight as the interface sees it: events with what is known of them, and their matches."""
+"""Tonight as the API sees it: events, what is known about them, and their matches."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from evenbreak.words import Sentence
 
 _TEAM = f"{V1}/tonight/team"
 PLACES = 4
-"""The decimals of a chance."""
+"""How many decimals a chance has."""
 
 
 class Seen(NamedTuple):
-    """An event as everyone sees it; `known` may be of an earlier state (None: nothing yet)."""
+    """An event as everyone sees it; `known` may be for an earlier state (None: nothing yet)."""
 
     view: WallView
     known: Known | None
@@ -41,7 +41,7 @@ class Seen(NamedTuple):
 
     @property
     def fresh(self) -> Known | None:
-        """What has been calculated of this very state."""
+        """What has been calculated for exactly this state."""
         return self.known if self.known and self.known.of is self.state else None
 
     @property
@@ -51,25 +51,25 @@ class Seen(NamedTuple):
 
     @property
     def name(self) -> Sentence | str:
-        """What it is called."""
+        """Its name."""
         return event_name(self.state) if self.state.beside else self.view.name
 
     @property
     def stage(self) -> Any:
-        """How far it is."""
+        """How far along it is."""
         if not self.state.drawn:
             return "registered"
         return "finished" if self.view.view.over else "under_way"
 
     @property
     def champion(self) -> str:
-        """Who has won it; '' while that is open."""
+        """Who has won it; '' until that is decided."""
         first = [name for place, name in self.places if place == "1"]
         return first[0] if len(first) == 1 and self.view.view.over else ""
 
     @property
     def places(self) -> list[tuple[str, str]]:
-        """The places that are decided, and who has them."""
+        """The places decided, and who has them."""
         decided = decided_places(self.state) if self.state.drawn else {}
         first = sorted(decided.items(), key=lambda one: (one[1].event, one[1]))
         return [(short_place(place), name) for name, place in first]
@@ -81,7 +81,7 @@ class Seen(NamedTuple):
 
 
 def night_asked(call: Call) -> Night:
-    """Return the event that is named, else the first."""
+    """Return the named event, or else the first."""
     event = call.values.get("event") or 1
     for night in call.site.nights:
         if night.event == event:
@@ -100,7 +100,7 @@ async def seen_of(call: Call, night: Night) -> Seen:
 
 
 def told(make: Callable[[Call, Seen, Sequence[Seen]], Any]) -> Callable[[Call], Awaitable[Kept]]:
-    """Return what answers a resource: what is made of an event and of all events of the night."""
+    """Return a resource's answer function, given one of an event and all the night's events."""
 
     async def answer(call: Call) -> Kept:
         if not call.site.night.exists:
@@ -119,7 +119,7 @@ def told(make: Callable[[Call, Seen, Sequence[Seen]], Any]) -> Callable[[Call], 
 
 
 def match_of(seen: Seen, panel: Panel, box: Box) -> shapes.Match:
-    """Return a match of the bracket."""
+    """Return a match in the bracket."""
     state, name = seen.state, box.match
     table, result = state.on_tables.get(name), state.counted.get(name)
     standing: Any = box.state
@@ -152,7 +152,7 @@ def match_of(seen: Seen, panel: Panel, box: Box) -> shapes.Match:
 
 
 def _walks(seen: Seen, name: str) -> bool:
-    """Return whether the players of a match are still on their way to its table."""
+    """Return whether a match's players are still on their way to its table."""
     return progress_of(seen.state, name, seen.now) == "called"
 
 
@@ -166,7 +166,7 @@ def _side(box: Box, seat: int, needs: int | None) -> shapes.Side:
 
 @lru_cache(maxsize=4)
 def _onward(state: Evening) -> dict[str, dict[str, str]]:
-    """Return the numbers of the matches that winner and loser of each match go to."""
+    """Return the numbers of the matches that a match's winner and loser go to."""
     to: dict[str, dict[str, str]] = {}
     for match in state.bracket.matches:
         for slot in match.slots:
@@ -177,7 +177,7 @@ def _onward(state: Evening) -> dict[str, dict[str, str]]:
 
 
 def times_of(known: Known | None, at: Sequence[float] | None) -> shapes.Times | None:
-    """Return times that are minutes after the evening started."""
+    """Return times given in minutes after the start of the evening."""
     if known is None or at is None or not known.day:
         return None
     midnight = datetime.fromisoformat(known.day)

@@ -1,4 +1,4 @@
-"""What the interface answers about tonight: dataclasses of which JSON and its schema are made."""
+"""The API's answers about tonight: dataclasses that define the JSON and its schema."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ Older: TypeAlias = Annotated[
 
 @dataclass(frozen=True)
 class Times:
-    """When something happens: eight times out of ten between early and late."""
+    """When something happens: eight times out of ten, between early and late."""
 
     early: When
     middle: When
@@ -47,7 +47,7 @@ class Times:
 
 @dataclass(frozen=True)
 class Side:
-    """A player of a match."""
+    """A player in a match."""
 
     name: Annotated[str, Meta(description="'' while it is open who it is.")]
     comes_from: Annotated[
@@ -63,7 +63,7 @@ class Side:
 
 @dataclass(frozen=True)
 class Match:
-    """A match of the bracket, or a rack of a chip tournament."""
+    """A match in the bracket, or a rack in a chip tournament."""
 
     number: Number
     name: Annotated[
@@ -87,7 +87,7 @@ class Match:
 
 @dataclass(frozen=True)
 class Player:
-    """A player of the tournament."""
+    """A player in the tournament."""
 
     name: str
     rating: float
@@ -97,7 +97,7 @@ class Player:
 
 @dataclass(frozen=True)
 class Event:
-    """An event of the night."""
+    """One of the night's events."""
 
     event: EventNumber
     name: str
@@ -107,7 +107,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Tonight(Event):
-    """A tournament: what is played by whom, and what is on the tables."""
+    """A tournament: what is played, by whom, and what is on the tables."""
 
     format_words: Annotated[str, Meta(examples=["double elimination"])]
     races: Annotated[str, Meta(description="What is raced to, in words.")]
@@ -135,7 +135,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Bracket(Event):
-    """The whole bracket, all that drawing it takes."""
+    """The whole bracket, with everything needed to draw it."""
 
     races: Annotated[str, Meta(description="What is raced to, in words.")]
     champion: Annotated[str, Meta(description="'' until it is over.")]
@@ -153,7 +153,7 @@ class Matches:
 
 @dataclass(frozen=True)
 class Table:
-    """A table of the house."""
+    """One of the venue's tables."""
 
     name: str
     number: Annotated[int, Meta(ge=1)]
@@ -166,7 +166,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Tables:
-    """The tables of the house, for all events of the night."""
+    """The venue's tables, for all the night's events."""
 
     tables: list[Table]
 
@@ -181,14 +181,14 @@ class Waiting:
 
 @dataclass(frozen=True)
 class Queue:
-    """The matches that can be called now, the next first, of all events of the night."""
+    """The matches that can be called now, next one first, for all the night's events."""
 
     queue: list[Waiting]
 
 
 @dataclass(frozen=True)
 class PlaceChance:
-    """A place and the chance of it."""
+    """A place and its chance."""
 
     place: Annotated[str, Meta(examples=["5-6"])]
     chance: Chance
@@ -207,7 +207,7 @@ class PlayerOdds:
 
 @dataclass(frozen=True)
 class Odds:
-    """Everyone's chance of each place, from here on."""
+    """Everyone's chances of each place, from here on."""
 
     event: EventNumber
     known: Known
@@ -252,7 +252,7 @@ class Rank:
 
 @dataclass(frozen=True)
 class Group:
-    """The players of a group, the best first."""
+    """A group's players, best first."""
 
     title: str
     players: list[Rank]
@@ -260,7 +260,7 @@ class Group:
 
 @dataclass(frozen=True)
 class Standings:
-    """Who has finished where, and how groups stand."""
+    """Who has finished where, and the group standings."""
 
     event: EventNumber
     state: Stage
@@ -281,7 +281,7 @@ class Rating:
 
 @dataclass(frozen=True)
 class Ratings:
-    """The ratings, the highest first, those with few games last."""
+    """The ratings, highest first; players with few games come last."""
 
     event: EventNumber
     scale: Annotated[str, Meta(examples=["fargo"])]
@@ -290,7 +290,7 @@ class Ratings:
 
 @dataclass(frozen=True)
 class Racer:
-    """A player of a race."""
+    """A player in a race."""
 
     name: str
     rating: Annotated[float, Meta(description="As tonight's games have moved it.")]
@@ -300,7 +300,7 @@ class Racer:
 
 @dataclass(frozen=True)
 class Race:
-    """What two players would race to in this tournament, and the chances of it."""
+    """What two players would race to in this tournament, and their chances."""
 
     event: EventNumber
     a: Racer
@@ -309,7 +309,7 @@ class Race:
 
 @dataclass(frozen=True)
 class TeamSet:
-    """A set of a team night."""
+    """A set in a team night."""
 
     number: Annotated[int, Meta(ge=1)]
     players: Annotated[tuple[str, str], Meta(description="'' while it is open or unseen.")]
@@ -319,7 +319,7 @@ class TeamSet:
 
 @dataclass(frozen=True)
 class TeamNight:
-    """Two teams' night, as everyone in the room sees it."""
+    """A night between two teams, as everyone at the venue sees it."""
 
     teams: tuple[str, str]
     sets: list[TeamSet]

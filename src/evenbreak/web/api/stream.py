@@ -1,9 +1,9 @@
-"""The stream of what is entered, for programs that follow the night.
+"""The stream of entries, for programs that follow the night.
 
-A message's id is what its entry is known by (`evenbreak.files.store.changes`): whoever was cut off
-goes on after the last one they had, at any server of the file, and learns if it is another file.
-What is entered unseen stays so: phones and team nights are only said to have changed, and no one's
-address or author is sent.
+A message's ID identifies its entry (`evenbreak.files.store.changes`): a client that was cut off
+continues after the last message it had, from any server on the file, and is told if it is a
+different file. Unseen entries stay unseen: for phones and team nights, the stream only says that
+something changed, and no addresses or authors are sent.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ _SHOWN = {
     "undone": ("entry",),
     "redone": ("entry",),
 }
-"""What is sent of the details of an entry; of all others, only that it was made."""
+"""Which details of an entry are sent; for all others, only that it was made."""
 
 
 @dataclass(frozen=True)
 class Change:
-    """An entry of tonight; only what its kind has is there besides id, at and kind."""
+    """One of tonight's entries; besides id, at and kind, it has only what its kind has."""
 
     id: Annotated[
         str,
@@ -76,7 +76,7 @@ class Change:
 
 
 def message(row: Row, state: Evening | None) -> bytes:
-    """Return an entry as the stream sends it; b"" for a form that added nothing."""
+    """Return an entry as sent in the stream; b"" for a form that added nothing."""
     if row.strand in _UNSEEN:
         change = Change(row.mark, row.at, _UNSEEN[row.strand])
     elif row.strand.isdigit():
@@ -120,7 +120,7 @@ def since(watch: Watch, states: Mapping[str, Evening], last: str) -> bytes:
 
 
 async def _states(site: Site) -> dict[str, Evening]:
-    """Return the events of the night by their strands; none of a file that cannot be read."""
+    """Return the night's events by strand; none if the file can't be read."""
 
     def read() -> dict[str, Evening]:
         return {str(one.event): one.state() for one in site.nights if one.exists}
@@ -132,7 +132,7 @@ async def _states(site: Site) -> dict[str, Evening]:
 
 
 async def changes(call: Call) -> Response:
-    """Stream what is entered, from now on or after an entry."""
+    """Stream entries, from now on or after a given entry."""
     request = call.request
     watch: Watch = request.app.state.watch
 
@@ -166,4 +166,4 @@ RESOURCES = [
         streams=True,
     )
 ]
-"""The stream of the interface."""
+"""The API's stream."""

@@ -1,8 +1,8 @@
-"""Who writes by the interface: whoever sends a token of the director's in the head of the request.
+"""Who may write through the API: a client that sends one of the director's tokens in a header.
 
-A token in an address or a cookie is none. Wrong ones are counted by address as wrong PINs are. A
-right one passes even then: no one guesses 160 bits, and a guest behind the same router must not be
-able to stop the scoreboard.
+A token in an address or a cookie doesn't count. Wrong tokens are counted by address, like wrong
+PINs. A correct token passes even then: no one can guess 160 bits, and a guest behind the same
+router must not be able to stop the scoreboard.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _MINUTE = {"retry-after": "60"}
 
 
 async def check_token(request: Request, move: str) -> None:
-    """Refuse a request without a token that is good for a move; keep whose it is."""
+    """Reject a request without a valid token for a move; remember whose token it is."""
     site, address, text = site_of(request), address_of(request), _sent(request)
     if not text:
         raise _unknown(_NONE)
@@ -62,9 +62,9 @@ async def check_token(request: Request, move: str) -> None:
 
 
 def check_still(request: Request, state: Evening, match: str | None) -> None:
-    """Refuse a token that was revoked meanwhile, or that is for another table than a match's.
+    """Reject a token that has been revoked, or that is for a different table than the match's.
 
-    It is asked while no one else can enter anything, nor revoke a token.
+    This is checked while no one else can enter anything or revoke a token.
     """
     held, text = request.state.token
     still = token_in(kept_tokens(site_of(request).path), text)
@@ -89,7 +89,7 @@ def token_of(request: Request) -> Token:
 
 
 def _sent(request: Request) -> str:
-    """Return the token in the head of a request; '' if there is none."""
+    """Return the token in a request's header; '' if there is none."""
     given = request.headers.getlist("authorization")
     kind, _, text = given[0].partition(" ") if len(given) == 1 else ("", "", "")
     return text.strip()[:_LONGEST] if kind.lower() == "bearer" else ""

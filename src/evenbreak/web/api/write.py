@@ -1,7 +1,8 @@
-"""What other programs enter: an address for each move, made of the table of moves.
+"""Entries by other programs: an address for each move, based on the table of moves.
 
-A request is entered as a form of the desk is, and its author is the program. Its Idempotency-Key
-is kept with the entry: the same request again is answered, and enters nothing twice.
+A request is entered like a form on the desk, and its author is the program. Its Idempotency-Key is
+stored with the entry: if the same request comes again, it is answered, but nothing is entered
+twice.
 """
 
 from __future__ import annotations
@@ -39,16 +40,16 @@ from evenbreak.words import joined, say, tally
 
 
 class _Agreed(Kind):
-    """Yes, or the name of the question that it answers with yes."""
+    """Yes, or the name of the question answered with yes."""
 
     metavar = ""
 
     def load(self, value: Any) -> bool | str:
-        """Return what JSON has for it."""
+        """Return the value that JSON stands for."""
         return value if isinstance(value, str) else Flag().load(value)
 
     def schema(self) -> dict[str, Any]:
-        """Return what a JSON schema says of such a value."""
+        """Return the JSON schema for such a value."""
         return {"type": ["boolean", "string"]}
 
 
@@ -86,7 +87,7 @@ class Written:
 
 
 async def _entered(name: str, call: Call) -> Written:
-    """Enter what a program asks."""
+    """Enter a program's request."""
     night, move, request = night_asked(call), MOVES[name], call.request
     if not night.exists:
         raise ProblemError("No tournament is running yet.", status=404)
@@ -131,7 +132,7 @@ async def _entered(name: str, call: Call) -> Written:
 
 
 def _key(name: str, call: Call) -> tuple[str, str | None]:
-    """Return what a request is known by: its key and program, and that with what it asks."""
+    """Return a key for a request and its program, and one that includes its content."""
     given = call.request.headers.get("idempotency-key")
     if given is None:
         return "", None
@@ -160,7 +161,7 @@ def _refuse_other(earlier: set[str], whole: str | None) -> None:
 
 
 def _check_seen(state: Evening, match: str | None, seen: tuple[int, int]) -> None:
-    """Refuse what was meant for an earlier score."""
+    """Reject a request made for an earlier score."""
     name = known_match(state, match or "")
     now = score_of(state, name) or (0, 0)
     if name in state.standing.to_play and now != seen:
@@ -175,7 +176,7 @@ def _check_seen(state: Evening, match: str | None, seen: tuple[int, int]) -> Non
 
 
 def _sure(would: Entered) -> ProblemError:
-    """Return the question whether it is meant, with what would be lost."""
+    """Return a request for confirmation, with what would be lost."""
     state = would.before
     lost = [
         Lost(
@@ -231,4 +232,4 @@ def _resources() -> Iterator[Resource]:
 
 
 RESOURCES = list(_resources())
-"""An address for each move of the table."""
+"""An address for each move in the table."""

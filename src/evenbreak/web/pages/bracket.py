@@ -1,4 +1,4 @@
-"""The bracket: a round at a time on a phone, whole on a laptop; and as a PDF to print."""
+"""The bracket: one round at a time on a phone, whole on a laptop, and as a PDF to print."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from evenbreak.words import Sentence, in_face
 
 
 class Chosen(NamedTuple):
-    """A match that was tapped: what people call it, its round, where its players go, its start."""
+    """A tapped match: its name, its round, where its players go, its start."""
 
     box: Box
     words: Sentence | str
@@ -72,7 +72,7 @@ async def bracket(request: Request) -> Response:
 def _chosen(
     state: Evening, panels: Sequence[Panel], asked: str, known: Known | None
 ) -> Chosen | None:
-    """Return the match that was tapped; None if there is none of that number any more."""
+    """Return the tapped match; None if there is no longer one with that number."""
     for panel in panels:
         for box in panel.boxes:
             if str(box.number) != asked:
@@ -105,7 +105,7 @@ async def bracket_on_paper(request: Request) -> Response:
 
 
 def _paper(request: Request) -> str:
-    """Return the paper that is asked for, else that of this computer's place."""
+    """Return the requested paper size, or else this computer's regional standard."""
     from evenbreak.sheets.pdf_page import PAPERS, usual_paper
 
     asked = request.query_params.get("paper", "")

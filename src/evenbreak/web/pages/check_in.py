@@ -47,7 +47,7 @@ async def check_in(request: Request) -> Response:
 
 
 async def play(request: Request) -> Response:
-    """Show a phone how to register, and what has become of it."""
+    """Show a phone how to register, and its registration's status."""
     state = await asyncio.to_thread(begun(night_of(request)).state)
     name = str(request.session.get(_ASKED, ""))
     if name and name in state.entrants:
@@ -56,7 +56,7 @@ async def play(request: Request) -> Response:
 
 
 async def register(request: Request) -> Response:
-    """Let a phone ask to play; the director lets it in or not."""
+    """Let a phone ask to play; the director accepts or declines."""
     form, night = await form_of(request), night_of(request)
     name, rating = entered_name(form), entered_rating(form)
     if not name:

@@ -1,4 +1,4 @@
-"""The director's desk as it is seen: what is urgent first, and a match with all its acts."""
+"""The director's desk: urgent things first, and a match with all its actions."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ _SECOND_CHANCE = 4  # players out, from which one is offered
 
 
 async def desk(request: Request) -> Response:
-    """Show all that the director can do now, what is urgent first."""
+    """Show everything the director can do now, urgent things first."""
     check_director(request)
     site = site_of(request)
     if not site.night.exists and await site.teams.now() is not None:
@@ -68,7 +68,7 @@ async def desk(request: Request) -> Response:
 def _desk_values(
     request: Request, event: int, states: Mapping[int, Evening], knowns: Sequence[Known | None]
 ) -> dict[str, Any]:
-    """Return what the desk shows of all events of the night."""
+    """Return what the desk shows for all the night's events."""
     site, state = site_of(request), states[event]
     now, queue, read = site.clock(), site.queue, _read_of(request)
     views = [view_of(*pair) for pair in zip(states.values(), knowns, strict=True)]
@@ -122,7 +122,7 @@ def _desk_values(
 
 
 def _event_row(state: Evening, view: EveningView) -> dict[str, Any]:
-    """Return what an event has on the desk of its own: its draw, its ties, its end."""
+    """Return what an event shows separately on the desk: its draw, its ties, its end."""
     return {
         "event": state.event,
         "tag": event_name(state) if state.beside else "",
@@ -137,7 +137,7 @@ def _event_row(state: Evening, view: EveningView) -> dict[str, Any]:
 
 
 def _out(state: Evening) -> list[str]:
-    """Return who could play a second chance: from four on who are out, unless they do already."""
+    """Return who could play a second-chance event: at least four players, unless one is on."""
     if not state.drawn or state.plan.form not in ELIMINATIONS or state.event > 1:
         return []
     found = out(state)
@@ -146,7 +146,7 @@ def _out(state: Evening) -> list[str]:
 
 
 def _event_values(night: Night, state: Evening, now: str) -> dict[str, Any]:
-    """Return what the desk shows of the matches of an event that is drawn."""
+    """Return what the desk shows for the matches of an event that has been drawn."""
     phones = night.phones()
     sides = sides_now(phones, state)
     late, still = waiting(state, now)
@@ -181,13 +181,13 @@ def _warnings(known: Known | None) -> list[str]:
 
 
 def sides_now(phones: Phones, state: Evening) -> dict[str, Sides]:
-    """Return what phones sent for the matches that can be played."""
+    """Return what phones sent for the playable matches."""
     sides = (phones.sides(name, state.pair(name)) for name in state.standing.to_play)
     return {one.match: one for one in sides if one.proposed}
 
 
 def sheet_values(request: Request, state: Evening) -> dict[str, Any]:
-    """Return what a director's sheet shows of the match that an address names by its number."""
+    """Return a director's sheet for the match whose number is in the address."""
     number = request.query_params.get("match", "")
     none: dict[str, Any] = {"one_match": None, "its": {}}
     if not (number and state.drawn and is_director(request)):
@@ -223,7 +223,7 @@ def sheet_values(request: Request, state: Evening) -> dict[str, Any]:
 
 
 def _tables_without(state: Evening, table: int | None) -> str:
-    """Return the tables that stay open when one closes, as they are typed; "" for the last."""
+    """Return the tables that stay open when one closes, in typed form; "" for the last one."""
     plan = state.plan
     names = [plan.table_name(k) for k in range(1, plan.tables + 1) if k != table]
     lone = len(names) == 1 and names[0].isdecimal() and names[0] != "1"
@@ -231,7 +231,7 @@ def _tables_without(state: Evening, table: int | None) -> str:
 
 
 def _undo_of(state: Evening, one: DeskMatch) -> dict[str, Any] | None:
-    """Return how the result of a match is taken back, if nothing follows from it."""
+    """Return how to take back a match's result, if nothing follows from it."""
     for number, event in reversed(list(zip(state.numbers, state.events, strict=True))):
         if isinstance(event.what, Result) and event.what.match == one.name:
             can = number in undoable(state) or is_free(state, number)
@@ -240,9 +240,9 @@ def _undo_of(state: Evening, one: DeskMatch) -> dict[str, Any] | None:
 
 
 def own_act(states: Mapping[int, Evening], event: int) -> dict[str, Any] | None:
-    """Return the director's last act in any event, and what its undo says.
+    """Return the director's last action in any event, and what undoing it says.
 
-    Of several at one time it is that in `event`.
+    If several happened at the same time, `event` takes precedence.
     """
     found = [
         (one.events[one.numbers.index(number)], n, number)
@@ -256,14 +256,14 @@ def own_act(states: Mapping[int, Evening], event: int) -> dict[str, Any] | None:
 
 
 def _read_of(request: Request) -> dict[int, int]:
-    """Return the last entry of each event that the director has read."""
+    """Return each event's last entry that the director has read."""
     kept = request.session.get(_READ)
     found = kept if isinstance(kept, dict) else {}
     return {int(event): n for event, n in found.items() if str(event).isdecimal()}
 
 
 def _undone_last(state: Evening) -> dict[str, Any] | None:
-    """Return what was undone last, where nothing has been entered since."""
+    """Return what was last undone, if nothing has been entered since."""
     last = next((one for one in reversed(state.log) if not one.by.startswith(BY_ITSELF)), None)
     number = redoable(state)
     if last is None or number is None or not isinstance(last.what, Undone):
@@ -276,7 +276,7 @@ def _undone_last(state: Evening) -> dict[str, Any] | None:
 
 
 async def read(request: Request) -> Response:
-    """Keep that the director has read what was entered last."""
+    """Store that the director has read the last entry."""
     form = await directors_form(request)
     entries = [text.partition(".") for text in form.texts("entry")]
     numbers = [(event, rest) if rest else ("1", event) for event, _, rest in entries]

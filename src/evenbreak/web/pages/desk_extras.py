@@ -1,4 +1,4 @@
-"""What else a director looks up or sets: the list of all that, the history, QR codes, copies."""
+"""Other things a director looks up or sets: an overview, the history, QR codes, copies."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _MOST_SCORES = 30
 
 
 async def more(request: Request) -> Response:
-    """Show what the desk itself does not: settings, lists, prints."""
+    """Show what isn't on the desk itself: settings, lists, printouts."""
     check_director(request)
     site, night = site_of(request), begun(night_of(request))
     state = await asyncio.to_thread(night.state)
@@ -65,7 +65,7 @@ async def more(request: Request) -> Response:
 
 
 def overlay_paths(plan: Plan) -> list[str]:
-    """Return where the overlays are: of the streamed tables, or of all, and of the bracket.
+    """Return the addresses of the overlays: for streamed tables, or all tables, and the bracket.
 
     >>> overlay_paths(Plan("double", 5, tables=3, labels=("1", "2", "TV"), streamed=(3,)))
     ['/overlay/TV', '/overlay/bracket']
@@ -76,7 +76,7 @@ def overlay_paths(plan: Plan) -> list[str]:
 
 
 def _races(plan: Plan) -> dict[str, tuple[str, int]]:
-    """Return the races that can be changed, with what they are now."""
+    """Return the races that can be changed, and their current values."""
     if plan.chart is not None or plan.form == "chips":
         return {}
     now = {"race": plan.race, "losers_race": plan.losers_race, "final_race": plan.final_race}
@@ -88,7 +88,7 @@ def _races(plan: Plan) -> dict[str, tuple[str, int]]:
 
 
 async def calling(request: Request) -> Response:
-    """Keep whether a result calls the next match to the table that it frees."""
+    """Store whether a result automatically calls the next match to the freed table."""
     form = await directors_form(request)
     itself = bool(form.text("itself"))
     await asyncio.to_thread(site_of(request).let_call, itself)
@@ -108,7 +108,7 @@ async def save(request: Request) -> Response:
 
 
 async def change_pin(request: Request) -> Response:
-    """Draw another PIN; the other phones of directors have to enter it."""
+    """Generate a new PIN; directors' other phones must enter it."""
     await directors_form(request)
     site = site_of(request)
     await asyncio.to_thread(site.change_pin)
@@ -125,7 +125,7 @@ async def change_pin(request: Request) -> Response:
 
 
 async def time(request: Request) -> Response:
-    """Show when it ends, and what would change that."""
+    """Show when the night ends, and what would change that."""
     check_director(request)
     site, night = site_of(request), begun(night_of(request))
     state = await asyncio.to_thread(night.state)
@@ -141,7 +141,7 @@ async def time(request: Request) -> Response:
 
 
 async def history(request: Request) -> Response:
-    """Show who entered what, and when; what nothing follows from can be taken back there."""
+    """Show who entered what, and when; anything that nothing depends on can be taken back there."""
     check_director(request)
     night = begun(night_of(request))
     rows, again = await asyncio.to_thread(_entries, night)
@@ -149,10 +149,10 @@ async def history(request: Request) -> Response:
 
 
 def _entries(night: Night) -> tuple[list[tuple[int, str, str, str, str]], set[int]]:
-    """Return the entries, the last first, and which can be done again.
+    """Return the entries, last first, and which ones can be redone.
 
-    Each is its number (0: of a phone), when, what, by whom, and 'free' if it can be taken back,
-    'gone' if it has been. Scores of a match that one author entered one after another are one row.
+    Each has its number (0: from a phone), when, what, by whom, and 'free' if it can be taken back,
+    or 'gone' if it has been. A match's consecutive scores by one author are one row.
     """
     state = night.state()
     found = state.log
@@ -188,9 +188,9 @@ def _entries(night: Night) -> tuple[list[tuple[int, str, str, str, str]], set[in
 
 
 def _scores(state: Evening) -> Iterator[tuple[int, str, str]]:
-    """Yield the scores of a match that one author entered one after another, as one row.
+    """Yield a match's consecutive scores by one author, as one row.
 
-    Each is the number of the last, what, and 'gone' if they have been undone.
+    Each row has the last one's number, what, and 'gone' if they have been undone.
     """
     open_rows: dict[str, tuple[tuple[str, bool], list[int]]] = {}
     rows = []

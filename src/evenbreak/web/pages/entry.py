@@ -1,4 +1,4 @@
-"""A tournament started: from a list that is asked about where it is doubtful, or like the last."""
+"""Starting a tournament, from a list whose doubtful lines are asked about, or like the last one."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ NOT_WITH_FORMAT = {
     "final": say("Only a double elimination has a choice of final."),
     "third_place": say("Only a single elimination has a match for third place."),
 }
-"""Why a field must be left blank in a format that does not have it."""
+"""Why a field must be left blank in a format that doesn't have it."""
 
 
 PACES = (
@@ -95,11 +95,11 @@ PACES = (
     ("1.3", say("a third longer")),
     ("1.6", say("much longer")),
 )
-"""How long matches take in the house, with the words of each."""
+"""The venue's match lengths, and a label for each."""
 
 
 async def ask(request: Request) -> Response:
-    """Show the form that starts a tournament; it starts with what was chosen the last time."""
+    """Show the form that starts a tournament, with the choices made last time."""
     check_director(request)
     return page(request, "new.html", entered={}, why="", **await _choices(site_of(request)))
 
@@ -123,7 +123,7 @@ async def again(request: Request) -> Response:
 
 
 async def _choices(site: Site) -> dict[str, Any]:
-    """Return what there is to choose from, and the tournament that there is already."""
+    """Return the choices available, and the existing tournament."""
     there = await asyncio.to_thread(_there, site)
     state = await asyncio.to_thread(site.night.state) if there else None
     kept = await asyncio.to_thread(kept_prizes, site.path) if there else None
@@ -149,7 +149,7 @@ async def _choices(site: Site) -> dict[str, Any]:
 
 
 def _remembered(plan: Plan) -> dict[str, str]:
-    """Return the fields of the form as they were for a plan."""
+    """Return the form's fields as they were for a plan."""
     if plan.form not in FORMATS:
         return {}
     races = FAIR if plan.handicapped else EVEN
@@ -172,9 +172,9 @@ def _remembered(plan: Plan) -> dict[str, str]:
 
 
 async def begin(request: Request) -> Response:
-    """Start a tournament; a form that is refused comes back as it was filled in.
+    """Start a tournament; a rejected form comes back as it was filled in.
 
-    A list that can mean more than one thing is asked about first, line by line.
+    If a list can mean more than one thing, its doubtful lines are asked about first.
     """
     form, site = await directors_form(request), site_of(request)
     content = list_of(form, "entrants", "file")
@@ -210,12 +210,12 @@ async def begin(request: Request) -> Response:
 
 
 def _league(form: Form, site: Site) -> Known | None:
-    """Return how players are found in the league, if its ratings are to be used."""
+    """Return how players are looked up in the league, if its ratings are to be used."""
     return site.league.known if form.text("league") and site.league.sheet else None
 
 
 def _with_list(form: Form, content: bytes, listed: Collection[str]) -> Form:
-    """Return a form with a list that has been asked about instead of the answers."""
+    """Return a form with the clarified list in place of the answers."""
     rest = [one for one in form.fields.multi_items() if one[0] not in ("entrants", "checked")]
     own = [("stated", name) for name in sorted(listed)]
     return Form(Fields([*rest, ("entrants", content.decode()), *own]))
@@ -235,7 +235,7 @@ def _ask_about(
 
 
 async def delete(request: Request) -> Response:
-    """Take the tournament out of the file, once it is asked whether that is meant; keep a copy."""
+    """Remove the tournament from the file, after asking for confirmation; keep a copy."""
     form, site = await directors_form(request), site_of(request)
     there = await asyncio.to_thread(_there, site)
     if there is None:
@@ -258,7 +258,7 @@ async def delete(request: Request) -> Response:
 
 
 class There(NamedTuple):
-    """A tournament that is there already: how many events it has, when it was started, for whom."""
+    """An existing tournament: how many events it has, when it was started, for how many."""
 
     events: int
     begun: str
@@ -267,12 +267,12 @@ class There(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What a form calls it."""
+        """The form's name for it."""
         return f"{self.events} {self.begun}"
 
 
 def _there(site: Site) -> There | None:
-    """Return the tournament that is there already."""
+    """Return the existing tournament."""
     if not site.night.exists:
         return None
     found, state = read_events(site.path), site.night.state()
@@ -281,12 +281,12 @@ def _there(site: Site) -> There | None:
 
 
 def _is_there(site: Site, event: Event) -> bool:
-    """Return whether the tournament that there is has begun just so, and nothing else happened."""
+    """Return whether the existing tournament was started exactly like this, with nothing since."""
     return site.night.exists and [one.what for one in read_events(site.path)] == [event.what]
 
 
 def _put_aside(form: Form, site: Site) -> int:
-    """Keep a copy of the tournament that is there already; return how many events it has."""
+    """Save a copy of the existing tournament; return how many events it has."""
     there = _there(site)
     if there is None:
         return 0
@@ -303,7 +303,7 @@ def _put_aside(form: Form, site: Site) -> int:
 def _begun(
     form: Form, site: Site, content: bytes, listed: Collection[str]
 ) -> tuple[Event, list[str]]:
-    """Return what a form starts, what its list makes doubtful, and what sets the pace."""
+    """Return what a form starts, what is doubtful about its list, and what sets the pace."""
     league = site.league if form.text("league") else None
     stated = scale_in(form)
     file = read_upload(content, read_entrants) if content.strip() else nobody()
@@ -346,7 +346,7 @@ def _begun(
 
 
 def _plan(form: Form, scale: Scale, earlier: tuple[EarlierNight, ...]) -> Plan:
-    """Return what is played, by the fields of the form; those left empty have their defaults."""
+    """Return the plan from the form's fields; empty fields get their defaults."""
     kind = form.one_of("format", FORMATS)
     races = EVEN if kind == "chips" else form.one_of("races", (*RACES, *CHARTS))
     _refuse_of_other_formats(form, kind)
@@ -404,7 +404,7 @@ def _date(form: Form) -> str:
 
 
 def _refuse_of_other_formats(form: Form, kind: str) -> None:
-    """Refuse a field that was filled in and that the format does not have."""
+    """Reject a field that was filled in although the format doesn't have it."""
     for one in declared(Format):
         is_given = form.text(one.name) not in ("", one.usual)
         if is_given and kind not in one.field.formats and one.name in NOT_WITH_FORMAT:
@@ -420,7 +420,7 @@ def _chart(name: str) -> Chart:
 def _entrants(
     filled: Roster, league: League | None, listed: Collection[str]
 ) -> tuple[Entrant, ...]:
-    """Return the entrants, those of the league with its ratings, unless the list's count."""
+    """Return the entrants, using league ratings for league players unless the list's count."""
 
     def known(one: Entrant) -> Entrant:
         found = league.known(one.name) if league and one.name not in listed else None

@@ -1,4 +1,4 @@
-"""The fairest race for two players: by names tonight, two ratings, or two skill levels."""
+"""The fairest race for two players, given tonight's names, two ratings, or two skill levels."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ LENGTHS = (3, 4, 5, 7, 9, 11, 13, 15, 21)
 
 
 async def fair(request: Request) -> Response:
-    """Show the form and, once both players are named, the fairest race."""
+    """Show the form and, once both players are given, the fairest race."""
     asked = {name: request.query_params.get(name, "").strip()[:80] for name in ("a", "b")}
     night = site_of(request).night
     state = await asyncio.to_thread(night.state) if night.exists else None
@@ -73,7 +73,7 @@ async def fair(request: Request) -> Response:
 
 
 def _by_level(chart: str, typed: dict[str, str], length: int) -> dict[str, Any]:
-    """Return the race of two skill levels by a chart, and the fairest ones."""
+    """Return a chart's race for two skill levels, and the fairest races."""
     a, b = (_level(typed[name], chart) for name in ("a", "b"))
     names = say("Level {level}", level=a), say("Level {level}", level=b)
     sides = [Entrant(name, 0.0, 0.0) for name in names]
@@ -123,7 +123,7 @@ def _scale(request: Request, state: Evening | None, league: League) -> Scale | N
 
 
 def _side(text: str, state: Evening | None, league: League) -> Entrant:
-    """Return a side by its rating, or by a name: of tonight's players first, then the league's."""
+    """Return a side from its rating or its name: tonight's players first, then the league's."""
     try:
         return Entrant(text, float(text.replace(",", ".")), 0.0)
     except ValueError:

@@ -1,7 +1,7 @@
-"""Tonight: what is on the tables, who plays next, the odds, the finish.
+"""Tonight: what is on the tables, who plays next, the odds, the finish time.
 
-The wall shows the same in large letters; and the stream that tells pages when the tournament has
-changed.
+The wall shows the same thing in large letters. Also the stream that tells pages when the tournament
+has changed.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from evenbreak.web.watch import Watch, stream_of
 
 
 async def tonight(request: Request) -> Response:
-    """Show the evening, or how one starts."""
+    """Show the evening, or how to start one."""
     night = night_of(request)
     if not night.exists:
         if await site_of(request).teams.now() is not None:
@@ -41,7 +41,7 @@ async def tonight(request: Request) -> Response:
 
 
 async def ask_pin(request: Request) -> Response:
-    """Ask for the director's PIN; the program's own browser comes with a ticket instead."""
+    """Ask for the director's PIN; the program's own browser has a ticket instead."""
     ticket = request.query_params.get("ticket", "")
     good = is_here(request) and site_of(request).ticket.is_good(ticket)
     late = bool(ticket) and not good
@@ -49,7 +49,7 @@ async def ask_pin(request: Request) -> Response:
 
 
 async def enter_pin(request: Request) -> Response:
-    """Let the director in."""
+    """Log the director in."""
     form = await form_of(request)
     site = site_of(request)
     check_tries(request)
@@ -64,7 +64,7 @@ async def enter_pin(request: Request) -> Response:
 
 
 async def leave(request: Request) -> Response:
-    """Let the director out."""
+    """Log the director out."""
     await form_of(request)
     await asyncio.to_thread(let_out, request, DIRECTOR)
     return done(request, "/")
@@ -79,7 +79,7 @@ async def speak(request: Request) -> Response:
 
 
 async def events(request: Request) -> Response:
-    """Stream what the last entry is known by whenever there is another."""
+    """Stream the last entry's key whenever there is a new entry."""
     watch: Watch = request.app.state.watch
 
     async def told(_: str | None) -> bytes:

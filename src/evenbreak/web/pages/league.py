@@ -1,4 +1,4 @@
-"""The league: its ratings, each player's matches and races, the sheet; a new file of results."""
+"""The league: its ratings, each player's matches and races, the sheet; uploading new results."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ if TYPE_CHECKING:
 
 _PATIENCE = 0.5  # seconds that a page waits for what is worked out
 _RACE = declaration(Report, "race_to")
-"""What the report of a league asks too."""
+"""What a league's report also asks for."""
 _MOST_LISTED = 1000
 _MOST_MATCHES = 60
 
 
 class Row(NamedTuple):
-    """A player: place, None if the rating is provisional, name, rating and its error, games."""
+    """A player: place (None if the rating is provisional), name, rating and its error, games."""
 
     place: int | None
     name: str
@@ -59,7 +59,7 @@ class Played(NamedTuple):
 
 
 async def league(request: Request) -> Response:
-    """Show the ratings, how far they are, or why they cannot be made."""
+    """Show the ratings, or their progress, or why they can't be calculated."""
     found = _league(request)
     if found.paths and not (found.sheet or found.problem or found.progress):
         found.begin()
@@ -78,7 +78,7 @@ async def league(request: Request) -> Response:
 
 
 async def give(request: Request) -> Response:
-    """Take the league's results, from a file or pasted."""
+    """Accept the league's results, uploaded or pasted."""
     form = await directors_form(request)
     content = list_of(form, "results", "file", longest=MOST_BYTES)
     if not content.strip():
@@ -92,7 +92,7 @@ async def give(request: Request) -> Response:
 
 
 async def add_tonight(request: Request) -> Response:
-    """Add the results of tonight's tournament to the league's."""
+    """Add tonight's tournament results to the league's."""
     await directors_form(request)
     site = site_of(request)
     state = await asyncio.to_thread(tournament_of, site)
@@ -106,14 +106,14 @@ async def add_tonight(request: Request) -> Response:
 
 
 async def results(request: Request) -> Response:
-    """Return the matches that were played tonight, as a file."""
+    """Return tonight's matches as a file."""
     site = site_of(request)
     state = await asyncio.to_thread(tournament_of, site)
     return as_file(matches_csv(state, site.path.stem), "results.csv")
 
 
 def tournament_of(site: Site) -> Evening:
-    """Return tonight's tournament, of which something has been played."""
+    """Return tonight's tournament, if any of it has been played."""
     state = begun(site.night).state()
     if not state.counted:
         raise RefusalError("No match has been played yet.", status=409)
@@ -121,12 +121,12 @@ def tournament_of(site: Site) -> Evening:
 
 
 def matches_csv(state: Evening, event: str) -> bytes:
-    """Return the matches that were played, as the commands that rate read them."""
+    """Return the matches played, in the form read by the commands that rate them."""
     return "".join(to_csv(tournament_matches_answer(state, event))).encode()
 
 
 async def player(request: Request) -> Response:
-    """Show a player's rating and matches and, against another, the fairest race and why."""
+    """Show a player's rating and matches and, against another player, the fairest race and why."""
     sheet = _sheet(request)
     name, other = (request.query_params.get(key, "")[:200] for key in ("name", "other"))
     names = [name, other] if other.strip() else [name]
@@ -153,7 +153,7 @@ async def player(request: Request) -> Response:
 
 
 def _places(sheet: Sheet, names: list[str]) -> list[int]:
-    """Return where players stand in the league; a reader of the page knows nothing of its files."""
+    """Return the league standings, without file names, which mean nothing to the page's readers."""
     known = KnownNames(sheet.ratings.players)
     places = {name: known.place(name) for name in map(clean_name, names)}
     missing = [quoted(name) + known.hint(name) for name, at in places.items() if at is None]
@@ -178,7 +178,7 @@ def _rows(sheet: Sheet) -> list[Row]:
 
 
 def _matches(sheet: Sheet, seat: int) -> list[Played]:
-    """Return a player's matches, the last ones first; where only the winner is known, no score."""
+    """Return a player's matches, last first; without a score if only the winner is known."""
     from evenbreak.ratings.results import who_won
 
     results = sheet.file.results
@@ -202,7 +202,7 @@ def _matches(sheet: Sheet, seat: int) -> list[Played]:
 
 
 def _made(name: str) -> Callable[[Sheet], bytes]:
-    """Return what makes a file of the sheet."""
+    """Return a function that makes one of the sheet's files."""
     from evenbreak import sheets
     from evenbreak.files.csv_writer import to_csv as frame_csv
 

@@ -1,9 +1,8 @@
-"""My night: the one page that a player needs all evening, on a phone that is theirs.
+"""My night: the one page that a player needs all evening, on their own phone.
 
-A phone claims a player once: from the list of names, or by the player's code, which takes the claim
-over from another phone. What both players of a match propose counts by itself only if it came from
-different addresses: a second tab of one phone is a session of its own, but it comes from where the
-phone is.
+A phone claims a player once: from the list of names, or with the player's code, which takes the
+claim over from another phone. A result proposed by both players counts automatically only if it
+came from different addresses: a second tab on one phone has its own session, but the same address.
 """
 
 from __future__ import annotations
@@ -65,7 +64,7 @@ async def me(request: Request) -> Response:
 
 
 async def _shown(request: Request, why: RefusalError | None = None) -> Response:
-    """Return a player's page as it is now, and why a tap was refused."""
+    """Return a player's current page, and why a tap was rejected."""
     site = site_of(request)
     if not site.begun:
         return page(request, "begin.html")
@@ -112,7 +111,7 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
 
 
 class Place(NamedTuple):
-    """Where a player is in an event of the night: their match and what their page shows of it."""
+    """A player's place in one of the night's events: their match and what their page shows."""
 
     night: Night
     state: Evening
@@ -124,7 +123,7 @@ class Place(NamedTuple):
 
 
 async def _place_in(request: Request, night: Night) -> Place | None:
-    """Return where the player whose phone asks is in an event; None: they are not in it."""
+    """Return where the phone's player is in an event; None if they aren't in it."""
     if not night.exists:
         return None
     known = await night.outlook()
@@ -138,7 +137,7 @@ async def _place_in(request: Request, night: Night) -> Place | None:
 
 
 def _urgent(place: Place) -> tuple[bool, bool, bool, bool, str]:
-    """Return by what an event comes first on a player's page: a match on a table before others."""
+    """Return an event's sort key on a player's page: a match on a table comes first."""
     mine, busy = place.mine, place.step not in ("waits", "before", "rests")
     starts = mine.starts[1] if mine and mine.starts else "~"
     at_table = mine is not None and mine.table is not None
@@ -147,7 +146,7 @@ def _urgent(place: Place) -> tuple[bool, bool, bool, bool, str]:
 
 
 def _who_plays(request: Request) -> dict[str, bool]:
-    """Return who plays tonight, in any event, and whether they have a phone."""
+    """Return tonight's players in all events, and whether they have a phone."""
     states = [(night.state(), night.phones().claims) for night in site_of(request).begun]
     return {
         name: name in claims
@@ -158,14 +157,14 @@ def _who_plays(request: Request) -> dict[str, bool]:
 
 
 async def claim(request: Request) -> Response:
-    """Keep that this phone is a player's, unless another one is."""
+    """Store that this phone belongs to a player, unless another phone already does."""
     form = await form_of(request)
     await asyncio.to_thread(_claim, request, form.text("name"), form.key(request.url.path))
     return done(request, "/me")
 
 
 async def shown_by_code(request: Request) -> Response:
-    """Ask whether this is the player who has a code; if their phone it is already, go on."""
+    """Ask whether this is the player with a code; if it's already their phone, go on."""
     begun_nights(request)
     if request.method == "HEAD":
         return Response()
@@ -180,7 +179,7 @@ async def shown_by_code(request: Request) -> Response:
 
 
 async def claim_by_code(request: Request) -> Response:
-    """Keep that this phone is the player's who has this code, whichever was before."""
+    """Store that this phone belongs to the player with this code, replacing any earlier phone."""
     form = await form_of(request)
     begun_nights(request)
     name = _with_code(request, code_in(form.text("code")))
@@ -189,7 +188,7 @@ async def claim_by_code(request: Request) -> Response:
 
 
 def _with_code(request: Request, code: str) -> str:
-    """Return the player who has a code; refuse whoever guesses."""
+    """Return the player with a code; reject anyone guessing."""
     site, address = site_of(request), address_of(request)
     if site.codes.full(address) or site.all_codes.full(""):
         raise RefusalError("Too many wrong codes. Wait a minute.", status=429)
@@ -223,7 +222,7 @@ def _claim(request: Request, name: str, key: str, *, by_code: bool = False) -> N
 
 
 def _night_with(request: Request, name: str) -> Night:
-    """Return the first event of the night that someone plays in."""
+    """Return the night's first event that a player is in."""
     for night in begun_nights(request):
         if name in night.state().entrants:
             return night
@@ -231,7 +230,7 @@ def _night_with(request: Request, name: str) -> Night:
 
 
 async def leave(request: Request) -> Response:
-    """Give a phone up, for another player to have it."""
+    """Give up a phone's player, so it can have another player."""
     key = (await form_of(request)).key(request.url.path)
     night, phone = begun_nights(request)[0], phone_of(request)
 
@@ -244,7 +243,7 @@ async def leave(request: Request) -> Response:
 
 
 async def release(request: Request) -> Response:
-    """Take a player's phone from whoever has it."""
+    """Take a player's phone away from whoever has it."""
     form = await directors_form(request)
     name, key = form.text("player"), form.key(request.url.path)
 
@@ -260,7 +259,7 @@ async def release(request: Request) -> Response:
 
 
 async def tap(request: Request) -> Response:
-    """Take the score of the player's match; a full score is proposed as the result."""
+    """Accept the score of the player's match; a final score is proposed as the result."""
     form = await form_of(request)
     try:
         begun_nights(request)
@@ -281,13 +280,13 @@ async def tap(request: Request) -> Response:
 
 
 def _at_play(request: Request) -> str:
-    """Return the page of a match that is being played, of whichever event it is."""
+    """Return the page for a match in play, in whichever event it is."""
     event = night_of(request).event
     return "/me?play=1" + (f"&event={event}" if event > 1 else "")
 
 
 def _mine(request: Request, pair: tuple[str, str]) -> str:
-    """Return which of two players this phone is; refuse everyone else."""
+    """Return which of two players this phone belongs to; reject everyone else."""
     name = night_of(request).phones().of(phone_of(request))
     if name not in pair:
         raise RefusalError("Only a match's players keep its score.", status=403)
@@ -300,12 +299,12 @@ def _still(request: Request, name: str) -> None:
 
 
 async def withdraw(request: Request) -> Response:
-    """Take back what a player proposed."""
+    """Take back a player's proposal."""
     return await _noted(request, WITHDRAWN)
 
 
 async def coming(request: Request) -> Response:
-    """Keep that a player who has been called is on the way, or needs some minutes."""
+    """Store that a called player is on the way, or needs some minutes."""
     minutes = (await form_of(request)).whole("minutes", 0, 30, default=0)
     return await _noted(request, COMING, {"minutes": minutes} if minutes else {})
 

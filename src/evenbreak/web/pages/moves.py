@@ -1,4 +1,4 @@
-"""What the director enters: a form for each move, taken at /desk/ and its name."""
+"""What the director enters: a form for each move, submitted to /desk/ plus its name."""
 
 from __future__ import annotations
 
@@ -43,18 +43,18 @@ from evenbreak.web.site import event_of, night_of, of_event
 from evenbreak.words import Parameter
 
 OF_COMMANDS = ("file", "at", "yes", "seed")
-"""The fields of a question that no form has."""
+"""A question's fields that no form has."""
 _DESK = "/desk"
 
 
 STAYS = [MOVES[name] for name in ("result", "correct", "call", "uncall", "wait", "forfeit", "drop")]
-"""The moves of which the desk itself says what they did, until that is read."""
+"""The moves whose effects the desk itself shows until they are read."""
 
 
 def asked_in(question: type, form: Form) -> list[Any]:
-    """Return what a form of a move asks: several moves, if its fields come several times.
+    """Return what a move's form asks: several moves, if its fields are repeated.
 
-    A score may come as the games of each player, in the fields a and b.
+    A score may come as each player's games, in the fields a and b.
     """
     fields = [one for one in declared(question) if one.name not in OF_COMMANDS]
     names = [name_of(one) for one in fields if not one.field.many]
@@ -105,9 +105,10 @@ def _route(name: str, move: Move[Evening, What]) -> Route:
 
 
 def _by_event(request: Request, form: Form) -> list[tuple[Night, Form]]:
-    """Return what a form enters in each event: one form may have all calls of a night.
+    """Return what a form enters in each event: one form may have all of a night's calls.
 
-    A RefusalError if there is no such event, or their number isn't that of matches and tables.
+    Raises RefusalError if there is no such event, or the numbers of events, matches and tables
+    differ.
     """
     rows = list(zip(form.texts("of"), form.texts("match"), form.texts("table"), strict=False))
     if not rows:
@@ -132,9 +133,9 @@ def _by_event(request: Request, form: Form) -> list[tuple[Night, Form]]:
 
 
 async def _enter(request: Request, night: Night, form: Form, move: Move[Evening, What]) -> Response:
-    """Enter what a form asks; if it takes something away, ask first, and name it.
+    """Enter what a form asks; if it removes something, ask for confirmation first, naming it.
 
-    The answer is for what was named: if that has changed by then, it is asked again.
+    The answer applies to what was named: if that has changed by then, it must be confirmed again.
     """
     asked = asked_in(move.question, form)
     try:
@@ -158,7 +159,7 @@ async def _enter(request: Request, night: Night, form: Form, move: Move[Evening,
 
 
 def _back(request: Request, form: Form) -> str:
-    """Return the page that a form leads back to: the one that it names, else the desk."""
+    """Return the page that a form leads back to: the one it names, or else the desk."""
     back = form.text("back")
     is_page = back.startswith("/") and can_be_opened(request, back.partition("?")[0])
     event = event_of(request)
@@ -167,7 +168,7 @@ def _back(request: Request, form: Form) -> str:
 
 
 def _ask(request: Request, form: Form, would: Entered) -> Response:
-    """Ask whether it is meant, and whether it is so in other events of the night too."""
+    """Ask for confirmation, and whether it applies to the night's other events too."""
     drops = would.move is MOVES["drop"]
     others = other_events(would.before, would.asked[0].player) if drops else []
     only = event_name(would.before) if others else ""
@@ -178,7 +179,7 @@ def _ask(request: Request, form: Form, would: Entered) -> Response:
 
 
 def _ask_what(request: Request, form: Form, asked: Correct, before: Evening) -> Response:
-    """Ask what happens to the matches that are played on a result that is corrected."""
+    """Ask what happens to the matches played on a result that is being corrected."""
     at, stop = site_of(request).clock(), replace(asked, follow="stop")
     whats = MOVES["correct"].decide(before, stop, at)
     after = before.then(*(Event(at, what) for what in whats))
@@ -195,14 +196,14 @@ def _ask_what(request: Request, form: Form, asked: Correct, before: Evening) -> 
 
 
 def _asked_about(form: Form, would: Entered) -> list[tuple[str, Any]]:
-    """Return the fields of a form that is asked about: its number too, so that it counts once."""
+    """Return the fields of a form to confirm, with its number, so that it counts once."""
     own = ("csrf", "sure", "named", "follow", "way", "everywhere")
     fields = [(name, value) for name, value in form.fields.multi_items() if name not in own]
     return [*fields, ("named", would.name)]
 
 
 async def second_chance(request: Request) -> Response:
-    """Start a second event for those who are out by now."""
+    """Start a second event for players who are out by now."""
     form = await directors_form(request)
     at, race = site_of(request).clock(), form.whole("race", 1, LONGEST_RACE, default=0)
 

@@ -1,7 +1,7 @@
-"""Overlays for a stream: the match on a table, and the bracket around it, over whatever is filmed.
+"""Overlays for a stream: the match on a table, and the bracket around it, over the video.
 
-They are pages of a browser source, transparent but for their plates, and follow the night by
-themselves. Everyone in the room may open them.
+They are pages for a browser source, transparent except for their plates, and follow the night
+automatically. Everyone at the venue may open them.
 """
 
 from __future__ import annotations
@@ -48,12 +48,12 @@ _COLORS = ("accent", "ink", "back")
 
 
 class Plate(NamedTuple):
-    """What an overlay shows of a table.
+    """What an overlay shows for a table.
 
     The kind is playing, hill, called, two (the players disagree), next (to be called), won (just
     ended), champion, or idle. `pair` is the champion alone, or empty. `chance` is the first
-    player's, `band` its range where little is known of a rating. `left` is the seconds until
-    something else is shown; 0: until it happens.
+    player's, and `band` is its range if a rating is based on little. `left` is the seconds until
+    something else is shown; 0: until something happens.
     """
 
     kind: str
@@ -70,7 +70,7 @@ class Plate(NamedTuple):
 
     @property
     def size(self) -> str:
-        """How large the names are written, both alike."""
+        """The text size of the names, the same for both."""
         widest = max((rough_width(name, bold=True) for name in self.pair), default=0.0)
         return "" if widest <= _LONG else "long" if widest <= _LONGER else "longer"
 
@@ -94,7 +94,7 @@ async def table(request: Request) -> Response:
 
 
 def _plate(nights: Sequence[Night], views: Sequence[WallView], number: int, now: str) -> Plate:
-    """Return what is shown of a table: its match, or who has just won there, or who is next."""
+    """Return what is shown for a table: its match, or who has just won there, or who is next."""
     at_table = [
         (night, view.state, one)
         for night, view in zip(nights, views, strict=True)
@@ -157,7 +157,7 @@ def _won(state: Evening, last: Result, left: float) -> Plate:
 
 
 async def bracket(request: Request) -> Response:
-    """Show the bracket, or what can be read of it around the match on the streamed table."""
+    """Show the bracket, or as much as is readable around the match on the streamed table."""
     now, asked = site_of(request).clock(), request.query_params.get("table", "")
     try:
         look = _look(request.query_params)
@@ -180,7 +180,7 @@ async def bracket(request: Request) -> Response:
 
 
 def _chips(state: Evening) -> list[tuple[int, str]]:
-    """Return how many chips the players have who have most, in a chip tournament."""
+    """Return the most chips that any player has, in a chip tournament."""
     if not state.drawn or state.plan.form != "chips":
         return []
     chips = state.chip_night.chips
@@ -189,7 +189,7 @@ def _chips(state: Evening) -> list[tuple[int, str]]:
 
 
 def _followed(view: WallView, table: int) -> str:
-    """Return the match on a table, or the last one on it, or any that is played; '' if none is."""
+    """Return the match on a table, or the last one there, or any match in play; '' if none."""
     on = [one.match for one in view.tables if one.match.since]
     here = [one.name for one in on if one.table == table]
     last = last_on(view.state, table)[0]
@@ -197,7 +197,7 @@ def _followed(view: WallView, table: int) -> str:
 
 
 def readable(panels: Sequence[Panel], match: str) -> tuple[Panel, ...]:
-    """Return a bracket, or the largest part of it around a match whose names can be read."""
+    """Return a bracket, or its largest part around a match in which names are readable."""
     panel = next((p for p in panels if any(b.match == match for b in p.boxes)), panels[-1])
     around = (_around(panel, match, rounds) for rounds in (4, 3, 2, 1))
     several: list[tuple[Panel, ...]] = [tuple(panels), (panel,), *((one,) for one in around)]
@@ -205,14 +205,14 @@ def readable(panels: Sequence[Panel], match: str) -> tuple[Panel, ...]:
 
 
 def _letters(panels: Sequence[Panel]) -> float:
-    """Return how large names are in a picture, in pixels."""
+    """Return the size of names in a picture, in pixels."""
     drawn = drawing(panels)
     wide, high = drawn.wide * COLUMN, drawn.high * ROW
     return LETTERS * min(_SIZE[0] / max(wide, 1.0), _SIZE[1] / max(high, 1.0))
 
 
 def _around(panel: Panel, match: str, rounds: int) -> Panel:
-    """Return the way to a match and so many rounds on, without what was long before it."""
+    """Return the path to a match and this many rounds beyond, without rounds from long before."""
     boxes = {box.match: box for box in panel.boxes}
     own = boxes.get(match) or panel.boxes[0]
     first = max(0, own.column - 1)
@@ -233,7 +233,7 @@ def _around(panel: Panel, match: str, rounds: int) -> Panel:
 
 
 def _leads(boxes: Mapping[str, Box], box: Box, goal: Box) -> bool:
-    """Return whether the winner of a match can come to another."""
+    """Return whether a match's winner can reach another match."""
     while box.match != goal.match:
         if box.to not in boxes or boxes[box.to].column <= box.column:
             return False
@@ -242,7 +242,7 @@ def _leads(boxes: Mapping[str, Box], box: Box, goal: Box) -> bool:
 
 
 def _look(query: QueryParams) -> str:
-    """Return the colors that an address asks for, as the query of the style; '' for the usual."""
+    """Return the colors requested in an address, as the style's query; '' for the defaults."""
     asked = {name: query[name].lower() for name in _COLORS if query.get(name)}
     for name, color in asked.items():
         if not re.fullmatch(r"[0-9a-f]{6}", color):
@@ -255,7 +255,7 @@ def _look(query: QueryParams) -> str:
 
 
 async def style(request: Request) -> Response:
-    """Return the colors that an address asks for, as a style."""
+    """Return the colors requested in an address, as a style."""
     try:
         asked = dict(urllib.parse.parse_qsl(_look(request.query_params)))
     except EvenbreakError as error:
@@ -269,7 +269,7 @@ def _page(request: Request, look: str, **shown: Any) -> Response:
 
 
 def _text(request: Request, why: EvenbreakError) -> Response:
-    """Return why there is no overlay, as a line that is asked for again until there is."""
+    """Return why there is no overlay, as a line that is refreshed until there is one."""
     status = why.status if isinstance(why, RefusalError) else 404
     again = {"refresh": "5"}
     return PlainTextResponse(reason(request, why) + "\n", status_code=status, headers=again)

@@ -1,4 +1,4 @@
-"""The players, for everyone and for the director; and what the places are paid."""
+"""The players, for everyone and for the director; and the prizes."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ UNITS = (
     ("5", say("fives")),
     ("10", say("tens")),
 )
-"""What prizes can be rounded to, with the words of each."""
+"""What prizes can be rounded to, with labels."""
 
 
 async def players(request: Request) -> Response:
-    """Show the players, the highest rating first; to the director with what can be changed."""
+    """Show the players, highest rating first; the director also sees what can be changed."""
     night = begun(night_of(request))
     known = await night.outlook()
     state = await asyncio.to_thread(night.state)
@@ -58,7 +58,7 @@ async def players(request: Request) -> Response:
 
 
 def _begun(state: Evening) -> set[str]:
-    """Return who has played, or plays."""
+    """Return who has played or is playing."""
     if not state.drawn:
         return set()
     found = {name for one in state.on_tables.values() for name in one.call.players}
@@ -69,7 +69,7 @@ def _begun(state: Evening) -> set[str]:
 
 
 async def prizes(request: Request) -> Response:
-    """Show what each place is paid, and what each player may expect."""
+    """Show each place's prize, and each player's expected prize."""
     night = begun(night_of(request))
     kept = await asyncio.to_thread(kept_prizes, night.path, night.event) or PrizeMoney()
     query = Form(request.query_params)
@@ -99,7 +99,7 @@ async def prizes(request: Request) -> Response:
 
 
 async def keep(request: Request) -> Response:
-    """Keep the prizes with the tournament."""
+    """Store the prizes with the tournament."""
     form, night = await directors_form(request), night_of(request)
     money = money_of(form) or PrizeMoney()
     state = await asyncio.to_thread(night.state)
@@ -113,7 +113,7 @@ async def keep(request: Request) -> Response:
 
 
 def money_fields(money: PrizeMoney | None) -> dict[str, str]:
-    """Return the fields of a form about prize money as they are filled in."""
+    """Return a prize money form's fields as filled in."""
     known = money or PrizeMoney()
     fields: dict[str, Any] = {
         "fee": known.fee,
@@ -128,7 +128,7 @@ def money_fields(money: PrizeMoney | None) -> dict[str, str]:
 
 
 def money_of(form: Form) -> PrizeMoney | None:
-    """Return the prize money in a form; None: there is none."""
+    """Return the prize money in a form; None if there is none."""
     fee, added, unit = (_money(form, name) for name in ("fee", "added", "unit"))
     house = _money(form, "house") / 100.0
     payout = form.text("payout", longest=60)

@@ -1,4 +1,4 @@
-"""The programs that may enter something: the director creates their tokens, and revokes them."""
+"""Programs that may make entries: the director creates and revokes their tokens."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _CREATED = "created"
 
 
 async def programs(request: Request) -> Response:
-    """Show the programs with a token; the one that was just created is shown this once."""
+    """Show the programs with a token; a newly created token is shown only this once."""
     check_director(request)
     site = site_of(request)
     state = await asyncio.to_thread(begun(site.night).state)
@@ -46,7 +46,7 @@ async def create(request: Request) -> Response:
 
 
 async def revoke(request: Request) -> Response:
-    """Revoke the token of a program."""
+    """Revoke a program's token."""
     form = await directors_form(request)
     name = form.text("name", longest=LONGEST)
     await asyncio.to_thread(revoke_token, site_of(request).path, name)

@@ -28,7 +28,7 @@ async def phones(request: Request) -> Response:
 
 
 async def let(request: Request) -> Response:
-    """Let phones in, or shut them out."""
+    """Let phones in, or lock them out."""
     form = await directors_form(request)
     site = site_of(request)
     site.since_start.clear()

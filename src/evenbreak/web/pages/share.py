@@ -19,13 +19,13 @@ from evenbreak.web.site import night_of
 
 
 async def share(request: Request) -> Response:
-    """Show the end of the night, and what can be taken home of it."""
+    """Show the end of the night, and what can be downloaded."""
     state, places = await _finished(request)
     return page(request, "share.html", live=True, state=state, places=places)
 
 
 async def as_page(request: Request) -> Response:
-    """Return the night as one file that fetches nothing from elsewhere."""
+    """Return the night as one self-contained file."""
     from evenbreak.sheets.html_page import OF_DRAWINGS
     from evenbreak.sheets.night_page import night_html
     from evenbreak.tournaments.evening.story import story_of
@@ -66,7 +66,7 @@ async def as_picture(request: Request) -> Response:
 
 
 async def as_table(request: Request) -> Response:
-    """Return the matches as CSV, which the league's ratings read."""
+    """Return the matches as CSV that can be rated with the league's."""
     state, _ = await _finished(request)
     content = matches_csv(state, state.plan.name or site_of(request).path.stem)
     return _file(request, content, "csv")
@@ -78,7 +78,7 @@ def _file(request: Request, content: bytes, ending: str) -> Response:
 
 
 async def _finished(request: Request) -> tuple[Evening, list[tuple[str, str, float]]]:
-    """Return a night that is drawn, and who finished where for how much, as far as decided."""
+    """Return a night after its draw, and who finished where for how much, as far as decided."""
     night = night_of(request)
     state = await asyncio.to_thread(night.state) if night.exists else None
     if state is None or not state.drawn:

@@ -1,7 +1,7 @@
-"""A table's own page: it follows what is called to it.
+"""A table's own page, which follows the matches called to it.
 
-A tablet that the director has made the table's own taps games for both players. Any other phone
-sees the score and says whose it is; a player's phone goes to the player's own page.
+If the director has assigned a tablet to the table, it can enter games for both players. Any other
+phone sees the score and can say whose phone it is; a player's phone goes to the player's own page.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ async def table(request: Request) -> Response:
 
 
 async def _shown(request: Request, why: RefusalError | None = None) -> Response:
-    """Return the page of a table as it is now, and why a tap was refused."""
+    """Return a table's current page, and why a tap was rejected."""
     nights = await _nights(request)
     house = await asyncio.to_thread(nights[0].state)
     number = house.plan.table_number(request.path_params["table"])
@@ -90,7 +90,7 @@ async def _shown(request: Request, why: RefusalError | None = None) -> Response:
 
 
 def _night_at(nights: Sequence[Night], number: int) -> Night:
-    """Return the event whose match is on a table, or else that of the last match on it."""
+    """Return the event whose match is on a table, or else the last match's event."""
     for night in nights:
         if number in {on.call.table for on in night.state().on_tables.values()}:
             return night
@@ -98,7 +98,7 @@ def _night_at(nights: Sequence[Night], number: int) -> Night:
 
 
 def _last_at(nights: Sequence[Night], number: int) -> Night:
-    """Return the event whose match was the last to end on a table; the first if none has."""
+    """Return the event whose match was the last to end on a table; the first event if none has."""
     return max(nights, key=lambda night: last_on(night.state(), number)[1])
 
 
@@ -114,7 +114,7 @@ def _next_on(nights: Sequence[Night], number: int) -> list[tuple[str, str]]:
 
 
 def last_on(state: Evening, number: int) -> tuple[Result | None, str]:
-    """Return the result of the last match that was played on a table, and when it came in."""
+    """Return the result of a table's last match, and when it came in."""
     found: tuple[Result | None, str] = None, ""
     for event in state.events:
         what = event.what
@@ -127,7 +127,7 @@ def last_on(state: Evening, number: int) -> tuple[Result | None, str]:
 
 
 async def tap(request: Request) -> Response:
-    """Take the score of the match on a table from its tablet; a full score is the result."""
+    """Accept a match's score from its table's tablet; a final score is the result."""
     form = await form_of(request)
     state, number = await _table(request)
 
@@ -150,7 +150,7 @@ async def tap(request: Request) -> Response:
 
 
 async def wrong(request: Request) -> Response:
-    """Keep that the last result of a table is wrong, for the director to see."""
+    """Store that a table's last result is wrong, for the director to see."""
     form = await form_of(request)
     state, number = await _table(request)
     phone, match, key = phone_of(request), form.text("match"), form.key(request.url.path)
@@ -170,7 +170,7 @@ async def wrong(request: Request) -> Response:
 
 
 async def tablet(request: Request) -> Response:
-    """Make this the table's tablet, or take the table from every tablet that has it."""
+    """Assign this tablet to the table, or take the table away from every tablet."""
     form = await directors_form(request)
     state, number = await _table(request)
     give, key = form.one_of("give", ("yes", "no")) == "yes", form.key(request.url.path)
@@ -189,7 +189,7 @@ async def tablet(request: Request) -> Response:
 
 
 async def codes(request: Request) -> Response:
-    """Show the QR codes to print, of the page and of each table, and whose phone is whose."""
+    """Show the QR codes to print, for the page and for each table, and whose phone is whose."""
     check_director(request)
     site = site_of(request)
     to: list[tuple[str, str]] = [(say("Tonight"), site.address)]
@@ -220,7 +220,7 @@ def _code(text: str) -> str:
 
 
 async def _nights(request: Request) -> list[Night]:
-    """Return the events of the night that are drawn; refuse if none is."""
+    """Return the night's events that have been drawn; raise an error if none has."""
     begun = begun_nights(request)
     drawn = [night for night in begun if (await asyncio.to_thread(night.state)).drawn]
     if not drawn:

@@ -1,6 +1,6 @@
-"""A team night as everyone sees it, as each captain does, and as the director does.
+"""A team night as seen by everyone, by each captain, and by the director.
 
-What is entered is one event, and each form is taken once.
+Each entry is one event, and each form is accepted once.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ Decide = Callable[[TeamEvening], list[What]]
 
 
 async def team(request: Request) -> Response:
-    """Show the night: to everyone the sets and the chances, to a captain the advice too."""
+    """Show the night: the sets and the chances for everyone, and advice for a captain."""
     teams = site_of(request).teams
     now = await teams.now()
     if now is None:
@@ -81,7 +81,7 @@ async def team(request: Request) -> Response:
 
 
 async def seen_values(request: Request, now: TeamNow, viewer: int | None) -> dict[str, Any]:
-    """Return what a reader may see of a night: a captain (0 or 1), or `EVERYBODY`."""
+    """Return what a reader may see of a night: as a captain (0 or 1), or `EVERYBODY`."""
     site, seen = site_of(request), now.state.seen_by(viewer)
     chances = await site.teams.chances(now)
     is_over = decided(seen, chances)
@@ -109,7 +109,7 @@ async def _for_captain(request: Request, now: TeamNow, captain: int) -> dict[str
 
 
 def _for_director(request: Request, now: TeamNow) -> dict[str, Any]:
-    """Return what only the director may see; no pick that is still unseen, and no advice."""
+    """Return what only the director may see, without unseen picks or advice."""
     site, state = site_of(request), now.state
     line = state.to_name
     return {
@@ -143,7 +143,7 @@ async def ask(request: Request) -> Response:
 
 
 async def _choices(site: Site) -> dict[str, Any]:
-    """Return what there is to choose from, and what the page warns of."""
+    """Return the choices available, and the page's warnings."""
     return {
         "on": await site.teams.now(),
         "fields": {one.name: one for one in form_fields([*FIELDS, *TIMES])},
@@ -157,7 +157,7 @@ async def _choices(site: Site) -> dict[str, Any]:
 
 
 async def begin(request: Request) -> Response:
-    """Start a team night; a form that is refused comes back as it was filled in."""
+    """Start a team night; a rejected form comes back as it was filled in."""
     site = site_of(request)
     form = await directors_form(request)
     try:
@@ -176,7 +176,7 @@ async def begin(request: Request) -> Response:
 
 
 async def enter_pin(request: Request) -> Response:
-    """Let a captain in."""
+    """Log a captain in."""
     form = await form_of(request)
     site, now = site_of(request), await night_on(request)
     check_tries(request)
@@ -189,7 +189,7 @@ async def enter_pin(request: Request) -> Response:
 
 
 async def leave(request: Request) -> Response:
-    """Let a captain out."""
+    """Log a captain out."""
     await form_of(request)
     await asyncio.to_thread(let_out, request, CAPTAIN)
     return done(request, "/team")
@@ -213,7 +213,7 @@ async def put(request: Request) -> Response:
 
 
 async def hand(request: Request) -> Response:
-    """Hand in a whole lineup."""
+    """Submit a whole lineup."""
     form = await form_of(request)
     now = await night_on(request)
     by, side = _author(request, now.state, form)
@@ -229,7 +229,7 @@ async def hand(request: Request) -> Response:
 
 
 async def result(request: Request) -> Response:
-    """Take the result of a set: a captain proposes it, the director enters it."""
+    """Accept a set's result: a captain proposes it, or the director enters it."""
     form = await form_of(request)
     now = await night_on(request)
     number = form.whole("number", 1, len(now.state.sets))
@@ -264,7 +264,7 @@ async def result(request: Request) -> Response:
 
 
 async def undo(request: Request) -> Response:
-    """Take back what happened last, if nothing has come in since the page was made."""
+    """Take back the last entry, if nothing has come in since the page was made."""
     form = await directors_form(request)
     seen = form.whole("seen", 0, 10**7)
 
@@ -281,7 +281,7 @@ async def undo(request: Request) -> Response:
 
 
 def _author(request: Request, state: TeamEvening, form: Form) -> tuple[str, int]:
-    """Return who enters something, and for which team; refuse whoever may not."""
+    """Return who is entering something, and for which team; reject anyone not allowed to."""
     if form.text("by") == DIRECTOR:
         check_director(request)
         return DIRECTORS_PAGE, form.whole("team", 0, 1)
@@ -294,7 +294,7 @@ def _author(request: Request, state: TeamEvening, form: Form) -> tuple[str, int]
 
 
 def _refuse_unseen(state: TeamEvening, side: int, number: int) -> None:
-    """Refuse to let the director find out by guessing what a captain has handed in unseen."""
+    """Keep the director from finding out by guessing what a captain has submitted unseen."""
     if not state.open(number) and state.sets[number - 1].picks[side]:
         raise RefusalError(
             "{name} has already handed in for this set. Undo that first, or let the "
@@ -315,7 +315,7 @@ def _pick(form: Form, field: str, state: TeamEvening, side: int) -> Pick:
 
 
 async def _add(request: Request, form: Form, by: str, decide: Decide) -> tuple[TeamEvening, bool]:
-    """Add what is decided to the night that the form was made for."""
+    """Add a decision to the night that the form was made for."""
     night = form.whole("night", 1, 10**7)
 
     def decided(_: list[Event], state: TeamEvening | None) -> Sequence[What]:
@@ -339,7 +339,7 @@ def _write(request: Request, decide: Any, form: Form, by: str) -> tuple[TeamEven
 
 
 def _taken(request: Request, added: bool, words: Sentence) -> Response:
-    """Return to the night, and say what was taken, or that it was there already."""
+    """Return to the night, and say what was accepted, or that it was already there."""
     return done(request, "/team", words if added else say("That has already been entered."))
 
 

@@ -1,8 +1,9 @@
 """The wall: what everyone at the venue wants to see, readable from eight meters.
 
-It shows the tables, the bracket and the story of the night in turn, of each event of the night, and
-the tables at once when a match is called; at the end the champion. Without a script it asks again
-at each turn. What keeps a screen awake needs https, so the computer's own settings have to.
+It rotates through the tables, the bracket and the story of each of the night's events, and shows
+the tables immediately when a match is called; at the end, it shows the champion. Without a script,
+it reloads at each turn. Keeping a screen awake from a page needs https, so the computer's own
+settings must do that.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ PICTURES = ("tables", "bracket", "story", "end", "check-in")
 
 
 async def screen(request: Request) -> Response:
-    """Show the picture of the wall whose turn it is, or the one that is asked for."""
+    """Show the wall's current picture, or the one requested."""
     site = site_of(request)
     if not site.night.exists:
         teams = await site.teams.now()
@@ -104,7 +105,7 @@ def _picture(
 
 
 def _open_part(panels: Sequence[Panel], turn: int) -> Panel:
-    """Return a part of a bracket that is too large for the wall, from its first open round on."""
+    """Return a part of a bracket that is too large for the wall, from its first open round."""
     parts = [one for one in panels if any(box.state != "done" for box in one.boxes)]
     part = (parts or panels)[turn // 2 % len(parts or panels)]
     first = min(
@@ -115,7 +116,7 @@ def _open_part(panels: Sequence[Panel], turn: int) -> Panel:
 
 
 def unbroken(text: str) -> str:
-    r"""Return a text in which no line ends within a score.
+    r"""Return text in which no line breaks within a score.
 
     >>> unbroken("Ann 5-4 Jean-Luc") == "Ann 5\u20114 Jean-Luc"
     True
@@ -124,9 +125,9 @@ def unbroken(text: str) -> str:
 
 
 async def view_for(request: Request, night: Night, now: str) -> tuple[WallView, Evening]:
-    """Return what everyone sees of an event of the night, and its state.
+    """Return what everyone sees of one of the night's events, and its state.
 
-    It is calculated once for all who ask, until something happens or the minute is over.
+    It is calculated once for everyone, until something happens or the minute is over.
     """
     known = await night.outlook()
     views, prizes = request.app.state.__dict__.setdefault("walls", {}), night.prizes()
@@ -147,13 +148,13 @@ async def view_for(request: Request, night: Night, now: str) -> tuple[WallView, 
 
 
 def _code(site: Site) -> Markup:
-    """Return the QR code of the page; nothing while no phone can open it."""
+    """Return the page's QR code; nothing while no phone can open it."""
     return code(site.address) if site.for_phones else Markup()
 
 
 @cache
 def code(address: str) -> Markup:
-    """Return the QR code of an address, as a piece of a page."""
+    """Return an address's QR code, as a piece of a page."""
     drawn = segno.make(address, error="m").svg_inline(
         border=2, dark="#000", light="#fff", omitsize=True
     )
