@@ -1,7 +1,7 @@
 """Where a chain is absorbed, and how often it visits each state before that.
 
-With T the arcs among the transient states and v the starting vector, x = (I - T)^-1 v are the
-expected visits to them, and the recurrent states are entered with the probabilities
+If T holds the arcs among the transient states and v is the starting vector, then x = (I - T)^-1 v
+are the expected visits to them, and the recurrent states are entered with the probabilities
 
     v + M x,
 

@@ -94,8 +94,8 @@ def sums(place: Places, values: Floats, size: int) -> Floats:
     If no value is negative, each sum is accurate to about one rounding, no matter how many values
     it adds up; if some are, it is accurate to one rounding of the sum of their absolute values. The
     values are split at the same bit for each place. The upper parts are added without rounding;
-    what the lower parts lose is negligible (Rump, Ogita and Oishi 2008, "Accurate floating-point
-    summation").
+    the rounding errors of the lower parts are negligible (Rump, Ogita and Oishi 2008, "Accurate
+    floating-point summation").
 
     >>> float(sums(np.zeros(10**6, dtype=int), np.full(10**6, 1e-6), 1)[0])
     1.0

@@ -38,7 +38,7 @@ Waking threads for small matrices can take a hundred times as long as the work i
 are busy. For `_LARGE` multiplications or more, threads are worth it.
 """
 _LATER = -np.triu(np.ones((_ONE_BY_ONE + 1, _ONE_BY_ONE + 1)), 1)
-"""Row k times the arcs out of state k is, but for the sign, what they take to later states."""
+"""Row k times the arcs out of state k is minus their contribution to later states."""
 
 
 class Factors(NamedTuple):
@@ -92,7 +92,7 @@ def _factored_one_by_one(B: Floats) -> Floats:
     """Return L and U in one array, as `factored` does, state by state.
 
     The columns of L that are not known yet are those of the identity, so that one triangular
-    solve with it moves the arcs out of a state on through all states before it.
+    solve with it moves the arcs out of a state through all states before it.
     """
     height, size = B.shape
     columns = np.zeros((height, height))

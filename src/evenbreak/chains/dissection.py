@@ -9,8 +9,8 @@ side, then the states from c on that have a neighbor before c separate it from t
 places near the middle, the one with the fewest such states is chosen. On a square grid of n states
 the factors then have O(n log n) entries and take O(n^1.5) operations.
 
-The states of a front are eliminated together in a dense array (see `dense_elimination`); what is
-left of the front is added to the front of the first state that remains.
+The states of a front are eliminated together in a dense array (see `dense_elimination`); the
+remainder of the front is added to the front of the first state that remains.
 
 References: George 1973, "Nested dissection of a regular finite element mesh"; George and Liu 1981,
 Computer Solution of Large Sparse Positive Definite Systems, chapters 7 and 8; Liu 1992, "The
@@ -156,8 +156,8 @@ def _groups(graph: csc_array) -> Iterator[Places]:
 def _crossing(earliest: Places) -> Places:
     """Return how many states from each place on have a neighbor before it.
 
-    `earliest` is the place of the first neighbor of the state in each place, or that of the state
-    itself.
+    `earliest` is the place of the first neighbor of the state in each place, or the state's own
+    place if that is earlier.
     """
     size = len(earliest)
     return np.cumsum(np.bincount(earliest + 1, minlength=size + 1)[:size]) - np.arange(size)

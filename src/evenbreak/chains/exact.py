@@ -86,8 +86,8 @@ def exact_absorption(chain: Chain, start: Any) -> NDArray[np.object_]:
 def exact_passage(chain: Chain, start: Any, ends: Bools) -> ExactPassage:
     """Return how many steps it takes to reach any of the `ends`.
 
-    With u the expected steps on the paths that reach them and w the expected sum of u, the
-    second moment is 2 w - u.
+    If u is the expected number of steps on the paths that reach them, and w is the expected sum of
+    u, the second moment is 2 w - u.
     """
     rows, v = exact_rows(chain), exact_start(chain, start)
     arcs = chain.arcs
@@ -118,8 +118,8 @@ def exact_chance(value: Any) -> Fraction:
 def exact_rows(chain: Chain) -> Rows:
     """Return the arcs between different states, by source.
 
-    Raises ChainError if the arcs of a state without a self-loop do not sum to exactly 1, or those
-    of a state with one sum to more than 1.
+    Raises ChainError if the arcs of a state without a self-loop do not sum to exactly 1, or if the
+    arcs of a state with one sum to more than 1.
     """
     rows: Rows = [
         {i: chain.given.get((j, i)) or exact_chance(p) for i, p in row.items()}

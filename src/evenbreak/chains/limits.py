@@ -1,4 +1,4 @@
-"""The stochastic limit: where a chain ends, or what it does in the long run.
+"""The stochastic limit: where a chain ends, or its long-run average.
 
 The limit is the projection of the starting vector v on the eigenspace of M for eigenvalue 1,
 

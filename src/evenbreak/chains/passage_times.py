@@ -1,15 +1,15 @@
 """How many steps it takes to reach a target: distribution, mean and variance.
 
-With Q the arcs among the states from which the target can be reached, h_j the chance of
-reaching it from j and x_t = Q^t v, the passage time T has P(T > t and the target is
-reached) = h . x_t, hence
+Let Q be the arcs among the states from which the target can be reached, h_j the chance of reaching
+it from j, and x_t = Q^t v. Then the passage time T has P(T > t and the target is reached) = h .
+x_t, hence
 
     P(reached) = h . v,   E[T; reached] = sum_t h . x_t = u . v,   u = (I - Q)^-T h,
 
-which takes two solves without subtraction. The variance is the sum of what each step adds to it, E
-sum_t (m(X_t+1) - m(X_t) + 1)^2 with m = u / h the mean time left: a sum of squares under the
-chances given that the target is reached (Doob's transform). No digits are lost if the variance is
-small compared with the squared mean. Given that the target is reached, the chain is
+which takes two solves without subtraction. The variance is the sum of the contributions of each
+step, E sum_t (m(X_t+1) - m(X_t) + 1)^2 with m = u / h the mean time left: a sum of squares under
+the chances given that the target is reached (Doob's transform). No digits are lost if the variance
+is small compared with the squared mean. Given that the target is reached, the chain is
 
     P(i | j, target reached) = M[i, j] h_i / h_j.
 

@@ -80,8 +80,8 @@ def total_reward(
 ) -> float:
     """Return the expected total reward until absorption, given the start.
 
-    All steps count up to and including the one that enters a closed class. Rewards inside the class
-    do not count (see `long_run_reward`), so the total is always finite.
+    All steps count, up to and including the step that enters a closed class. Rewards inside the
+    class do not count (see `long_run_reward`), so the total is always finite.
 
     Parameters
     ----------

@@ -25,10 +25,10 @@ States in a line are always reversible, and S is then tridiagonal. The weights c
 arcs that reaches the whole class, as products of pairs of doubles with their exponents apart; the
 arcs off the tree must agree with them (Kolmogorov's criterion).
 
-All pairs of a chain are put together from those of its classes, if it has no transient states or
+All pairs of a chain are assembled from the pairs of its classes, if it has no transient states or
 one transient class between absorbing states, as n-ahead matches have. With T = D S D^-1 the arcs
-within the transient class, B the arcs into the absorbing states and S q = lambda q, the pairs of
-M are
+within the transient class, B the arcs into the absorbing states and S q = lambda q, the pairs of M
+are
 
     R = (D q, B D q / (lambda - 1)),    L = (q^T D^-1, 0);
 

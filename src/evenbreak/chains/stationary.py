@@ -280,7 +280,8 @@ def _certain_visits(chain: Chain) -> tuple[Places, Bools]:
     """Return the transient states, and the classes and states that each is certain to meet.
 
     Entry [j, c] of the second array says whether the j-th transient state is certain to get to the
-    c-th closed class; after the columns of these come those of the transient states themselves.
+    c-th closed class; the closed classes' columns are followed by those of the transient states
+    themselves.
     """
     structure, arcs = chain.structure, chain.arcs
     inside, closed = structure.recurrent, np.flatnonzero(structure.closed)

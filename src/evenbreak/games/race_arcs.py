@@ -117,8 +117,8 @@ def race_arcs(
 def _cells(m: int, n: int) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Return the scores a, b of a race m:n from 0:0, sorted by a + b, then by a.
 
-    The third array is the position of (a, b+1); that of (a+1, b) is the next one. Neither is
-    meaningful if the race is over.
+    The third array is the position of (a, b+1); the position of (a+1, b) is the next one. Neither
+    is meaningful if the race is over.
     """
     index_type = np.int32 if 2 * (m + 1) * (n + 1) < 2**31 else np.int64
     if m == 0 or n == 0:  # over before it begins

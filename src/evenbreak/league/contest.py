@@ -73,13 +73,13 @@ class Doublings:
 
     @property
     def fixed(self) -> bool:
-        """Whether the skill that a number stands for is known."""
+        """Whether it is known which skill a number corresponds to."""
         return self.levels is not None or (
             self.system.publishes == "ratings" and self.system.scale is not None
         )
 
     def skill(self, published: Floats) -> Floats:
-        """Return the skill that a published number stands for, or the number if that is unknown."""
+        """Return the skill that a published number means, or the number if that is unknown."""
         if self.levels is not None:
             return np.asarray(np.interp(published, self.levels, self.points))
         if not self.fixed:

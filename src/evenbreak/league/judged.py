@@ -2,7 +2,7 @@
 
 A measure is a function of sums over all groups of replicas. Its error is a jackknife estimate, from
 its variation when each group is left out in turn. For a difference, the same group is left out of
-both systems, so whatever the two have in common (the same players, nights and luck) cancels.
+both systems, so everything the two have in common (players, nights and luck) cancels.
 """
 
 from __future__ import annotations

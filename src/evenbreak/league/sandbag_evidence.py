@@ -159,7 +159,7 @@ def units(points: float, scale: Scale) -> int:
 class Result(NamedTuple):
     """A match from the watched player's point of view.
 
-    The opponent's rating is in whole points of which 30 double the odds; games and race, the
+    The opponent's rating is in whole points, 30 of which double the odds; games and race, the
     player's own first, are None if unknown.
     """
 

@@ -121,7 +121,7 @@ def watch(
     nights
         the season, as `played_nights` returns it.
     error
-        the distribution of rating errors (rating less skill), such as `Ladder(...).law()`; on the
+        the distribution of rating errors (rating minus skill), such as `Ladder(...).law()`; on the
         Fargo scale for a system that does not move points match by match (`errors_played`).
     alpha
         the largest acceptable chance that an honest player is ever flagged.
@@ -287,7 +287,7 @@ def drift_room(place: int) -> tuple[int, int]:
 def at_skills(chance: Floats, feigned: Floats, place: int) -> tuple[Floats, Floats]:
     """Return a result's chance at each skill: for each honest gain, and for each way of dumping.
 
-    Chances are by difference along the last axis, from -FARTHEST less the room to fall; `place` is
+    Chances are by difference along the last axis, from -FARTHEST minus the room to fall; `place` is
     how many matches came before. Shapes (..., gains, 2 * FARTHEST + 1) and (..., ways, 2 * WIDEST +
     1).
     """

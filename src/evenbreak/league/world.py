@@ -161,7 +161,7 @@ class World:
 
     @cached_property
     def place(self) -> Ints:
-        """Each player's place: their own, or that of the player they follow."""
+        """Each player's place: their own, or the place of the player they follow."""
         first = np.arange(len(self.players))
         # Who is followed is drawn, but the same in all replicas and for all seeds.
         drawn = np.random.default_rng(len(first)).permuted(

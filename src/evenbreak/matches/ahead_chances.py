@@ -12,8 +12,9 @@ the gambler's-ruin probability G(n)/G(m + n) (P5.27). Most break formats keep th
   weight of two racks.
 
 The walk is viewed from the side for which rho <= 1. Each chance is then a quotient of sums of
-positive numbers none of which is large, and G(s) = (1 - rho^s)/(1 - rho) is formed with a logarithm
-of rho that has the digits of two floats: no digits are lost if rho is near 1 or a chance is tiny.
+positive numbers, none of them large, and G(s) = (1 - rho^s)/(1 - rho) is formed with a logarithm of
+rho that has the
+digits of two floats: no digits are lost if rho is near 1 or a chance is tiny.
 
 Reference: Feller, An Introduction to Probability Theory I, chapter XIV.
 """
@@ -34,7 +35,7 @@ _SERIES = tuple(1.0 / k for k in range(23, 1, -2))
 _AT_ONCE = 4096
 """Entries processed at a time, so that they stay in the cache."""
 _NEVER, _EVEN = -1e4, -(2.0**-960)
-"""Logarithms that stand for those of 0 and of 1: G(s) becomes 1 and s."""
+"""Logarithms that stand for log 0 and log 1: G(s) becomes 1 and s."""
 
 
 def ahead_chances(

@@ -65,8 +65,8 @@ def match_length(
         the current score (see `win_probability`); None: the match's own start score.
     tail
         how much probability may be omitted from the distribution if there is no longest length. It
-        is cut off after 100,000 racks in any case (fewer for large arrays); `tail_mass` is what was
-        left out.
+        is cut off after 100,000 racks in any case (fewer for large arrays); `tail_mass` is the
+        omitted probability.
     via
         the method, for plain numbers: 'kernel', or 'elimination' in the chain of the match's graph.
         A length is not a stochastic limit, so it cannot be found from the eigenvectors of

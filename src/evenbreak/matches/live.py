@@ -227,7 +227,7 @@ def _moves_in_form(match: Match, form: float) -> RackMoves:
     """Return the moves of a race in which the racks played show how well both are playing today.
 
     The chance in the next rack is its average over the days on which the score may have come about.
-    With these chances the scores are a Markov chain like that of any other race.
+    With these chances, the scores form a Markov chain as in any other race.
     """
     from evenbreak.matches.form import form_of, given_score, on_days
 

@@ -192,7 +192,7 @@ class Collision:
         return np.stack(parts, axis=-1)
 
     def _turned(self, x: Any, y: Any, z: Any) -> Floats:
-        """Return a vector, given in the frame of the line of centers, in that of the shot."""
+        """Convert a vector from the frame of the line of centers to the frame of the shot."""
         sin, cos = np.sin(self.cut), np.cos(self.cut)
         parts = np.broadcast_arrays(x * cos + y * sin, y * cos - x * sin, z)
         return np.stack(parts, axis=-1)

@@ -136,12 +136,12 @@ def right_angle_cut(topspin: FloatOrArray = -1.0) -> FloatOrArray:
 def split_cut(topspin: FloatOrArray = 1.0) -> FloatOrArray:
     """Return the cut that splits the energy evenly just after the hit, in radians (P4.22).
 
-    For natural roll this is the answer of P4.19, for stun that of P4.20.
+    For natural roll, this is the answer to P4.19; for stun, it is the answer to P4.20.
 
     Parameters
     ----------
     topspin
-        J_y, from -sqrt(5/2) to sqrt(5/2); the energy includes that of the spin.
+        J_y, from -sqrt(5/2) to sqrt(5/2); the energy includes spin.
 
     >>> round(math.degrees(split_cut(1.0)), 3), round(math.degrees(split_cut(0.0)), 9)
     (33.211, 45.0)
@@ -154,7 +154,7 @@ def split_cut(topspin: FloatOrArray = 1.0) -> FloatOrArray:
 def split_roll_cut(topspin: FloatOrArray = 1.0) -> FloatOrArray:
     """Return the cut that splits the energy evenly once both balls roll, in radians (P4.22, P4.24).
 
-    At this cut the deflection equals the cut angle, whatever the spin.
+    At this cut the deflection equals the cut angle, regardless of the spin.
 
     Parameters
     ----------

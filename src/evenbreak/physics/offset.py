@@ -33,8 +33,8 @@ MOST_ENGLISH_OFFSET = 0.5
 TIPS_OF_MOST_ENGLISH = 1.4
 """How many tip widths the cue is then to the side of the ball's center.
 
-D. G. Alciatore ("Dr. Dave"), frequently asked questions on english, billiards.colostate.edu. It is
-that of a usual tip; thin or flat tips give less english by the tip.
+D. G. Alciatore ("Dr. Dave"), frequently asked questions on english, billiards.colostate.edu. This
+is for a usual tip; thin or flat tips give less english by the tip.
 """
 
 SQUIRTS = {"regular": 2.5, "low": 1.8}
@@ -315,7 +315,7 @@ def stun_offset(speed: FloatOrArray, distance: FloatOrArray, cloth: Cloth) -> Fl
 
 
 def ball_speed_ratio(offset: FloatOrArray, ball_ratio: FloatOrArray) -> FloatOrArray:
-    """Return the speed of the ball over that of the stick, for a hit off center (P3.10).
+    """Return the ratio of ball speed to stick speed, for a hit off center (P3.10).
 
     Parameters
     ----------
@@ -333,7 +333,7 @@ def ball_speed_ratio(offset: FloatOrArray, ball_ratio: FloatOrArray) -> FloatOrA
 
 
 def roll_speed_ratio(offset: FloatOrArray, ball_ratio: FloatOrArray) -> FloatOrArray:
-    """Return the speed of natural roll over that of the stick, by offset up or down (P3.11).
+    """Return the ratio of natural-roll speed to stick speed, by offset up or down (P3.11).
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ time 2/7 abs(u) / (mu g), at
 
     V_NR = 5/7 V + 2/7 R (omega_y, -omega_x)
 
-whatever the friction.
+regardless of the friction.
 """
 
 from __future__ import annotations

@@ -239,7 +239,7 @@ def energy_share(stick_ratio: FloatOrArray) -> FloatOrArray:
 
 
 def stroke_energy(stick_energy: Any, stick_ratio: Any, forearm_ratio: Any) -> Any:
-    """Return the energy of stick and forearm together, from that of the stick (P3.3).
+    """Return the energy of stick and forearm together, from the stick's energy (P3.3).
 
     The forearm is a thin uniform rod turning about the elbow; the stick moves with its end.
 
@@ -284,7 +284,7 @@ def break_energy_share(stick_ratio: FloatOrArray, forearm_ratio: FloatOrArray) -
 
 
 def best_stick_ratio(forearm_ratio: FloatOrArray) -> FloatOrArray:
-    """Return the mass of the best stick to break with, over that of the ball (P3.3).
+    """Return the mass of the best break stick, relative to the ball's mass (P3.3).
 
     Parameters
     ----------

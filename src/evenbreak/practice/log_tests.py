@@ -1,11 +1,11 @@
 """Tests of a drill log against simulated logs, to see what stands out.
 
 Each test simulates the log many times, with the same starts and lengths, and counts how often
-chance alone gives a figure as extreme as that of the log. A formula would be misleading: the
-fractions of attempts at each level and the chances estimated from the same log almost have to
-agree, since a session that keeps to the rule crosses between two levels upwards as often as
-downwards, give or take once. And in short sessions, even chances without memory seem, on average,
-to have a memory (Miller & Sanjurjo 2018).
+chance alone gives a value as extreme as the log's. A formula would be misleading: the fractions of
+attempts at each level and the chances estimated from the same log almost have to agree, since a
+session that keeps to the rule crosses between two levels upwards as often as downwards, give or
+take once. And in short sessions, even chances without memory seem, on average, to have a memory
+(Miller & Sanjurjo 2018).
 
 One of the models tested has a single shot chance p for a whole drill: level i takes i - 1
 successful shots. With s_i successes and f_i misses at level i, and p_i = p^(i - 1),

@@ -1,7 +1,7 @@
 """Which shot to take in the one-ball game, given its chance of success and what a miss leaves.
 
 Player 1 shoots first and makes the ball with probability p1; after a miss player 2 makes it
-with p2. With q = 1 - p, P(player 1 wins) is
+with p2. If q = 1 - p, P(player 1 wins) is
 
     infinite look-ahead:   p1 / (1 - q1 q2) = p1 / (p1 + q1 p2)    the shots repeat forever
     two-shot look-ahead:   p1 + q1 q2 / 2                          even after two misses

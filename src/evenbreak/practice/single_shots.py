@@ -96,7 +96,7 @@ class ShotReport(NamedTuple):
     low, high
         the exact interval of its chance from these tries alone (Clopper & Pearson 1934).
     chance
-        its chance, drawn toward those of the other shots.
+        its chance, drawn toward the other shots' chances.
     p_weakest
         the probability that it is the shot missed most.
     change

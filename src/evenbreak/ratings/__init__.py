@@ -1,7 +1,7 @@
 """From match results to ratings with uncertainty.
 
-`scale` says what a rating difference means, `results` holds what was played and whether
-it can be true, and `fit` estimates Bradley-Terry ratings from it.
+`scale` defines what a rating difference means, `results` holds the matches and checks them for
+contradictions, and `fit` estimates Bradley-Terry ratings from them.
 """
 
 import lazy_loader

@@ -13,8 +13,8 @@ says the same about the skill θ as results with the information
 
     J = 1/s² - 1/σ²    and    Jx = r/s² - m/σ²
 
-: a likelihood proportional to exp(-J θ²/2 + Jx θ). That is what is carried over, so that the new
-season may have another prior, and so that old results fade with a half-life like any others. A
+: a likelihood proportional to exp(-J θ²/2 + Jx θ). This information is carried over, so that the
+new season may have another prior, and so that old results fade with a half-life like any others. A
 rating that was not made from results has no such prior: J = 1/s². Of a list that states games and
 no errors, n games say J = n/4 (a game between equals says p (1 - p)); the variance of such a list's
 other errors, b², is the same for all its ratings, so that J = 1/(b² + 4/n).
@@ -199,7 +199,8 @@ class Beginning:
         half_life
             in days; None: results always count in full.
         results
-            the new results; ratings without a date are taken to be from just before the first one.
+            the new results; ratings without a date are treated as being from just before the first
+            one.
         day
             the day; None: the day of the last result.
         """

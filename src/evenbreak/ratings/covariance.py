@@ -1,13 +1,13 @@
 """Joint uncertainty of the ratings: the inverse of the curvature at the mode.
 
-The Hessian of the negative log-posterior is a weighted Laplacian of who met who plus τ
-on the diagonal, and, where a break advantage is estimated too, one more row and column b
-with the corner c. By the Schur complement s = c - bᵀH⁻¹b,
+The Hessian of the negative log-posterior is a weighted Laplacian of who met whom plus τ on the
+diagonal, and, where a break advantage is estimated too, one more row and column b with the corner
+c. By the Schur complement s = c - bᵀH⁻¹b,
 
     covariance of the ratings = H⁻¹ + H⁻¹b bᵀH⁻¹ / s,    variance of the advantage = 1 / s.
 
 Levels that players share, such as those of teams (see `evenbreak.ratings.beginning`), are
-further unknowns of H. With θ the skills and b the levels, the law of total variance gives
+further unknowns of H. If θ is the skills and b the levels, the law of total variance gives
 
     cov(θ) = cov(θ | b) + cov(θ, b) cov(b)⁻¹ cov(b, θ),
 

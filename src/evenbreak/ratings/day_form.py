@@ -106,9 +106,9 @@ def day_form(results: Results, ratings: Ratings) -> DayForm | None:
 
     Notes
     -----
-    The ratings without a match are one Newton step from those with it. With V the variance of the
-    difference d, and w of n games won, which have the weight g and so the curvature
-    k = g n p (1 - p), it is
+    The ratings without a match are one Newton step from those with it. If V is the variance of the
+    difference d, and w of n games were won, which have the weight g and so the curvature
+    k = g n p (1 - p), the difference without the match is
 
         d - V g (w - n p) / (1 - V k),    with the variance V / (1 - V k).
     """

@@ -2,7 +2,7 @@
 
 Let x be the deviation of players' skills, and of the levels that they share, from the mode. It is
 normal, with the precision H, the Hessian of the negative log-posterior. Given everyone else, the
-players i and j of a match have the precision Q = H_{ij,ij}. With c = (1, -1), the law of total
+players i and j of a match have the precision Q = H_{ij,ij}. Let c = (1, -1). The law of total
 variance gives
 
     var(xi - xj) = cᵀQ⁻¹c + var(m),    m = E(xi - xj | all others) = xi - xj - cᵀQ⁻¹(Hx)_{ij}.
@@ -34,7 +34,7 @@ SEED = 1
 class DrawnDifferences:
     """Skill differences, with random signs drawn once for all rating methods.
 
-    With K `draws`, a variance has a standard error of √(2/K) of its second term; `accuracy` is the
+    For K `draws`, a variance has a standard error of √(2/K) of its second term; `accuracy` is the
     relative residual of each draw.
     """
 

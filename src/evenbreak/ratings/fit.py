@@ -63,16 +63,16 @@ def fit(
 ) -> Ratings:
     """Return the maximum a posteriori ratings, given the games in `results`.
 
-    Every game counts alike: a match is a number of games won and lost, whatever the race, unless
-    players vary from match to match (see `evenbreak.ratings.form_weights`). A match known only by
-    its winner counts according to its race (see `race_slopes`). Forfeits and 0-0 matches are left
-    out and counted in the answer. The prior keeps the rating of a player who won (or lost) every
-    game finite.
+    Every game counts alike: a match is a number of games won and lost, regardless of the race,
+    unless players vary from match to match (see `evenbreak.ratings.form_weights`). A match known
+    only by its winner counts according to its race (see `race_slopes`). Forfeits and 0-0 matches
+    are left out and counted in the answer. The prior keeps the rating of a player who won (or lost)
+    every game finite.
 
     Parameters
     ----------
     prior_sd
-        standard deviation of the prior in natural log-odds, whatever the scale.
+        standard deviation of the prior in natural log-odds, independent of the scale.
     scale
         'npl', 'fargo', 'elo', points that double the odds, or a `Scale`.
     anchor

@@ -261,7 +261,7 @@ class Ratings:
         Notes
         -----
         After Firth & de Menezes (2004), "Quasi-variances", Biometrika 91, who fit them to all
-        differences. Here they follow directly. With m the mean rating of a component of n players,
+        differences. Here they follow directly. If m is the mean rating of a component of n players,
 
             q = var(θ - m) n / (n - 1).
 

@@ -1,7 +1,7 @@
-"""What the columns of a DataFrame of results mean, cell by cell, and the words in them.
+"""Read the columns of a results DataFrame, cell by cell, and the words in them.
 
-The columns are those of a results file. A cell without a meaning is a problem that names its
-row, and all problems are reported at once.
+The columns are those of a results file. An invalid cell is a problem that names its row, and all
+problems are reported at once.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ _MOST_PROBLEMS = 20
 
 
 class FrameReader:
-    """Reads the columns of a frame, one match per row, and collects what is wrong in them.
+    """Reads the columns of a DataFrame with one match per row, and collects the problems in them.
 
-    A row is called by its label in the index.
+    Rows are named by their index labels.
     """
 
     def __init__(self, frame: pd.DataFrame) -> None:
@@ -76,7 +76,7 @@ class FrameReader:
     def read(
         self, name: str, meaning: Callable[[Any], Meaning | None], wanted: str, empty: Meaning
     ) -> list[Meaning]:
-        """Return the meaning of each cell of a column, `empty` where there is none."""
+        """Return the values of a column's cells, `empty` for empty ones."""
         read = []
         for row, cell in enumerate(self.cells(name)):
             value = empty if cell is None else meaning(cell)
@@ -86,11 +86,11 @@ class FrameReader:
         return read
 
     def cells(self, name: str) -> list[Any]:
-        """Return the cells of a column; None for empty ones, throughout if there is no column."""
+        """Return a column's cells, with None for empty ones or if there is no such column."""
         return self._columns[name] if name in self._columns else [None] * len(self.rows)
 
     def add(self, row: int, problem: str) -> None:
-        """Add a problem of the row in this place."""
+        """Add a problem in the row at this position."""
         self.problems.append(f"row {self.rows[row]}: {problem}")
 
     def raise_any(self) -> None:
@@ -130,7 +130,7 @@ def _names(reader: FrameReader, column: str) -> list[str]:
 
 
 def _one_spelling(columns: Sequence[Sequence[str]]) -> list[list[str]]:
-    """Return names in one spelling of those that differ only in case or blanks, with a warning."""
+    """Return names, with spellings that differ only in case or spaces unified, and a warning."""
     counts = Counter(name for column in columns for name in column)
     spelling = usual_spellings(counts)
     meant = {name: spelling[folded(name)] for name in sorted(counts)}
@@ -145,7 +145,7 @@ def _one_spelling(columns: Sequence[Sequence[str]]) -> list[list[str]]:
 
 
 def _sides(reader: FrameReader, column: str, a: Sequence[str], b: Sequence[str]) -> list[int]:
-    """Return 1 where a column names player a, 2 where it names player b, 0 where neither."""
+    """Return 1 where a column names player a, 2 where it names player b, 0 elsewhere."""
     sides = []
     for row, cell in enumerate(reader.cells(column)):
         if cell is None:
@@ -163,7 +163,7 @@ def _sides(reader: FrameReader, column: str, a: Sequence[str], b: Sequence[str])
 
 
 def _unscored(reader: FrameReader, columns: dict[str, Any]) -> list[bool]:
-    """Return which matches are known by race and winner alone; other empty scores are problems."""
+    """Return which matches are known only by race and winner; other empty scores are problems."""
     unscored, scores = [], [(name, reader.cells(name)) for name in SCORES]
     for row in range(len(reader.rows)):
         empty = [name for name, cells in scores if cells[row] is None]
@@ -216,7 +216,7 @@ def _racks(cell: Any) -> str | None:
 
 
 def folded(name: str) -> str:
-    """Return what names have in common that differ only in case or blanks.
+    """Return the common form of names that differ only in case or spaces.
 
     >>> folded("Ann Lee") == folded("ann  LEE") == folded("AnnLee")
     True
@@ -225,7 +225,7 @@ def folded(name: str) -> str:
 
 
 def without_accents(name: str) -> str:
-    """Return a name as somebody may type it: in one case, without accents, single blanks.
+    """Return a name in a form for comparing: in one case, without accents, with single spaces.
 
     >>> without_accents("Zoë  Łukasz"), without_accents("Sørensen")
     ('zoe lukasz', 'sorensen')
@@ -236,10 +236,10 @@ def without_accents(name: str) -> str:
 
 
 def usual_spellings(counts: Mapping[str, int], meant: Set[str] = frozenset()) -> dict[str, str]:
-    """Return the spelling to use of each name, by its `folded` form.
+    """Return the spelling to use for each name, by its `folded` form.
 
-    It is the most frequent one, of several the one in mixed case and with more blanks; spellings in
-    `meant` come first.
+    It is the most frequent spelling; among equally frequent ones, it is the one in mixed case and
+    with more spaces. Spellings in `meant` come first.
 
     >>> usual_spellings({"ann lee": 1, "Ann Lee": 1, "BO": 2, "Bo": 1})
     {'annlee': 'Ann Lee', 'bo': 'BO'}
@@ -268,7 +268,7 @@ FORMAT_WORDS = {
 
 
 def letters(text: str) -> str:
-    """Return the letters and digits of a text, in one case.
+    """Return the letters and digits of a string, in one case.
 
     >>> letters("W/O"), letters("Player A")
     ('wo', 'playera')
@@ -284,14 +284,14 @@ FORFEITS = {
     "nl": "niet opgekomen, reglementair",
     "pl": "walkower",
 }
-"""What stands in place of a score, or in a column of its own, by language, for a forfeit."""
+"""The words for a forfeit, in place of a score or in their own column, by language."""
 
 FORFEIT_WORDS = {
     **{letters(word): True for words in FORFEITS.values() for word in words.split(", ")},
     **dict.fromkeys(("yes", "y", "true", "t", "1", "x"), True),
     **dict.fromkeys(("no", "n", "false", "f", "0"), False),
 }
-"""Whether each word says that a match was forfeited; next to t, f is false."""
+"""Whether each word means that a match was forfeited; t and f are also recognized."""
 
 LARGEST_WHOLE = 1_000_000
-"""The largest whole number that is accepted, such as the games of a player in a match."""
+"""The largest whole number accepted, such as a player's games in a match."""

@@ -1,4 +1,4 @@
-"""A roster: the players of a league, their ratings, and how uncertain each rating is."""
+"""A roster: a league's players, their ratings, and the uncertainty of each rating."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from evenbreak.ratings.scale import Scale, scale_of
 
 
 def error_of_games(games: ArrayLike, scale: Scale | str | float, most: float) -> Floats:
-    """Return the standard error, at most `most`, of a rating of which only the games are known.
+    """Return the standard error, at most `most`, of a rating if only its games are known.
 
-    A game between equals says p (1 - p) = 1/4 about the difference in log-odds, so n games against
-    opponents whose ratings are known leave an error of 2 / sqrt(n): on the Fargo scale, on which
-    144 points are one unit of log-odds, 288.5 / sqrt(n) points. Until the games say more than that,
-    the error is the one of a new player.
+    A game between equals has the information p (1 - p) = 1/4 about the difference in log-odds, so n
+    games against opponents whose ratings are known leave an error of 2 / sqrt(n): on the Fargo
+    scale, on which 144 points are one unit of log-odds, 288.5 / sqrt(n) points. Until the games say
+    more than that, the error is that for a new player.
 
     >>> error_of_games([0, 1, 12, 200], "fargo", 100.0).round(1)
     array([100. , 100. ,  83.3,  20.4])
@@ -33,13 +33,13 @@ def error_of_games(games: ArrayLike, scale: Scale | str | float, most: float) ->
 
 
 NOT_STATED = -1
-"""The games or matches of a player, where the list does not say how many there were."""
+"""Number of games or matches of a player for whom the list does not state it."""
 
 
 @array_values
 @dataclass(frozen=True, eq=False, init=False)
 class Roster:
-    """The players of a league with their ratings, as read-only columns in the list's order.
+    """A league's players and ratings, as read-only columns in list order.
 
     Parameters
     ----------
@@ -48,26 +48,26 @@ class Roster:
     rating
         points, one for each player; NaN for a new player who has none yet.
     level
-        the skill level, by which a chart by skill level gives races and a cap counts; NaN where it
-        is not stated. Where a list states levels alone, the ratings are those levels.
+        the skill level, used by charts by skill level and by caps; NaN where not stated. If a list
+        states only levels, the ratings are those levels.
     standard_error
         uncertainty of a rating, in points (one standard deviation); NaN where not stated. The error
-        of a difference is taken to be the root of the sum of two squares, so what all ratings have
-        in common should not be in it: use `Ratings.quasi_error`.
+        of a difference is computed as the root of the sum of two squares, so it should not include
+        uncertainty that all ratings share: use `Ratings.quasi_error`.
     games
-        the games that each rating rests on, 0 for a new player; `NOT_STATED` where the list
+                the games that each rating rests on, 0 for a new player; `NOT_STATED` where the list
         does not say.
     component
-        players linked by a chain of opponents share a number from 1 up, and only their
-        ratings can be compared; 0 where not stated.
+        players linked by a chain of opponents share a number from 1 up, and only their ratings can
+        be compared; 0 where not stated.
     matches
-        the matches that each player has played, by which some systems recognize newcomers;
-        `NOT_STATED` where the list does not say.
+        the number of matches that each player has played, which some systems use to recognize
+        newcomers; `NOT_STATED` where the list does not say.
     provisional
-        whose rating has no place in the list; if None, new players and those that
-        `is_provisional` finds by their games.
+        whose rating is not ranked in the list; None: new players, and those whom `is_provisional`
+        finds from their games.
 
-    Any other column that is None is not stated for any player.
+    For any other column, None means that it is not stated for any player.
 
     Raises
     ------
@@ -135,9 +135,9 @@ class Roster:
         return len(self.players)
 
     def strongest_first(self, places: ArrayLike | None = None) -> Ints:
-        """Return places in the order of a list: provisional ratings last, then the strongest first.
+        """Return positions in list order: strongest first, with provisional ratings at the end.
 
-        `places` are those to be listed; None: all. Equal ratings stay in their order.
+        `places` are the positions to list; None: all. Equal ratings stay in their order.
         """
         chosen = np.arange(len(self)) if places is None else np.asarray(places)
         return chosen[np.lexsort((-self.rating[chosen], self.provisional[chosen]))]
@@ -165,18 +165,18 @@ class Roster:
     def with_starters(
         self, rating: float, standard_error: float, scale: Scale | str | float
     ) -> Roster:
-        """Return the roster with a rating for new players, and an error where games give one.
+        """Return the roster with a rating for new players, and errors for ratings with known games.
 
         Parameters
         ----------
         rating
-            for every player without one, in points.
+            the rating for every player without one, in points.
         standard_error
-            for every player who has no rating or no games yet and no error stated: the
-            prior's standard deviation, in points. Where games are stated and no error, the
-            error is that of so many games (`error_of_games`), and never more than this. Where
-            the roster states the games of some ratings alone, each of the others may rest on
-            none, so its error is this one.
+            the error for every player without a rating or games and without a stated error: the
+            prior's standard deviation, in points. If games are stated but no error, the error
+            follows from the number of games (`error_of_games`), and is never more than this. If the
+            roster states the games of only some ratings, the other ratings may rest on none, so
+            they get this error.
         scale
             of the ratings.
 

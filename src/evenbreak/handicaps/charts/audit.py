@@ -43,7 +43,7 @@ class ChartFit:
         where in its band a race is even: 0 at the start, 1/2 in the middle, 1 at the end.
         With tilt 0 the stronger player is never the underdog, with tilt 1 the weaker never is.
     misfit
-        how far the chart's cuts are from those of scale and tilt (root mean square), in points;
+        root mean square distance of the chart's cuts from those of the scale and tilt, in points;
         rounding to whole points alone gives 0.29.
     """
 
@@ -72,7 +72,7 @@ class AuditRow:
     unfairness
         the larger `|P - 1/2|` of the two ends of the band.
     monotone
-        whether the race is harder for the stronger player than those of all earlier rows.
+        whether the race is harder for the stronger player than the races of all earlier rows.
     """
 
     difference_from: int

@@ -45,7 +45,7 @@ def chart_names() -> list[str]:
 
 
 def catalog_name(text: str) -> str:
-    """Return the catalog name of a chart, however it was typed.
+    """Return the catalog name of a chart, in any spelling.
 
     >>> catalog_name(" NPL-10 "), catalog_name("APA 8-Ball")
     ('npl_10', 'apa_8ball')

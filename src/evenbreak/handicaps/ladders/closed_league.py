@@ -139,7 +139,7 @@ class ClosedPair:
     def error_law(self) -> Distribution:
         """Return the stochastic limit of player 1's rating error, in points.
 
-        The sum of the two ratings is assumed to be that of the two skills, so that player 2's
+        The sum of the two ratings is assumed to equal the sum of the two skills, so player 2's
         error is the opposite of player 1's.
 
         Raises

@@ -115,7 +115,7 @@ def opponents_of(
     Parameters
     ----------
     ratings
-        the ratings (or skills, if that is what is given) of the others, in points.
+        the others' ratings (or skills, if `given` is 'skill'), in points.
     about
         the player's skill, in points.
     given

@@ -77,7 +77,7 @@ class Averages(System):
         number(self.newcomer, "newcomer", low=0.0, high=WIN)
 
     def strength(self, numbers: Any) -> Floats:
-        """Return the strengths that averages stand for, from the share of games won."""
+        """Return the strengths that correspond to averages, from the share of games won."""
         return _strength((np.asarray(numbers, dtype=float) - self.balls) / (WIN - self.balls))
 
     def head_start(self, average_1: Any, average_2: Any) -> Any:
@@ -101,7 +101,7 @@ class Averages(System):
     def update(self, history: History) -> Floats:
         """Return total points divided by total games, including those behind the list's averages.
 
-        An average without a number of games stands for 50 games; a newcomer has none.
+        An average without a number of games counts as 50 games; a newcomer has none.
         """
         points = history.counts("points", lambda m: WIN * m.score_a + self.balls * m.score_b)
         games = history.counts("games", Matches.games_played)

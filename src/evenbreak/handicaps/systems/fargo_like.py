@@ -8,8 +8,8 @@ of age t counts 2^(-t / half-life). The ratings are the maximum of
 where r_i is the rating on the list, and c_i is the number of games that it rests on, aged likewise,
 and a few pseudo-games, without which a player who won everything would have no rating. A player
 with n games of 200 is published at the maximum of their own games, against the ratings of the
-others, and 200 - n games against the starter r_i, half of them won; what a starter says moves no
-one else.
+others, and 200 - n games against the starter r_i, half of them won; the starter does not affect
+anyone else's rating.
 
 Published: the scale, the use of all games by maximum likelihood, the 200 games, and the 200 - n
 games against a starter. Reported: the half-life of three years. Assumed: the pseudo-games; that

@@ -16,8 +16,8 @@ Scores are of two kinds:
   at most, the lower the better, and its mean is read in the table of levels of 2006. For a match
   won an *applied score*, by level and share of matches won, counts if it is better.
 
-A level on the list stands for as many scores of its own as the list states matches, a full window
-where it states none; new scores take their place. So a newcomer moves at once.
+A level on the list counts as one score per match stated on the list, or as a full window if none
+are stated; new scores replace these. So a newcomer moves immediately.
 
 Source: windows and parts as TAP leagues publish them; the innings rule as told in 2006 (evidence of
 2024 shows that today's rule differs); a maximum change and a lowest attainable level exist, their
