@@ -237,9 +237,9 @@ def test_weights_that_overflow_are_refused() -> None:
         ((1, math.nan), (0.5, 0.5), r"values\[1\] must be a finite number; you gave nan"),
         ((1, 2), (1,), "probability has 1 entries for 2 values"),
         ((1, 2), (1.5, -0.5), "probability.*; you gave 1.5"),
-        ((1, 2), (0.5, 0.6), r"probability sums to 1\.1\. Make it sum to 1"),
+        ((1, 2), (0.5, 0.6), r"probability must sum to 1; it sums to 1\.1"),
         ((1, 2), (0.5, math.nan), "probability.*; you gave nan"),
-        ((1, 2), (Fraction(1, 3), Fraction(1, 3)), "probability sums to 0.666"),
+        ((1, 2), (Fraction(1, 3), Fraction(1, 3)), "probability must sum to 1; it sums to 0.666"),
     ],
 )
 def test_what_is_no_law_is_refused(values: Any, probability: Any, message: str) -> None:

@@ -177,7 +177,7 @@ def given_score(match: Match, weights: Floats) -> Floats:
         return weights
     if match.break_matters:
         raise InputError(
-            "the games already played can only show day-to-day form if it's known who broke. "
+            "the games already played can show day-to-day form only if it's known who broke. "
             "Leave out either the score or form."
         )
     unit = unit_of(match)

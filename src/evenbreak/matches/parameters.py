@@ -203,8 +203,8 @@ def _player(winner: Any, state: Hashable) -> int | None:
         return whole(winner, "winner", at_least=1)
     except InputError:
         raise GameError(
-            "the winner in {state!r} is {winner!r}. Give the number of a player, 1, 2, "
-            "..., or None for no one.",
+            "the winner in {state!r} is {winner!r}. Give a player's number, 1, 2, ..., or None "
+            "if no one has won.",
             state=state,
             winner=winner,
         ) from None

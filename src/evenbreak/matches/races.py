@@ -180,7 +180,7 @@ def next_breaks(rack: Rack, breaks: BreakFormat | None) -> list[tuple[float, flo
 def _already_won(need_1: int, need_2: int) -> RaceOdds:
     if need_1 <= 0 and need_2 <= 0:
         raise InputError(
-            "both players have won at this score. Give a score at which at most one has."
+            "at this score, both players have won. Give a score at which at most one has."
         )
     won_1 = float(need_1 <= 0)
     return RaceOdds([0], [won_1], [1.0 - won_1], 0.0, won_1, 1.0 - won_1)

@@ -276,7 +276,7 @@ def draw_spot(match: StraightPool, *, ax: Axes | None = None) -> Axes:
 
 
 _LEVEL = "level"
-_FRACTION = "share of the attempts"
+_FRACTION = "share of attempts"
 _TICKS = 20
 """Number of levels up to which each has its own tick."""
 

@@ -242,7 +242,7 @@ def compare_break_formats(
         raise InputError("rack must be a Rack(p) or a Rack(p1, p2); you gave {rack!r}", rack=rack)
     rack.of_numbers()
     way = way_of_limit(via)
-    wanted = "the points of a rack, 0 or more"
+    wanted = "a number of points, 0 or more"
     prize = number(win, "win", low=0.0, wanted=wanted)
     price = number(lose, "lose", low=0.0, wanted=wanted)
     values = [

@@ -120,7 +120,7 @@ class Roster:
         object.__setattr__(self, "provisional", few)
         if np.isinf(self.rating).any():
             raise InputError(
-                "rating must hold finite numbers, or NaN for a new player; it holds infinity"
+                "rating must have finite numbers, or NaN for a new player; one is infinite"
             )
         if (self.standard_error < 0).any() or np.isinf(self.standard_error).any():
             raise InputError("standard_error must be 0 or more; one value is negative or infinite")

@@ -314,7 +314,7 @@ def _probabilities(probability: Iterable[Any], many: int) -> tuple[Number, ...]:
     rational = all(isinstance(p, int | Fraction) for p in listed)
     if sum(listed) != 1 if rational else abs(math.fsum(listed) - 1) > _SUM:
         raise InputError(
-            "probability sums to {listed!r}. Make it sum to 1.", listed=math.fsum(listed)
+            "probability must sum to 1; it sums to {listed!r}", listed=math.fsum(listed)
         )
     if rational:
         return tuple(Fraction(p) for p in listed)

@@ -146,13 +146,14 @@ def _law(given: ArrayLike, ours: int, theirs: int) -> Floats:
     law = floats(given, "laws", low=0.0, high=1.0)
     if law.ndim != 4 or law.shape[2] != 2 or not law.shape[3] % 2:
         raise InputError(
-            "a law must have shape (our picks, their picks, 2, an odd number); its shape "
-            "is {law_shape}",
+            "each entry in laws must have shape (our picks, their picks, 2, an odd number); one "
+            "has shape {law_shape}",
             law_shape=law.shape,
         )
     if law.shape[:2] != (ours, theirs):
         raise InputError(
-            "a law has shape {law_shape}; the squads have {ours} and {theirs} picks for the set",
+            "an entry in laws has shape {law_shape}, but the squads have {ours} and {theirs} "
+            "picks for the set",
             law_shape=law.shape,
             ours=ours,
             theirs=theirs,

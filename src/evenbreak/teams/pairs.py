@@ -121,7 +121,7 @@ def _check_levels(roster: Roster, chart: LevelChart | PointsChart) -> None:
     if other.any():
         place = int(other.argmax())
         raise InputError(
-            "{player!r} has skill level {level:g}; the levels of {chart} are {levels}",
+            "{player!r} has skill level {level:g}, but {chart} has levels {levels}",
             player=roster.players[place],
             level=roster.level[place],
             chart=chart.name,

@@ -142,7 +142,7 @@ def round_law(
     if not everybody and len(ours) != len(theirs):
         raise InputError(
             "one team has {n_ours} players and the other has {n_theirs}. Leave out those who "
-            "don't play, or let everyone meet everyone.",
+            "don't play, or let everyone play everyone.",
             n_ours=len(ours),
             n_theirs=len(theirs),
         )

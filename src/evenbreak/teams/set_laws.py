@@ -280,7 +280,11 @@ def law_in_play(
     a, b = (whole(games, "score") for games in score)
     if a >= m or b >= n:
         raise InputError(
-            "{a}-{b} ends a race {m}:{n}. Enter the score of a match in play.", a=a, b=b, m=m, n=n
+            "{a}-{b} ends a race {m}:{n}. Enter the score of a match still in play.",
+            a=a,
+            b=b,
+            m=m,
+            n=n,
         )
     if isinstance(race, PointsChart):
         ends = _points_endings(race, (m, n), (a, b))
@@ -356,7 +360,7 @@ def _check_count(count: Count, race: SetRace) -> None:
     """Raise an error for a way of counting that doesn't fit this kind of set."""
     if isinstance(count, Points | Shares):
         if isinstance(count, Shares) != isinstance(race, PointsChart):
-            raise InputError("these match points don't match the chart. See `count_by`")
+            raise InputError("these match points don't go with the chart. See `count_by`")
         return
     one_of(count, "count", ("sets", "games"))
     if count == "games" and isinstance(race, PointsChart):

@@ -97,7 +97,7 @@ def test_a_certain_loss_is_a_wall():
 
 
 def test_a_walk_that_stands_still_has_no_law():
-    with pytest.raises(InputError, match="no match in this system moves a rating"):
+    with pytest.raises(InputError, match="matches in this system never move a rating"):
         long_run_law(np.array([0]), np.ones((3, 1)))
 
 

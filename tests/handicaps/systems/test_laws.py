@@ -62,9 +62,9 @@ class Unbound(FargoLike):
     ("system", "named"),
     [
         (OneSided(), "must be the same race either way"),
-        (OnlyTonight(), "nothing was kept"),
+        (OnlyTonight(), "nothing is kept"),
         (ByPlace(), "another order"),
-        (AcrossLeagues(), "one league is alone"),
+        (AcrossLeagues(), "a league is simulated alone"),
         (Unfair(), "didn't lose a match"),
         (Spoiler(), "failed with ValueError"),
         (Shapeless(), "in the system none, initial returned an array of shape"),

@@ -184,7 +184,8 @@ def long_run_law(steps: Ints, kernel: Floats) -> Floats:
 
 def _no_moves() -> InputError:
     return InputError(
-        "no match in this system moves a rating. Give a system that moves ratings by whole points."
+        "matches in this system never move a rating. Give a system that moves ratings by whole "
+        "points."
     )
 
 

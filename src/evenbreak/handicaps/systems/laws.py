@@ -124,7 +124,7 @@ def _same(system: System, one: Floats, other: Floats, what: str) -> Iterator[str
 def _nothing_kept_changes_nothing(system: System, rng: np.random.Generator) -> Iterator[str]:
     for history, ratings in played_nights(system, rng):
         anew = updated(system, replace(history, kept={}))
-        yield from _same(system, ratings, anew, "where nothing was kept from the nights before")
+        yield from _same(system, ratings, anew, "if nothing is kept from earlier nights")
 
 
 def _order_of_players(system: System, rng: np.random.Generator) -> Iterator[str]:
@@ -140,14 +140,17 @@ def _order_of_players(system: System, rng: np.random.Generator) -> Iterator[str]
             replace(matches, a=place[matches.a], b=place[matches.b]),
         )
         yield from _same(
-            system, ratings[order], updated(system, other), "where players are in another order"
+            system,
+            ratings[order],
+            updated(system, other),
+            "if the players are in a different order",
         )
 
 
 def _replicas_apart(system: System, rng: np.random.Generator) -> Iterator[str]:
     for history, ratings in played_nights(system, rng):
         alone = updated(system, replace(history.one(1), kept={}))
-        yield from _same(system, ratings[:, 1], alone, "where one league is alone")
+        yield from _same(system, ratings[:, 1], alone, "if a league is simulated alone")
 
 
 def _winners_never_fall(system: System, rng: np.random.Generator) -> Iterator[str]:

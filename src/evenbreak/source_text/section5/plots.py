@@ -107,7 +107,7 @@ def progressive_drill() -> Axes:
     levels = range(1, 10)
     limit = limits_over(Drill.progressive, p=_P)
     axes = new_axes(
-        "$p$ = P(one shot is made)", "$v$ = share of the attempts at a level", size=(7.2, 5.4)
+        "$p$ = P(one shot is made)", "$v$ = share of attempts at a level", size=(7.2, 5.4)
     )
     for level in levels:
         axes.plot(_P, limit[level], **LINES[level - 1]._asdict(), lw=1.4, label=f"$v_{level}$")

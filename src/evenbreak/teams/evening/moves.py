@@ -48,7 +48,8 @@ def put_up(state: TeamEvening, team: int, number: int, pick: Pick) -> list[What]
         return []
     if there and state.open(number):
         raise InputError(
-            "{players} has already been put up in set {n}; only the director can take that back",
+            "the team has already put up {players} in set {n}; only the director can take that "
+            "back",
             players=listed(there),
             n=number,
         )
@@ -60,7 +61,7 @@ def put_up(state: TeamEvening, team: int, number: int, pick: Pick) -> list[What]
     size = state.meeting.sizes[number - 1]
     if len(pick) != size:
         raise InputError(
-            "a team puts up {players} in set {n}",
+            "each team puts up {players} in set {n}",
             players=say_count("{n} player", "{n} players", size),
             n=number,
         )
