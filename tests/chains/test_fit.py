@@ -83,7 +83,7 @@ def test_what_would_be_read_otherwise_than_meant_is_refused() -> None:
         fit_chain(frame)  # type: ignore[arg-type]
     with pytest.raises(ChainError, match="dict"):
         fit_chain({"monday": ["rain", "sun"]})
-    with pytest.raises(ChainError, match="text 'rain'"):
+    with pytest.raises(ChainError, match="string 'rain'"):
         fit_chain(["rain", "sun", "rain"])
     with pytest.raises(ChainError, match="nan"):
         fit_chain([["rain", float("nan"), "sun"]])

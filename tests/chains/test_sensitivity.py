@@ -190,7 +190,7 @@ def test_refusals():
         _ = won["S1", "L"]
     with pytest.raises(ChainError, match="state 'X'"):
         sensitivity(chain, "X")
-    with pytest.raises(ChainError, match="weights must be finite numbers; it holds inf for state"):
+    with pytest.raises(ChainError, match="weights must have finite numbers; one is inf for state"):
         sensitivity(chain, {"W": float("inf")})
     with pytest.raises(ChainError, match=r"weights must have shape \(4,\); its shape"):
         sensitivity(chain, np.ones(3))

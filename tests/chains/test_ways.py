@@ -13,7 +13,7 @@ def test_a_density_as_the_start(via) -> None:
     half = {"S1": 0.5, "S2": 0.5}
     expected = limit_matrix(chain) @ chain.density(half)
     assert stochastic_limit(chain, half, via=via).probability == pytest.approx(expected, rel=1e-14)
-    with pytest.raises(ChainError, match="density"):
+    with pytest.raises(ChainError, match="probability vector"):
         stochastic_limit(chain_of(Ahead(3, 3, Rack(0.5))), {(0, 0): 1.0}, via="kernel")
 
 

@@ -114,5 +114,5 @@ def test_the_form_of_the_day_is_no_sandbagging():
 def test_ratings_on_another_scale_are_refused():
     club = Roster(["Ann", "Bo"], [80, 20_000])
     results = Results.from_names(["Ann"], ["Bo"], [50], [0], race_a=[50], race_b=[50])
-    with pytest.raises(AccuracyError, match=r"'Ann': .* on the scale of the system"):
+    with pytest.raises(AccuracyError, match=r"'Ann': .* on the system's scale"):
         watch(played_nights(NPL, club, results), NPL, LAW)

@@ -130,7 +130,10 @@ def test_schedules_travel_to_other_processes(schedule: Schedule) -> None:
         (lambda: FixedSchedule(["x"], [0], [1]), "week must be whole numbers, 1 or more; it is"),
         (lambda: FixedSchedule([1, 1], [0], [1]), "week, a and b have 2, 1 and 1 values"),
         (lambda: FixedSchedule([1], [3], [3]), "match 0 has player 3 twice"),
-        (lambda: FixedSchedule([1], [0], [9]).pairs(1, RNG, 3), "has a player 9, but the league"),
+        (
+            lambda: FixedSchedule([1], [0], [9]).pairs(1, RNG, 3),
+            "has matches for player 9, but the league",
+        ),
         (lambda: RoundRobin(4).pairs(1, RNG, 5), "players is 4, but the league has 5"),
     ],
 )

@@ -50,7 +50,7 @@ def test_the_table_is_drawn_and_of_a_large_league_its_ends():
     standings = seasons(Season(LeaguePlayers.of([80] * 100), "npl", weeks=2), 2).standings
     axes = draw_standings(standings)
     assert len(axes.get_yticklabels()) == 40
-    assert axes.get_title().endswith("the first and the last 20 of 100")
+    assert axes.get_title().endswith("the first 20 and the last 20 of 100")
 
 
 def test_the_key_of_the_table_covers_nobody():

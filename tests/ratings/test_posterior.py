@@ -472,7 +472,7 @@ def test_forfeits_among_the_unscored_are_left_out():
 def test_an_unscored_match_needs_race_and_winner(columns, missing):
     with pytest.raises(InputError, match=f"without {missing}"):
         Results.from_names(["A"], ["B"], [0], [0], unscored=[True], **columns)
-    with pytest.raises(InputError, match="unmark"):
+    with pytest.raises(InputError, match="Unmark"):
         Results.from_names(
             ["A"], ["B"], [7], [0], unscored=[True], race_a=[7], race_b=[7], winner=[1]
         )

@@ -162,7 +162,7 @@ def test_welch_errs_as_often_as_said_where_student_does_not():
             [1, 2],
             [3, math.nan],
             0.9,
-            r"after must be a list of finite numbers, 1e\+09 at most; it holds nan",
+            r"after must be a list of finite numbers, at most 1e\+09; it holds nan",
         ),
         ([1, 2], ["x", 3], 0.9, "after must be .*"),
         (

@@ -32,14 +32,14 @@ def test_a_slope_of_chance_is_called_one():
 @pytest.mark.parametrize(
     ("times", "scores", "remedy"),
     [
-        ([0, 1], [5, 6], "scores holds 2 scores"),
-        ([0, 1], [5, 6, 7], "times holds 2 numbers, but scores 3"),
+        ([0, 1], [5, 6], "three or more scores; you gave 2"),
+        ([0, 1], [5, 6, 7], "times has 2 numbers, but scores has 3"),
         ([1, 1, 1], [5, 6, 7], "times are all 1"),
         ([0, 1, 2], [5, 5, 5], "scores are all 5"),
         (
             [1, 2, np.nan],
             [5, 6, 7],
-            r"times must be a list of finite numbers, 1e\+09 at most; it holds nan",
+            r"times must be a list of finite numbers, at most 1e\+09; it holds nan",
         ),
     ],
 )

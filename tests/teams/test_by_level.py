@@ -265,7 +265,7 @@ def test_nine_ball_sets_last_as_many_racks_as_their_points_fill() -> None:
     ("ours", "race", "count", "words"),
     [
         (team(np.nan), EIGHT, "sets", "no skill level"),
-        (team(8), EIGHT, "sets", "skill level 8; the levels of apa_8ball are 2, 3"),
+        (team(8), EIGHT, "sets", "skill level 8, but apa_8ball has levels 2, 3"),
         (team(5), NINE, "games", "points, not games"),
         (team(5), NINE, Points(), "count_by"),
         (team(5), LevelChart("own", [5, 6], [[3, 3], [4, 4]]), Shares(), "count_by"),

@@ -112,7 +112,7 @@ def test_ratings_that_look_like_another_scale_than_the_charts_are_refused(run, r
     result = run("matchups", path, "--chart", "fargo_r6_hot")
     assert (result.exit_code, result.stdout) == (2, "")
     assert (
-        "the scale of the chart fargo_r6_hot: Ann wins a game against Bo 54% of the "
+        "the scale of the chart fargo_r6_hot): Ann wins a game against Bo 54% of the "
         "time by Fargo ratings, 62% by NPL ratings. Add --scale"
     ) in result.stderr
     assert run("matchups", path, "--chart", "fargo_r6_hot", "--scale", "fargo").exit_code == 0
@@ -140,7 +140,7 @@ def test_levels_of_an_own_chart_are_as_strong_as_it_makes_them(run, roster):
         assert (row["chart_race_a"], row["chart_race_b"]) == (cell.needs, cell.opponent_needs)
         assert row["chart_p_win_a"] == pytest.approx(cell.p_win_middle, rel=1e-9)
     assert found["levels"]["source"] == "chart"
-    assert "an assumption" in run("matchups", roster(LEVELS), "--chart", chart).stderr
+    assert "assumed, not measured" in run("matchups", roster(LEVELS), "--chart", chart).stderr
 
 
 def test_levels_are_as_strong_as_elsewhere_unless_own_results_show_it(run, roster):
@@ -149,7 +149,7 @@ def test_levels_are_as_strong_as_elsewhere_unless_own_results_show_it(run, roste
     usual = answer(run, *words)
     assert usual["levels"]["source"] == "measured"
     assert run("matchups", *words, "--html", page).exit_code == 0
-    assert "some 40,000 matches" in Path(page).read_text(encoding="utf-8")
+    assert "about 40,000 matches" in Path(page).read_text(encoding="utf-8")
     rows = "".join(f"P{k % 9},Q{k % 7},{2 + k % 2},{3 - k % 3},5,4\n" for k in range(120))
     results = roster("player_a,player_b,score_a,score_b,level_a,level_b\n" + rows, "season.csv")
     own = answer(run, *words, "--results", results)

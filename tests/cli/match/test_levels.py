@@ -38,7 +38,7 @@ def test_the_chart_sets_the_race_and_the_levels_the_chance(run):
     assert own_race["p_win_a"] == pytest.approx(gap.win(5, 3))
     terminal = run("odds", "5", "3", *APA).stderr
     assert "Race 4:2" in terminal
-    assert "some 40,000 matches of other leagues" in terminal
+    assert "about 40,000 matches in other leagues" in terminal
 
 
 def test_a_chart_of_differences_sets_the_race_of_ratings(run):
@@ -76,9 +76,7 @@ def test_points_to_win_are_an_assumption_with_its_range(run, club):
     assert found["match_points_a"] == pytest.approx(odds.share_1)
     low, high = found["p_win_a_range"]
     assert low < found["p_win_a"] < high
-    assert (
-        "an assumption, not a measurement" in run("odds", "7", "4", "--chart", "apa_9ball").stderr
-    )
+    assert "assumed, not measured" in run("odds", "7", "4", "--chart", "apa_9ball").stderr
     names = club("player,SL\nAnn,7\nBo,4\n")
     named = ("odds", "Ann", "Bo", "--from", names, "--chart", "apa_9ball")
     assert answer(run, *named)["needs_a"] == 55

@@ -166,7 +166,7 @@ def test_own_charts_of_levels_and_ones_own_results(ask, run, lists, tmp_path):
 def test_a_level_that_the_chart_does_not_have_is_named(run, lists, tmp_path):
     wrong = written(tmp_path / "wrong.csv", [("Ann", 7), ("Bo", 9), ("Cleo", 4)])
     result = run("lineup", wrong, lists[1], "--chart", "apa_8ball")
-    assert "Bo' has skill level 9; the levels of apa_8ball are 2, 3" in result.stderr
+    assert "Bo' has skill level 9, but apa_8ball has levels 2, 3" in result.stderr
 
 
 def test_the_level_of_a_newcomer_counts_under_a_cap_too(ask, run, lists, tmp_path):

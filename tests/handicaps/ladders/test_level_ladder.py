@@ -108,5 +108,5 @@ def test_a_system_of_ones_own_in_finitely_many_states_has_a_long_run():
     law = np.cumprod(np.concatenate([[1.0], up / down]))  # births and deaths in balance
     np.testing.assert_allclose(ladder.law, law / law.sum(), rtol=1e-9)
     assert Thirds().on_chart(level_chart("apa_8ball")).name == "thirds"
-    with pytest.raises(InputError, match="thirds can't be played by the chart npl_10"):
+    with pytest.raises(InputError, match="thirds can't be played with the chart npl_10"):
         Thirds().on_chart(chart_of("npl_10"))

@@ -63,7 +63,7 @@ class Unbound(FargoLike):
     [
         (OneSided(), "must be the same race either way"),
         (OnlyTonight(), "nothing is kept"),
-        (ByPlace(), "another order"),
+        (ByPlace(), "a different order"),
         (AcrossLeagues(), "a league is simulated alone"),
         (Unfair(), "didn't lose a match"),
         (Spoiler(), "failed with ValueError"),

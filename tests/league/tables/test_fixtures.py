@@ -70,7 +70,9 @@ def test_what_no_schedule_can_avoid_is_counted() -> None:
 def test_nights_leave_holidays_out_and_take_several_days_of_a_week() -> None:
     days = nights(4, date(2026, 12, 15), weekdays=(1, 3), skipped=[date(2026, 12, 24)])
     assert [f"{day:%a %d}" for day in days] == ["Tue 15", "Thu 17", "Tue 22", "Tue 29"]
-    with pytest.raises(InputError, match="4 nights are needed, but there are 2 up to 2026-09-08"):
+    with pytest.raises(
+        InputError, match="4 nights are needed, but there are only 2 until 2026-09-08"
+    ):
         nights(4, date(2026, 9, 1), ends=date(2026, 9, 8))
 
 

@@ -225,5 +225,5 @@ def test_even_races_are_judged_where_few_others_have_a_start(starts, judged):
 def test_one_day_is_refused_whether_a_prior_is_given_or_not():
     day = season(0.6, matches=40)
     for prior_sd in (None, 0.7):
-        with pytest.raises(InputError, match=r"on 1 date\. Give two or more"):
+        with pytest.raises(InputError, match=r"on 1 date\. Give at least two"):
             validate(day, prior_sd=prior_sd)
