@@ -237,7 +237,7 @@ def _heads_up_table(chart: ChipChart, scale: Scale) -> Table:
         p = heads_up(float(scale.win_probability(stronger - weaker)), a, b)
         rows.append([stronger, weaker, (a, b), p])
     columns = columns_of("stronger weaker chips_pair p_stronger")
-    return Table("heads_up", columns, rows, title="If the last two have all their chips")
+    return Table("heads_up", columns, rows, title="If the last two players have all their chips")
 
 
 def _luck_words(runs: int, error: Floats) -> str:

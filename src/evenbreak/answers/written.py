@@ -19,7 +19,7 @@ def demo_answer(folder: str, files: Mapping[str, str], new: Sequence[str]) -> An
     """
     wrote = f"Wrote {len(new)} file{'' if len(new) == 1 else 's'} to {folder}"
     if not new:
-        wrote = f"{folder} has all the files of the demo already"
+        wrote = f"{folder} already has all the demo's files"
     league, log = (
         list2cmdline([str(PurePath(folder, name))]) for name in ("demo_league.csv", "drill_log.csv")
     )
@@ -66,7 +66,7 @@ def league_answer(
 MEANINGS = {
     "agrees": "the computed number confirms the printed one",
     "formula": "the printed formula gives the computed number",
-    "given": "a number that the text takes from elsewhere",
+    "given": "a number that the text quotes from elsewhere",
     "derived": "the text prints nothing, or nothing that can be read",
     "erratum": "the text is wrong, and the computed number is right",
     "differs": "the computed number is not the one expected",

@@ -31,7 +31,7 @@ def at_pocket(cue, standing, name, speed=60, right=0.0, **kit):
         ({}, "stops after"),
         ({"speed": 5}, "never reaches the object ball: it stops after 0.9 inches"),
         ({"speed": 80}, "still sliding"),
-        ({"speed": 200}, "meets a cushion"),
+        ({"speed": 200}, "hits a rail"),
         ({"cut": 0, "distance": 2.25, "up": 0.0}, "arrives at once with stun"),
         ({"cut": 0, "distance": 2.25, "up": 0.0}, "The cue ball stops dead"),
         ({"cut": 0, "distance": 9, "up": 0.4}, "natural roll, rolling from the start"),

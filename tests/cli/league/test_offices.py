@@ -172,7 +172,7 @@ def _listed(name, listed):
 def test_a_fargo_office_gets_table_races_and_verdicts(fargo, rows, text, tmp_path):
     played, _ = fargo
     tidied = text("league", "tidy")
-    assert "Left out: 8 matches that were there twice" in tidied
+    assert "Left out: 8 duplicate matches" in tidied
     assert "1 forfeit" in tidied
     assert len(_rows_of("tidy.csv")) == len(played) + 1
     games = defaultdict(lambda: [0, 0])

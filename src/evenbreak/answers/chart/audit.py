@@ -112,8 +112,8 @@ def _beyond(report: ChartAudit) -> Iterator[str]:
     needs = last.stronger_needs, last.weaker_needs
     wins = race_win_probability(report.scale.win_probability(float(further)), *needs)
     yield (
-        f"The last race, {race(needs)}, stays the same however far apart two players are: at a "
-        f"difference of {further} the stronger player wins {percent(wins)}."
+        f"The last race, {race(needs)}, applies however far apart two players are: at a "
+        f"difference of {further} the stronger player wins {percent(wins)} of the time."
     )
 
 
@@ -203,17 +203,17 @@ def _tilt(report: ChartAudit, *, fitted: bool) -> Iterator[str]:
         return
     yield (
         "'Place' is where in its band a race is even: 0 at the start, 0.5 in the middle, 1 at the "
-        f"end. The tilt of the chart is the place that suits all its races best: "
-        f"{decimals(2)(report.fit.tilt)}. The bands begin {report.fit.misfit:.2f} points from "
-        "where this tilt would put them (root mean square); rounding to whole points accounts "
+        f"end. The chart's tilt is the place that suits all its races best: "
+        f"{decimals(2)(report.fit.tilt)}. The bands start {report.fit.misfit:.2f} points from "
+        f"where this tilt would put them (root mean square); rounding to whole points accounts "
         "for 0.29."
     )
     best = report.best_fit
     if best is not None and not fitted:
         yield (
             f"On the scale that fits best, {best.points_per_doubling:.4g} points double the odds "
-            f"and the tilt is {decimals(2)(best.tilt)}; the bands then begin {best.misfit:.2f} "
-            "points from where it would put them."
+            f"and the tilt is {decimals(2)(best.tilt)}; the bands then start "
+            f"{best.misfit:.2f} points from where that tilt would put them."
         )
 
 
@@ -250,10 +250,10 @@ def level_audit_answer(
                 "",
                 columns,
                 list(map(_paired, between)),
-                "The higher level's chance if the two players are as close as their levels allow "
-                "(start), average for their levels (middle), or as far apart as possible (end); "
-                "the difference at which the race is fair (even at), and the one between average "
-                "players (apart):",
+                "The higher level's chance if the two players are as close as their levels "
+                "allow (start), average for their levels (middle), or as far apart as possible "
+                "(end); the difference at which the race is fair (even at), and the difference "
+                "between average players (apart):",
             ),
             Table(
                 "levels",
@@ -311,8 +311,8 @@ def _chances(between: Sequence[LevelCell], skills: LevelSkills) -> list[float]:
 def _in_fact(between: Sequence[LevelCell], chances: Sequence[float]) -> str:
     most, cell = max(zip(chances, between, strict=True), key=lambda pair: pair[0])
     return (
-        "That assumes that the levels are as far apart as the races make up for. In some 40,000 "
-        f"matches of other leagues with this chart they were not: the higher level won "
+        "That assumes that the levels are as far apart as the races make up for. In some "
+        f"40,000 matches in other leagues with this chart they weren't: the higher level won "
         f"{percent(min(chances))} to {percent(most)} of the matches, the most between levels "
         f"{cell.level} and {cell.opponent_level}."
     )
@@ -322,10 +322,10 @@ def _level_order(cells: Sequence[LevelCell]) -> str:
     easier = [f"{cell.level} v {cell.opponent_level}" for cell in cells if not cell.monotone]
     if easier:
         return (
-            f"The race of {listed(easier)} is no harder on the higher level than one against a "
-            "closer level."
+            f"The race for {listed(easier)} is no harder on the higher level than a race "
+            f"against a closer level."
         )
-    return "Each race is harder on the higher level than the races against closer levels."
+    return "Each race is harder on the higher level than any race against a closer level."
 
 
 FEW, MANY = 15.0, 40.0
@@ -350,10 +350,11 @@ def points_audit_answer(chart: PointsChart, *, warnings: Sequence[str] = ()) -> 
             _even(report),
             _wrong_level(report, few, many),
             Table("levels", columns, list(map(astuple, report.levels))),
-            f"The chart says nothing about how well a level plays. Here a player needs "
-            f"{report.innings:g} innings on average to reach their points; each shot is made with "
-            "the same chance and counts a point, and a miss ends the inning. The second point of "
-            "the 9, balls that no one scores and safeties are left out.",
+            f"The chart doesn't say how well the players of a level play. Here a player is "
+            f"assumed to need {report.innings:g} innings on average to reach their points; "
+            f"every shot has the same chance and counts one point, and a miss ends the "
+            f"inning. The second point for the 9, balls that no one scores, and safeties are "
+            f"left out.",
         ],
         warnings=warnings,
         data={
@@ -372,8 +373,9 @@ def _even(report: PointsAudit) -> str:
     return (
         f"Between average players of two levels, the higher level wins between "
         f"{percent(min(chances))} and {percent(max(chances))} of the matches. The least even match "
-        f"is {uneven.points} points against {uneven.opponent_points}, levels {uneven.level} and "
-        f"{uneven.opponent_level}: level {uneven.level} wins {percent(uneven.p_win)}."
+        f"is {uneven.points} points against {uneven.opponent_points} (levels {uneven.level} "
+        f"and {uneven.opponent_level}), which level {uneven.level} wins "
+        f"{percent(uneven.p_win)} of the time."
     )
 
 

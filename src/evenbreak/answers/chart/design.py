@@ -60,13 +60,13 @@ class DesignTask:
     def heading(self, up_to: int) -> str:
         """Return the requirements, in two lines."""
         low, high = self.limits.games
-        words = [f"Races whose longest match has {low} to {high} games"]
+        words = [f"Races with a maximum of {low} to {high} games"]
         if self.limits.games_p90 is not None:
             words.append(f"9 out of 10 matches within {self.limits.games_p90} games")
         if self.rows is not None:
             words.append(f"at most {count_of(self.rows, 'row')}")
         if high - low > SPREAD:
-            words.append(f"longest matches at most {SPREAD} games apart")
+            words.append(f"maximums at most {SPREAD} games apart")
         goal = "the smallest unfairness on average"
         if self.target != 0.5:
             goal += f", with a target of {percent(self.target)}"
@@ -192,7 +192,9 @@ def _other_races(chart: Chart, spans: Sequence[_Span]) -> Table:
     first = f", the first {MOST_LISTED} of {len(spans)} ranges" if len(shown) < len(spans) else ""
     columns = columns_of("difference design beside", chart=chart.name)
     rows = [(range_words(span.first, span.last), span.design, span.beside) for span in shown]
-    return Table("", columns, rows, f"Where the races differ from those of {chart.name}{first}:")
+    return Table(
+        "", columns, rows, f"Where the races differ from the races of {chart.name}{first}:"
+    )
 
 
 def _prices(task: DesignTask, made: Chart, up_to: int) -> Table | None:

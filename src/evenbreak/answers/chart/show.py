@@ -38,8 +38,8 @@ def chart_list_answer(_: object = None) -> Answer:
             f"There are {count_of(kinds[0], 'chart')} by rating difference, "
             f"{count_of(kinds[1], 'chart')} by skill level and "
             f"{count_of(kinds[2], 'chart')} of points by skill level. `evenbreak chart "
-            "show NAME` prints one; `evenbreak matchups --chart NAME` takes tonight's races from "
-            "one, unless it is a chart of points.",
+            "show NAME` prints a chart; `evenbreak matchups --chart NAME` takes tonight's "
+            f"races from it, unless it's a chart of points.",
             Table(
                 "charts",
                 columns_of("chart_name what looked_up_by even_race longest_games -races"),
@@ -74,7 +74,7 @@ def system_list_answer(_: object = None) -> Answer:
         "Handicap systems",
         [
             "`evenbreak simulate PLAYERS.csv --compare NAME --compare NAME` plays seasons under "
-            "several of them, side by side.",
+            "several systems and compares them.",
             Table(
                 "systems",
                 columns_of("system_name own_chart package -system_rule"),
@@ -95,7 +95,7 @@ def _added(
     found, warnings = {}, []
     for name, package in added(kind).items():
         if is_ours(name):
-            warnings.append(f"{kind} {name!r} of package {package} is hidden by ours")
+            warnings.append(f"{kind} {name!r} in package {package} is hidden by evenbreak's own")
             continue
         try:
             found[name, package] = find(name)
@@ -155,9 +155,9 @@ def _by_difference(chart: Chart) -> list[Part]:
     text = f"Equal players race to {first.stronger_needs}."
     if len(chart.rows) > 1:
         text += (
-            f" From a difference of {last.difference_from} points on, the race is "
-            f"{race(last[2:])}: the stronger player needs {last.stronger_needs} games, the "
-            f"weaker {last.weaker_needs}."
+            f" At a difference of {last.difference_from} points or more, the race is "
+            f"{race(last[2:])}: the stronger player needs {last.stronger_needs} games and the "
+            f"weaker player {last.weaker_needs}."
         )
     columns = columns_of("difference race")
     rows = [(range_words(*row[:2]), row[2:]) for row in chart.rows]
@@ -168,7 +168,7 @@ def _of_points(chart: PointsChart) -> list[Part]:
     columns = columns_of("level points_needed")
     rows = list(zip(chart.levels, chart.points, strict=True))
     return [
-        "Each player plays to the points of their own level, whoever the opponent is.",
+        "Each player plays to the points for their own level, whoever the opponent is.",
         Table("", columns, rows),
     ]
 
@@ -177,8 +177,8 @@ def _by_level(chart: LevelChart) -> list[Part]:
     columns = [*columns_of("level"), *(column_of("against", level=level) for level in chart.levels)]
     rows = [(own, *(chart.race(own, other) for other in chart.levels)) for own in chart.levels]
     return [
-        "In each race the first number is what the level of that row needs, the second what the "
-        "level of that column needs.",
+        "In each race, the first number is the games that the row's level needs, and the second "
+        "is the games that the column's level needs.",
         Table("", columns, rows),
     ]
 
@@ -197,7 +197,7 @@ def team_handicap_answer(
     """
     first, second = averages
     return Answer(
-        f"Team 1 rated {first:g} on average, team 2 {second:g}, {scale_words(scale)}",
+        f"Team 1 averages {first:g} and team 2 {second:g}, {scale_words(scale)}",
         [
             _in_words(found),
             _how(found, match_ups),
@@ -218,9 +218,10 @@ def team_handicap_answer(
             ),
         ],
         details=[
-            "Every game is taken to be between two players of their teams' average ratings. The "
-            "17-point scores of a game average 13.19 for the winner and 3.81 for the loser: CSI "
-            "publishes an example, not these numbers, and they are the ones that reproduce it."
+            "Every game is treated as one between two players with their teams' average "
+            "ratings. In 17-point scoring, a game's winner averages 13.19 points and its loser "
+            "3.81. CSI publishes an example but not these numbers; they are the ones that "
+            "reproduce it."
         ],
     )
 
@@ -239,9 +240,9 @@ def _how(found: TeamHandicap, match_ups: int) -> str:
     if not found.given_away:
         return text
     return (
-        f"{text} That is rounded down and then multiplied by the games of a match-up, "
-        f"{found.games}. {found.even_points:.2f} points would make the round even, so the rounding "
-        f"keeps {percent(found.given_away)} of them from the weaker team."
+        f"{text} That difference is rounded down and then multiplied by {found.games}, the "
+        f"number of games in a match-up. It would take {found.even_points:.2f} points to make "
+        f"the round even, so rounding costs the weaker team {percent(found.given_away)} of them."
     )
 
 

@@ -130,7 +130,7 @@ TEAMS = registry(
     number("p_win_1", "{a}\nwins", chance),
     number("p_tie", "tie", chance),
     number("p_lose_1", "{b}\nwins", chance),
-    number("mean_lead_1", "lead of {a} on average", 2),
+    number("mean_lead_1", "{a}'s lead, on average", 2),
     number("rating_mean", "mean\nrating", 0),
     number("level_sum", "levels of the\nhighest {sets}"),
     number("p_win_free", "wins without\nthe cap", chance),

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 _WORDS: dict[Way, str] = {
     "kernel": "Calculated by the kernel, the fast formula for this question.",
     "elimination": "Calculated by elimination: the game's graph became a sparse matrix, and its "
-    "states were eliminated one by one, without a subtraction.",
+    "states were eliminated one by one, without subtraction.",
     "eigen": "Calculated by eigenvectors: the game's graph became a sparse matrix, and the limit "
     "was read off its eigenvectors of eigenvalue 1.",
 }
 
 DEFECTIVE = (
     "The matrix of a race is defective: it has fewer independent eigenvectors than states. But "
-    "all those of eigenvalue 1 exist, and the limit needs no others."
+    "all the eigenvectors of eigenvalue 1 exist, and the limit needs no others."
 )
 
 
@@ -61,8 +61,11 @@ def luck_words(errors: Iterable[float], figures: str = "share") -> str:
     The standard errors are for proportions.
 
     >>> luck_words([0.01, 0.02], "title odds")
-    'other luck would move no title odds by more than about 4.0 percentage points'
+    'with other random numbers, no title odds would move by more than about 4.0 percentage points'
     """
     points = f"{200.0 * max(errors):.1f}"
     unit = "point" if points == "1.0" else "points"
-    return f"other luck would move no {figures} by more than about {points} percentage {unit}"
+    return (
+        f"with other random numbers, no {figures} would move by more than about {points} "
+        f"percentage {unit}"
+    )

@@ -143,8 +143,9 @@ def contradiction(scale: Scale, roster: Roster, results: Results) -> str:
     own, name = NAMES.get(scale.name, scale.name), NAMES[other.name]
     seen = percent(float(won.sum() / (won + lost).sum()))
     return say(
-        "the results contradict {own} ratings: by them the player rated higher would have won "
-        "{expected} of the games, by {other} ratings {likelier}; they won {seen}",
+        "the results don't fit {own} ratings: with those, the higher-rated player would have "
+        "won {expected} of the games, and with {other} ratings {likelier}; the actual share "
+        "was {seen}",
         own=own,
         expected=share(scale),
         other=name,
@@ -328,10 +329,12 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
         return
     points, error = scale.points(form.sd), scale.points(form.sd_error)
     yield (
-        f"Day-to-day form: from match to match the strength difference of two players varies by "
+        f"Day-to-day form: from match to match the difference in strength between two players "
+        f"varies by "
         f"{points:.0f} ± {error:.0f} points, so sweeps are likelier and hill-hill "
-        "games rarer than ratings alone would say. This list of ratings states it "
-        f"({form.sd:.2f} in log-odds); its errors, and odds, fair, live and matchups, allow for it."
+        "games rarer than ratings alone would say. This list of ratings includes that figure "
+        f"({form.sd:.2f} in log-odds). Its errors allow for it, and so do odds, fair, live "
+        f"and matchups."
     )
 
 
@@ -340,7 +343,7 @@ def form_details(form: DayForm | None, scale: Scale) -> Iterator[str]:
     if form is None:
         return
     v, low, high = form.variance
-    end = "This is established." if form.established else "This may be luck, so nothing uses it."
+    end = "The effect is clear." if form.established else "It may be luck, so nothing uses it."
     yield (
         f"Day-to-day form, estimated from {form.races:,} matches, each compared with the ratings "
         f"from all others: a standard deviation of {scale.points(form.sd):.1f} points (variance "
@@ -362,8 +365,8 @@ def form_used_words(form: float, scale: Scale | None = None) -> str:
             f"{form:g}."
         )
     return (
-        f"Day-to-day form is allowed for: from match to match the strength difference of two "
-        f"players varies by {scale.points(form):.0f} points."
+        f"Day-to-day form is allowed for: from match to match the difference in strength "
+        f"between two players varies by {scale.points(form):.0f} points."
     )
 
 

@@ -61,7 +61,7 @@ def _ladder(asked: LadderErrors) -> tuple[handicaps.Ladder, str, list[str]]:
         takes_long(
             say(
                 "A scale on which {points:,.0f} points double the odds has so many ratings that "
-                "this can take minutes and gigabytes",
+                "this can take minutes and gigabytes of memory",
                 points=system.scale.points_per_doubling,
             )
         )
@@ -116,7 +116,8 @@ def say_if_long(ladder: handicaps.Ladder) -> None:
         takes_long(
             say(
                 "The system {name} has {moves} different moves, so nights of three matches can "
-                "take 20 seconds to work out, of six a minute, and of more far longer",
+                "take 20 seconds to work out, nights of six can take a minute, and longer "
+                "nights far more",
                 name=ladder.system.name,
                 moves=moves,
             )
@@ -203,9 +204,9 @@ def _of_league(
         values: dict[str, Any] = {"about": about, "low": low, "high": high, "most": most}
         asked.refuse(
             ("the median" if asked.skill is None else "{skill}")
-            + " is {about}, and the ratings of {source} are from {low:g} to {high:g}; no opponent "
-            "may be more than {most:.0f} points from the player, so give a {skill} nearer to all "
-            "of them",
+            + " is {about}, and the ratings in {source} run from {low:g} to {high:g}; no "
+            "opponent may be more than {most:.0f} points away from the player, so give a "
+            "{skill} closer to all of them",
             source=file.source,
             **values,
         )

@@ -110,11 +110,11 @@ def ladder_comparison_answer(found: LadderComparison, warnings: Sequence[str] = 
 
 _EXPLANATION = (
     "'Error': how far ratings are typically off in the long run (standard deviation), in points "
-    "and in percent of a doubling, the points that double the odds of winning a game. 'Settles "
-    "in': the matches it takes a rating that starts one doubling too low to come within a sixth "
-    "of a doubling, on average and for 9 out of 10 players. 'Favorite': how often the player "
-    "favored by the errors wins, and in how many of 100 matches their chance is 60% or more. "
-    "'Games': the average length of a match."
+    "and as a percentage of a doubling (the points that double the odds of winning a game). "
+    "'Settles in': the matches it takes a rating that starts one doubling too low to come "
+    "within a sixth of a doubling, on average and for 9 out of 10 players. 'Favorite': how "
+    "often the player favored by the errors wins, and in how many of 100 matches their chance "
+    "is 60% or more. 'Games': the average length of a match."
 )
 
 
@@ -171,11 +171,11 @@ def _notes(found: LadderComparison) -> Iterator[str]:
     if found.refitted is not None:
         refitted = found.refitted
         yield (
-            f"{refitted.row.system}: every week all ratings are fitted again to all results, as in "
-            f"Fargo. Its figures come from {REFITTED_LEAGUES} simulated leagues of "
-            f"{REFITTED_PLAYERS} players, each over a year, and are uncertain: the error by about "
-            f"{refitted.sd_error:.2f} points, the settling by about {refitted.settling_error:.1f} "
-            "matches."
+            f"{refitted.row.system}: all ratings are refitted to all results every week, as "
+            f"in Fargo. Its figures come from {REFITTED_LEAGUES} simulated leagues of "
+            f"{REFITTED_PLAYERS} players, each over a year, and are uncertain: the error is "
+            f"uncertain by about {refitted.sd_error:.2f} points and the settling by about "
+            f"{refitted.settling_error:.1f} matches."
         )
     rising = [f"{row.system} by {row.inflation:+.2f}" for row in found.systems if row.inflation]
     if rising:

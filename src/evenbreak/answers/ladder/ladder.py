@@ -87,8 +87,8 @@ def _heading(found: LadderFindings) -> str:
         way = "rises" if ladder.drift > 0.0 else "falls"
         chance = percent(abs(ladder.drift))
         lines.append(
-            f"After each match the player's skill {way} by a whole point with a chance of "
-            f"{chance}: {abs(ladder.drift):g} points a match on average."
+            f"After each match there is a {chance} chance that the player's skill {way} by "
+            f"one point: {abs(ladder.drift):g} points a match on average."
         )
     return "\n".join(lines)
 
@@ -130,16 +130,18 @@ def _how_soon(found: LadderFindings) -> str:
     if settled is None:
         return ""
     if abs(asked.start) <= asked.within:
-        return f"A rating off by {asked.start} points counts as settled from the start."
+        off = count_of(abs(asked.start), "point")
+        return f"A rating off by {off} counts as settled from the start."
     law = settled.matches
     wrong = _too(asked.start, str(abs(asked.start)))
     who = f"A player rated {wrong}"
     if asked.newcomer:
         who = f"A newcomer rated {wrong}, with the longer newcomer steps,"
     text = (
-        f"{who} comes within {asked.within} points of their skill after {settled.mean:.1f} matches "
-        f"on average; half of such players need at most {law.quantile(0.5)}, 9 out of 10 at most "
-        f"{law.quantile(0.9)}."
+        f"{who} comes within {count_of(asked.within, 'point')} of their skill after "
+        f"{settled.mean:.1f} matches "
+        f"on average; half of such players need at most {law.quantile(0.5)} matches, and 9 "
+        f"out of 10 at most {law.quantile(0.9)}."
     )
     return f"{text} {_who_pays(found)}" if asked.newcomer else text
 

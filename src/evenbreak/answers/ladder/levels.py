@@ -64,7 +64,8 @@ level off 24% of the time.
         [
             *_in_words(rows, share),
             Table("levels", columns_of(_COLUMNS), rows),
-            "'Wins at that level': the chance of a match while the level is right. 'Matches to get "
+            "'Wins at that level': the chance of winning a match while the level is right. "
+            f"'Matches to get "
             f"there': for a newcomer who starts at level {newcomer}, on average.",
             skills.why,
         ],
@@ -88,14 +89,14 @@ def _in_words(rows: Sequence[tuple[float, ...]], share: Sequence[float]) -> Iter
         for k in (2, 3)
     )
     yield (
-        f"In the long run players are at the level that fits their strength {percent(right)} of "
-        f"the time, and one level off {percent(near)} of the time."
+        f"In the long run players are at the level that fits their strength {percent(right)} "
+        f"of the time, and they are one level off {percent(near)} of the time."
     )
     worst = max(rows, key=lambda row: abs(row[5] - 0.5))
     if abs(worst[5] - 0.5) > 0.05:
         up = worst[5] > 0.5
         yield (
             f"A player as strong as a level {worst[0]:g} wins {percent(worst[5])} of their matches "
-            f"in the long run: {'more' if up else 'less'} than half, as there is no level further "
-            f"{'up' if up else 'down'}."
+            f"in the long run: {'more' if up else 'less'} than half, because there is no "
+            f"level further {'up' if up else 'down'}."
         )

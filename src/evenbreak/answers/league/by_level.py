@@ -35,8 +35,8 @@ def by_level(
         stated = roster.rating[~np.isnan(roster.rating)]
         if file.scale is not None or not np.isin(stated, chart.levels).all():
             raise InputError(
-                "the chart {chart} needs skill levels, but {list} has only ratings. Add "
-                "a column {level} with {levels}, or give a chart of rating differences.",
+                "the chart {chart} needs skill levels, but {list} has only ratings. Add a "
+                "{level} column with {levels}, or give a chart of rating differences.",
                 chart=chart.name,
                 list=FilePath(file.source),
                 level="level",
@@ -128,8 +128,8 @@ def with_known_level(
             each = [f"{roster.players[k]} {found[k]:g}" for k in np.flatnonzero(known)]
             notes.append(
                 say(
-                    "{file} lacks levels that the results state; the last ones are taken: "
-                    "{players}",
+                    "some levels in the results are missing from {file}; each player's last one "
+                    "is used: {players}",
                     file=FilePath(file.source),
                     players=listed(each),
                 )

@@ -115,7 +115,7 @@ def comparison_answer(
         "deciles": frame_table("", deciles_frame(comparison)).to_dicts(),
     }
     if not matches:
-        nobody = say("No match was played: no two players of a match were there together.")
+        nobody = say("No match was played: the two players in a match were never there together.")
         return Answer(heading, [nobody], warnings=warnings, data=data)
     several = len(comparison.systems) > 1
     return Answer(
@@ -149,22 +149,23 @@ _FAIRER = say(
 _SAME = say("All systems had the same players, nights and luck.")
 
 _READ = say(
-    "'Ratings off by': typically (root mean square), in doublings of the odds of "
-    "a game, over the last quarter of the nights. 'Newcomers right': the nights until they are off "
-    "by less than {right:g} doublings. 'Dumping pays': how much more of the matches that count a "
-    "player wins who held back in the weeks before. 'Titles': those of the strongest fifth; 1 is "
-    "an equal share.",
+    "'Ratings off by': how far off ratings typically are (root mean square), in doublings of "
+    "the odds of a game, over the last quarter of the nights. 'Newcomers right': the nights it "
+    "takes until newcomers' ratings are off by less than {right:g} doublings. 'Dumping pays': "
+    "how much more of the matches that count go to a player who held back in the weeks before. "
+    "'Titles': the titles won by the strongest fifth; 1 is an equal share.",
     right=RIGHT,
 )
 
 
 _READ_DETAILS = say(
-    "'Right races': those that make up for the difference of skills to within {close:g} doublings, "
-    "however long they are. 'Doubling wins': the chance of a player who is a doubling better than "
-    "their race expects; a coin flip has 50%. 'Better wins': the mean chance of the better "
-    "player. 'Titles, weakest': those of the weakest fifth. 'Games of the last': the games of the "
-    "player (or team) with the most games on a night. 'Changes a season': how often a player's "
-    "number changes. 'Drift': by how much all numbers rise against the skills, in doublings.",
+    "'Right races': the races that make up for the difference in skill to within {close:g} "
+    "doublings, however long they are. 'Doubling wins': the chance of a player who is a "
+    "doubling better than their race expects; if a coin flip decided, it would be 50%. 'Better "
+    "wins': the better player's mean chance. 'Titles, weakest': the titles won by the weakest "
+    "fifth. 'Games of the last': the games of the player (or team) that plays the most on a "
+    "night. 'Changes a season': how often a player's number changes. 'Drift': how much all "
+    "numbers rise compared with the skills, in doublings.",
     close=CLOSE,
 )
 
@@ -195,7 +196,7 @@ def _verdict(comparison: Comparison) -> Iterator[Sentence]:
         "of_own": float(even.value[0]),
     }
     if math.isnan(half):
-        yield say("One season can't show which is fairer. Simulate more.")
+        yield say("One season can't show which is fairer. Simulate more seasons.")
     elif by_luck[best - 1]:
         one, other = (best, 0) if sign > 0 else (0, best)
         worth = comparison.measures["p_doubling_wins"].value
@@ -231,14 +232,14 @@ def _verdict(comparison: Comparison) -> Iterator[Sentence]:
         else:
             yield say(
                 "{own} is the fairest: {of_own:.1%} of its matches are even, {more:.1f} in 100 "
-                "more than with {best} ({low:.1f} to {high:.1f}), the next.",
+                "more than with {best}, the runner-up ({low:.1f} to {high:.1f}).",
                 **values,
             )
         yield _gains(comparison, best)
     else:
         yield say(
-            "No difference in fairness was shown: {best} makes {change:+.1f} matches in 100 even "
-            "against {own} ({low:+.1f} to {high:+.1f}).",
+            "No difference in fairness was found: with {best} instead of {own}, the number of "
+            "even matches in 100 changes by {change:+.1f} ({low:+.1f} to {high:+.1f}).",
             best=names[best],
             own=names[0],
             change=100.0 * change,
@@ -314,8 +315,8 @@ def _costs(comparison: Comparison, best: int) -> Sentence:
     if more:
         return say("What it costs: {more}.", more=listed(more))
     if less:
-        return say("It costs nothing that these seasons show, and {less}.", less=listed(less))
-    return say("It costs nothing that these seasons show.")
+        return say("These seasons show no cost, and {less}.", less=listed(less))
+    return say("These seasons show no cost.")
 
 
 def _gains(comparison: Comparison, other: int) -> Sentence:
@@ -323,7 +324,7 @@ def _gains(comparison: Comparison, other: int) -> Sentence:
     changes = [*less, *more]
     name = comparison.names[other]
     if not changes:
-        return say("{name} has nothing to offer for that.", name=name)
+        return say("{name} offers nothing in return.", name=name)
     return say("With {name}, {changes}.", name=name, changes=listed(changes))
 
 

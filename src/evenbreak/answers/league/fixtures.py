@@ -64,7 +64,7 @@ def _in_words(listed: Sequence[Fixture], who: str, played: int | None, only: str
     names = {name for one in listed for name in (one.home, one.away)}
     if played is not None:
         if not listed:
-            return f"{count_of(played, 'match', 'matches')} played, none left."
+            return f"{count_of(played, 'match', 'matches')} played; none are left."
         left = Counter(name for one in listed for name in (one.home, one.away))
         most = max(left.values())
         last = [name for name, many in left.items() if many == most]

@@ -214,13 +214,13 @@ def time_words(pace: Pace, turnover: float | None = None) -> str:
     >>> from evenbreak.matches import PACES
     >>> print(time_words(PACES["9-ball"]))
     Times assume 9-ball: 5.6 minutes a game and 3.8 more a match on average; two matches in
-    three finish within 29% of that.
+    three take within 29% of their expected time.
     """
     which = f"{pace.discipline}: " if pace.discipline else ""
     more = f" and {pace.overhead:.2g} more a match" if pace.overhead else ""
     text = (
-        f"Times assume {which}{pace.per_game:.2g} minutes a game{more} on average; two matches in "
-        f"three finish within {percent(pace.log_sd)} of that"
+        f"Times assume {which}{pace.per_game:.2g} minutes a game{more} on average; two "
+        f"matches in three take within {percent(pace.log_sd)} of their expected time"
     )
     if turnover is None:
         return f"{text}."
@@ -270,7 +270,7 @@ def about_players(tonight: Round) -> Iterator[Remark]:
         (
             ~unrated & filled & (read.games == NOT_STATED),
             "without a number of games",
-            "rating assumed to be as uncertain as that of a new player, ± {1:g}",
+            "rating assumed to be as uncertain as a new player's, ± {1:g}",
         ),
     ):
         for place in np.flatnonzero(which & here)[:1]:
@@ -305,8 +305,8 @@ def about_method(tonight: Round) -> Iterator[Remark]:
     if doubtful(tonight):
         yield Remark(
             "Uncertainty of the ratings (±, one standard error)",
-            "each chance and each length allows for it, with the errors of two players taken "
-            "as independent and normal",
+            "each chance and each length allows for it, treating two players' errors as "
+            "independent and normal",
         )
     if tonight.form:
         yield Remark(
@@ -316,10 +316,10 @@ def about_method(tonight: Round) -> Iterator[Remark]:
     for end in tonight.evening:
         if not end.exact:
             yield Remark(
-                f"When it ends {KINDS[end.races][:1].lower()}{KINDS[end.races][1:]}",
-                f"from {end.runs:,} simulated evenings; the standard error of the average is "
-                f"{end.mean_minutes_error:.2g} minutes, that of the 90% point "
-                f"{end.minutes_p90_error:.2g}",
+                f"When the evening ends {KINDS[end.races][:1].lower()}{KINDS[end.races][1:]}",
+                f"from {end.runs:,} simulated evenings; the standard error is "
+                f"{end.mean_minutes_error:.2g} minutes for the average and "
+                f"{end.minutes_p90_error:.2g} for the 90% point",
             )
 
 
@@ -333,7 +333,7 @@ def doubtful(tonight: Round) -> bool:
 def ratings_words(tonight: Round) -> str:
     """Return what the ratings are, in a few words."""
     if tonight.levels is not None:
-        return f"Skill levels of {tonight.levels.chart.name}"
+        return f"Skill levels from {tonight.levels.chart.name}"
     return f"Ratings {scale_words(tonight.scale)}"
 
 
@@ -361,9 +361,9 @@ def game_model(tonight: Round) -> str:
                 tonight.levels.levels, tonight.levels.points.tolist(), strict=True
             )
         )
-        spread = f", and players of one level differ by {tonight.levels.spread:.0f} points"
+        spread = f", and players at the same level differ by {tonight.levels.spread:.0f} points"
         return (
-            f"Levels on the Fargo scale (differences matter only): {placed}"
+            f"Levels on the Fargo scale (only differences matter): {placed}"
             f"{spread if tonight.levels.spread else ''}. {game_chance(tonight.scale)[:1].upper()}"
             f"{game_chance(tonight.scale)[1:]}, {alone}"
         )
@@ -394,7 +394,7 @@ def points_matchups_answer(
     keys += " mean_match_points_a mean_match_points_b" if shared else ""
     table = Table("pairs", columns_of(keys), rows if shared else [row[:-2] for row in rows])
     return Answer(
-        f"Points for {file_name(file)}\nSkill levels of {chart.name}",
+        f"Points for {file_name(file)}\nSkill levels from {chart.name}",
         [
             f"The points come from the chart {chart.name}.",
             table,

@@ -39,7 +39,7 @@ _SUBJECTS = {
     "race": say("What the races make up for"),
     "team_sd": say("The difference between teams"),
     "division_sd": say("The difference between divisions"),
-    "half_life": say("The age of games"),
+    "half_life": say("How old the games are"),
     "brought_sd": say("Ratings from elsewhere"),
 }
 """The same at the start of a sentence."""
@@ -70,7 +70,8 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
         side = "below" if below > 0 else "above"
         error = _error(choice, "newcomers", points(1.0) * ratings.newcomer_share, _ONE, " points")
         yield (
-            f"A player's first games are predicted best with a start {_ONE(abs(below))} points "
+            f"Predictions of a player's first games are best if the player starts "
+            f"{_ONE(abs(below))} points "
             f"{side} the average player{error}, half of which is gone after {SETTLED:g} games."
         )
     if levels.field:
@@ -79,7 +80,7 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
         error = _error(choice, "race", 1.0, decimals(2), "")
         yield (
             f"The handicap races were used too: players are assumed to differ by {levels.race:.2f}"
-            f"{error} times what their races give back."
+            f"{error} times what their races make up for."
         )
     for kind in GROUPS:
         groups = [group for group in ratings.groups if group.kind == kind]
@@ -106,7 +107,7 @@ def _beginning_words(ratings: Ratings) -> Iterator[str]:
     text = f"{known:,} of {count_of(len(ratings.players), 'player')} {have} along"
     if beginning.unknown_error:
         points, by_games = _ONE(ratings.scale.points(off)), beginning.by_games.any()
-        open_ = f"what its games leave open, and another {points} points"
+        open_ = f"the uncertainty that its games leave plus another {points} points"
         text += f", which is assumed to be off by {open_ if by_games else f'{points} points or so'}"
     if 0 < len(others) <= _FEW:
         text += f"; {listed(others)} {'does' if len(others) == 1 else 'do'} not"
@@ -134,8 +135,8 @@ def _error_of(choice: PriorChoice | None, of: str) -> float | None:
 
 def _too_few_words(found: Evidence) -> Sentence:
     return say_count(
-        "{what} was not used: its evidence rests on {n} player.",
-        "{what} was not used: its evidence rests on {n} players.",
+        "{what} was not used: the evidence for it comes from {n} player.",
+        "{what} was not used: the evidence for it comes from {n} players.",
         found.players,
         what=_SUBJECTS[found.of],
     )
@@ -144,13 +145,13 @@ def _too_few_words(found: Evidence) -> Sentence:
 def _field_words(share: float, error: float | None) -> Sentence:
     if error is None:
         return say(
-            "Newcomers start where the field at their first event suggests: {share} of its "
-            "distance from the usual field counts for them too.",
+            "Where newcomers start depends on the field at their first event: {share} of its "
+            "distance from the usual field is added to their start.",
             share=Figure(share, ".0%"),
         )
     return say(
-        "Newcomers start where the field at their first event suggests: {share} of its "
-        "distance from the usual field counts for them too (± {error}).",
+        "Where newcomers start depends on the field at their first event: {share} of its "
+        "distance from the usual field is added to their start (± {error}).",
         share=Figure(share, ".0%"),
         error=Figure(error, ".0%"),
     )
@@ -171,10 +172,10 @@ def evidence_table(choice: PriorChoice) -> Table:
     columns = columns_of("of log_loss_gain used")
     rows = [(NAMES[found.of], found.gain, found.used) for found in choice.evidence]
     title = (
-        "What it gains to let more count, each in addition to those above it, with 95% intervals "
-        "from resampling stretches of the season. What is used must rest on more than a few "
-        "players, and its gain be above 0 with 99% confidence; or with 90%, if the results are 20 "
-        "times likelier with it:"
+        "What each further piece of information gains in addition to those above it, with 95% "
+        "intervals from resampling stretches of the season. To be used, it must rest on more "
+        "than a few players, and its gain must be above 0 with 99% confidence, or with 90% if "
+        "it makes the results 20 times likelier:"
     )
     return Table("", columns, rows, title)
 
@@ -251,11 +252,12 @@ def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
     )
     if choice.prior_sd in (choice.tried[0], choice.tried[-1]):
         end = "smallest" if choice.prior_sd == choice.tried[0] else "largest"
-        text += f" It is the {end} one tried, so one beyond it may be better still."
+        beyond = "smaller" if end == "smallest" else "larger"
+        text += f" It is the {end} value tried, so a {beyond} one may be better still."
     if choice.part is not None:
         text += (
-            f" {choice.part:,} of the {ratings.matches:,} matches were enough to choose by: those "
-            "of some groups of players who often meet."
+            f" {choice.part:,} of the {ratings.matches:,} matches were enough to choose by: "
+            f"matches in some groups of players who often meet."
         )
     return text
 
@@ -288,9 +290,9 @@ def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:
     >>> from evenbreak.ratings import scale_of
     >>> few = PriorChoice(0.693, (0.1, 0.693), (0.6, 0.6), 22, 0.1, 0.693, False, 0.6)
     >>> print(too_few_for_prior_words(few, scale_of("npl")))
-    22 later results are too few to choose a prior by; the default of 30.0 points is used.
+    22 later results aren't enough to choose a prior by; the default of 30.0 points is used.
     """
-    few = "is too little" if choice.predicted == 1 else "are too few"
+    few = "isn't enough" if choice.predicted == 1 else "aren't enough"
     return (
         f"{count_of(choice.predicted, 'later result')} {few} to choose a prior by; the default of "
         f"{_ONE(scale.points(choice.prior_sd))} points is used."
@@ -366,10 +368,10 @@ def games_words(listed: Roster, filled: Roster) -> str:
     if not np.isnan(error):
         said.append(
             say_count(
-                "The games of {n} rating ({players}) are not stated: it is assumed to be as "
-                "uncertain as that of a new player, ± {error:.4g}.",
-                "The games of {n:,} ratings ({players}) are not stated: they are assumed to be as "
-                "uncertain as that of a new player, ± {error:.4g}.",
+                "The number of games behind {n} rating ({players}) isn't given: it is assumed "
+                "to be as uncertain as a new player's, ± {error:.4g}.",
+                "The number of games behind {n:,} ratings ({players}) isn't given: they are "
+                "assumed to be as uncertain as a new player's, ± {error:.4g}.",
                 len(silent),
                 players=some_of(silent),
                 error=float(error),

@@ -94,9 +94,9 @@ def rate_answer(
 
 _ERRORS_IN_WORDS = (
     "'Give or take' is the standard error of a rating on its own. 'In comparisons' is the "
-    "quasi-standard error: add the squares of two players' and take the root for the standard "
-    "error of their difference. It is smaller because the uncertainty that the whole league "
-    "shares cancels."
+    "quasi-standard error: add the squares of two players' quasi-standard errors and take the "
+    "square root for the standard error of the difference between them. It is smaller because "
+    "the uncertainty that the whole league shares cancels out."
 )
 
 
@@ -165,8 +165,8 @@ def _highest_in_words(ratings: Ratings) -> str:
         return f"No one{where} has a place yet."
     return (
         f"{ratings.players[best]} is rated highest{where}: {_ONE(ratings.rating[best])} ± "
-        f"{_ONE(ratings.standard_error[best])}. A player's true rating is within the ± about two "
-        "times in three."
+        f"{_ONE(ratings.standard_error[best])}. The ± covers a player's true rating about two "
+        f"times in three."
     )
 
 
@@ -199,7 +199,7 @@ def _counted(file: ResultsFile, ratings: Ratings) -> str:
     if games:
         made += [count_of(ratings.matches - races, "match", "matches"), count_of(games, "game")]
     if races:
-        made.append(f"{count_of(races, 'match', 'matches')} known by the winner alone")
+        made.append(f"{count_of(races, 'match', 'matches')} with only the winner known")
     left_out = [
         count_of(file.skipped, "bad row") if file.skipped else "",
         count_of(ratings.forfeits, "forfeit") if ratings.forfeits else "",
@@ -238,7 +238,7 @@ def unlinked_words(ratings: Ratings) -> Iterator[str]:
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["A", "C", "D"], ["B", "D", "E"], [7, 7, 7], [2, 3, 6])
     >>> print(*unlinked_words(fit(season)))
-    2 groups of players, of 3 and 2, never met: compare ratings only within a group. All
+    2 groups of players (3 and 2) never met: compare ratings only within a group. All
     groups are assumed to be equally strong on average; a match or two between them would link
     them.
     """
@@ -246,8 +246,8 @@ def unlinked_words(ratings: Ratings) -> Iterator[str]:
     if len(sizes) > 1:
         more = [f"{len(sizes) - SIZES:,} more"] if len(sizes) > SIZES else []
         yield (
-            f"{len(sizes):,} groups of players, of "
-            f"{listed([*(f'{size:,}' for size in sizes[:SIZES]), *more])}, never met: compare "
+            f"{len(sizes):,} groups of players "
+            f"({listed([*(f'{size:,}' for size in sizes[:SIZES]), *more])}) never met: compare "
             "ratings only within a group. All groups are assumed to be equally strong on average; "
             "a match or two between them would link them."
         )

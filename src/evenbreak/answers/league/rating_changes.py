@@ -69,8 +69,8 @@ def rating_changes_answer(
         parts.insert(
             1,
             say(
-                "The races come from {chart}, the system's only chart that fits all "
-                "scores. Use {chart_option} for another one.",
+                "The races come from {chart}, the system's only chart that fits all scores. Use "
+                "{chart_option} for another chart.",
                 chart=chart.name,
                 chart_option=Parameter("chart"),
             ),
@@ -125,7 +125,7 @@ def _newcomers(moves: RatingChanges) -> str:
         else f"{factor} times as far in their first {matches} matches"
         for stage, (matches, factor) in enumerate(steps)
     ]
-    return f"; newcomers move {', '.join(stages)}"
+    return f"; newcomers move {', and '.join(stages)}"
 
 
 def _in_words(moves: RatingChanges) -> str:
@@ -462,7 +462,7 @@ def _told_once(found: list[Problem], results: Results, unknown: Sequence[str]) -
     if len(which) < 2:
         return found
     names = quoted_list([_player_of(problem, results) for problem in which])
-    told = f"{names} aren't on the list. Add them with first ratings, or correct the names."
+    told = f"{names} aren't on the list. Add them with starting ratings, or correct the names."
     first = which[0]._replace(message=told)
     return [first if one is which[0] else one for one in found if one not in which[1:]]
 

@@ -156,12 +156,12 @@ def _not_shown(sheet: Sheet, listed: int | None, in_table: int | None) -> Iterat
     if listed is not None and listed < rated:
         yield Remark(
             f"{rated - listed:,} of {rated:,} rated players",
-            f"the list ends with the first {listed:,}; ratings.csv has all",
+            f"the list ends with the first {listed:,}; ratings.csv has all of them",
         )
     if in_table is not None and in_table < paired:
         yield Remark(
             f"the races of {paired - in_table:,} of {paired:,} paired players",
-            f"the table holds the first {in_table:,} of the list; matchups.csv has all",
+            f"the table holds the first {in_table:,} on the list; matchups.csv has all of them",
         )
     if paired < rated:
         yield Remark(
@@ -272,19 +272,19 @@ def rating_model(sheet: Sheet) -> str:
     """Return how the ratings were estimated, in a sentence or two."""
     ratings = sheet.ratings
     alike = ", and early and late matches count alike" if ratings.half_life is None else ""
-    races = ", and on the chance of a race where only its winner is known"
+    races = ", and on the chance of winning the race where only its winner is known"
     if not ratings.races_won.any():
         races = ""
     breaks = "whoever breaks"
     together = "games are independent of each other"
     if ratings.match_form:
-        together = "games of a match share the players' form that day"
+        together = "games in a match share the players' form that day"
     if ratings.break_advantage is not None:
         breaks = f"the breaker playing {ratings.break_advantage:.3g} points better"
     return (
         f"Bradley\N{EN DASH}Terry on games{races}: {game_chance(ratings.scale)}, {breaks}; "
-        f"{together}{alike}. The starting rating is a normal prior, and ± its "
-        "standard deviation."
+        f"{together}{alike}. The starting rating is a normal prior, and ± is its standard "
+        f"deviation."
     )
 
 

@@ -70,7 +70,7 @@ class OfferedRaces:
             return f"The fairest races in which the stronger player needs {needs}."
         low, high = self.games
         span = f"{low:,} to " if low < high else ""
-        text = f"The fairest races whose longest match has {span}{count_of(high, 'game')}"
+        text = f"The fairest races with a maximum of {span}{count_of(high, 'game')}"
         return f"{text}; for each pair, the closest to even." if low < high else f"{text}."
 
 
@@ -135,8 +135,8 @@ def check_roster(
         file.lines,
         np.flatnonzero(plays & (roster.standard_error > most)),
         lambda place: say(
-            "{column} {error:g} says nothing about a player. Write {most:g} points at "
-            "most, or check {scale}.",
+            "{column} {error:g} is too large to say anything about a player. Write at most "
+            "{most:g} points, or check {scale}.",
             column="quasi_error" if place in file.by_quasi else "standard_error",
             error=roster.standard_error[place],
             most=most,
@@ -149,7 +149,7 @@ def check_roster(
             file.lines,
             np.flatnonzero(plays & ~np.isin(roster.level, chart.levels)),
             lambda place: say(
-                "{player} has {level}; the levels of the chart {chart} are {levels}",
+                "{player} has {level}; the chart {chart} has the levels {levels}",
                 player=quoted(roster.players[place]),
                 level=say(
                     "no skill level (new players can get one with {starter})",
@@ -249,9 +249,11 @@ def roster_matchups(
     offered, a player has no rating, or the chart lacks a level.
     """
     if chart is None and offered is None:
-        raise InputError("chart and offered are missing. Give one of them at least.")
+        raise InputError("chart and offered are missing. Give at least one of them.")
     if levels is None and np.isnan(roster.rating).any():
-        raise InputError("roster has players without a rating. Fill them in with with_starters.")
+        raise InputError(
+            "roster has players without a rating. Fill the ratings in with with_starters."
+        )
     a, b = pairs[:, 0], pairs[:, 1]
     linked = _linked(roster, a, b)
     a, b = a[linked], b[linked]

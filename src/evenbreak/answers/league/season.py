@@ -55,7 +55,9 @@ def season_answer(
     )
     assumed = " ".join(_assumed(len(season.players), drawn, exact))
     if not data["matches_a_season"]:
-        nobody = "No match was played: no two players of a scheduled match were there together."
+        nobody = (
+            "No match was played: the two players in a scheduled match were never there together."
+        )
         return Answer(heading, [nobody], warnings=warnings, data=data, csv=summary)
     return Answer(
         heading,
@@ -78,13 +80,13 @@ def _assumed(players: int, drawn: int, exact: int) -> Iterator[str]:
     """Yield what is assumed about the players' skills."""
     if drawn:
         yield (
-            f"The true skill of {drawn:,} of {players:,} players is drawn again for each season, "
-            "from their rating and its standard error."
+            f"For {drawn:,} of {players:,} players, the true skill is drawn anew for each "
+            f"season, from the rating and its standard error."
         )
     if exact:
         yield (
-            f"The rating of {exact:,} of {players:,} players is treated as their true skill at "
-            "the start: the roster gives neither skill nor standard_error."
+            f"For {exact:,} of {players:,} players, the rating is treated as the true skill "
+            f"at the start: the roster gives neither skill nor standard_error."
         )
 
 
@@ -136,7 +138,7 @@ def _fairness(fairness: pd.DataFrame) -> str:
     low, high = fifths.iloc[0], fifths.iloc[-1]
     return (
         f"{text} The weakest fifth of the players win {_percent(low['p_win'], low['p_win_se'])} "
-        f"of their matches, the strongest fifth {_percent(high['p_win'], high['p_win_se'])}."
+        f"of their matches, and the strongest fifth {_percent(high['p_win'], high['p_win_se'])}."
     )
 
 
@@ -177,7 +179,7 @@ def _who_gains(standings: pd.DataFrame, batches: int) -> str:
 def _luck(data: Mapping[str, Any]) -> str:
     between, luck = data["points_sd_between_players"], data["points_sd_by_luck"]
     if math.isnan(luck):
-        return "How much of the table is luck? One season can't show that. Simulate more."
+        return "How much of the table is luck? One season can't show that. Simulate more seasons."
     share = luck**2 / (between**2 + luck**2) if between or luck else 1.0
     return (
         f"How much of the table is luck? About {100 * share:.0f}% of the differences in one "

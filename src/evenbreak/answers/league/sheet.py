@@ -76,7 +76,7 @@ def find_players(
             found[place] = None
     if unknown:
         raise InputError(
-            "{said}: not in {where}: {names}. Write each name as it is in that file.",
+            "{said}: not in {where}: {names}. Write each name as it appears in that file.",
             said=said,
             where=FilePath(where),
             names=joined(unknown, ", "),
@@ -161,7 +161,7 @@ def sure_pairs(paired: pd.DataFrame, scale: Scale) -> list[SurePair]:
 def how_sure(scale: Scale, pairs: Sequence[SurePair]) -> Iterator[str]:
     """Yield what the standard errors mean for a rating and for a race."""
     yield (
-        "Each bar reaches two standard errors either side of the rating. If the model below "
+        "Each bar reaches two standard errors on either side of the rating. If the model below "
         "holds, a player's true strength lies within the bar about 19 times in 20."
     )
     if pairs:

@@ -109,7 +109,7 @@ def _ties(table: LeagueTable) -> list[str]:
 
 _DECIDED = {
     HEAD_TO_HEAD: "head to head",
-    DIFFERENCE: "{score} won less lost",
+    DIFFERENCE: "{score} won minus lost",
     SCORED: "{score} won",
     WINS: "matches won",
     WIN_SHARE: "share won",
@@ -137,7 +137,8 @@ def _leader(table: LeagueTable, score: str) -> str:
     ]
     if equal:
         rule = table.decided_by[1]
-        return f"{text}, level with {listed(equal)}, ahead by {_DECIDED[rule].format(score=score)}."
+        ahead = _DECIDED[rule].format(score=score)
+        return f"{text}, tied with {listed(equal)} but ahead on {ahead}."
     if len(table) > 1 and points[0] > points[1]:
         return f"{text}, {points[0] - points[1]:g} ahead of {table.names[1]}."
     return f"{text}."
@@ -148,13 +149,12 @@ def _number_of(number: float, one: str) -> str:
 
 
 def rules_words(
-    rules: TableRules, *, sets: bool, level: str = "level on points", last: str = "a shared place"
+    rules: TableRules, *, sets: bool, level: str = "tied on points", last: str = "a shared place"
 ) -> str:
     """Return the rules for the standings, in words.
 
-    >>> rules_words(TableRules(3, 1, 0, ties=("head-to-head",)), sets=False)
-    '3 points for a win, 1 for a draw, 0 for a loss; level on points: the matches among those level,
-    a shared place'
+    >>> rules_words(TableRules(3, 1, 0, ties=("head-to-head",)), sets=False) '3 points for a win, 1
+    for a draw, 0 for a loss; tied on points: the matches among those tied, a shared place'
     """
     unit = "set" if sets else "game"
     text = f"{rules.win:g} points for a win, {rules.draw:g} for a draw, {rules.loss:g} for a loss"
@@ -168,7 +168,7 @@ def rules_words(
         text += f", {rules.shutout:g} for a shutout"
     named = {
         **_DECIDED,
-        HEAD_TO_HEAD: "the matches among those level",
+        HEAD_TO_HEAD: "the matches among those tied",
         WIN_SHARE: "the share of matches won",
     }
     ties = [named[tie].format(score=f"{unit}s") for tie in rules.ties]

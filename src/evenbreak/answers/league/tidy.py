@@ -50,11 +50,11 @@ def tidy_answer(
     left = [
         count_of(changes[kind], one, several)
         for kind, one, several in (
-            ("double", "match that was there twice", "matches that were there twice"),
+            ("double", "duplicate match", "duplicate matches"),
             (
                 "left out",
-                "row that is no match or can't be read",
-                "rows that are no matches or can't be read",
+                "row that isn't a match or can't be read",
+                "rows that aren't matches or can't be read",
             ),
         )
         if changes[kind]
@@ -67,17 +67,18 @@ def tidy_answer(
             if found.results.winner is None
             else int((found.results.winner[forfeits] == 0).sum())
         )
-        text = f"{count_of(many, 'forfeit')} among them, which count in no rating"
+        text = f"{count_of(many, 'forfeit')} among them, which no rating counts"
         if unknown:
             text += (
-                f". The winner of {count_of(unknown, 'forfeit')} isn't stated, which the "
-                "table leaves out. Add a column winner to the file."
+                f". The winner isn't given for {count_of(unknown, 'forfeit')}, so the table "
+                f"leaves {'it' if unknown == 1 else 'them'} out. Add a winner column to "
+                f"the file"
             )
         parts.append(text + ".")
     if changes["doubt"]:
         parts.append(
-            f"{count_of(changes['doubt'], 'match', 'matches')} may be in two files, with another "
-            "score or without a date; both count until you correct a file."
+            f"{count_of(changes['doubt'], 'match', 'matches')} may be in two files, with "
+            f"different scores or without a date; both count until you correct a file."
         )
     if answers:
         parts += [
@@ -92,22 +93,23 @@ def tidy_answer(
     if doubts:
         lines = [(line,) for doubt in found.name_doubts for line in doubt.alias_lines()]
         parts += [
-            "These names may be one player's and were kept apart:",
+            "In each of these pairs, both names may be the same player; they were kept apart:",
             Table(
                 "name_doubts", columns_of("tidy_name tidy_matches other_name other_matches"), doubts
             ),
-            "Those that are one player's: put their line below [aliases] in league.toml. Those "
-            'that are two: write "Name" = "Name" there for one of them.',
+            "If two names are the same player, put their line below [aliases] in league.toml. "
+            'If they are two players, write "Name" = "Name" there for one of them.',
             Table("aliases", columns_of("alias_line"), lines),
         ]
     if roster and (strangers := _not_listed(found.results, roster)):
         parts += [
-            "These players of the results aren't on the roster; the nearest name there:",
+            "These players in the results aren't on the roster; next to each is the closest "
+            "name there:",
             Table("not_on_roster", columns_of("tidy_name tidy_matches nearest_name"), strangers),
         ]
         if near := {name: other for name, _, other in strangers if other is not None}:
             parts += [
-                "Those that are one player's: put their line below [aliases] in league.toml.",
+                "If two names are the same player, put their line below [aliases] in league.toml.",
                 Table(
                     "roster_aliases", columns_of("alias_line"), [(x,) for x in alias_lines(near)]
                 ),
@@ -121,7 +123,7 @@ def tidy_answer(
         parts.append(
             "What was changed or left out:"
             if len(short) <= MOST_SHOWN
-            else f"The first {MOST_SHOWN} of {len(short):,} changes; --csv has all:"
+            else f"The first {MOST_SHOWN} of {len(short):,} changes; --csv has all of them:"
         )
         parts.append(Table("", columns, short, most=MOST_SHOWN) if is_short else done)
     return Answer(
@@ -144,7 +146,7 @@ def _in_short(changes: Sequence[Change]) -> Iterator[tuple[str, str, int | None,
             yield one.kind, one.source, one.line or None, str(one.text)
         elif files not in said:
             said.add(files)
-            where = "once more in this file" if one.source == one.first else f"in {one.first} too"
+            where = "in this file again" if one.source == one.first else f"in {one.first} too"
             yield one.kind, one.source, None, f"{alike[files]:,} matches are {where}"
 
 

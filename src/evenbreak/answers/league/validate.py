@@ -110,8 +110,8 @@ def _games(found: Validation) -> Table:
     columns = columns_of("predicted games seen_percent range_percent")
     rows = [(row.predicted, row.games, row.seen, (row.low, row.high)) for row in found.games]
     title = (
-        "How often favorites won single games. The ratings are right where the prediction lies in "
-        "the range."
+        "How often favorites won single games. The ratings are right where the prediction is "
+        "within the range."
     )
     return Table("", columns, rows, title)
 
@@ -189,7 +189,9 @@ def verdict(found: Validation, scale: Scale, chart: LeagueChart | None = None) -
     if faults:
         held = f"You can trust the ratings for single games, but {listed(faults)}."
     elif slope.high - slope.low > VAGUE:
-        held = "Nothing speaks against the ratings, but there are too few matches to be sure."
+        held = (
+            "Nothing suggests that the ratings are wrong, but there are too few matches to be sure."
+        )
     else:
         held = "You can trust these ratings: players win as often as they predict."
     return f"{held} {default}" if default else held
@@ -203,17 +205,17 @@ def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
     plenty = games_each >= PLENTY and found.skill.low <= 0.0 and not turned
     if plenty and found.choice is None:
         return say(
-            "With a prior of {points} points the ratings predict no better than a coin. "
-            "Leave {prior} out to find the best.",
+            "With a prior of {points} points the ratings predict no better than a coin toss. "
+            "Leave {prior} out to find the best one.",
             points=points_text(found.prior_sd, scale),
         )
     if plenty:
         return (
-            "The ratings predict no better than a coin: these players are too equal for ratings to "
-            "separate them."
+            "The ratings predict no better than a coin toss: these players are too equal for "
+            "ratings to separate them."
         )
     if found.skill.high < 0.0:
-        return "Do not trust these ratings: for this league they predict worse than a coin."
+        return "Do not trust these ratings: for this league they predict worse than a coin toss."
     return "There are too few matches to say whether these ratings can be trusted."
 
 
@@ -237,7 +239,7 @@ def _do_not(found: Validation, wrong: Mapping[str, int], scale: Scale) -> str:
         size = "smaller" if -1 in wrong.values() else "larger"
         return say(
             "Don't use a prior of {points} points: {why}. Use a {size} {prior}, or leave it out "
-            "to find the best.",
+            "to find the best one.",
             points=points_text(found.prior_sd, scale),
             why=_too_sure(wrong),
             size=size,
@@ -307,8 +309,8 @@ def remarks(found: Validation, scale: Scale, chart: LeagueChart | None = None) -
     if chart.scale is None and any(" points" in text for text in texts):
         texts.append(
             say(
-                "Points are such that {points:.4g} double the odds of winning a game; {scale} sets "
-                "others.",
+                "Here {points:.4g} points double the odds of winning a game; to change that, "
+                "use {scale}.",
                 points=scale.points_per_doubling,
             )
         )
@@ -348,7 +350,9 @@ def _newcomers(found: Validation, scale: Scale) -> str:
                 f"{abs(one.stronger.value) * scale.points_per_log_odds:.0f} points "
                 f"{'stronger' if way > 0 else 'weaker'} than rated."
             )
-            remedy = say("Leave {prior} out: the best one also finds where newcomers start.")
+            remedy = say(
+                "Leave {prior} out: finding the best one also finds where newcomers start."
+            )
             return joined([text, remedy])
     return ""
 
@@ -384,6 +388,6 @@ def _first_column(found: Validation) -> str:
         )
     player = "home player" if way > 0 else "visitor"
     return (
-        f"{said} If the first column is the {player}, it may be home advantage, which the ratings "
-        "do not know. If the order has no meaning, ignore it."
+        f"{said} If the first column is the {player}, it may be home advantage, which the "
+        f"ratings don't account for. If the order has no meaning, ignore it."
     )

@@ -143,11 +143,11 @@ _EXPLAINED = (
     f"{percent(2.0 * END_ERROR)} of their length."
 )
 _TESTS_EXPLAINED = (
-    "Whether play within matches agrees with the model. 'Spread of scores' compares their squared "
-    "errors with those of known strengths: more than expected suggests good and bad days, beyond "
-    "any day-to-day form that is allowed for. Fewer "
-    "'runs of racks' won by one player than expected mean streaks, which winner breaks cause too. "
-    "p is how often luck alone makes so large a difference."
+    "Whether play within matches agrees with the model. 'Spread of scores' compares the squared "
+    "errors of scores with what known strengths would give: more than expected suggests good "
+    "and bad days, beyond any day-to-day form that is allowed for. Fewer 'runs of racks' won "
+    "by one player than expected mean streaks, which winner breaks also cause. p is how often "
+    "luck alone makes a difference this large."
 )
 
 
@@ -193,10 +193,11 @@ def _prior(found: Validation, scale: Scale) -> str:
     least = min(choice.log_loss)
     cost = choice.log_loss[choice.tried.index(PRIOR_SD)] - least
     return say(
-        "The prior of {points} predicts later scores best, as rate {prior} best finds: averaged "
-        "over how far off ratings may be, in up to {stretches} stretches of the season, its "
-        "log-loss is {least:.4f} a game. The default of {default} points costs {cost:.4f} more; "
-        "with the prior chosen anew for each stretch, log-loss would have been {as_it_went:.4f}.",
+        "The prior that predicts later scores best is {points} (the one that rate {prior} best "
+        "finds). Its average log-loss is {least:.4f} a game, over up to {stretches} stretches "
+        "of the season and allowing for rating uncertainty. The default of {default} points "
+        "costs {cost:.4f} more; if the prior had been chosen anew for each stretch, the "
+        "log-loss would have been {as_it_went:.4f}.",
         points=points,
         stretches=STRETCHES,
         least=least,
@@ -245,8 +246,8 @@ def _experience(found: Validation, scale: Scale) -> Table:
         for one in found.experience
     ]
     title = (
-        "Games won by the less experienced player of a match, by the games that they had played "
-        "before; below 0 points they are overrated compared with their opponents:"
+        "Games won by the less experienced player in a match, by the number of games they had "
+        "played before; below 0 points, they are overrated compared with their opponents:"
     )
     return Table("", columns, rows, title)
 
@@ -264,7 +265,7 @@ def _by_spot(found: Validation) -> Table:
         (row.spot or "all", row.matches, row.won, row.share, (row.low, row.high), row.expected)
         for row in found.spots
     ]
-    return Table("", columns, rows, "Matches that the player who gave games won:")
+    return Table("", columns, rows, "Matches won by the player who gave games:")
 
 
 def _by_length(found: Validation) -> Table:
@@ -274,4 +275,4 @@ def _by_length(found: Validation) -> Table:
         (span_of(row), row.matches, row.won, row.share, (row.low, row.high), row.predicted)
         for row in found.lengths
     ]
-    return Table("", columns, rows, "Even races that the favorite won, by the games needed:")
+    return Table("", columns, rows, "Even races won by the favorite, by the games needed:")

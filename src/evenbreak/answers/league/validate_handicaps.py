@@ -205,7 +205,8 @@ def _fairness(found: Validation, by_games: int, scale: Scale) -> str:
         )
         return f"{by_size} {doubt}" if by_size else doubt
     if by_size:
-        return f"{by_size} All together the starts are fair: {figures[0].lower()}{figures[1:]}."
+        fair = f"{figures[0].lower()}{figures[1:]}"
+        return f"{by_size} Taken together, the head starts are fair: {fair}."
     way = clearly_off(share_of(every), every.expected)
     if way:
         under = "under" if way > 0 else "over"
@@ -223,7 +224,9 @@ def _unfair_by_size(found: Validation, scale: Scale) -> str:
     if wrong := unfair_starts(spots):
         text = " ".join(_unfair(one, found.starts, scale) for one in wrong)
         if wrong[-1] is spots[-1] and wrong[-1].share > 0.5:
-            text += " No start is larger, so it also serves players who are farther apart."
+            text += (
+                " No head start is larger, so it also has to do for players who are farther apart."
+            )
         return text
     way = starts_trend(spots)
     if not way:
@@ -241,13 +244,14 @@ def _unfair(one: HandicapFairness, starts: Starts | None, scale: Scale) -> str:
     way = 1 if one.share > 0.5 else -1
     games = int(one.spot or 0)
     should = "".join(
-        f" It takes back {scale.points(group.taken):.0f} points and should take back "
+        f" It makes up for {scale.points(group.taken):.0f} points and should make up for "
         f"{scale.points(group.stronger.value):z.0f}."
         for group in _by_games(starts)
         if group.apart == games and (group.stronger.value - group.taken) * way > 0.0
     )
     return (
-        f"A start of {count_of(games, 'game')} gives too {_little(way)}: the player who gave it "
+        f"A head start of {count_of(games, 'game')} gives too {_little(way)}: the player who "
+        f"gave it "
         f"won {one.won:,} of {one.matches:,} ({percent(one.share)}).{should}"
     )
 
@@ -266,19 +270,20 @@ def _against(starts: Starts | None, way: int, scale: Scale) -> str:
     if starts is None or (starts.stronger.value - starts.taken) * way <= 0.0:
         return ""
     text = (
-        f"On average they take back {scale.points(starts.taken):.0f} points and should take back "
-        f"{scale.points(starts.stronger.value):.0f} ± {_error(starts.stronger, scale)}"
+        f"On average they make up for {scale.points(starts.taken):.0f} points and should make "
+        f"up for {scale.points(starts.stronger.value):.0f} ± {_error(starts.stronger, scale)}"
     )
     groups = _by_games(starts)
     sizes = [
-        f"{count_of(group.apart, 'game')} {'takes' if group.apart == 1 else 'take'} back "
+        f"{count_of(group.apart, 'game')} {'makes' if group.apart == 1 else 'make'} up for "
         f"{scale.points(group.taken):.0f} points instead of "
         f"{scale.points(group.stronger.value):z.0f}"
         for group in groups
         if clearly_off(group.stronger, group.taken, tests=len(groups)) == way
     ]
     more = len(sizes) - MOST_SIZES
-    shown = sizes[:MOST_SIZES] + ([f"{more} larger starts likewise"] if more > 0 else [])
+    rest = f"{count_of(more, 'larger head start')} likewise"
+    shown = sizes[:MOST_SIZES] + ([rest] if more > 0 else [])
     return f"{text}; by size, {listed(shown)}." if shown else f"{text}."
 
 
@@ -286,7 +291,7 @@ def _class_worth(starts: Starts, a_class: Estimate, way: int, scale: Scale) -> s
     one, many = ("level", "levels") if starts.numbered else ("class", "classes")
     worth = f"{one} is worth {scale.points(a_class.value):z.0f} ± {_error(a_class, scale)} points"
     if not clearly_off(a_class, 0.0):
-        return f"The {many} make no clear difference: a {worth}."
+        return f"The {many} make no clear difference: one {worth}."
     chance = percent(float(scale.win_probability(scale.points(a_class.value))))
     text = f"A {worth}: players win {chance} of their games against those of the {one} below."
     next_to = next((group for group in starts.groups if group.apart == 1), None)
@@ -294,12 +299,12 @@ def _class_worth(starts: Starts, a_class: Estimate, way: int, scale: Scale) -> s
         return text
     needs, gets = next_to.race
     text += (
-        f" The races between neighboring {many}, most often {race(next_to.race)}, take back "
+        f" The races between neighboring {many}, most often {race(next_to.race)}, make up for "
         f"{scale.points(next_to.taken):.0f} points"
     )
     better = even_start(needs, a_class.value)
     if way and even_start(needs, next_to.taken) == gets != better:
-        return f"{text}; {race((needs, better))} would be nearer to even."
+        return f"{text}; {race((needs, better))} would be closer to even."
     return f"{text}."
 
 
@@ -329,7 +334,7 @@ def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
     low, high = fair.games
     return (
         f"{points.value:.1f} ± {error:.1f} points double the odds of winning a game in this "
-        f"league; the races assume {fair.assumed:.3g}. This makes a chart that fits:",
+        f"league; the races assume {fair.assumed:.3g}. This command makes a chart that fits:",
         f"evenbreak chart design --games {low}..{high} --least {race(fair.least)} "
         f"--scale {points.value:.1f}",
     )
@@ -352,9 +357,9 @@ def starts_table(starts: Starts, scale: Scale) -> Table:
     )
     value, low, high = starts.share
     title = (
-        "By how many points the player who should give games is stronger, and how many the races "
-        f"take back. All results together say that players differ by {value:.2f} times what races "
-        f"take back ({low:.2f} to {high:.2f}):"
+        "How many points stronger the player who should give games is, and how many points "
+        f"the races make up for. Taken together, the results suggest that players differ by "
+        f"{value:.2f} times what the races make up for ({low:.2f} to {high:.2f}):"
     )
     return Table("", columns, list(starts.groups), title)
 

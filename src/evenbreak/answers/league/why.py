@@ -108,8 +108,8 @@ def why_answer(
             *([_more_table(more, now, names, scale, played)] if more else []),
             *(_matches_table(matches, name, scale) for name in names),
             say(
-                "Worth: how much lower (or, with a minus, higher) the rating would be if this "
-                "match alone had not been played."
+                "Worth: how much lower (or, with a minus, higher) the rating would be if just "
+                "this match had not been played."
             ),
         ],
         details=[*prior_details(ratings, choice), *([] if brought else sources)],
@@ -237,11 +237,11 @@ def _chart_in_words(charted: ByChart, names: tuple[str, str]) -> Sentence:
         "p": percent(charted.p_win),
     }
     if charted.stated is None:
-        return say("By {chart} their race is {race}, and {a} wins it {p} of the time.", **words)
+        return say("With {chart} their race is {race}, and {a} wins it {p} of the time.", **words)
     x, y, skills = charted.stated
     return say(
-        "{a} is a skill level {x:.0f} and {b} a {y:.0f}: by {chart} their race is {race}, and {a} "
-        "wins it {p} of the time. {why}",
+        "{a} is a skill level {x:.0f} and {b} a {y:.0f}: with {chart} their race is {race}, and "
+        "{a} wins it {p} of the time. {why}",
         **words,
         b=names[1],
         x=x,
@@ -300,7 +300,7 @@ def _sources_table(ratings: Ratings, pair: tuple[int, int]) -> Table:
         for player in pair
         for source in rating_sources(ratings, player)
     ]
-    title = say("What the ratings are made of: each is the average of its sources, by weight.")
+    title = say("What the ratings are made of: each is the weighted average of its sources.")
     return Table("sources", columns, rows, title)
 
 
@@ -329,7 +329,7 @@ def _more_table(
         )
         for one in more
     ]
-    title = say("What one more match between the two would change, at their fair race:")
+    title = say("What one more match between the two, at their fair race, would change:")
     if played is not None:
         title = say(
             "What one more match between the two, at {race}, would change in these ratings:",
@@ -350,10 +350,10 @@ def _matches_table(matches: Sequence[tuple[Any, ...]], name: str, scale: Scale) 
         (day, who, rated, result, score, worth) for _, day, who, rated, score, result, worth in most
     ]
     if len(own) > len(most):
-        which = say("the {n} that matter most of {all}", n=len(most), all=len(own))
+        which = say("the {n} of {all} that matter most", n=len(most), all=len(own))
     else:
         which = say("all") if own else say("none yet")
-    title = say("The matches behind the rating of {player}: {which}.", player=name, which=which)
+    title = say("The matches behind {player}'s rating: {which}.", player=name, which=which)
     return Table("", columns, rows, title)
 
 

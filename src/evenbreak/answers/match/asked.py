@@ -207,7 +207,7 @@ def players_of(asked: Players, form: float | None = None) -> TwoPlayers:
 
     a, b = (float(text) + 0.0 for text in asked.ratings)  # -0 is 0
     if not math.isfinite(a - b):
-        refuse("the ratings are too far apart to calculate with. Give smaller numbers.")
+        refuse("the ratings are too far apart for a calculation. Give smaller numbers.")
     scale = asked.scale or _scale_of_chart(chart)
     if scale is None:
         scale = unstated_scale(
@@ -330,8 +330,8 @@ def refuse_uncertain(players: TwoPlayers) -> None:
     """Reject --via if chances are averaged over rating errors, because these aren't a limit."""
     if players.form:
         refuse(
-            "{via} is for one chain, but with {form} the answer is an average over many. "
-            "Leave one out."
+            "{via} is for one chain, but with {form} the answer is an average over many chains. "
+            "Leave out {via} or {form}."
         )
     if players.error:
         refuse(
@@ -395,8 +395,8 @@ def _formats(texts: Sequence[str], players: TwoPlayers) -> list[MatchFormat]:
             scores = kind.scores // (kind.set_.scores if kind.set_ else 1)
             if scores > most:
                 refuse(
-                    "{format!r} has a part with about {scores:,} scores, and {most:,} "
-                    "are the most that can be compared here. Use {odds} for such a match.",
+                    "one part of {format!r} has about {scores:,} possible scores, but at most "
+                    "{most:,} can be compared here. Use {odds} for such a match.",
                     format=str(played),
                     scores=scores,
                     most=most,

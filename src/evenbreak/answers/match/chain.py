@@ -184,7 +184,7 @@ def _named(graph: nx.DiGraph[Any]) -> nx.DiGraph[str]:
 
     names = {state: str(state) for state in graph}
     if len(set(names.values())) < len(names):
-        raise GameError("two states of the game have the same text. Give each its own.")
+        raise GameError("two of the game's states have the same text. Give each state its own.")
     named: nx.DiGraph[str] = nx.relabel_nodes(graph, names)
     return named
 

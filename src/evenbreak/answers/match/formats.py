@@ -112,7 +112,7 @@ def _advice(compared: Sequence[Compared], players: TwoPlayers) -> str:
     most = max(one.odds.p_win_2 for one in compared)
     return (
         f"{a} does best with {listed(best)}, winning {percent(max(wins))} of the time, and {b} "
-        f"with {listed(worst)}, winning {percent(most)}.\nNearest to even: {listed(fair)}."
+        f"with {listed(worst)}, winning {percent(most)}.\nClosest to even: {listed(fair)}."
     )
 
 
@@ -212,7 +212,7 @@ def _who_gains(usual: Sequence[BreakFormatValue]) -> str:
             return f"With {value.name} breaks, the player who breaks first breaks every rack."
     best, worst = usual[0], usual[-1]
     if best.share - worst.share < SAME:
-        return "Winner, loser and alternate breaks are worth the same to both."
+        return "Winner, loser and alternate breaks are worth the same to both players."
     text = (
         f"A does best with {best.name} breaks, winning {percent(best.share)} of the racks; B does "
         f"best with {worst.name} breaks, winning {percent(1.0 - worst.share)}."

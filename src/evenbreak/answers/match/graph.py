@@ -122,7 +122,7 @@ def _ways_words(road: Road) -> str:
     if len(road.limits) == 1:
         text = "The limit is found by elimination."
     if "kernel" in road.refused:
-        text += " The closed form is for states in a line, and these are not."
+        text += " The closed form is for states in a line, and these states aren't in a line."
     if "eigen" in road.refused:
         text += f" By eigenvectors: {road.refused['eigen']}."
     return text
@@ -141,11 +141,11 @@ def _spectrum_words(road: Road) -> str:
     if n == 1:
         return f"The only eigenvalue is 1.{gap}"
     if n == 2:
-        return f"Both eigenvalues are found, and both are real.{gap}"
-    real = "all real" if np.isrealobj(values) else "some of them complex"
+        return f"Both eigenvalues were found, and both are real.{gap}"
+    real = "and all are real" if np.isrealobj(values) else "and some of them are complex"
     which = "All" if len(values) == n else "The leading"
     first = f" The first {LEADING} are below." if len(values) > LEADING else ""
-    return f"{which} {len(values):,} eigenvalues are found, {real}.{gap}{first}"
+    return f"{which} {len(values):,} eigenvalues were found, {real}.{gap}{first}"
 
 
 def _gap_words(road: Road) -> str:

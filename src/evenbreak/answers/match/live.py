@@ -57,7 +57,7 @@ def live_answer(
 
 
 def _by_form(players: TwoPlayers) -> str:
-    learns = " Each game played shows how well both play today." if players.form else ""
+    learns = " Each game played shows how well both are playing today." if players.form else ""
     return players.by_form + learns
 
 
@@ -197,7 +197,7 @@ def comeback_tables(match: Match, odds: LiveOdds, names: tuple[str, str]) -> Ite
         now, begin = match.fold(*odds.now.scores[0]), match.rack.fold(*match.rack.score)
         inside = {m.scores[1]: m.p_win_1 for m in here if m.scores[0] == now}
         if inside:
-            title = f"by the score of the set under way{breaks}"
+            title = f"by the score in the current set{breaks}"
             at = inner[0] if inner else None
             yield _matrix(title, inside, isinstance(match.rack, Ahead), at, names)
         between = {m.scores[0]: m.p_win_1 for m in here if m.scores[1] == begin}
@@ -211,7 +211,7 @@ def _matrix(
     title: str, cells: Cells, leads: bool, now: Score | None, names: tuple[str, str]
 ) -> Table:
     a, b = names
-    star = " (* marks the score now)" if now in cells else ""
+    star = " (* marks the current score)" if now in cells else ""
     title = f"{a}'s chance of winning the match in %, {title}{star}"
     shown = {at: f"{'*' if at == now else ''}{100 * cells[at]:.1f}" for at in cells}
     if leads:

@@ -390,7 +390,7 @@ def fair_answer(
         (race.race_1, race.race_2, race.p_win_1, race.mean_games, race.games_p90) for race in races
     ]
     m, n, p_win, mean, _ = rows[0]
-    wish = "fairest race" if target == 0.5 else f"race nearest to {percent(target)} for {a}"
+    wish = "fairest race" if target == 0.5 else f"race closest to {percent(target)} for {a}"
     return Answer(
         players.description,
         [

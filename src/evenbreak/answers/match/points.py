@@ -62,10 +62,10 @@ def points_answer(
             *texts,
             Quantities(quantities_of(values, a=a, b=b)),
             say(
-                "The chances are an assumption, not a measurement: that players of every level "
-                "need about {innings:.0f} innings to reach their points, and make each shot with "
-                "the same chance. With {few:.0f} to {many:.0f} innings {a}'s chance is {low} to "
-                "{high}.",
+                "The chances rest on an assumption, not a measurement: that players of every "
+                "level need about {innings:.0f} innings to reach their points, and make each "
+                "shot with the same chance. With {few:.0f} to {many:.0f} innings {a}'s chance "
+                "is {low} to {high}.",
                 innings=INNINGS,
                 few=FEW,
                 many=MANY,

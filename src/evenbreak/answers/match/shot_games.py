@@ -134,7 +134,7 @@ def _advice(ranked: Sequence[RankedShot], otherwise: Sequence[RankedShot], look_
         f"{second.shot.name}.\nShot {name} is best "
     )
     if best.turning_p2 is None:
-        text += "whatever a miss leaves."
+        text += "whatever chance a miss leaves your opponent."
     else:
         text += f"as long as a miss leaves your opponent a chance below {percent(best.turning_p2)}."
     if next(one for one in otherwise if one.shot is best.shot).behind > SAME:
@@ -147,11 +147,11 @@ def _alone(one: RankedShot, look_ahead: str) -> str:
     critical = _even_at(one.shot, look_ahead)
     if critical is None:
         are = "are" if one.win > 0.5 else "are not"
-        return f"You {are} the favorite, whatever a miss leaves."
+        return f"You {are} the favorite, whatever chance a miss leaves your opponent."
     if critical == 0.0:
-        return "You are not the favorite, whatever a miss leaves."
+        return "You are not the favorite, whatever chance a miss leaves your opponent."
     if abs(critical - one.shot.p2) < SAME:
-        return "The game is even: leave a little less, and you are the favorite."
+        return "The game is even: leave your opponent a little less, and you are the favorite."
     if one.shot.p2 < critical:
         return f"You are the favorite as long as a miss leaves a chance below {chance(critical)}."
     return f"You would be the favorite if a miss left a chance below {chance(critical)}."
@@ -222,7 +222,7 @@ def _in_words(match: StraightPool, odds: StraightPoolOdds, spot: Spot) -> str:
     if spot.points is None or spot.p_win_1 is None:
         return f"{text}No spot makes this match even."
     if spot.points == (match.points_1, match.points_2)[spot.weaker - 1]:
-        return f"{text}No other spot brings it nearer to even."
+        return f"{text}No other spot brings it closer to even."
     return (
         f"{text}For an even match, {' AB'[spot.weaker]} should play to "
         f"{count_of(spot.points, 'point')}: A then wins {percent(spot.p_win_1)} of the time."
@@ -247,7 +247,7 @@ def straight(asked: Straight) -> Answer:
         else [asked.p1 or 0.0, asked.p2 or 0.0]
     )
     if asked.plot is not None and (not any(shots) or not safety):
-        asked.refuse("no one ever makes a ball, so there's nothing to draw. Leave {plot} out.")
+        asked.refuse("no one ever makes a ball, so there's nothing to plot. Leave {plot} out.")
     match = StraightPool(
         *asked.points, *shots, safety_1=safety, safety_2=safety, first="ab".index(asked.first) + 1
     )

@@ -157,8 +157,8 @@ def _struck(asked: questions.Shot, units: measures.Units) -> physics.Strike:
     most = physics.miscue_offset(asked.tip_mu)
     if math.hypot(up, right) > most:
         asked.refuse(
-            "{offset} {up:g} with {side_offset} {right:g} is a miscue: the tip slips "
-            "beyond {most:.3g} of the radius. Give less, or a higher {tip_mu}.",
+            "{offset} {up:g} with {side_offset} {right:g} is a miscue: the tip slips beyond "
+            "{most:.3g} of the radius. Give smaller offsets, or a higher {tip_mu}.",
             up=up,
             right=right,
             most=most,

@@ -133,14 +133,14 @@ def friction_words(mu: float | SlipFriction, found: Collision | None, law: str) 
     >>> friction_words(0.0556, None, "limited")
     'Friction between the balls: 0.0556, the same at any speed'
     >>> print(friction_words(SlipFriction(), collide(0.5, speed=4.0, mu=SlipFriction()), "limited"))
-    Friction between the balls: 0.0113 at this speed, less in harder shots (Alciatore's fit)
+    Friction between the balls: 0.0113 at this speed, less on harder shots (Alciatore's fit)
     """
     if not isinstance(mu, SlipFriction):
         words = f"{mu:.3g}, the same at any speed"
     else:
         at_hit = "" if found is None else f"{found.mu:.3g} at this speed, "
         source = " (Alciatore's fit)" if mu == SlipFriction() else ""
-        words = f"{at_hit}less in harder shots{source}"
+        words = f"{at_hit}less on harder shots{source}"
     throughout = "; it acts throughout the hit" if law == "shepard" else ""
     return f"Friction between the balls: {words}{throughout}"
 
@@ -159,10 +159,10 @@ def cut_words(cut: float) -> str:
 
 
 SQUIRT = (
-    "Squirt and swerve are left out: with english the cue ball starts off the line of the cue, to "
-    "the side away from the english, and with a raised cue it curves back. Allow for them so that "
-    "the cue ball travels along the line given here; to find yours, shoot the length of the table "
-    "with this english and see how far off it lands."
+    "Squirt and swerve are left out: with english the cue ball starts off the line of the cue, "
+    "to the side away from the english, and with a raised cue it curves back. Allow for them "
+    "so that the cue ball travels along the line given here; to find how much, shoot the "
+    "length of the table with this english and see how far off it lands."
 )
 """What an answer about where to aim can't tell if there is english."""
 
@@ -192,16 +192,15 @@ def squirt_words(angle: float, units: Units) -> Sentence:
 
     The angle is in degrees, positive with right english.
 
-    >>> from evenbreak.answers.physics.units import IMPERIAL
-    >>> print(squirt_words(-1.0, IMPERIAL))
-    Point the cue 1.00 degrees to the left of the line on which the cue ball has to go
-    (0.21 inches a foot): with left english it squirts to the right.
+    >>> from evenbreak.answers.physics.units import IMPERIAL >>> print(squirt_words(-1.0, IMPERIAL))
+    Point the cue 1.00 degrees to the left of the line that the cue ball has to travel (0.21 inches
+    a foot): with left english it squirts to the right.
     """
     side, other = ("right", "left") if angle > 0.0 else ("left", "right")
     apart, far = (12.0, "foot") if units.length.key == "in" else (100.0, "meter")
     return say(
-        "Point the cue {angle} degrees to the {side} of the line on which the cue ball has to go "
-        "({apart:.2f} {words} a {far}): with {side} english it squirts to the {other}.",
+        "Point the cue {angle} degrees to the {side} of the line that the cue ball has to "
+        "travel ({apart:.2f} {words} a {far}): with {side} english it squirts to the {other}.",
         angle=degrees(abs(angle)),
         side=side,
         apart=apart * math.tan(math.radians(abs(angle))),

@@ -95,10 +95,10 @@ def traced_shot(
     if found.shot.collision is None and found.shot.approach.ending != "rest":
         x, y = layout.object_ball
         refuse(
-            "{object_ball} {x:g},{y:g} is so near a cushion that the cue ball would have "
-            "to be in it to send the ball into {pocket} {name}. Move it away from the "
-            "cushion, name another pocket, or give outside english ({side_offset}), "
-            "which reduces throw.",
+            "{object_ball} {x:g},{y:g} is so close to a rail that the cue ball would have to be "
+            "inside the rail to send it into {pocket} {name}. Move the object ball away from "
+            "the rail, name another pocket, or give outside english ({side_offset}), which "
+            "reduces throw.",
             x=x,
             y=y,
             name=pocket.name,
@@ -118,8 +118,8 @@ def _check_places(layout: Layout, radius: float) -> None:
         ):
             room = " by ".join(f"{most / unit.size:g}" for most in size)
             refuse(
-                "{ball} {x:g},{y:g} isn't on the table, which is {room} {units}; a "
-                "ball's center is at least {least:.4g} from each cushion",
+                "{ball} {x:g},{y:g} isn't on the table, which is {room} {units}; a ball's "
+                "center is at least {least:.4g} from each rail",
                 ball=Parameter(name),
                 x=place[0],
                 y=place[1],
@@ -134,14 +134,15 @@ def _refuse_distance(layout: Layout, diameter: float) -> NoReturn:
     unit, distance = layout.units.length, layout.distance or 0.0
     if distance * unit.size < diameter:
         refuse(
-            "{distance} {far:g} is measured between the centers. Give {least:.4g} "
-            "{units}, where the balls touch, or more.",
+            "{distance} {far:g} is measured between the centers. Give at least {least:.4g} "
+            "{units}, the distance at which the balls touch.",
             far=distance,
             least=diameter / unit.size,
             units=unit.words,
         )
     refuse(
-        "{distance} {far:g} puts the object ball off the table. Give less, or another {cue_ball}.",
+        "{distance} {far:g} puts the object ball off the table. Give a shorter distance, or "
+        "another {cue_ball}.",
         far=distance,
     )
 

@@ -192,7 +192,7 @@ def shot_words(
     """Return what happens: first where the balls end up, then how the shot is aimed and hit."""
     state = found.at_hit
     if state is None:
-        how = {"cushion": "meets a cushion", "pocket": "drops", "rest": "stops"}
+        how = {"cushion": "hits a rail", "pocket": "drops", "rest": "stops"}
         return [
             f"The cue ball never reaches the object ball: it {how[found.approach.ending]} after "
             f"{units.length.text(found.approach.length)}."
@@ -225,10 +225,10 @@ def _end(leg: Leg, units: Units, ball: str) -> str:
     if leg.ending == "pocket":
         return f"{ball} drops into the {leg.pocket} pocket {pace}."
     x, y = (decimals(1)(place / units.length.size) for place in map(float, end.position))
-    place = f"{x} {units.length.words} from the head cushion and {y} from the right one"
+    place = f"{x} {units.length.words} from the head rail and {y} from the right rail"
     if leg.ending == "rest":
         return f"{ball} stops after {decimals(2)(leg.end)} s, {place}."
-    return f"{ball} meets a cushion {pace}, {place}; it is not followed further."
+    return f"{ball} hits a rail {pace}, {place}; it isn't followed any further."
 
 
 def _miss(found: Shot, pocket: Pocket, units: Units) -> str:
@@ -244,7 +244,7 @@ def _miss(found: Shot, pocket: Pocket, units: Units) -> str:
     elif (gap := pocket.width_from(*end.velocity)) < found.strike.ball.diameter:
         why = f"from this angle the pocket is only {length.text(gap, 2)} wide, less than the ball"
     else:
-        why = "a cushion is in the way"
+        why = "a rail is in the way"
     return f"The object ball does not drop: {why}."
 
 
@@ -259,7 +259,7 @@ def _aim_in_words(aimed: AimedShot, pocket: Pocket, units: Units) -> list[str]:
     if right:
         goal = "that point"
         sentences.append(
-            "A cushion is in the way of the middle of the pocket, so play for a point "
+            "A rail is in the way of the middle of the pocket, so aim for a point "
             f"{length.text(abs(right), 2)} to the {'right' if right > 0.0 else 'left'} of it."
         )
     right = math.copysign(1.0, aimed.unaided.cut) * aimed.offset

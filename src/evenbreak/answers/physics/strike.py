@@ -232,8 +232,8 @@ def table_speed_answer(lag_time: float, distance: float, units: Units) -> Answer
     doubts = []
     if not _LEAST <= speed <= _MOST:
         doubts.append(
-            f"hardly any table has a speed of {decimals(0)(speed)}. Check the time, and "
-            f"that lengths are in {units.length.words}."
+            f"hardly any table has a speed of {decimals(0)(speed)}. Check the time, and make "
+            f"sure that lengths are in {units.length.words}."
         )
     return Answer(
         f"A lag of {lag_time:g} seconds over {units.length.text(distance, 2)}",

@@ -29,7 +29,7 @@ def drill_answer(
     parts: list[Part] = [f"{_advice(statistics)} {_settled(law)}"]
     if statistics.period > 1:
         parts.append(
-            "Odd-numbered and even-numbered attempts are at different levels for ever; the long "
+            "Odd-numbered and even-numbered attempts stay at different levels forever; the long "
             "run is the average of both."
         )
     columns = columns_of("level p_success long_run_share gain lift_of_five")
@@ -184,9 +184,9 @@ def _practice(analysis: LogAnalysis) -> str:
     second = max(others, key=lambda report: report.p_best, default=best)
     if best.p_best < CLEAR:
         return (
-            f"Too early to tell which level to practice: it is {_percent(best.p_best)} likely "
-            f"to be level {best.level}, {_percent(second.p_best)} level {second.level}. A longer "
-            "log would show it."
+            f"It is too early to tell which level to practice: the chance is "
+            f"{_percent(best.p_best)} for level {best.level} and {_percent(second.p_best)} "
+            f"for level {second.level}. A longer log would tell."
         )
     text = (
         f"Practice level {best.level} next: {better(best.p or 0.0)} there raises your average "
@@ -198,15 +198,15 @@ def _practice(analysis: LogAnalysis) -> str:
     if best.p_best >= SURE:
         return f"{text}."
     return (
-        f"{text}, and {_percent(second.p_best)} for level {second.level}; a longer log would show "
-        "which of them it is."
+        f"{text}, and {_percent(second.p_best)} for level {second.level}; a longer log would "
+        f"show which of the two it is."
     )
 
 
 def _nothing_to_practice(*, levels: int, missed: bool) -> str:
     if levels == 1:
         return (
-            "With only one level there's nothing to climb. Give the number of levels of the drill."
+            "With only one level there's nothing to climb. Give the number of levels in the drill."
         )
     if not missed:
         return (
@@ -221,8 +221,8 @@ def _untried(analysis: LogAnalysis) -> str:
     for below, report in pairwise(analysis.levels):
         if below.attempts and not report.attempts:
             return (
-                f" You have not tried level {report.level} yet; until then you are taken to miss "
-                "there every time."
+                f" You have not tried level {report.level} yet; until you do, you are assumed "
+                f"to miss there every time."
             )
     return ""
 
@@ -249,7 +249,7 @@ def _findings(analysis: LogAnalysis) -> Iterator[str]:
         )
     if memory is not None and memory.p_value < UNLIKELY:
         worse = "miss" if memory.seen > memory.by_chance else "success"
-        found.append(f"After a {worse} you do worse, and more so than by chance.")
+        found.append(f"After a {worse} you do worse, and by more than chance would explain.")
     off = analysis.furthest_off_model
     if model is not None and model.p_value < UNLIKELY and off is not None:
         usual = off.attempts * (off.p_model or 0.0)
@@ -269,7 +269,8 @@ def _tests(analysis: LogAnalysis) -> Iterator[Part]:
     """Yield the log's tests, one paragraph each."""
     test = analysis.difference
     yield (
-        f"Levels: if you went on for ever with these success rates, {100 * test.seen:.0f} attempts "
+        f"Levels: if you went on forever with these success rates, {100 * test.seen:.0f} "
+        f"attempts "
         f"in 100 would be at other levels than so far; in simulated sessions like yours this is "
         f"{100 * test.by_chance:.0f} in 100 ({_p(test)})."
     )

@@ -105,10 +105,10 @@ def _change_in_words(found: Comparison) -> str:
 
 def _explained(found: Comparison) -> Iterator[str]:
     yield (
-        "The answer uses Welch's t test, which was chosen beforehand. The numbers beside the tests "
-        "are p-values: how often luck makes a difference at least this large, by that test's "
-        "measure, if nothing has changed. The other tests answer other questions; do not pick the "
-        "smallest number."
+        "The answer uses Welch's t test, which was chosen beforehand. The numbers next to the "
+        "tests are p-values: how often luck makes a difference at least this large, by that "
+        "test's measure, if nothing has changed. The other tests answer other questions; do "
+        "not pick the smallest number."
     )
     if found.mann_whitney is not None and found.ties:
         yield "Some scores are equal, so the p-value of Mann-Whitney is an approximation."
@@ -122,7 +122,7 @@ def _doubts(found: Comparison) -> Iterator[str]:
     if fewest < FEW:
         yield (
             f"one list has only {fewest} scores, so a single unusual score can change the "
-            f"answer. Gather {FEW} or more of each."
+            f"answer. Collect at least {FEW} of each."
         )
     for name, side, other in (("before", before, after), ("after", after, before)):
         if side.sd == 0.0 < other.sd:
@@ -245,7 +245,7 @@ def _trend_in_words(file: ScoresFile, own: MeanInterval | None, line: Trend | No
     if file.dates is None:
         return "Give every score a date to see whether you are getting better."
     return (
-        "It takes at least three scores, not all on one date, to see whether you are getting "
+        "It takes at least three scores, on more than one date, to see whether you are getting "
         "better."
     )
 
@@ -302,8 +302,10 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
         f"{score:g} after {count_of(luck.n, 'score')} in {file.source}",
         [_luck_in_words(luck), Quantities(quantities)],
         details=[
-            "The answer is by Student's t, which allows for the average and the spread being known "
-            "only from your earlier scores. The normal distribution ignores that and is too sure. "
+            "The answer uses Student's t, which allows for the average and the spread being "
+            f"known "
+            "only from your earlier scores. The normal distribution ignores that and is "
+            f"overconfident. "
             f"Counted from the nearer end of the {share} interval of the average, it is more "
             "cautious. The rank needs no distribution at all."
         ],

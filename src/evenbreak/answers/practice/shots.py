@@ -58,13 +58,13 @@ def shots_answer(file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.
         f"{count_of(len(log.names), 'shot')}, made {made:,} of {tried:,} in {file.source}{days}",
         [*parts, Quantities(quantities_of(values)), table],
         details=[
-            f"'Between' and 'and' are the exact {100 * confidence:g}% interval of a shot by its "
-            "own tries. The chance is drawn toward those of your other shots, the more the fewer "
-            "tries there are; how far is estimated from all of them. 'Weakest' is the probability "
-            "that it is the shot you miss most.",
-            "Before and since are the earlier and the later half of your tries. The change of all "
-            "shots together is tested exactly, shot by shot. With many shots, one or another "
-            "changes by luck: do not pick the one with the smallest number.",
+            f"'Between' and 'and' are the exact {100 * confidence:g}% interval from the "
+            f"shot's own tries. A shot's chance is pulled toward the chances of your other "
+            f"shots, more strongly if it has few tries; how strongly is estimated from all "
+            f"shots together. 'Weakest' is the probability that it is the shot you miss most.",
+            "'Before' and 'since' are the earlier and the later half of your tries. The change "
+            "of all shots together is tested exactly, shot by shot. With many shots, one or "
+            "another will change by luck: do not pick the shot with the smallest number.",
         ],
         warnings=file.warnings,
         csv=table,
@@ -88,11 +88,15 @@ def _next_words(found: ShotAnalysis) -> str:
 
 def _better_words(found: ShotAnalysis, since: str | None) -> str:
     if since is None:
-        return "Give every row a date, of two days or more, to see whether you are getting better."
+        return (
+            "Give every row a date, with at least two different days, to see whether you are "
+            "getting better."
+        )
     change = found.change
     if change is None:
         return "No shot was tried in both halves, so the log can't show whether you got better."
-    seen = f"before {since} you made {percent(change.before)}, since then {percent(change.after)}"
+    before, after = percent(change.before), percent(change.after)
+    seen = f"before {since} you made {before}, and since then {after}"
     same = ", with the same mix of shots" if len(found.shots) > 1 else ""
     if change.p_value >= LUCK:
         return (
@@ -148,7 +152,7 @@ def _shots(asked: Scores, file: ShotsFile) -> Answer:
     for name in ("new", "versus"):
         if getattr(asked, name) is not None:
             asked.refuse(
-                "{part} is for scores, and {source} is a log of single shots. Leave it out.",
+                "{part} is for scores, but {source} is a log of single shots. Leave it out.",
                 part=Parameter(name),
                 source=file.source,
             )

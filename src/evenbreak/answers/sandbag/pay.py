@@ -69,8 +69,8 @@ def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -
     most = most_dumped(ladder, question.start)
     if not most:
         raise InputError(
-            "with the system {name} one match lost takes the rating more than {widest} "
-            "points below the skill. Use smaller steps, or a higher rating at the start.",
+            "with the system {name} a single loss takes the rating more than {widest} points "
+            "below the skill. Use smaller steps, or a higher rating at the start.",
             name=ladder.system.name,
             widest=ladder.widest,
         )
@@ -129,9 +129,9 @@ def sandbag_pay_answer(
 _EXPLANATION = (
     "'Wins given up': how many of the dumped matches an honest player would have won. 'Extra "
     "wins': how many more of the matches that count the sandbagger wins; 'from the last': how "
-    "many of these come from the last match dumped. 'Pays from': how many times as much "
-    "as a win in a dumped match a win that counts must be worth. 'Profit': the gain over an honest "
-    "player, in the unit of the stakes."
+    "many of these come from the last match dumped. 'Pays from': for sandbagging to pay, a win "
+    "that counts must be worth at least this many times a win in a dumped match. 'Profit': the "
+    "gain over an honest player, in the unit of the stakes."
 )
 
 
@@ -168,8 +168,9 @@ def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
     if math.isfinite(cheapest.break_even):
         aside = "Leaving the prize aside, it" if question.prize else "It"
         yield (
-            f"{aside} pays off over {question.earnest} matches that count only if such a win "
-            f"is worth at least {cheapest.break_even:.2f} times as much as a win in a dumped match "
+            f"{aside} pays off over {count_of(question.earnest, 'match', 'matches')} that "
+            f"count only if a win in them is worth at least {cheapest.break_even:.2f} times "
+            f"as much as a win in a dumped match "
             f"(with {cheapest.dumped} dumped)."
         )
     if cycle is not None and cycle.dumped and cycle.profit > 0.0:
@@ -229,10 +230,11 @@ def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -
             f"{least.all_pays.best.profit:.2f} at these stakes. It pays most on "
             f"{most.ladder.chart.name}: up to {most.all_pays.best.profit:.2f}.",
             Table("charts", columns, rows),
-            "Each row is for the number of dumped matches that pays most. 'Pays from': how many "
-            "times as much as a win in a dumped match a win that counts must be worth. 'Enters "
-            f"low': how many more of their first {question.earnest} matches a player wins who "
-            f"enters the league {found[0].doubling} points underrated.",
+            "Each row is for the number of dumped matches that pays most. 'Pays from': for "
+            f"sandbagging to pay, a win that counts must be worth at least this many times a "
+            f"win in a dumped match. 'Enters low': how many more of their first "
+            f"{question.earnest} matches are won by a player who enters the league "
+            f"{found[0].doubling} points underrated.",
         ],
     )
 

@@ -70,7 +70,7 @@ def dumping_answer(
         if best.dumped and profit(best) > 2.0 * question.stake * best.error
         else "Sandbagging does not pay at these stakes, however many matches are dumped."
         if not leagues
-        else "Sandbagging was not found to pay at these stakes."
+        else "Nothing shows that sandbagging pays at these stakes."
     )
     how = (
         f"Played in {leagues:,} leagues for each number of matches dumped, all with the same "
@@ -88,7 +88,7 @@ def dumping_answer(
         f"and stay correctly rated.\n{stakes_in_words(question)}",
         [
             first,
-            f"After {count_of(lower.dumped, 'match', 'matches')} lost on purpose the {kind} is "
+            f"After {count_of(lower.dumped, 'match', 'matches')} lost on purpose, the {kind} is "
             + (
                 f"{-lower.published:.3g} lower than an honest player's."
                 if lower.published < 0.0

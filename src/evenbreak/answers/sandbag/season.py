@@ -40,8 +40,8 @@ def with_even_races(season: ResultsFile) -> tuple[ResultsFile, list[str]]:
     if not changed:
         return season, []
     warning = say(
-        "{source}: the race of {many} is not stated, so each is read as an even race to the "
-        "winner's games; if a chart set the races, name it with {chart}",
+        "{source}: no race is given for {many}, so each is read as an even race to the winner's "
+        "games; if a chart set the races, name it with {chart}",
         source=season.source,
         many=count_of(changed, "match", "matches"),
         chart=Parameter("chart"),
@@ -55,7 +55,7 @@ def events_marked(results: Results, events: Sequence[str]) -> NDArray[np.bool_]:
     known = sorted({str(event) for event in (() if column is None else column) if event})
     for event in events:
         if event not in known:
-            names = ", ".join(known[:10]) or "none: the file has no column event"
+            names = ", ".join(known[:10]) or "none: the file has no event column"
             raise InputError(f"the results have no event {event!r}. Give one of these: {names}.")
     return np.isin(np.asarray(column, dtype=str), list(events))
 

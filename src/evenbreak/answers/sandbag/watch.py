@@ -93,9 +93,9 @@ def sandbag_watch_answer(
                 evidence=evidence(1.0 / alpha),
             ),
             say(
-                "The chance that {honest} is ever flagged is at most {alpha}. If all {n:,} players "
-                "are honest, at most {flagged:.2g} of them are flagged on average. This holds if "
-                "form varies as much as {day_sd} says.",
+                "The chance that {honest} is ever flagged is at most {alpha}. If all {n:,} "
+                "players are honest, at most {flagged:.2g} of them are flagged on average. "
+                "This holds if form varies by as much as {day_sd} allows.",
                 honest=HONEST_PLAYER[honest],
                 alpha=percent(alpha),
                 n=len(rows),
@@ -128,10 +128,9 @@ def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
     points = scale_of(scale).points(form) / math.sqrt(2.0)
     return [
         say(
-            "honest players are taken to play at the same strength every day, but in "
-            "these results their form varies by about {points:.0f} points from match to "
-            "match. Give {day_sd} {points:.0f}, or players may be flagged for a good or "
-            "bad day.",
+            "honest players are assumed to play at the same strength every day, but in these "
+            "results their form varies by about {points:.0f} points from match to match. Give "
+            "{day_sd} {points:.0f}, or players may be flagged for a good or bad day.",
             points=points,
         )
     ]
@@ -157,9 +156,9 @@ def unrated_doubts(roster: Roster, results: Results) -> list[str]:
         return []
     return [
         say(
-            "{new:,} of {players} begin without a rating of their own, but {honest} established "
-            "takes all ratings to be as accurate as in the long run; strong newcomers may be "
-            "flagged for winning, so use {honest} any",
+            "{new:,} of {players} start without a rating of their own, but {honest} established "
+            "assumes that all ratings are as accurate as in the long run; strong newcomers may "
+            "be flagged for winning, so use {honest} any",
             new=new,
             players=count_of(len(rated), "player"),
         )
@@ -218,7 +217,7 @@ def _where(rows: Sequence[WatchRow]) -> Iterator[str]:
         if row.event is not None:
             found.setdefault(row.event, []).append(row.player)
     for event, names in found.items():
-        yield f"The results of {some_of(names, NAMED)} look like matches dumped in {event}."
+        yield f"The results of {some_of(names, NAMED)} look like dumping in {event}."
 
 
 def _events(one: Watched) -> list[str]:
@@ -230,11 +229,10 @@ def _tried(one: Watched) -> Iterator[str]:
     events = _events(one)
     if events:
         yield say(
-            "Each of the {events} ({names}) was tried as the only one in which matches "
-            "are dumped, besides dumps in any event. The evidence is the average of "
-            "these {tried} e-values, which is an e-value too, so honest players are "
-            "flagged no more often. With {dumps_in} only the event that you name is "
-            "tried. Choose it before you look at the results.",
+            "Besides dumping in any event, dumping in just one event was tried for each of the "
+            "{events} ({names}). The evidence is the average of these {tried} e-values, which "
+            "is an e-value too, so honest players are flagged no more often. With {dumps_in}, "
+            "only the event that you name is tried. Choose it before you look at the results.",
             events=count_of(len(events), "event"),
             names=some_of(events, NAMED),
             tried=len(one.tried),
@@ -243,7 +241,8 @@ def _tried(one: Watched) -> Iterator[str]:
 
 def _more(players: int) -> Iterator[str]:
     if players > 0:
-        yield f"{players:,} more players have less evidence against them."
+        more = count_of(players, "more player has", "more players have")
+        yield f"{more} less evidence against them."
 
 
 def sandbag_player_answer(
@@ -268,9 +267,7 @@ def sandbag_player_answer(
     return Answer(
         f"{one.player}: {count_of(len(rows), 'match', 'matches')}",
         [
-            said
-            if one.event is None
-            else f"{said} The results look like matches dumped in {one.event}.",
+            said if one.event is None else f"{said} The results look like dumping in {one.event}.",
             _matches(rows),
             "'Weight' is what the match multiplies the evidence by: above 1, the result is "
             "likelier from a sandbagger than from an honest player.",

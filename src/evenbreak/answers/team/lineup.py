@@ -133,7 +133,7 @@ def _barred_words(meeting: Meeting, point: Point | None, found: Advice) -> Sente
     if not barred or not squad.caps:
         return None
     return say(
-        "{players} can't be put up now: the sets after it could no longer be filled within the "
+        "{players} can't be put up now: the remaining sets could no longer be filled within the "
         "limit.",
         players=listed(barred),
     )
@@ -249,7 +249,7 @@ def _orders(meeting: Meeting, solution: SolvedNight) -> Table:
             value = solution.value if known else solved(meeting.night(each)).value
             rows.append([each, _order_words(name, each), value])
     columns = columns_of("order names_first p_win_night")
-    return Table("orders", columns, rows, title="What each order of nomination is worth")
+    return Table("orders", columns, rows, title="What each nomination order is worth")
 
 
 def _order_words(name: str, order: str) -> str:
@@ -271,12 +271,12 @@ def _sure_words(found: Advice, sure: dict[tuple[str, ...], float], draws: int) -
     others = [names for names in sure if names != found.best.names]
     if share > 0.95 or not others:
         return say(
-            "{pick} is the best pick even if the ratings are off by what their errors allow.",
+            "{pick} is the best pick even if the ratings are as far off as their errors allow.",
             pick=best,
         )
     return say(
-        "Given rating uncertainty, {pick} is the best pick {p} of the time and {other} is {q} "
-        "of the time, in {draws} draws ({luck}); on average, {pick} comes out ahead.",
+        "Because ratings are uncertain, {draws} sets of ratings were drawn: {pick} is the best "
+        "pick in {p} of them and {other} in {q} ({luck}). On average, {pick} comes out ahead.",
         pick=best,
         p=percent(share),
         other=names_words(others[0]),
@@ -332,7 +332,7 @@ def sealed_answer(
         for one in listing
     ]
     left = len(found.ours) - len(listing)
-    notes = [say("Against a random order, every order of theirs is worth the same.")]
+    notes = [say("Against a random order, all their orders are worth the same.")]
     if left:
         notes.append(
             say_count("{n} more lineup is not listed.", "{n} more lineups are not listed.", left)

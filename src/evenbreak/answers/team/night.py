@@ -51,7 +51,7 @@ def needed_words(state: TeamEvening, chances: tuple[float, float] | None) -> str
     left = sum(line.score is None for line in state.sets)
     if state.plan.count != "sets":
         if a == b:
-            return say("The score is level with {sets} left.", sets=_sets_words(left))
+            return say("The score is tied with {sets} left.", sets=_sets_words(left))
         ahead = say_count("{n} game", "{n} games", abs(a - b))
         if state.plan.count == "points":
             ahead = say_count("{n} point", "{n} points", abs(a - b))
@@ -179,9 +179,11 @@ def event_words(event: Event, plan: NightPlan, shown: set[int]) -> str:
             )
         case HandedIn(team, picks):
             if not shown:
-                return say("{team} handed in the lineup", team=names[team])
+                return say("{team} handed in their lineup", team=names[team])
             line_up = joined(map(names_words, picks), ", ")
-            return say("{team} handed in the lineup: {players}", team=names[team], players=line_up)
+            return say(
+                "{team} handed in their lineup: {players}", team=names[team], players=line_up
+            )
         case Proposed(team, number, score):
             return say(
                 "{team} reports {score} in set {n}",

@@ -65,11 +65,11 @@ there are no ties.
         ahead = law.with_start(fair)
         seen = ahead if fair > 0 else Outcome(ahead.lose, ahead.tie, ahead.win)
         words.append(
-            f"With {count_of(abs(fair), unit)} for {names[fair < 0]} it is nearest to even: they "
-            f"{_in_words(seen, 'win', 'lose', 'tie').replace(' the round', ' it', 1)}."
+            f"With {count_of(abs(fair), unit)} for {names[fair < 0]} the round is closest to "
+            f"even: they {_in_words(seen, 'win', 'lose', 'tie').replace(' the round', ' it', 1)}."
         )
     else:
-        words.append(f"No head start of whole {unit}s brings it nearer to even.")
+        words.append(f"No head start of whole {unit}s brings it closer to even.")
     parts: list[Part] = ["\n".join(words)]
     csi: int | None = None
     if games is not None:
@@ -129,7 +129,7 @@ def _csi(
     start = found.points if found.to_team == 1 else -found.points
     weaker, times = names[law.mean > 0], f", then times {games}" if games > 1 else ""
     text = (
-        f"CSI's formula (from the two averages, one game of each match, rounded down{times}) gives "
+        f"CSI's formula (from the two averages, one game per match, rounded down{times}) gives "
         f"{count_of(found.points, 'game')}"
     )
     if found.points:
@@ -137,7 +137,7 @@ def _csi(
     if found.given_away > 0.005:
         text += (
             f"; {found.even_points:.2f} would even out the averages, so rounding costs "
-            f"{weaker} {percent(found.given_away)} of them"
+            f"{weaker} {percent(found.given_away)} of that"
         )
     seen = law.with_start(start)
     return start, f"{text}. Then {names[0]} {_in_words(seen, 'wins', 'loses', 'ties')}."
@@ -255,7 +255,10 @@ def _points(change: float) -> str:
 
 def _order_words(order: str, nights: Floats) -> str:
     if BOTH in order and set(order) == {BOTH}:
-        return "Both captains name at once in every set, so no one has the advantage of the toss."
+        return (
+            "In every set both captains name their players at the same time, so winning the "
+            "toss is no advantage."
+        )
     edges = first_edges(nights)
     mean, widest = float(np.nanmean(edges)), float(np.nanmax(np.abs(edges)))
     if widest < _SMALL:
@@ -263,11 +266,12 @@ def _order_words(order: str, nights: Floats) -> str:
     if abs(mean) < _SMALL:
         return (
             f"In the order {order} it makes no difference on average who puts up first in set 1; "
-            f"between two teams of yours up to {_points(widest)}."
+            f"between two of your teams it can matter by up to {_points(widest)}."
         )
     return (
         f"In the order {order}, putting up first in set 1 {'gains' if mean > 0 else 'costs'} "
-        f"{_points(mean)} on average; between two teams of yours at most {100.0 * widest:.1f}."
+        f"{_points(mean)} on average, and at most {100.0 * widest:.1f} between any two of "
+        f"your teams."
     )
 
 
@@ -275,10 +279,10 @@ def _cap_words(teams: Sequence[str], free: Floats, capped: Floats) -> str:
     change = capped - free
     most, least = int(change.argmax()), int(change.argmin())
     if np.abs(change).max() < _SMALL:
-        return "The cap changes nothing: the best lineups keep it anyway."
+        return "The cap changes nothing: the best lineups stay under it anyway."
     said = (
         f"With the cap the teams win between {percent(float(capped.min()))} and "
-        f"{percent(float(capped.max()))} of their nights, without it between "
+        f"{percent(float(capped.max()))} of their nights, and without it between "
         f"{percent(float(free.min()))} and {percent(float(free.max()))}. It helps {teams[most]} "
         f"most (+{_points(change[most])})"
     )

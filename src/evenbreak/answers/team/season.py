@@ -51,7 +51,7 @@ def team_season_answer(
     matches = count_of(len(season.played), "match", "matches")
     return Answer(
         f"{count_of(len(season.teams), 'team')}: {matches} played, {len(season.to_come)} left\n"
-        + rules_words(season.rules, sets=True, level="teams that are level", last="drawing lots"),
+        + rules_words(season.rules, sets=True, level="tied teams", last="drawing lots"),
         parts,
         details=[_places(found)],
         data={"exact": found.exact, "seasons": found.seasons, "standard_error": _error(found)},
@@ -111,8 +111,8 @@ def _to_be_sure(found: SeasonChances, up: int | None, down: int | None) -> Table
         "to_be_sure",
         columns,
         [row for row in rows if any(value is not None for value in row[1:])],
-        title="Points needed to clinch, whatever the others do (blank: can't clinch by winning its "
-        "own matches)",
+        title="Points needed to clinch, whatever the others do (blank: the team can't clinch "
+        "just by winning its own matches)",
     )
 
 
@@ -180,7 +180,7 @@ def _how(found: SeasonChances, *, known: bool) -> str:
     strengths = (
         "the strengths are treated as exact"
         if known
-        else "they allow for how uncertain the teams' strengths are after their sets so far"
+        else "they allow for how uncertain the teams' strengths still are"
     )
     if found.exact:
         return (

@@ -55,8 +55,8 @@ def level_words(race: SetRace, levels: LevelSkills | None) -> Sentence | None:
     """Return what the chances are based on if they come from skill levels; None otherwise."""
     if isinstance(race, PointsChart):
         return say(
-            "The chances are an assumption, not a measurement: that every level of {chart} needs "
-            "about as many innings to reach its points.",
+            "The chances rest on an assumption, not a measurement: that players of every level "
+            "in {chart} need about the same number of innings to reach their points.",
             chart=race.name,
         )
     return None if levels is None else levels.why

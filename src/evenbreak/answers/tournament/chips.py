@@ -179,8 +179,8 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
     data = odds_data(night)
     warnings = [
         say(
-            "{result}, but after the correction one of them had no chips left by then; the rack is "
-            "on hold, and its chip is given back",
+            "{result}, but after the correction one of the players had no chips left by then; "
+            "the rack is on hold, and its chip is given back",
             result=rack_words(one.result),
         )
         for one in state.aside
@@ -259,14 +259,15 @@ def chip_time_answer(
     parts: list[Part] = [words, finish_quantities(finishes), change, finish_luck(finishes)]
     plain = outlook.pace.mean_minutes(1)
     usual_words = say(
-        "A rack of {game} usually takes about {minutes:.0f} minutes, with the change of players.",
+        "A rack of {game} usually takes about {minutes:.0f} minutes, including the change of "
+        "players.",
         game=state.plan.discipline,
         minutes=plain,
     )
     if timed := len(outlook.timed):
         adjusted = say_count(
-            "The {n} rack timed so far tonight adjusts that.",
-            "The {n} racks timed so far tonight adjust that.",
+            "That is adjusted for the {n} rack timed so far tonight.",
+            "That is adjusted for the {n} racks timed so far tonight.",
             timed,
         )
         usual_words = joined([usual_words, adjusted])

@@ -131,7 +131,7 @@ def _by_round(tournament: Tournament, today: Fairness, by_side: Sequence[Fairnes
     if not fewest <= best.found.games_mean <= most:
         return []
     if best.found.spread > _WORTH_IT * by_side[0].spread:
-        return ["Races that differ from round to round would be hardly fairer than those by side."]
+        return ["Races that differ from round to round would hardly be fairer than races by side."]
     now = {round_of(match): tournament.races.of(match) for match in reversed(bracket.matches)}
     rows = [
         [side, number, f"to {best.games[side, number]}", _words(now[side, number])]

@@ -75,8 +75,8 @@ def _draw(state: Evening, asked: MakeDraw, _: str) -> Sequence[What]:
 def _call(state: Evening, asked: Call, at: str) -> Sequence[What]:
     if state.plan.form == "chips":
         raise InputError(
-            "a chip tournament needs no calls: each result brings the next in the line "
-            "to the table. See {next}",
+            "a chip tournament needs no calls: each result brings the next player in line to "
+            "the table. See {next}",
             next=Command("tournament next"),
         )
     if asked.match is not None:
@@ -216,7 +216,11 @@ def _edit(state: Evening, asked: Edit, _: str) -> Sequence[What]:
 def _edit_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
     (now,) = set(after.entrants.values()) - set(before.entrants.values())
     return [
-        say("{player} is entered with a rating of {rating:g}.", player=now.name, rating=now.rating)
+        say(
+            "{player} has been entered with a rating of {rating:g}.",
+            player=now.name,
+            rating=now.rating,
+        )
     ]
 
 

@@ -112,7 +112,7 @@ def called_words(before: Evening, after: Evening) -> list[Sentence]:
             why = after.waiting_for.get(name)
             if why and why.absent:
                 gone = and_words(list(why.absent))
-                said.append(say("{left}, which waits for {players}.", left=left, players=gone))
+                said.append(say("{left}, which is waiting for {players}.", left=left, players=gone))
             elif name in after.live:
                 said.append(say("{left}; {score} is kept.", left=left, score=_live(after, name)))
             else:
@@ -141,15 +141,15 @@ def _kept_rounds(state: Evening, match: str) -> list[Sentence]:
     if first == last:
         return [
             say(
-                "Round {n} was paired by the result as it was before. The pairings stay, and the "
+                "Round {n} was paired using the earlier result. The pairings stay, and the "
                 "standings count the corrected result.",
                 n=first,
             )
         ]
     return [
         say(
-            "Rounds {first} to {last} were paired by the result as it was before. The pairings "
-            "stay, and the standings count the corrected result.",
+            "Rounds {first} to {last} were paired using the earlier result. The pairings stay, "
+            "and the standings count the corrected result.",
             first=first,
             last=last,
         )
@@ -241,7 +241,7 @@ def open_words(state: Evening, match: str) -> Sentence | str:
     if match in state.standing.to_play:
         return say("{match} ({pair})", match=name, pair=against(state.pair(match)))
     waits = waits_for(state, match)
-    return say("{match} (waits for {matches})", match=name, matches=waits) if waits else name
+    return say("{match} (waiting for {matches})", match=name, matches=waits) if waits else name
 
 
 def _moves(state: Evening, match: str, player: str) -> Sentence:
@@ -269,7 +269,7 @@ def _moves(state: Evening, match: str, player: str) -> Sentence:
             )
     if place := _place(state, match, player):
         return say("{player} finishes {place}.", player=player, place=place_words(place))
-    return say("{player} has no match left.", player=player)
+    return say("{player} has no matches left.", player=player)
 
 
 def _place(state: Evening, match: str, player: str) -> Place | None:
@@ -314,7 +314,7 @@ def _entered(state: Evening, name: str) -> Sentence:
             other = seats[1 - seats.index(seat)]
             rival = say("an opponent not yet known") if other is None else state.order[other]
             return say(
-                "{player} takes the place of a bye and meets {opponent} in {match}.",
+                "{player} takes a bye's place and meets {opponent} in {match}.",
                 player=name,
                 opponent=rival,
                 match=state.match_words(match),
@@ -326,7 +326,7 @@ def draw_words(before: Evening, after: Evening) -> Sentence:
     """Return what was drawn."""
     said: list[Sentence] = []
     if not before.drawn:
-        said.append(say("The draw is made: {n} players.", n=len(after.order)))
+        said.append(say("The draw has been made: {n} players.", n=len(after.order)))
     for stage in after.later.keys() - before.later.keys():
         if stage == KNOCK_OUT:
             said.append(say("The losers' qualifiers are drawn."))
@@ -368,11 +368,13 @@ def event_words(what: What, state: Evening) -> Sentence:
         case Waits(match=match, absent=absent):
             name = state.match_words(match)
             if absent:
-                return say("{match} waits for {players}", match=name, players=and_words(absent))
+                return say(
+                    "{match} is waiting for {players}", match=name, players=and_words(absent)
+                )
             return (
-                say("{match} waits: {reason}", match=name, reason=what.reason or "–")
+                say("{match} is waiting: {reason}", match=name, reason=what.reason or "–")
                 if what
-                else say("{match} waits no longer", match=name)
+                else say("{match} is no longer waiting", match=name)
             )
         case Scored(match=match, score=score):
             name = state.match_words(match)
@@ -383,8 +385,8 @@ def event_words(what: What, state: Evening) -> Sentence:
             return say("draw")
         case LaterDraw(stage=stage):
             if stage == KNOCK_OUT:
-                return say("draw of the qualifiers")
-            return say("draw of round {n}", n=stage[1:])
+                return say("draw for the qualifiers")
+            return say("draw for round {n}", n=stage[1:])
         case _:
             return _entry_words(what)
 
@@ -421,7 +423,7 @@ def _entry_words(what: What) -> Sentence:
     """Return, in words, what affects the list of players, or the evening as a whole."""
     match what:
         case Late(entrant=entrant):
-            return say("entry of {player}", player=entrant.name)
+            return say("{player}'s entry", player=entrant.name)
         case Edited(name=name, entrant=entrant):
             return say(
                 "{player} corrected to {name}, {rating:g}",
@@ -436,7 +438,7 @@ def _entry_words(what: What) -> Sentence:
         case Swapped(one=one, other=other):
             return say("{players} traded places", players=and_words([one, other]))
         case Dropped():
-            return say("withdrawal of {player}", player=what.name)
+            return say("{player}'s withdrawal", player=what.name)
         case CheckedIn() | Registered() | Declined():
             return _list_words(what)
         case Changed():
@@ -455,7 +457,7 @@ def _list_words(what: CheckedIn | Registered | Declined) -> Sentence:
     if isinstance(what, Registered):
         return say("{player} would like to play", player=player)
     if isinstance(what, Declined):
-        return say("{player} does not play", player=player)
+        return say("{player} isn't playing", player=player)
     here = say("{player} is here", player=player)
     if what.arrived is False:
         here = say("{player} is not here", player=player)

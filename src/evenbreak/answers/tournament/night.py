@@ -42,7 +42,8 @@ from evenbreak.words import Command, Sentence, joined, listed, say, say_count
 
 _LISTED = 8  # waiting matches that are named
 _UNDECIDED = say(
-    "What each match decides is left out: many matches are left, or something is still to be drawn."
+    "How much each match decides isn't shown: many matches are left, or something is still to "
+    "be drawn."
 )
 _SHOWN = 6  # players whose title odds everybody sees
 
@@ -152,7 +153,8 @@ def _what_is_next(
         )
     words += [
         say(
-            "The {runner_up} is still open: some players have won the same share of their matches.",
+            "The {runner_up} is still undecided: some players have won the same share of their "
+            "matches.",
             runner_up=group_words(runners_up),
         )
         for runners_up in tied[len(groups) :]
@@ -284,16 +286,18 @@ def _next_words(state: Evening, tables: Sequence[tuple[int | None, str]]) -> str
     if waiting and len(waiting) <= _LISTED:
         said.append(
             say_count(
-                "Match {matches} waits for a table.",
+                "Match {matches} is waiting for a table.",
                 "Matches {matches} are waiting for a table.",
                 len(waiting),
                 matches=listed([str(number) for number in waiting]),
             )
         )
     elif waiting:
-        said.append(say("{n} matches wait for a table or for their players.", n=len(waiting)))
+        said.append(
+            say("{n} matches are waiting for a table or for their players.", n=len(waiting))
+        )
     if not said:
-        return say("No match can be called until one on the tables is over.")
+        return say("No match can be called until one of the current matches is over.")
     return joined(said)
 
 
@@ -301,7 +305,8 @@ def _most_words(state: Evening, decided: Mapping[str, Stake]) -> str:
     """Return which match decides the most."""
     name, stake = next(iter(decided.items()))
     return say(
-        "Match {n}, {pair}, matters most for the title: its result moves {share} of the odds.",
+        "Match {n}, {pair}, matters most for the title: its result moves {share} of the title "
+        "odds.",
         n=state.number_of(name),
         pair=against(state.pair(name)),
         share=percent(stake.title),
@@ -326,7 +331,7 @@ def _next_table(
             since = begun_at(night) + night.minutes(state.on_tables[name].at)
             words = say("playing since {time}", time=time_of_day(since))
         else:
-            words = say("call") if table else say("waits for a table")
+            words = say("call") if table else say("waiting for a table")
         score = night.scores.get(name)
         number = state.number_of(name)
         rows.append([number, pair, state.needed(name, pair), score, table, words])

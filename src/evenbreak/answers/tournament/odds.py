@@ -159,7 +159,9 @@ def bands_words(bands: Bands) -> Sentence | str:
     each = [say("{name} {band}", name=name, band=band(ends)) for name, ends in bands.items()]
     if not each:
         return ""
-    return say("Without a rating, the title odds are uncertain: {each}.", each=joined(each, ", "))
+    return say(
+        "Players without a rating have uncertain title odds: {each}.", each=joined(each, ", ")
+    )
 
 
 def favorites(odds: PlaceOdds, bands: Bands = NOTHING) -> list[int]:
@@ -257,38 +259,41 @@ def how_words(
     if to_draw == "lines":
         lines.append("These are the odds before the draw; every draw is equally likely.")
     elif to_draw == "qualifiers":
-        lines.append("The qualifiers of the losers' side are still to be drawn.")
+        lines.append("The qualifiers from the losers' side are still to be drawn.")
     if to_draw == "racks" and not odds.exact:
         drawn = ", each time with other ratings" if averaged else ""
         lines.append(
-            f"The rest of the evening was played out {samples} times{drawn}; other luck would "
-            f"move no title odds by more than about {title}."
+            f"The rest of the evening was played out {samples} times{drawn}; with other "
+            f"random numbers, no title odds would move by more than about {title}."
         )
     elif to_draw == "rounds":
         drawn = ", each time with other ratings" if averaged else ""
         lines.append(
-            f"The remaining rounds were paired and played {samples} times{drawn}; other luck would "
-            f"move no title odds by more than about {title}."
+            f"The remaining rounds were paired and played {samples} times{drawn}; with other "
+            f"random numbers, no title odds would move by more than about {title}."
         )
     elif averaged:
         lines.append(
-            f"The odds allow for rating uncertainty: averaged over {samples} draws of the ratings, "
-            f"by their standard errors; other draws would move no figure by more than about {off}."
+            f"The odds allow for rating uncertainty: they are averages over {samples} sets of "
+            f"ratings, drawn using their standard errors. With other draws, no figure would "
+            f"move by more than about {off}."
         )
     elif odds.exact:
         lines.append("The odds are exact, if the ratings are right.")
     elif to_draw == "lines":
         lines.append(
-            f"{samples} draws were sampled and each of them calculated; other samples would move "
-            f"no title odds by more than about {title}."
+            f"{samples} draws were sampled, and the odds of each were calculated; with other "
+            f"samples, no title odds would move by more than about {title}."
         )
     else:
         lines.append(
-            f"The first rounds were sampled {samples} times and the rest calculated exactly; "
-            f"other samples would move no figure by more than about {off}."
+            f"The first rounds were sampled {samples} times, and the rest was calculated "
+            f"exactly; with other samples, no figure would move by more than about {off}."
         )
     if walkovers:
-        lines.append(f"{percent(walkovers)} of the matches are walkovers, for either player.")
+        lines.append(
+            f"{percent(walkovers)} of the matches are walkovers for one player or the other."
+        )
     return " ".join(lines)
 
 

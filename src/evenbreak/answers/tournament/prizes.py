@@ -70,8 +70,8 @@ def tournament_prizes_answer(
 def _paid_words(amounts: Sequence[float], entrants: int, pot: float, left: float) -> Sentence:
     paid = sum(amounts)
     text = say_count(
-        "{paid:.2f} is paid to {n} place of {players} players: {winner:.2f} for the winner.",
-        "{paid:.2f} is paid to {n} places of {players} players: {winner:.2f} for the winner.",
+        "{paid:.2f} is paid to {n} place among {players} players: {winner:.2f} for the winner.",
+        "{paid:.2f} is paid to {n} places among {players} players: {winner:.2f} for the winner.",
         len(amounts),
         paid=paid,
         players=entrants,
@@ -80,7 +80,9 @@ def _paid_words(amounts: Sequence[float], entrants: int, pot: float, left: float
     parts = [text]
     house = pot - paid - left
     if house >= 0.005:
-        parts.append(say("The other {left:.2f} of {pot:.2f} is the house's.", left=house, pot=pot))
+        parts.append(
+            say("The other {left:.2f} of {pot:.2f} goes to the house.", left=house, pot=pot)
+        )
     if left >= 0.005:
         parts.append(say("Rounding leaves {left:.2f} over.", left=left))
     return joined(parts)
@@ -128,15 +130,16 @@ def calcutta_answer(
     table = Table("lots", columns, rows)
     bids = sum(sold.values())
     if not rows:
-        words = f"All players are sold, for {bids:.2f} together."
+        words = f"All players are sold, for a total of {bids:.2f}."
     elif rows[0][2] is None:
         words = (
-            "Nothing is sold yet, so no one knows how large the pot will be: the shares say what "
-            "each player is worth of it."
+            "No player is sold yet, so no one knows how large the pot will be: the shares show "
+            "what part of it each player is worth."
         )
     else:
         words = (
-            f"{count_of(len(sold), 'player')} sold for {bids:.2f}. {rows[0][0]} is worth a bid of "
+            f"{count_of(len(sold), 'player is', 'players are')} sold so far, for {bids:.2f}. "
+            f"{rows[0][0]} is worth a bid of "
             f"up to {rows[0][2]:,.2f} now."
         )
     parts: list[Part] = [

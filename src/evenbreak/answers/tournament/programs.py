@@ -50,9 +50,9 @@ def scope_words(token: Token, plan: Plan) -> Sentence:
 def programs_answer(tokens: Collection[Token], plan: Plan, created: str = "") -> Answer:
     """Return the answer: the programs, and the newly created token."""
     count = len(tokens)
-    said = [say_count("1 program can enter something.", "{n} programs can enter something.", count)]
+    said = [say_count("1 program can make entries.", "{n} programs can make entries.", count)]
     if not tokens:
-        said = [say("No program can enter anything.")]
+        said = [say("No program can make entries.")]
     elif created:
         said = [say("The token, which is not shown again: {token}", token=created)]
     columns = columns_of("program may_enter created_at last_entry")

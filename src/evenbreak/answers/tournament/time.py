@@ -84,11 +84,11 @@ def finish_luck(finishes: Floats) -> str:
 
     >>> import numpy as np
     >>> finish_luck(np.arange(101.0))
-    '101 evenings were simulated; sampling error up to about 10 minutes.'
+    '101 evenings were simulated; the sampling error is at most about 10 min.'
     """
     _, error = bands_of(finishes)
     return say(
-        "{n:,} evenings were simulated; sampling error up to about {minutes:.0f} minutes.",
+        "{n:,} evenings were simulated; the sampling error is at most about {minutes:.0f} min.",
         n=len(finishes),
         minutes=2.0 * error,
     )
@@ -199,7 +199,7 @@ def venue_words(discipline: str, earlier: Iterable[EarlierNight]) -> Sentence | 
         return ""
     ran = _against_usual(venue_ratio(nights, prior_nights=0.0))
     times = _against_usual(venue_ratio(nights))
-    allowed = say("the times are {times}, as part of that may be chance", times=times)
+    allowed = say("the times are {times}, because part of that may be chance", times=times)
     return say_count(
         "Your last night of {game} at this venue ran {longer}; {allowed}.",
         "Your last {n} nights of {game} at this venue ran {longer}; {allowed}.",
@@ -229,10 +229,10 @@ def assumed_words(tables: int, pace: Pace | str, turnover: Turnover | None) -> s
     if turnover is not None:
         between = say("{minutes:g} minutes on average", minutes=turnover.mean)
     return say(
-        "{games}, on {tables}, with {between} between two matches on a table. As on most evenings, "
-        "a round starts when the rounds that feed it are over; priority goes to the match with the "
-        "most rounds still behind it. Matches that are called as soon as both players and a table "
-        "are free gain time on this.",
+        "{games}, on {tables}, with {between} between two matches on a table. As on most "
+        "evenings, a round starts when the rounds that feed it are over; priority goes to the "
+        "match with the most rounds still to follow. Calling matches as soon as both players "
+        "and a table are free saves some of this time.",
         games=of_games,
         tables=say_count("{n} table", "{n} tables", tables),
         between=between,

@@ -117,21 +117,21 @@ def races_words(races: Races) -> Sentence:
     'Races to 7 for the stronger player; the weaker gets the fairest race'
     """
     if isinstance(races.race, Chart):
-        return say("Races by the chart {chart}", chart=races.race.name)
+        return say("Races from the chart {chart}", chart=races.race.name)
     race, losers, final = (
         None if one is None else _games(one) for one in (races.race, races.losers, races.final)
     )
     if losers is not None and final is not None:
         text = say(
-            "Races to {race}, on the losers' side to {losers}, in the final to {final}",
+            "Races to {race} (to {losers} on the losers' side, to {final} in the final)",
             race=race,
             losers=losers,
             final=final,
         )
     elif losers is not None:
-        text = say("Races to {race}, on the losers' side to {losers}", race=race, losers=losers)
+        text = say("Races to {race} (to {losers} on the losers' side)", race=race, losers=losers)
     elif final is not None:
-        text = say("Races to {race}, in the final to {final}", race=race, final=final)
+        text = say("Races to {race} (to {final} in the final)", race=race, final=final)
     else:
         text = say("Races to {race}", race=race)
     if isinstance(races.race, Fairest):
