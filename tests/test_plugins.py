@@ -173,7 +173,7 @@ def test_a_broken_package_stops_nothing_that_does_not_name_it() -> None:
     assert [row[:21] for row in listed.stdout.split("\n") if row[:4] == "npl,"] == [
         "npl,npl_10,evenbreak,"
     ]
-    hidden = "of package broken-rules 0.1 is hidden by ours"
+    hidden = "in package broken-rules 0.1 is hidden by evenbreak's own"
     assert f"system 'npl' {hidden}" in " ".join(listed.stderr.split())
     charts = run("chart", "list", "--csv")
     assert charts.exit_code == 0

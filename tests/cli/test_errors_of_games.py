@@ -81,7 +81,7 @@ def test_a_rating_without_a_number_of_games_is_none_that_rests_on_any_number(
         said = CliRunner().invoke(program, [*command.format(**silent).split(), "--text", "-v"])
         text = " ".join(said.output.split())
         assert "(Bo" in text or "Bo:" in text, text
-        assert "as uncertain as that of a new player, ± 100" in text
+        assert "as uncertain as a new player's, ± 100" in text
 
 
 def test_games_mean_the_same_error_in_a_tournament_begun(tmp_path: Path) -> None:

@@ -63,7 +63,7 @@ def stated(answer: dict[str, Any], words: str) -> float:
 
 def of_chips(answer: dict[str, Any]) -> Figures:
     # The worst of all players is stated; the rows of a chart are means over several of them.
-    error = stated(answer, "would move no title odds by more than about ")
+    error = stated(answer, "no title odds would move by more than about ")
     rows = [row for row in answer["rows"] if row["players"] == 1]
     return {str(row["band_from"]): (row["p_title"], error) for row in rows}
 

@@ -52,7 +52,9 @@ def test_english_needs_no_catalog() -> None:
 
 def test_english_can_be_worded_anew(write) -> None:
     write("en", 'msgid "The draw has been made: {n} players."\nmsgstr "We drew {n} players."')
-    assert say("The draw has been made: {n} players.", n=8).said(face_in("en")) == "We drew 8 players."
+    assert (
+        say("The draw has been made: {n} players.", n=8).said(face_in("en")) == "We drew 8 players."
+    )
     assert say("Something else").said(face_in("en")) == "Something else"
 
 

@@ -40,7 +40,7 @@ def test_form_and_drift_are_in_the_heading():
     for number in (
         "5 points",
         "2 points",
-        "falls by a whole point with a chance of 10%: 0.1 points",
+        "10% chance that the player's skill falls by one point: 0.1 points",
     ):
         assert number in answer.heading
     assert "too high on average" in answer.sentences[0]

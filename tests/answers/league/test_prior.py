@@ -52,7 +52,7 @@ def test_by_how_much_players_differ_is_said_with_its_error():
     found = Evidence("race", (3.08,), (Estimate(0.01, 0.001, 0.03),), True, 3.08, 0.1)
     choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
     (text,) = level_words(fit(season, levels=Levels(race=3.08)), choice)
-    assert "differ by 3.08 ± 0.10 times what their races give back" in text
+    assert "differ by 3.08 ± 0.10 times what their races make up for" in text
 
 
 def test_what_rests_on_few_players_is_said_not_to_be_used():
@@ -60,7 +60,7 @@ def test_what_rests_on_few_players_is_said_not_to_be_used():
     found = Evidence("joined", (0.4,), gains, False, 0.4, players=12, too_few=True)
     choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
     assert list(level_words(fit(SEASON), choice)) == [
-        "Joining late was not used: its evidence rests on 12 players."
+        "Joining late was not used: the evidence for it comes from 12 players."
     ]
     (row,) = evidence_rows(choice)
     assert (row["used"], row["players"]) == (False, 12)

@@ -59,8 +59,8 @@ def test_groups_follow_each_other_the_largest_first():
 
 def test_many_groups_are_listed_by_the_largest():
     assert list(unlinked_words(fit(groups(1)))) == []
-    assert "of 2, 2 and 2," in next(unlinked_words(fit(groups(3))))
-    assert "of 2, 2, 2, 2, 2, 2 and 3 more," in next(unlinked_words(fit(groups(9))))
+    assert "(2, 2 and 2)" in next(unlinked_words(fit(groups(3))))
+    assert "(2, 2, 2, 2, 2, 2 and 3 more)" in next(unlinked_words(fit(groups(9))))
 
 
 def test_players_without_games_are_counted_apart():

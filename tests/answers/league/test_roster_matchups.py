@@ -139,7 +139,7 @@ def test_a_roster_that_does_not_suit_is_refused_with_its_lines(tmp_path):
 
 
 def test_refused():
-    with pytest.raises(InputError, match="Give one of them at least"):
+    with pytest.raises(InputError, match="Give at least one of them"):
         roster_matchups(SURE, all_pairs(SURE), scale=NPL)
     unrated = Roster(["Ann", "Bo"], [92, np.nan])
     with pytest.raises(InputError, match="with_starters"):

@@ -46,11 +46,11 @@ def test_a_class_has_its_worth_beside_what_a_start_takes_back():
     fair, worth = said(by_class(1, matches=800))
     assert "too little" in fair
     taken, should = map(
-        int, re.search(r"take back (\d+) points and should .* (\d+) ±", fair).groups()
+        int, re.search(r"make up for (\d+) points and should .* (\d+) ±", fair).groups()
     )
     assert taken < 20 < 30 < should
     assert re.search(r"A class is worth 2[0-4] ± ", worth)
-    assert "most often 7:6, take back 7 points" in worth
+    assert "most often 7:6, make up for 7 points" in worth
     assert re.search(r"7:[45] would", worth)
 
 
@@ -63,9 +63,9 @@ def by_the_book():
 @pytest.mark.slow
 def test_only_the_largest_start_is_unfair_in_a_league_that_plays_by_its_chart(by_the_book):
     fair, scale = remarks(*by_the_book)
-    assert fair.startswith("A start of 5 games gives too little")
-    assert "No start is larger" in fair
-    assert "All together the starts are fair" in fair
+    assert fair.startswith("A head start of 5 games gives too little")
+    assert "No head start is larger" in fair
+    assert "Taken together, the head starts are fair" in fair
     assert "agree" in scale
 
 
@@ -85,7 +85,7 @@ def spots(*counts):
 @pytest.mark.parametrize(
     ("counts", "parts"),
     [
-        (((100, 200), (68, 100), (32, 100)), ["All together", "2 games gives too little", "68%"]),
+        (((100, 200), (68, 100), (32, 100)), ["Taken together", "2 games gives too little", "68%"]),
         (((92, 200), (100, 200), (108, 200)), []),
         (((180, 400), (200, 400), (228, 400)), ["The more games are given, the more often", "57%"]),
     ],

@@ -73,7 +73,7 @@ def test_complex_eigenvectors_have_an_imaginary_part_beside_each():
         for side in ("right", "left")
     )
     np.testing.assert_allclose(left @ right.T, np.eye(3), atol=1e-14)
-    assert "some of them complex" in str(graph_answer("A round table", road))
+    assert "some of them are complex" in str(graph_answer("A round table", road))
 
 
 def test_arcs_begin_at_the_start():
@@ -92,7 +92,7 @@ def test_tables_are_about_the_same_states_and_classes():
 
 @pytest.mark.parametrize(
     ("levels", "words"),
-    [(1, "The only eigenvalue is 1."), (2, "Both eigenvalues are"), (3, "All 3 eigenvalues are")],
+    [(1, "The only eigenvalue is 1."), (2, "Both eigenvalues were"), (3, "All 3 eigenvalues were")],
 )
 def test_eigenvalues_are_counted_in_plain_words(levels, words):
     class Cycle:

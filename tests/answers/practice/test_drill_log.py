@@ -28,7 +28,9 @@ def answer_of(analysis, log=LOG, **changes):
 def test_no_level_is_named_while_none_is_likely_to_be_it(analysis):
     levels = [one._replace(p_best=one.p_best and 0.36) for one in analysis.levels]
     said = answer_of(analysis, levels=tuple(levels)).sentences[0]
-    assert said.startswith("Too early to tell which level to practice: it is 36% likely to be")
+    assert said.startswith(
+        "It is too early to tell which level to practice: the chance is 36% for level"
+    )
 
 
 def findings(analysis, **changes):

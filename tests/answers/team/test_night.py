@@ -36,7 +36,7 @@ def results(*scores):
         ([(4, 1), (1, 4), (0, 4)], {}, None, "Cues has won"),
         ([(4, 1)], {"count": "games"}, (0.8, 0.2), "Racks leads by 3 games with 2 sets"),
         ([(2, 4)], {"count": "points"}, (0.3, 0.7), "Cues leads by 2 points with 2 sets"),
-        ([(4, 1), (1, 4)], {"count": "games"}, None, "level with 1 set"),
+        ([(4, 1), (1, 4)], {"count": "games"}, None, "tied with 1 set"),
         ([(4, 1), (1, 4), (4, 0)], {"sets": 3, "count": "games"}, None, "Racks has won"),
     ],
 )

@@ -194,7 +194,11 @@ def test_a_level_rates_a_player_who_has_no_rating(run, roster):
     ("text", "more", "words"),
     [
         (LEVELS, ("--scale", "2"), "--scale is for ratings"),
-        ("player,level\nAnn,7\nBo,8\n", (), "roster.csv:3: 'Bo' has skill level 8; the levels"),
+        (
+            "player,level\nAnn,7\nBo,8\n",
+            (),
+            "roster.csv:3: 'Bo' has skill level 8; the chart apa_8ball has",
+        ),
         ("player,level\nAnn,7\nBo,\n", (), "roster.csv:3: 'Bo' has no skill level (new players"),
         ("player,rating\nAnn,92\nBo,71\n", (), "needs skill levels"),
     ],

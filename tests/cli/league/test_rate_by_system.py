@@ -95,7 +95,7 @@ def test_what_cannot_be_used_is_refused(run, system, named):
 def test_a_list_without_levels_is_refused_by_a_system_of_levels(run, tmp_path):
     (tmp_path / "list.csv").write_text("player,rating\nAnn,640\nBo,520\nCy,560\nDi,500\n")
     found = run("rate", "nights.csv", "--system", "tap-like", "--roster", "list.csv")
-    assert "Add a column level" in found.stderr
+    assert "Add a level column" in found.stderr
 
 
 @pytest.mark.usefixtures("league")

@@ -32,7 +32,7 @@ def test_places_and_a_pocket_are_read_in_the_units_of_the_command(ask_physics):
         ("--object-ball 50,25 --speed 60", ["give --cut and --distance, or"]),
         (PLAIN + " --pocket foot-left", ["--cut", "--pocket"]),
         (AIMED + " --cut 30", ["--cut", "--pocket"]),
-        (FROZEN, ["--object-ball 50,1.125", "near a cushion", "--side-offset"]),
+        (FROZEN, ["--object-ball 50,1.125", "close to a rail", "--side-offset"]),
         ("--cut 5 --distance 1 --speed 60", ["--distance 1", "2.25 inches"]),
         ("--cut 5 --distance 90 --speed 60", ["--distance 90", "--cue-ball"]),
         (PLAIN + " --cue-ball 0,0", ["--cue-ball 0,0", "100 by 50"]),

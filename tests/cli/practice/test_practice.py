@@ -230,7 +230,7 @@ def test_a_log_of_shots_says_what_to_practice_and_whether_it_got_better(practice
     assert [row["shot"] for row in told["shots"]][:2] == ["jump", "bank"]
     assert told["since"] == "2024-10-01"
     assert 1.0 < told["odds_ratio_low"] < told["odds_ratio"] < told["odds_ratio_high"]
-    assert f"made {told['made_before']:.0%}, since then {told['made_after']:.0%}" in " ".join(
+    assert f"made {told['made_before']:.0%}, and since then {told['made_after']:.0%}" in " ".join(
         told["sentences"]
     )
     jump = told["shots"][0]

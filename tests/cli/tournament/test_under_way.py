@@ -203,7 +203,7 @@ def test_a_name_is_corrected_before_the_draw(night):
     words = ("--race", "3", "--tables", "2", "--seeding", "listed", "--out", night.file)
     assert night.run("tournament", "new", night.entrants, *words).exit_code == 0
     said = night.run("tournament", "edit", "ann", "--name", "Anne", "--file", night.file, "--text")
-    assert "Anne is entered with a rating of 640." in said.stdout
+    assert "Anne has been entered with a rating of 640." in said.stdout
     night("edit", "Cy", "--rating", "580")
     assert night.run("tournament", "edit", "Cy", "--file", night.file).exit_code == 2
     night("draw")

@@ -103,7 +103,7 @@ def test_a_command_creates_lists_and_revokes(path: Path) -> None:
         assert ran.exit_code == (0 if ran.stdout else 2), ran.output
         return ran.stdout or ran.stderr
 
-    assert "No program can enter anything" in says()
+    assert "No program can make entries" in says()
     (created,) = re.findall(r"evenbreak-\w{32}", says("board", "--may", "table:2"))
     (kept,) = tokens.kept_tokens(path).values()
     assert (kept.name, kept.scope) == ("board", "table:2")
@@ -112,4 +112,4 @@ def test_a_command_creates_lists_and_revokes(path: Path) -> None:
     assert created not in listed
     assert "already has a token" in says("BOARD")
     assert "no program called tv has a token" in says("tv", "--revoke")
-    assert "No program can enter anything" in says("board", "--revoke")
+    assert "No program can make entries" in says("board", "--revoke")

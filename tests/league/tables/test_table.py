@@ -139,7 +139,7 @@ A, B, C, D, E = range(5)
         # German Bundesliga: 3 / 1 / 0.
         (TableRules(3, 1, 0), [(A, B, 5, 3), (A, C, 4, 4), (B, C, 4, 4), (B, D, 4, 4)],
          "A1 C2 B3 D4 E5"),
-        # A BCA-type program: wins, then games won less lost, games won, a shared rank.
+        # A BCA-type program: wins, then games won minus lost, games won, a shared rank.
         (TableRules(1, 0, 0, ties=("difference", "scored")),
          [(A, B, 13, 12), (B, C, 14, 11), (C, A, 13, 12), (D, E, 18, 7)], "D1 B2 A3 C4 E5"),
         # Snooker: one a frame and one for the match.

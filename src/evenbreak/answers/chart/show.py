@@ -177,8 +177,8 @@ def _by_level(chart: LevelChart) -> list[Part]:
     columns = [*columns_of("level"), *(column_of("against", level=level) for level in chart.levels)]
     rows = [(own, *(chart.race(own, other) for other in chart.levels)) for own in chart.levels]
     return [
-        "In each race, the first number is the games that the row's level needs, and the second "
-        "is the games that the column's level needs.",
+        "In each race, the first number is how many games the row's level needs, and the second "
+        "is how many the column's level needs.",
         Table("", columns, rows),
     ]
 

@@ -152,8 +152,8 @@ _READ = say(
     "'Ratings off by': how far off ratings typically are (root mean square), in doublings of "
     "the odds of a game, over the last quarter of the nights. 'Newcomers right': the nights it "
     "takes until newcomers' ratings are off by less than {right:g} doublings. 'Dumping pays': "
-    "how much more of the matches that count go to a player who held back in the weeks before. "
-    "'Titles': the titles won by the strongest fifth; 1 is an equal share.",
+    "how much larger a share of the matches that count a player wins after holding back in the "
+    "weeks before. 'Titles': the titles won by the strongest fifth; 1 is an equal share.",
     right=RIGHT,
 )
 
