@@ -122,6 +122,15 @@ def interrupted(running, times=10):
     return running.communicate()
 
 
+def opened_by(running, fifo):
+    """Return the end that writes, once the program has opened the other one to read."""
+    while running.poll() is None:
+        with contextlib.suppress(OSError):
+            return os.fdopen(os.open(fifo, os.O_WRONLY | os.O_NONBLOCK), "w")
+        time.sleep(0.01)
+    raise AssertionError(running.communicate())
+
+
 @pytest.mark.slow
 @posix
 def test_ctrl_c_ends_with_130(tmp_path):
@@ -133,7 +142,7 @@ def test_ctrl_c_ends_with_130(tmp_path):
         stderr=subprocess.PIPE,
         text=True,
     )
-    with fifo.open("w", encoding="utf-8"):  # opens once the program has opened it to read
+    with opened_by(running, fifo):
         out, err = interrupted(running)
     assert (running.returncode, out) == (130, "")
     assert err.strip() == "Interrupted."

@@ -1,6 +1,8 @@
-"""A tournament of sixteen players on a running page."""
+"""A tournament of sixteen players on a page."""
 
+import sqlite3
 from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -9,15 +11,16 @@ import pytest
 from evenbreak.files.store.tournament import read_tournament
 from evenbreak.tournaments.clock.finish import finish
 from evenbreak.tournaments.evening.fold import Evening
+from evenbreak.web import beside
 from evenbreak.web.site import Site
 from web.chromium import browser as browser
-from web.phones import Phone, running
+from web.phones import Phone, answering, running
 
 PLAYERS = [f"Player {k}" for k in range(1, 17)]
 
 
 class Hall(NamedTuple):
-    """A running page, the director's phone and a guest's."""
+    """A page, the director's phone and a guest's."""
 
     site: Site
     director: Phone
@@ -51,24 +54,51 @@ def begun(director: Phone, players: list[str], **plan: object) -> None:
 
 @pytest.fixture(scope="module", autouse=True)
 def few_evenings() -> Iterator[None]:
-    """Each entry has the page work out the night's finish: of 100 evenings instead of 2000."""
+    """Each entry has the page work out the night's finish: of 100 evenings, not 2000, and no rest."""
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(beside, "_MOST_REST", 0.0)
         patch.setitem(finish.__kwdefaults__, "runs", 100)
         yield
 
 
+def copied(path: Path, to: Path) -> Path:
+    """Return a copy of a file, to go on from."""
+    with closing(sqlite3.connect(path)) as kept, closing(sqlite3.connect(to)) as fresh:
+        kept.backup(fresh)
+    return to
+
+
+@contextmanager
+def hall_of(path: Path) -> Iterator[Hall]:
+    """Open the page of a file of a tournament that is under way."""
+    with answering(path) as site:
+        yield Hall(site, Phone(site, director=True), Phone(site))
+
+
+@pytest.fixture(scope="session")
+def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The file of a tournament of sixteen that has been drawn, from which halls are copied."""
+    path = tmp_path_factory.mktemp("drawn") / "tonight.db"
+    with answering(path) as site:
+        begun(Phone(site, director=True), PLAYERS)
+    return path
+
+
 @pytest.fixture
-def hall(tmp_path: Path) -> Iterator[Hall]:
-    with running(tmp_path / "tonight.db") as site:
-        director = Phone(site, director=True)
-        begun(director, PLAYERS)
-        yield Hall(site, director, Phone(site))
+def hall(drawn: Path, tmp_path: Path) -> Iterator[Hall]:
+    with hall_of(copied(drawn, tmp_path / "tonight.db")) as found:
+        yield found
 
 
 @pytest.fixture(scope="module")
-def standing_hall(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Hall]:
+def standing_hall(drawn: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Hall]:
     """The same for tests that change nothing."""
-    with running(tmp_path_factory.mktemp("hall") / "tonight.db") as site:
-        director = Phone(site, director=True)
-        begun(director, PLAYERS)
-        yield Hall(site, director, Phone(site))
+    with hall_of(copied(drawn, tmp_path_factory.mktemp("hall") / "tonight.db")) as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def served_hall(drawn: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Hall]:
+    """The same behind a real server, for tests of connections."""
+    with running(copied(drawn, tmp_path_factory.mktemp("served") / "tonight.db")) as site:
+        yield Hall(site, Phone(site, director=True), Phone(site))

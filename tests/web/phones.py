@@ -1,8 +1,15 @@
-"""A running page, and phones that open it: cookies, forms, no JavaScript."""
+"""A page, and phones that open it: cookies, forms, no JavaScript.
+
+`answering` has the application answer in this process, at once; `running` is a real server, for
+tests of connections, browsers, other processes, and a page that is started again.
+"""
 
 from __future__ import annotations
 
+import asyncio
 import http.client
+import io
+import itertools
 import random
 import re
 import secrets
@@ -11,14 +18,18 @@ import threading
 import urllib.error
 import urllib.parse
 import urllib.request
+import urllib.response
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from functools import partial
+from functools import cache, partial
 from html import unescape
 from http.cookiejar import CookieJar
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from starlette.applications import Starlette
+
+from evenbreak.web.app import make_app
 from evenbreak.web.evening_view import match_view
 from evenbreak.web.server import server_of
 from evenbreak.web.site import Site
@@ -39,14 +50,71 @@ class Shown(NamedTuple):
         return " ".join(unescape(re.sub(r"<[^>]+>", " ", inner)).split())
 
 
+_ANSWERING: dict[str, Starlette] = {}
+_PORTS = itertools.count(1)
+
+
+@cache
+def _loop() -> asyncio.AbstractEventLoop:
+    """The loop that applications answer in, in a thread of its own."""
+    loop = asyncio.new_event_loop()
+    threading.Thread(target=loop.run_forever, daemon=True).start()
+    return loop
+
+
+async def _answer(
+    app: Starlette, req: urllib.request.Request, address: str
+) -> tuple[int, list[tuple[str, str]], bytes]:
+    """Return the status, headers and body that an application answers."""
+    url = urllib.parse.urlsplit(req.full_url)
+    body = req.data if isinstance(req.data, bytes) else b""
+    head = {name.lower(): value for name, value in req.header_items()}
+    host, _, port = url.netloc.partition(":")
+    got: list[Any] = []
+
+    async def receive() -> dict[str, Any]:
+        return {"type": "http.request", "body": body, "more_body": False}
+
+    async def send(message: Any) -> None:
+        got.append(message)
+
+    scope = {
+        "type": "http",
+        "method": req.get_method(),
+        "path": urllib.parse.unquote(url.path),
+        "raw_path": url.path.encode(),
+        "query_string": url.query.encode(),
+        "headers": [(name.encode(), value.encode("latin-1")) for name, value in head.items()],
+        "client": (address, 1),
+        "server": (host, int(port)),
+        "scheme": "http",
+        "http_version": "1.1",
+        "root_path": "",
+    }
+    await app(scope, receive, send)
+    raw = got[0]["headers"]
+    headers = [(name.decode("latin-1"), value.decode("latin-1")) for name, value in raw]
+    return got[0]["status"], headers, b"".join(one.get("body", b"") for one in got[1:])
+
+
 class _From(urllib.request.HTTPHandler):
-    """Opens its connections from one of this computer's addresses."""
+    """Opens its connections from one of this computer's addresses, or asks an application here."""
 
     def __init__(self, address: str) -> None:
         super().__init__()
         self.address = address
 
-    def http_open(self, req: urllib.request.Request) -> http.client.HTTPResponse:
+    def http_open(self, req: urllib.request.Request) -> Any:
+        app = _ANSWERING.get(req.host)
+        if app is not None:
+            asked = asyncio.run_coroutine_threadsafe(_answer(app, req, self.address), _loop())
+            status, headers, body = asked.result(20)
+            message = http.client.HTTPMessage()
+            for name, value in headers:
+                message[name] = value
+            got = urllib.response.addinfourl(io.BytesIO(body), message, req.full_url, status)
+            got.msg = http.client.responses[status]  # type: ignore[attr-defined]
+            return got
         line = partial(http.client.HTTPConnection, source_address=(self.address, 0))
         return self.do_open(line, req)
 
@@ -152,6 +220,11 @@ class Phone:
             return Shown(error.code, text, error.url or "", error.headers)
 
 
+def is_working(text: str) -> bool:
+    """Return whether a page says that figures are still being worked out."""
+    return re.search("<[^>]* data-older", text) is not None  # its script names that, too
+
+
 def style_of(text: str) -> str:
     """Return the address of the style that a page names, which is one."""
     (found,) = re.findall(r'rel="stylesheet" href="([^"]+)"', text)
@@ -182,6 +255,19 @@ def _part(edge: str, named: str, content: bytes) -> bytes:
 def two_phones(site: Site) -> list[Phone]:
     """Return the phones of two players, each with an address of its own."""
     return [Phone(site, address=f"127.0.0.{k}") for k in (2, 3)]
+
+
+@contextmanager
+def answering(path: Path, **asked: Any) -> Iterator[Site]:
+    """Answer what phones ask about a file while the block runs, without a server between."""
+    host = f"127.0.0.1:{next(_PORTS)}"  # lower than those of servers
+    site = Site(path, address=f"http://{host}", **asked)
+    app = _ANSWERING[host] = make_app(site)
+    app.state.watch.close()  # a stream says one thing and ends
+    try:
+        yield site
+    finally:
+        del _ANSWERING[host]
 
 
 def free_port() -> int:

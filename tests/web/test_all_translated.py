@@ -23,6 +23,7 @@ from evenbreak.files.store.team_night import read_team_events
 from evenbreak.teams.evening.fold import team_evening
 from evenbreak.web.site import Site
 from web.asked import Browser, Got, Room
+from web.phones import is_working
 
 pytestmark = pytest.mark.slow
 
@@ -133,7 +134,7 @@ class Evening:
     def look(self, *more: str, inside: str = "/") -> None:
         """Open every page as everyone who may, once its figures are there."""
         for _ in range(MOST_ASKED):
-            if "data-older" not in self.director.open("/").text:
+            if not is_working(self.director.open("/").text):
                 break
             self.room.loop.run_until_complete(asyncio.sleep(0.02))
         for path in self.pages(inside):

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from web.phones import Phone
+from web.phones import Phone, running
 from web.test_team_night import Night, night_of
 
 pytestmark = pytest.mark.thorough
@@ -29,7 +29,7 @@ def page_of(browser: Any, phone: Phone, *, width: int = 390, **asked: Any) -> An
 
 
 def test_axe_objects_to_nothing_and_nothing_scrolls_sideways(browser: Any, tmp_path: Path) -> None:
-    with night_of(tmp_path / "tonight.db", cap="15") as night:
+    with night_of(tmp_path / "tonight.db", running, cap="15") as night:
         night.put(0, "Ann")
         night.put(1, "Wim")
         night.say(0, 1, (4, 2))
@@ -52,7 +52,7 @@ def test_axe_objects_to_nothing_and_nothing_scrolls_sideways(browser: Any, tmp_p
 
 
 def test_a_captains_page_follows_but_leaves_a_choice_alone(browser: Any, tmp_path: Path) -> None:
-    with night_of(tmp_path / "tonight.db", order="blind") as night:
+    with night_of(tmp_path / "tonight.db", running, order="blind") as night:
         page = page_of(browser, night.captains[1])
         page.goto(f"{night.site.address}/team")
         page.get_by_label("Vic").check()
@@ -70,7 +70,7 @@ def test_a_captains_page_follows_but_leaves_a_choice_alone(browser: Any, tmp_pat
 def test_without_scripts_a_captain_puts_up_and_enters_a_result(
     browser: Any, tmp_path: Path
 ) -> None:
-    with night_of(tmp_path / "tonight.db") as night:
+    with night_of(tmp_path / "tonight.db", running) as night:
         page = page_of(browser, night.captains[0], java_script_enabled=False)
         page.goto(f"{night.site.address}/team")
         assert page.locator("meta[http-equiv=refresh]").count() == 0  # a choice would be lost

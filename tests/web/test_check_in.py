@@ -9,13 +9,13 @@ from pathlib import Path
 
 from evenbreak.files.store.tournament import read_tournament
 from web.conftest import PLAYERS, Hall, begun
-from web.phones import Phone, running
+from web.phones import Phone, answering
 from web.test_new_tournament import ASKED
 
 
 def test_the_draw_is_of_those_who_are_here(tmp_path: Path) -> None:
     """The absent wait on the list, a phone registers, the pot is of those who paid."""
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director, guest = Phone(site, director=True), Phone(site)
         director.send("/new", **ASKED, fee=20, added=10)
         shown = director.open("/desk/check-in")
@@ -61,7 +61,7 @@ def test_the_draw_is_of_those_who_are_here(tmp_path: Path) -> None:
 
 
 def test_a_tournament_begins_with_nobody_and_players_register_themselves(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director, phones = Phone(site, director=True), [Phone(site) for _ in range(3)]
         asked = ASKED | {"entrants": "", "scale": "fargo", "tables": 2}
         shown = director.send("/new", **asked)
@@ -99,7 +99,7 @@ def test_the_director_changes_players_and_everybody_sees_them(hall: Hall) -> Non
 
 
 def test_the_night_to_take_home_needs_nobody_else(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         begun(director, PLAYERS[:4])
         hall = Hall(site, director, Phone(site))

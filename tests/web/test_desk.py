@@ -11,7 +11,7 @@ from evenbreak.tournaments.evening import moves
 from evenbreak.tournaments.evening.events import BY_ITSELF, Changed, Event
 from web.asked import forms_in
 from web.conftest import PLAYERS, Hall, begun
-from web.phones import Phone, running
+from web.phones import Phone, answering
 
 
 def on(hall: Hall, table: int) -> str:
@@ -47,7 +47,7 @@ def fields_of(pairs: list[tuple[str, str]]) -> dict[str, object]:
 @pytest.mark.slow
 def test_an_evening_of_nineteen_takes_seventy_five_taps(tmp_path: Path) -> None:
     """The draw, one tap that calls the tables, and two taps for each of 36 results."""
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         begun(director, [f"Player {k}" for k in range(19)])
         hall, tapped = Hall(site, director, Phone(site)), 1

@@ -17,7 +17,7 @@ from evenbreak.web.app import OF_THE_SESSION, make_app
 from evenbreak.web.site import Site
 from places import SRC
 from web.conftest import Hall, begun
-from web.phones import Phone, Shown, running
+from web.phones import Phone, Shown, answering
 
 NAMES = ["Ann", "Ann Smith", "Bo", "Cy", "Di", "Ed"]
 TEAMS = {
@@ -51,7 +51,7 @@ class Forms(HTMLParser):
 
 @pytest.fixture
 def six(tmp_path: Path) -> Iterator[Hall]:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         begun(director, NAMES, format="double", tables=2, seeding="listed")
         yield Hall(site, director, Phone(site))
@@ -169,7 +169,7 @@ def test_a_form_is_known_again_after_a_restart(six: Hall) -> None:
     sent = {**six.director.hidden(), "player": "Ann", "sure": "yes"}
     assert six.director.send_raw("/desk/drop", sent).status == 200
     entered = read_events(six.site.path)
-    with running(six.site.path) as site:
+    with answering(six.site.path) as site:
         six.director.site = site
         shown = six.director.send_raw("/desk/drop", sent)
     assert "nothing was entered twice" in shown.words.lower()
@@ -206,7 +206,7 @@ def test_a_page_of_an_earlier_tournament_changes_nothing_in_the_next(six: Hall) 
 
 
 def test_an_evening_begun_twice_is_begun_once(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         team = {**TEAMS, "once": "t"}
         for _ in range(2):
@@ -225,7 +225,7 @@ def test_a_name_from_a_form_is_nobody_elses_that_begins_like_it(six: Hall) -> No
         before = len(six.state.events)
         shown = six.director.send(f"/desk/{what}", player="Ann S", sure="yes")
         assert (shown.status, len(six.state.events)) == (400, before)
-    with running(six.site.path.with_name("other.db")) as site:
+    with answering(six.site.path.with_name("other.db")) as site:
         director = Phone(site, director=True)
         begun(director, NAMES[:3])
         director.send("/desk/undo", entry=2, sure="yes")

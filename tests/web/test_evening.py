@@ -25,7 +25,7 @@ from evenbreak.tournaments.evening.fold import Evening
 from evenbreak.tournaments.money.payouts import PrizeMoney
 from evenbreak.web.night import mark_of
 from web.conftest import Hall, begun
-from web.phones import Phone, running, style_of, two_phones
+from web.phones import Phone, answering, is_working, style_of, two_phones
 
 Decide = Callable[[Evening], object]
 
@@ -74,7 +74,7 @@ def test_an_evening_ends_as_by_commands(hall: Hall, tmp_path: Path) -> None:
         shown = hall.guest.open("/")
         if "Result" in shown.words:
             break
-        assert "data-older" in shown.text
+        assert is_working(shown.text)
         time.sleep(0.1)
     assert "Result" in shown.words
 
@@ -196,7 +196,7 @@ def test_the_first_page_is_small_even_where_it_is_not_compressed(
 
     player = Phone(standing_hall.site, address="127.0.0.5")
     assert player.claims("Player 5").status == 200
-    with running(tmp_path / "before.db") as site:
+    with answering(tmp_path / "before.db") as site:
         for phone in (standing_hall.guest, player, Phone(site)):
             for path in ("/", "/me"):
                 assert phone.travels(path) < size(phone, path) / 2 < 30_000
@@ -302,7 +302,7 @@ def test_players_see_when_they_play_next_and_what_they_may_win(hall: Hall) -> No
 def test_pages_follow_a_file_of_any_name(tmp_path: Path) -> None:
     path = tmp_path / "pool #3 50%?.db"
     assert rows_from(path, 0, 9) == []
-    with running(path) as site:
+    with answering(path) as site:
         begun(Phone(site, director=True), ["Ann", "Bo"])
     assert rows_from(path, 0, 9)
     assert [one.name for one in tmp_path.iterdir() if not one.name.startswith(path.name)] == []

@@ -6,11 +6,11 @@ from pathlib import Path
 from click.testing import CliRunner
 
 from evenbreak.cli.program import program
-from web.phones import Phone, running
+from web.phones import Phone, answering
 
 
 def test_the_page_says_of_levels_what_the_command_says(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         phone = Phone(site)
         for chart, needs in (("apa_8ball", "4:2"), ("apa_9ball", "38:25")):
             page = phone.open("/fair", a="5", b="3", scale=chart, race="5").words

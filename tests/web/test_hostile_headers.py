@@ -144,9 +144,9 @@ def answer(hall: Hall, request: bytes) -> bytes:
 
 
 @pytest.fixture
-def cookie(standing_hall: Hall) -> Iterator[str]:
+def cookie(served_hall: Hall) -> Iterator[str]:
     """The cookie of a director."""
-    director = Phone(standing_hall.site, director=True)
+    director = Phone(served_hall.site, director=True)
     (kept,) = director.jar
     yield f"{kept.name}={kept.value}"
     assert director.open("/desk").status == 200  # the page goes on
@@ -154,37 +154,37 @@ def cookie(standing_hall: Hall) -> Iterator[str]:
 
 @pytest.mark.slow
 def test_no_head_makes_the_page_fail(
-    standing_hall: Hall, cookie: str, monkeypatch: pytest.MonkeyPatch
+    served_hall: Hall, cookie: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(guard, "PATIENCE", 0.2)
     for seed in range(TRIES):
         luck = random.Random(seed)
-        lines, body = head_of(luck, standing_hall, cookie)
+        lines, body = head_of(luck, served_hall, cookie)
         method = luck.choice(["GET", "POST", "POST", "HEAD", "PUT", "OPTIONS", "get"])
         path = luck.choice(FORMS if method == "POST" else PATHS)
         head = "".join(f"{name}: {value}\r\n" for name, value in lines)
         request = f"{method} {path} HTTP/1.1\r\n{head}\r\n".encode("latin-1", "replace") + body
-        found = answer(standing_hall, request)
+        found = answer(served_hall, request)
         assert not found.startswith(b"HTTP/1.1 5"), (seed, request)
 
 
 @pytest.mark.parametrize("charset", [*CHARSETS, "latin-1", "utf-8"])
-def test_no_charset_of_a_form_makes_the_page_fail(standing_hall: Hall, charset: str) -> None:
-    place = urlsplit(standing_hall.site.address).netloc
+def test_no_charset_of_a_form_makes_the_page_fail(served_hall: Hall, charset: str) -> None:
+    place = urlsplit(served_hall.site.address).netloc
     for kind in (KINDS[0], KINDS[3]):
         for body in BODIES:
             head = (
                 f"POST /pin HTTP/1.1\r\nHost: {place}\r\nContent-Length: {len(body)}\r\n"
                 f"Content-Type: {kind.format(charset=charset)}\r\n\r\n"
             )
-            found = answer(standing_hall, head.encode("latin-1") + body)
+            found = answer(served_hall, head.encode("latin-1") + body)
             assert found.startswith(b"HTTP/1.1 4"), (kind, body)
 
 
 @pytest.mark.parametrize("pieces", [1, 20])
 @pytest.mark.parametrize("where", ["one line", "many lines", "address"])
-def test_a_head_that_is_too_large_is_refused(standing_hall: Hall, where: str, pieces: int) -> None:
-    place, large = urlsplit(standing_hall.site.address), "x" * 40_000
+def test_a_head_that_is_too_large_is_refused(served_hall: Hall, where: str, pieces: int) -> None:
+    place, large = urlsplit(served_hall.site.address), "x" * 40_000
     head = {
         "one line": f"GET / HTTP/1.1\r\nCookie: a={large}\r\n",
         "many lines": "GET / HTTP/1.1\r\n" + f"X-A: {'x' * 90}\r\n" * 400,
@@ -199,4 +199,4 @@ def test_a_head_that_is_too_large_is_refused(standing_hall: Hall, where: str, pi
                 time.sleep(0.001 * (pieces > 1))
         with suppress(ConnectionResetError):
             assert line.recv(13) in (b"HTTP/1.1 431 ", b"HTTP/1.1 400 ")
-    assert standing_hall.guest.open("/").status == 200
+    assert served_hall.guest.open("/").status == 200

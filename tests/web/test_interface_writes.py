@@ -15,6 +15,7 @@ from evenbreak.files.store.tokens import create_token, revoke_token
 from evenbreak.files.store.tournament import read_events
 from evenbreak.web.site import Site
 from web.asked import Browser, Got, Room
+from web.conftest import copied
 from web.test_who_may import NEW
 
 AT = "2025-03-01T19:00:00"
@@ -26,8 +27,6 @@ class Night:
     def __init__(self, path: Path) -> None:
         self.path, self.room = path, room_on(path)
         self.director = Browser(self.room, director=True)
-        for where, fields in (("/new", NEW), ("/desk/draw", {})):
-            assert self.director.send(where, **fields).status == 303
         self.tokens = {
             name: create_token(path, name, scope, AT)
             for name, scope in {"board": "scores", "desk": "director", "tv": "table:2"}.items()
@@ -50,9 +49,20 @@ def room_on(path: Path) -> Room:
     return Room(Site(path, hosts=frozenset({"localhost"})))
 
 
+@pytest.fixture(scope="module")
+def opened(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The file that each night is copied from."""
+    path = tmp_path_factory.mktemp("opened") / "tonight.db"
+    with closing(room_on(path)) as room:
+        director = Browser(room, director=True)
+        for where, fields in (("/new", NEW), ("/desk/draw", {})):
+            assert director.send(where, **fields).status == 303
+    return path
+
+
 @pytest.fixture
-def night(tmp_path: Path) -> Iterator[Night]:
-    found = Night(tmp_path / "tonight.db")
+def night(opened: Path, tmp_path: Path) -> Iterator[Night]:
+    found = Night(copied(opened, tmp_path / "tonight.db"))
     with closing(found.room):
         yield found
 

@@ -20,7 +20,7 @@ from evenbreak.ratings.usual import usual_ratings
 from evenbreak.web.league import League
 from places import DATA
 from web.conftest import Hall
-from web.phones import Phone, Shown, running
+from web.phones import Phone, Shown, answering, is_working
 
 RUDE = "=1+1<script>alert(1)</script>"
 SMALL = f"""player_a,player_b,score_a,score_b
@@ -42,7 +42,7 @@ def worked_out(phone: Phone) -> Shown:
     """Wait for the ratings."""
     for _ in range(200):
         shown = phone.open("/league")
-        if "data-older" not in shown.text:
+        if not is_working(shown.text):
             return shown
         time.sleep(0.02)
     raise AssertionError(shown.words)
@@ -50,7 +50,7 @@ def worked_out(phone: Phone) -> Shown:
 
 @pytest.fixture(scope="module")
 def director(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
-    with running(tmp_path_factory.mktemp("league") / "tonight.db") as site:
+    with answering(tmp_path_factory.mktemp("league") / "tonight.db") as site:
         phone = Phone(site, director=True)
         rated(phone, (DATA / "demo_league.csv").read_text(encoding="utf-8"))
         yield phone
@@ -75,7 +75,7 @@ def test_a_player_sees_matches_and_why_a_race_is_fair(director: Phone) -> None:
     first, second, *_ = read_results(DATA / "demo_league.csv").results.players
     for _ in range(100):
         shown = guest.open("/league/player", name=first, other=second)
-        if "data-older" not in shown.text:
+        if not is_working(shown.text):
             break
         time.sleep(0.05)
     assert shown.text.count("<tr>") > 10
@@ -118,11 +118,11 @@ def test_wrong_results_are_refused_by_line_and_the_old_ones_kept(director: Phone
 
 def test_rude_names_do_no_harm_and_a_restart_goes_on(tmp_path: Path) -> None:
     path = tmp_path / "tonight.db"
-    with running(path) as site:
+    with answering(path) as site:
         shown = rated(Phone(site, director=True), SMALL)
         assert "<script>alert" not in shown.text
     assert (tmp_path / "tonight.league.csv").read_text(encoding="utf-8").split() == SMALL.split()
-    with running(path) as site:
+    with answering(path) as site:
         guest = Phone(site)
         for _ in range(200):
             if "علي" in guest.open("/league").words:
@@ -139,7 +139,7 @@ def test_rude_names_do_no_harm_and_a_restart_goes_on(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_the_leagues_ratings_serve_tonight(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         rated(director, (DATA / "demo_league.csv").read_text(encoding="utf-8"))
         one, other, *_ = site.league.sheet.ratings.players
@@ -168,7 +168,7 @@ def test_a_match_known_by_its_winner_and_a_handicapped_one_are_shown_as_they_end
 ) -> None:
     season = "date,player_a,player_b,race_a,race_b,score_a,score_b,winner\n"
     season += "2026-01-05,Ann,Bo,5,3,4,3,b\n2026-01-12,Bo,Ann,7,7,,,a\n"
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         rated(director, season)
         rows = director.open("/league/player", name="Bo").text.split("<tr>")[2:]
@@ -184,7 +184,7 @@ def test_whatever_goes_wrong_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyP
         raise ArithmeticError("the ratings did not settle")
 
     monkeypatch.setattr(usual, "usual_ratings", fail)
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         shown = rated(Phone(site, director=True), SMALL)
         assert "The ratings did not settle" in shown.words
 
@@ -248,7 +248,7 @@ def test_results_that_are_replaced_stay_in_a_file(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_a_visitor_has_no_place_whatever_the_rating(tmp_path: Path) -> None:
     rounds = "Ann,Bo,7,6\nBo,Cy,7,5\nCy,Di,7,6\nAnn,Di,7,4\n" * 6
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         phone = Phone(site, director=True)
         shown = rated(phone, f"player_a,player_b,score_a,score_b\n{rounds}Eve,Ann,7,0\n")
         words = shown.words

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from evenbreak.files.league.league_file import read_league
-from web.phones import Phone, running
+from web.phones import Phone, answering
 
 RULES = """\
 scale = "fargo"
@@ -35,7 +35,7 @@ def as_they_stand(text: str) -> dict[str, str]:
 def begun(tmp_path):
     def fields(races: str, path: str) -> dict[str, str]:
         Path(tmp_path, "league.toml").write_text(RULES.format(races=races))
-        with running(tmp_path / "tonight.db") as site:
+        with answering(tmp_path / "tonight.db") as site:
             site.rules = read_league(tmp_path)
             director = Phone(site, director=True)
             return as_they_stand(director.open(path).text)

@@ -10,7 +10,7 @@ from evenbreak.tournaments.evening.events import Event, Renamed, Result
 from evenbreak.web.codes import LETTERS
 from tries import tries
 from web.conftest import Hall, begun
-from web.phones import Phone, Shown, running, two_phones
+from web.phones import Phone, Shown, answering, two_phones
 
 SEEDS = tries("taps of one address", 4)
 
@@ -145,7 +145,7 @@ def test_claims_and_proposals_outlast_a_restart_and_hold_for_every_server(hall: 
     owner = Player(hall, "127.0.0.2")
     owner.claims(0)
     owner.sends(3, 1)
-    with running(hall.site.path) as again:
+    with answering(hall.site.path) as again:
         thief, other = two_phones(again)
         assert thief.claims(owner.pair[0]).status == 409
         assert other.claims(owner.pair[1]).status == 200
@@ -239,7 +239,7 @@ def test_a_table_s_page_leads_its_players_to_their_own(hall: Hall) -> None:
 
 @pytest.mark.slow
 def test_many_matches_of_honest_phones_are_entered_without_the_director(tmp_path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         begun(director, [f"P{k}" for k in range(8)])
         hall = Hall(site, director, Phone(site))

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from evenbreak.files.store.tournament import read_tournament
-from web.phones import Phone, running
+from web.phones import Phone, answering
 
 NAMES = [
     *("Tom and Jerry", "W1.1/Final", "Bo beat Ann 7:5", "winner of W1.1", "Jr. Smith", "Al in F"),
@@ -13,7 +13,7 @@ WRONG = ["Tom und Jerry", "W1.1/Finale", "Bo schlägt Ann", "Sieger von W1.1,", 
 
 
 def test_nobody_is_renamed_on_a_german_page(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True, language="de")
         heard: list[str] = []
 
@@ -52,7 +52,7 @@ def test_nobody_is_renamed_on_a_german_page(tmp_path: Path) -> None:
 
 def test_no_team_is_renamed_on_a_german_page(tmp_path: Path) -> None:
     teams = ("winner of W1.1", "the Shark")
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True, language="de")
         plan = {"race": 3, "races": "even", "order": "alternate", "scale": "fargo", "count": "sets"}
         ours, theirs = "Tom and Jerry,612\nPlayer and Son,590", "draw,600\nFinal,580"

@@ -16,7 +16,7 @@ from evenbreak.tournaments.money.payouts import PrizeMoney
 from rows import each_of
 from tournament_nights import timed_night
 from web.conftest import PLAYERS, Hall, begun
-from web.phones import Phone, running
+from web.phones import Phone, answering
 from web.test_same_questions import Fields
 
 ASKED = {
@@ -36,7 +36,7 @@ ASKED = {
 def test_each_format_begins_and_is_drawn(tmp_path: Path, kind: str) -> None:
     if kind == "swiss":
         pytest.importorskip("caissify_pairings", reason="pairings of a Swiss need evenbreak[swiss]")
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         size = {"pod_size": 4} if kind == "pods" else {}
         begun(director, PLAYERS[:6], format=kind, losers_race="", chips="hoboken", **size)
@@ -45,7 +45,7 @@ def test_each_format_begins_and_is_drawn(tmp_path: Path, kind: str) -> None:
 
 
 def test_what_a_form_says_is_what_is_planned(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         for given, wanted in (
             ({"final": "single"}, {"final": "single"}),
@@ -66,7 +66,7 @@ def test_what_a_form_says_is_what_is_planned(tmp_path: Path) -> None:
 
 
 def test_a_second_tap_on_begin_leads_to_the_same_tournament(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         for _ in range(2):
             shown = director.send("/new", **ASKED)
@@ -77,7 +77,7 @@ def test_a_second_tap_on_begin_leads_to_the_same_tournament(tmp_path: Path) -> N
 def test_what_is_said_fits_into_a_cookie_in_every_script(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director, sizes = Phone(site, director=True), []
         keep = director.jar.set_cookie
         monkeypatch.setattr(director.jar, "set_cookie", lambda one: sizes.append(one) or keep(one))
@@ -88,7 +88,7 @@ def test_what_is_said_fits_into_a_cookie_in_every_script(
 
 def test_doubtful_lines_are_asked_about_and_taken_as_answered(tmp_path: Path) -> None:
     pasted = "Players:\n1. Ann Lee 612\n2. Bo 500, paid\n3. Ann Lee\n4. Cy 480  Di 470\n5. Ed 312 x"
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         shown = director.send("/new", **ASKED | {"entrants": pasted, "tables": "1, TV"})
         assert shown.status == 200
@@ -108,7 +108,7 @@ def test_doubtful_lines_are_asked_about_and_taken_as_answered(tmp_path: Path) ->
 
 
 def test_next_week_has_the_same_people_and_options(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         plan = {"name": "Tuesday", "tables": "5-6, TV", "losers_race": 2, "slower": "1.3"}
         money = {"fee": 20, "house": 10, "unit": 5, "payout": "70/30"}
@@ -141,7 +141,7 @@ def test_a_tournament_is_deleted_once_that_is_meant_and_a_copy_stays(hall: Hall)
 
 
 def test_players_come_in_a_file(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         ann = {"file": b"player,rating\nAnn,612\nBo,540\n"}
         assert director.send_files("/new", ann, **ASKED | {"entrants": ""}).status == 200
@@ -155,7 +155,7 @@ def again(director: Phone) -> dict[str, str]:
 
 
 def test_a_new_tournament_learns_from_those_in_its_folder(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         assert director.send("/new", **ASKED).status == 200
         before = read_tournament(site.path)
@@ -170,7 +170,7 @@ def test_a_new_tournament_learns_from_those_in_its_folder(tmp_path: Path) -> Non
         assert "Your last night of 9-ball at this venue ran" in director.open("/desk/time").words
         assert director.send("/new", **ASKED, **again(director)).status == 200
         assert read_tournament(site.path).plan.earlier == ()
-    with running(tmp_path / "next.db") as site:
+    with answering(tmp_path / "next.db") as site:
         assert (
             "at this venue ran"
             in Phone(site, director=True).send("/new", **ASKED, pace="yes").words
@@ -180,7 +180,7 @@ def test_a_new_tournament_learns_from_those_in_its_folder(tmp_path: Path) -> Non
 
 @pytest.fixture(scope="module")
 def nothing_begun(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
-    with running(tmp_path_factory.mktemp("nothing") / "tonight.db") as site:
+    with answering(tmp_path_factory.mktemp("nothing") / "tonight.db") as site:
         yield Phone(site, director=True)
 
 
@@ -223,7 +223,7 @@ def test_a_form_that_is_refused_comes_back_as_it_was(
 
 
 def test_doubtful_ratings_are_said(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         shown = director.send("/new", **ASKED | {"scale": "npl"})
         assert "Is it the right scale?" in shown.words
@@ -313,7 +313,7 @@ def test_odds_that_fail_leave_the_director_a_desk(
     plan = Plan("single", 3, scale="fargo", tables=2)
     what = Opened(plan, tuple(Entrant(n, 500.0) for n in ("Ann", *PLAYERS[:3])))
     new_tournament(path, [Event("2025-03-01T19:30:00", what)])
-    with running(path) as site:
+    with answering(path) as site:
         director, guest = Phone(site, director=True), Phone(site)
         assert director.send("/desk/draw").status == 200
         for page in ("/", "/screen", "/players", "/bracket", "/prizes?fee=10"):
@@ -327,7 +327,7 @@ def test_odds_that_fail_leave_the_director_a_desk(
 
 
 def test_an_entry_is_corrected_before_the_draw(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         director.send("/new", **ASKED)
         assert director.send("/desk/edit", player="Bo", name="Bo Lee").status == 200
@@ -387,7 +387,7 @@ def test_somebody_who_goes_home_is_asked_for_twice(hall: Hall) -> None:
 @pytest.mark.slow
 def test_provisional_ratings_are_marked_and_listed_last(tmp_path: Path) -> None:
     entered = "player,rating,games\nAnn,500,300\nBo,640,12\nCy,480,400\nDi,,0\n"
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         asked = ASKED | {"entrants": entered, "format": "single"}
         assert director.send("/new", **asked).status == 200

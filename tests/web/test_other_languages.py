@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from web.phones import Phone, running
+from web.phones import Phone, answering
 
 HEAD = 'msgid ""\nmsgstr ""\n"Content-Type: text/plain; charset=utf-8\\n"\n'
 
@@ -41,7 +41,7 @@ def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: 
     }
     won = {"{winner} beat {loser} {score}": "{winner} bat {loser} {score}"}
     catalog(locale, "fr", said | won)
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         begin(site)
         director = Phone(site, director=True, language="fr")
         shown = director.open("/")
@@ -56,7 +56,7 @@ def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: 
 
 def test_english_can_be_said_in_other_words(tmp_path: Path, locale: Path) -> None:
     catalog(locale, "en", {"{winner} beat {loser} {score}": "{loser} lost to {winner}"})
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = begin(site)
         words = director.send("/desk/result", match="F", a=3, b=1).words
         assert "the Shark lost to Tom and Jerry" in words

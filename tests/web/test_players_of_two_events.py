@@ -2,6 +2,8 @@
 
 import random
 import re
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -9,14 +11,28 @@ from evenbreak.files.store.desk import phone_entries
 from evenbreak.files.store.tournament import read_tournament
 from evenbreak.web.codes import LETTERS
 from evenbreak.web.site import Site
-from web.conftest import Hall
-from web.phones import Phone, free_port, running
+from web.conftest import Hall, copied, hall_of
+from web.phones import Phone, answering, free_port
 from web.test_kills import started
 
 
+@pytest.fixture(scope="module")
+def second_chance(drawn: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The file of a night whose losers play a second chance, its first match on table 3."""
+    path = copied(drawn, tmp_path_factory.mktemp("two") / "tonight.db")
+    with hall_of(path) as hall:
+        starts(hall)
+    return path
+
+
 @pytest.fixture
-def two(hall: Hall) -> Hall:
-    """Four are out, and play a second chance: its first match is on table 3."""
+def two(second_chance: Path, tmp_path: Path) -> Iterator[Hall]:
+    with hall_of(copied(second_chance, tmp_path / "tonight.db")) as hall:
+        yield hall
+
+
+def starts(hall: Hall) -> None:
+    """Let four lose twice, and start the second chance."""
     for match in [f"W1.{k}" for k in range(1, 9)] + [f"L1.{k}" for k in range(1, 5)]:
         assert hall.director.send("/desk/result", match=match, a=2 + (match[0] == "W"), b=0)
     for match in hall.state.on_tables:
@@ -25,7 +41,6 @@ def two(hall: Hall) -> Hall:
     assert hall.director.send("/desk/draw", event=2).status == 200
     first = next(iter(second(hall).standing.to_play))
     assert hall.director.send("/desk/call", match=first, table=3, event=2).status == 200
-    return hall
 
 
 def second(hall: Hall):
@@ -134,7 +149,7 @@ def test_phones_go_on_after_a_kill_on_another_address_by_their_codes(hall: Hall)
     assert "counts once" in one.send_raw("/me/score", form).words
     server.kill()
     server.wait()
-    with running(path) as again:  # another port; phones know it by the wall's code
+    with answering(path) as again:  # another port; phones know it by the wall's code
         known = phone_entries(path)
         one.site = again
         assert one.send_raw("/me/score", form).status == 200  # the form that was kept

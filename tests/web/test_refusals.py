@@ -20,7 +20,7 @@ from evenbreak.web.sessions import check_tries
 from evenbreak.web.site import Site
 from files.tables.test_hostile_workbooks import Make, cut, huge_row, repeated_columns, wide_cell
 from web.conftest import Hall, begun
-from web.phones import Phone, running
+from web.phones import Phone, answering, running
 
 CHANGES = ["draw", "call", "result", "forfeit", "drop", "undo", "save", "late", "pin"]
 
@@ -68,8 +68,8 @@ def test_the_token_of_another_session_is_refused(standing_hall: Hall) -> None:
 
 
 @pytest.mark.parametrize("host", ["evil.example", "evil.example:8000", "127.0.0.1.evil.example"])
-def test_a_foreign_host_is_refused(standing_hall: Hall, host: str) -> None:
-    assert raw(standing_hall, "GET", "/", Host=host)[0] == 421
+def test_a_foreign_host_is_refused(served_hall: Hall, host: str) -> None:
+    assert raw(served_hall, "GET", "/", Host=host)[0] == 421
 
 
 def test_a_wrong_pin_is_refused_and_soon_every_pin(hall: Hall) -> None:
@@ -100,7 +100,7 @@ def test_a_new_pin_shuts_out_who_entered_the_old_one(hall: Hall) -> None:
 
 
 def test_secrets_are_kept_in_a_file_that_a_command_begins(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         plan, entrants = Plan("single", 3), (Entrant("Ann", 80.0), Entrant("Bo", 70.0))
         new_tournament(site.path, [Event("2025-03-01T19:30:00", Opened(plan, entrants))])
@@ -118,7 +118,7 @@ def test_the_director_gets_in_at_the_computer_while_others_guess(hall: Hall) -> 
 
 
 def test_two_pages_on_one_computer_keep_their_sessions_apart(tmp_path: Path) -> None:
-    with running(tmp_path / "one.db") as one, running(tmp_path / "other.db") as other:
+    with answering(tmp_path / "one.db") as one, answering(tmp_path / "other.db") as other:
         phone = Phone(one, director=True)
         phone.site, phone.kept = other, ""
         phone.open("/")
@@ -155,15 +155,15 @@ def test_a_guest_cannot_ask_for_a_race_without_end(standing_hall: Hall, length: 
     assert "from 1 to 100" in shown.words
 
 
-def test_too_large_a_body_is_refused(standing_hall: Hall) -> None:
+def test_too_large_a_body_is_refused(served_hall: Hall) -> None:
     size = str(guard.MOST_BYTES + 1)
-    status, text = raw(standing_hall, "POST", "/pin", Content_Length=size)
+    status, text = raw(served_hall, "POST", "/pin", Content_Length=size)
     assert (status, "Send less" in text) == (413, True)
     body = b"".join(b"10000\r\n" + b"x" * 65536 + b"\r\n" for _ in range(40)) + b"0\r\n\r\n"
     kind = "application/x-www-form-urlencoded"
     try:
         status, _ = raw(
-            standing_hall, "POST", "/pin", body, Transfer_Encoding="chunked", Content_Type=kind
+            served_hall, "POST", "/pin", body, Transfer_Encoding="chunked", Content_Type=kind
         )
     except (BrokenPipeError, ConnectionResetError):
         return  # refused before everything was sent
@@ -181,9 +181,9 @@ def test_a_hostile_workbook_ends_no_server(hall: Hall, make: Make) -> None:
     assert hall.guest.open("/").status == 200
 
 
-def test_a_slow_body_is_cut_off(standing_hall: Hall, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_slow_body_is_cut_off(served_hall: Hall, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(guard, "PATIENCE", 0.2)
-    place = urlsplit(standing_hall.site.address)
+    place = urlsplit(served_hall.site.address)
     with socket.create_connection((place.hostname, place.port), timeout=5) as line:
         head = f"POST /pin HTTP/1.1\r\nHost: {place.netloc}\r\nContent-Length: 50\r\n"
         line.sendall(f"{head}Content-Type: application/x-www-form-urlencoded\r\n\r\nc".encode())
@@ -215,8 +215,8 @@ def test_connections_that_ask_for_nothing_are_ended(
 @pytest.mark.parametrize(
     "path", ["/../etc/passwd", "/c/..%2f..%2fetc", "/c/x", "/evenbreak.css/..", "/%00", "/desk/x"]
 )
-def test_paths_lead_nowhere(standing_hall: Hall, path: str) -> None:
-    status, text = raw(standing_hall, "GET", path)
+def test_paths_lead_nowhere(served_hall: Hall, path: str) -> None:
+    status, text = raw(served_hall, "GET", path)
     assert status in (403, 404, 405)
     assert "root:" not in text
 
@@ -236,7 +236,7 @@ def test_names_are_text_everywhere(hall: Hall) -> None:
     for page in ("/", "/desk", "/bracket", "/screen", "/desk/history"):
         assert hall.director.open(page).status == 200
     other = hall.site.path.with_name("other.db")
-    with running(other) as site:
+    with answering(other) as site:
         director = Phone(site, director=True)
         begun(director, [*NASTY, "Ann"], seeding="listed")
         for page in ("/", "/desk", "/bracket", "/screen", "/desk/codes", "/desk/history"):

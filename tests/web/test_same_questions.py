@@ -28,7 +28,7 @@ from evenbreak.questions.tournament import NewTournament
 from evenbreak.ratings.scale import DEFAULT_SCALE
 from evenbreak.tournaments.evening.format import LONGEST_RACE
 from rows import each_of
-from web.phones import Phone, running
+from web.phones import Phone, answering
 
 
 class Fields(HTMLParser):
@@ -70,7 +70,7 @@ class Fields(HTMLParser):
 
 @pytest.fixture(scope="module")
 def director(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Phone]:
-    with running(tmp_path_factory.mktemp("asked") / "tonight.db") as site:
+    with answering(tmp_path_factory.mktemp("asked") / "tonight.db") as site:
         yield Phone(site, director=True)
 
 
@@ -195,7 +195,7 @@ def test_a_list_means_the_same_on_the_page_and_on_the_terminal(tmp_path: Path, t
     path.write_text(text)
     words = ["tournament", "new", str(path), "--race", "5", "--tables", "2"]
     typed = CliRunner().invoke(program, [*words, "--out", str(tmp_path / "typed.db")])
-    with running(tmp_path / "page.db") as site:
+    with answering(tmp_path / "page.db") as site:
         fields = Fields(Phone(site, director=True).open("/new").text).usual
         asked = {k: v for k, v in fields.items() if k not in ("csrf", "", "file", "in_place_of")}
         shown = Phone(site, director=True).send(

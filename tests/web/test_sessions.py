@@ -7,7 +7,7 @@ import pytest
 
 from evenbreak.web.site import Site
 from web.conftest import Hall, begun
-from web.phones import Phone, running
+from web.phones import Phone, answering
 from web.test_kills import begun as begun_by_command
 
 
@@ -24,7 +24,7 @@ class Copy(Phone):
 @pytest.fixture
 def servers(hall: Hall) -> Iterator[tuple[Site, Site]]:
     """Two servers on one file."""
-    with running(hall.site.path) as other:
+    with answering(hall.site.path) as other:
         yield hall.site, other
 
 
@@ -55,7 +55,7 @@ def test_a_cookie_is_good_for_nothing_once_its_owner_has_left(servers: tuple[Sit
     assert [copy.open("/desk").status for copy in copies] == [403, 403]
     assert [copy.send("/desk/save").status for copy in copies] == [403, 403]
     assert stays.open("/desk").status == 200
-    with running(one.path) as again:
+    with answering(one.path) as again:
         assert Copy(copies[0], again).open("/desk").status == 403
     assert leaves.send("/pin", pin=one.pin).status == 200
     assert leaves.open("/desk").status == 200
@@ -63,7 +63,7 @@ def test_a_cookie_is_good_for_nothing_once_its_owner_has_left(servers: tuple[Sit
 
 
 def test_who_leaves_before_the_tournament_begins_has_left_too(tmp_path: Path) -> None:
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         leaves, director = Phone(site, director=True), Phone(site, director=True)
         copy = Copy(leaves, site)
         leaves.send("/leave")

@@ -5,8 +5,8 @@ import json
 import re
 import threading
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,7 +22,7 @@ from evenbreak.teams.evening.events import LevelsTonight, meeting_of
 from evenbreak.teams.evening.fold import TeamEvening, team_evening
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
-from web.phones import Phone, Shown, running
+from web.phones import Phone, Shown, answering, running
 
 RACKS = {"Ann": (640, 6), "Bo": (560, 5), "Cleo": (500, 5), "Dan": (450, 4)}
 CUES = {"Uli": (600, 6), "Vic": (580, 5), "Wim": (490, 4)}
@@ -51,7 +51,7 @@ def fields(**how: object) -> dict[str, object]:
 
 
 class Night(NamedTuple):
-    """A running page with a team night, and the phones in the room."""
+    """A page with a team night, and the phones in the room."""
 
     site: Site
     director: Phone
@@ -87,8 +87,10 @@ class Night(NamedTuple):
 
 
 @contextmanager
-def night_of(path: Path, **how: object) -> Iterator[Night]:
-    with running(path) as site:
+def night_of(
+    path: Path, opened: Callable[[Path], AbstractContextManager[Site]] = answering, **how: object
+) -> Iterator[Night]:
+    with opened(path) as site:
         director = Phone(site, director=True)
         shown = director.send("/team/new", **fields(**how))
         assert shown.status == 200, shown.words
@@ -217,7 +219,7 @@ def test_a_night_by_skill_level_alone(
         for side in (0, 1):
             night.say(side, 1, score)
         assert brought in night.guest.open("/team").words
-    with running(tmp_path / "other.db") as site:
+    with answering(tmp_path / "other.db") as site:
         lists["players_b"] = "player,level\nUli,6\nVic,\nWim,4"
         shown = Phone(site, director=True).send("/team/new", **fields(**lists, races=chart))
         assert "Vic has no skill level" in shown.words
@@ -244,13 +246,13 @@ def test_a_night_by_levels_goes_by_the_leagues_own_results(tmp_path: Path, own: 
     assert ("your own results" in told["sentences"][-1]) is own
     path = tmp_path / "tonight.db"
     lists = {"players_a": by_level(RACKS), "players_b": by_level(CUES), "scale": ""}
-    with running(path) as site:
+    with answering(path) as site:
         site.rules = read_league(tmp_path)
         shown = Phone(site, director=True).send("/team/new", **fields(**lists, races="apa_8ball"))
         assert told["sentences"][-1] in shown.words  # what the chances rest on
     (tmp_path / "results.csv").unlink()
     meeting_of.cache_clear()
-    with running(path) as site:
+    with answering(path) as site:
         state = team_evening(read_team_events(path))
         assert state is not None
         captain = Phone(site)
@@ -405,7 +407,7 @@ def test_a_night_survives_a_restart_and_needs_no_tournament(tmp_path: Path) -> N
     path = tmp_path / "tonight.db"
     with night_of(path) as night:
         night.put(0, "Ann")
-    with running(path) as site:
+    with answering(path) as site:
         for phone in (night.director, *night.captains):
             phone.site = site
         again = night._replace(site=site, guest=Phone(site))
@@ -424,7 +426,7 @@ def test_a_night_survives_a_restart_and_needs_no_tournament(tmp_path: Path) -> N
     entrants = tuple(Entrant(name, 500.0) for name in RACKS)
     new_tournament(path, [Event(AT, Opened(Plan("single", 3, scale="fargo"), entrants))])
     assert len(read_tournament(path).entrants) == 4
-    with running(path) as site:
+    with answering(path) as site:
         guest = Phone(site)
         assert "4 players have entered" in guest.open("/").words
         assert "Ann – Wim" in guest.open("/team").words
@@ -433,7 +435,7 @@ def test_a_night_survives_a_restart_and_needs_no_tournament(tmp_path: Path) -> N
 
 def test_serve_takes_a_file_with_a_team_night_alone(tmp_path: Path) -> None:
     path = tmp_path / "tonight.db"
-    with night_of(path) as night:
+    with night_of(path, running) as night:
         port = night.site.address.rpartition(":")[2]
         shown = CliRunner().invoke(program, ["serve", str(path), "--port", port])
     assert shown.exit_code == 2
@@ -577,7 +579,7 @@ def test_all_choices_of_the_form_make_the_plan(tmp_path: Path) -> None:
 
 def test_each_team_may_come_in_a_file(tmp_path: Path) -> None:
     teams = {"file_a": listed(RACKS).encode(), "file_b": listed(CUES).encode()}
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         asked = fields(players_a="", players_b="")
         shown = Phone(site, director=True).send_files("/team/new", teams, **asked)
         assert shown.status == 200, shown.words
@@ -592,7 +594,7 @@ def test_players_without_a_rating_have_that_of_the_league(tmp_path: Path) -> Non
         for k, (a, b) in enumerate(itertools.permutations(names, 2))
     ]
     results = "\n".join(["player_a,player_b,score_a,score_b", *rows])
-    with running(tmp_path / "tonight.db") as site:
+    with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         director.send("/league", results=results, scale="fargo", race=7)
         for _ in range(200):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Collection, Iterator, Mapping
-from functools import cache
+from functools import cache, lru_cache
 
 from evenbreak.ratings.results_frame import FORFEITS
 
@@ -235,6 +235,7 @@ OTHER_COUNTS: Mapping[str, str] = {
 """Numbers about a match that are never games won."""
 
 
+@lru_cache(1 << 14)
 def key_of(text: str) -> str:
     """Return a title or word in the form used for comparing: letters and digits, in one case.
 
