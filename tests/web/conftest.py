@@ -54,7 +54,7 @@ def begun(director: Phone, players: list[str], **plan: object) -> None:
 
 @pytest.fixture(scope="module", autouse=True)
 def few_evenings() -> Iterator[None]:
-    """Each entry has the page work out the night's finish: of 100 evenings, not 2000, and no rest."""
+    """Each entry has the page work out the finish: of 100 evenings, not 2000, without a rest."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(beside, "_MOST_REST", 0.0)
         patch.setitem(finish.__kwdefaults__, "runs", 100)

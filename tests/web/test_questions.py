@@ -194,6 +194,8 @@ def test_numbers_are_numbers(browser: Browser) -> None:
     assert got.json["p_win_a"] == browser.tells("POST", "/api/v1/odds", ODDS).json["p_win_a"]
 
 
+# What stops it may be raised in a callback of the garbage collector, which Hypothesis has set.
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_what_takes_long_is_stopped_while_pages_go_on(browser: Browser) -> None:
     done: list[str] = []
 
