@@ -1,8 +1,8 @@
 """A tournament of sixteen players on a page."""
 
 import sqlite3
-from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, closing, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,6 +15,8 @@ from evenbreak.web import beside
 from evenbreak.web.site import Site
 from web.chromium import browser as browser
 from web.phones import Phone, answering, running
+
+Opened = Callable[[Path], AbstractContextManager[Site]]
 
 PLAYERS = [f"Player {k}" for k in range(1, 17)]
 
@@ -69,9 +71,9 @@ def copied(path: Path, to: Path) -> Path:
 
 
 @contextmanager
-def hall_of(path: Path) -> Iterator[Hall]:
+def hall_of(path: Path, opened: Opened = answering) -> Iterator[Hall]:
     """Open the page of a file of a tournament that is under way."""
-    with answering(path) as site:
+    with opened(path) as site:
         yield Hall(site, Phone(site, director=True), Phone(site))
 
 
@@ -85,8 +87,9 @@ def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def hall(drawn: Path, tmp_path: Path) -> Iterator[Hall]:
-    with hall_of(copied(drawn, tmp_path / "tonight.db")) as found:
+def hall(drawn: Path, tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Hall]:
+    opened = running if "browser" in request.fixturenames else answering
+    with hall_of(copied(drawn, tmp_path / "tonight.db"), opened) as found:
         yield found
 
 
@@ -100,5 +103,6 @@ def standing_hall(drawn: Path, tmp_path_factory: pytest.TempPathFactory) -> Iter
 @pytest.fixture(scope="module")
 def served_hall(drawn: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Hall]:
     """The same behind a real server, for tests of connections."""
-    with running(copied(drawn, tmp_path_factory.mktemp("served") / "tonight.db")) as site:
-        yield Hall(site, Phone(site, director=True), Phone(site))
+    path = copied(drawn, tmp_path_factory.mktemp("served") / "tonight.db")
+    with hall_of(path, running) as found:
+        yield found
