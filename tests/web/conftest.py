@@ -16,7 +16,7 @@ from evenbreak.web.site import Site
 from web.chromium import browser as browser
 from web.phones import Phone, answering, running
 
-Opened = Callable[[Path], AbstractContextManager[Site]]
+Opens = Callable[[Path], AbstractContextManager[Site]]
 
 PLAYERS = [f"Player {k}" for k in range(1, 17)]
 
@@ -71,7 +71,7 @@ def copied(path: Path, to: Path) -> Path:
 
 
 @contextmanager
-def hall_of(path: Path, opened: Opened = answering) -> Iterator[Hall]:
+def hall_of(path: Path, opened: Opens = answering) -> Iterator[Hall]:
     """Open the page of a file of a tournament that is under way."""
     with opened(path) as site:
         yield Hall(site, Phone(site, director=True), Phone(site))

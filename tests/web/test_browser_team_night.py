@@ -64,7 +64,7 @@ def test_a_captains_page_follows_but_leaves_a_choice_alone(browser: Any, tmp_pat
         page.wait_for_selector("text=Vic plays set 1")
         assert night.state.sets[0].picks == (("Ann",), ("Vic",))
         night.direct("result", number=1, a=4, b=3)
-        page.wait_for_selector("text=4:3")
+        page.wait_for_selector("text=4-3")
 
 
 def test_without_scripts_a_captain_puts_up_and_enters_a_result(
@@ -81,7 +81,7 @@ def test_without_scripts_a_captain_puts_up_and_enters_a_result(
         _enter(page, night)
         night.say(1, 1, (4, 2))
         page.get_by_role("link", name="Reload").click()
-        assert page.locator("text=4:2").count() == 1
+        assert page.locator("text=4-2").count() == 1
 
 
 def _enter(page: Any, night: Night) -> None:

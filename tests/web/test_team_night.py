@@ -22,7 +22,7 @@ from evenbreak.teams.evening.events import LevelsTonight, meeting_of
 from evenbreak.teams.evening.fold import TeamEvening, team_evening
 from evenbreak.tournaments.evening.events import Entrant, Event, Opened, Plan
 from evenbreak.web.site import Site
-from web.conftest import Opened
+from web.conftest import Opens
 from web.phones import Phone, Shown, answering, running
 
 RACKS = {"Ann": (640, 6), "Bo": (560, 5), "Cleo": (500, 5), "Dan": (450, 4)}
@@ -88,7 +88,7 @@ class Night(NamedTuple):
 
 
 @contextmanager
-def night_of(path: Path, opened: Opened = answering, **how: object) -> Iterator[Night]:
+def night_of(path: Path, opened: Opens = answering, **how: object) -> Iterator[Night]:
     with opened(path) as site:
         director = Phone(site, director=True)
         shown = director.send("/team/new", **fields(**how))
