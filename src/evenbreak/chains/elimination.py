@@ -40,7 +40,7 @@ Core: TypeAlias = Callable[[Rows, list[Any]], Any]
 
 _CONTEXT = Context(prec=40, Emax=MAX_EMAX, Emin=MIN_EMIN)
 MOST_ARCS = 3e6
-"""Limit on arcs; more may take more than seconds."""
+"""Limit on the number of arcs; more might take longer than a few seconds."""
 
 
 class Elimination:

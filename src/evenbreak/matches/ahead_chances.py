@@ -13,8 +13,7 @@ the gambler's-ruin probability G(n)/G(m + n) (P5.27). Most break formats keep th
 
 The walk is viewed from the side for which rho <= 1. Each chance is then a quotient of sums of
 positive numbers, none of them large, and G(s) = (1 - rho^s)/(1 - rho) is formed with a logarithm of
-rho that has the
-digits of two floats: no digits are lost if rho is near 1 or a chance is tiny.
+rho that has the digits of two floats: no digits are lost if rho is near 1 or a chance is tiny.
 
 Reference: Feller, An Introduction to Probability Theory I, chapter XIV.
 """

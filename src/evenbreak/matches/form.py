@@ -152,7 +152,7 @@ def on_days(match: AnyMatch, form: float) -> tuple[AnyMatch, Floats]:
 
 
 def _on_days(p: Any, form: float, nodes: Floats) -> Floats:
-    """Return the chance on each day; one of 0 or 1 is the same on all days."""
+    """Return the chance on each day; a chance of 0 or 1 is the same on all days."""
     log_odds = np.asarray(logit(p))
     sure = np.isinf(log_odds)
     center = center_of_form(np.where(sure, 0.0, log_odds), 0.0, form)

@@ -34,8 +34,8 @@ def established_from(games: ArrayLike) -> int:
 def is_provisional(games: ArrayLike, least: int | None = None) -> Bools:
     """Return which ratings rest on fewer games than a list requires.
 
-    Negative games mean that the number is not stated: such a rating may rest on none, unless this
-    is so for all, or the list marks only new players, with 0. `least` is by default
+    Negative games mean that the number is not stated: such a rating may rest on none, unless all
+    numbers are missing, or the list only marks new players with 0. `least` is by default
     `established_from`.
 
     >>> is_provisional([300, 12, -1]), is_provisional([-1, -1])

@@ -295,8 +295,8 @@ class Results:
     def played(self) -> Played:
         """Return the matches with at least one game, and how many rows were left out.
 
-        A forfeit is left out whatever its score; a 0-0 that is not a forfeit counts as
-        empty. For matches known only by their winner, see `won_only`.
+        A forfeit is left out regardless of its score; a 0-0 that is not a forfeit counts as empty.
+        For matches known only by their winner, see `won_only`.
 
         >>> season = Results.from_names(["Ann", "Bo"], ["Bo", "Cy"], [7, 0], [5, 0])
         >>> season.played()[1:]

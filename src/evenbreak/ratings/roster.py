@@ -55,8 +55,8 @@ class Roster:
         of a difference is computed as the root of the sum of two squares, so it should not include
         uncertainty that all ratings share: use `Ratings.quasi_error`.
     games
-                the games that each rating rests on, 0 for a new player; `NOT_STATED` where the list
-        does not say.
+        the games that each rating rests on, 0 for a new player; `NOT_STATED` where the list does
+        not say.
     component
         players linked by a chain of opponents share a number from 1 up, and only their ratings can
         be compared; 0 where not stated.

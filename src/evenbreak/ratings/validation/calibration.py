@@ -185,7 +185,7 @@ class Predictions:
         return no_favorites(self.p, self.trials)
 
     def scored(self, cluster: Ints, rng: np.random.Generator) -> Scored:
-        """Return how good the predictions were; `rng` resamples matches by their `cluster`."""
+        """Return the accuracy of the predictions; `rng` resamples matches by their `cluster`."""
         x = np.log(self.p) - np.log1p(-self.p)
         by_weight = self.weight * self.won, self.weight * self.trials
         slope = logistic_coefficient(x, *by_weight, cluster)
