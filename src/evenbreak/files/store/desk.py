@@ -86,9 +86,9 @@ class Act:
     the player is on the way to the table, in `score['minutes']`; proposed: the player sent a
     result; withdrawn: the player took it back; entered: the proposal is the result now; objected: a
     table says that its last result is wrong; tablet: the phone belongs to the table that `player`
-    names; no tablet: not anymore.
+    names; no tablet: it no longer does.
 
-    A claim is for all events of the night.
+    A claim applies to all the night's events.
     """
 
     kind: str = ""

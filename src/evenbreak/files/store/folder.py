@@ -5,17 +5,17 @@ that wants to write to the folder waits for the first. The operating system hold
 ends with the process that held it, however that process ended: a lock file left by a killed run
 blocks no one.
 
-As in SQLite's rollback journal, a run makes a folder `.evenbreak-writing` in the one it changes,
-and in it
+As in SQLite's rollback journal, a run creates a folder `.evenbreak-writing` in the folder it
+changes, containing
 
-    new-0, new-1 ...   what is to take its place;
-    old-0, old-1 ...   what is replaced, by a second link or a copy;
+    new-0, new-1 ...   the new files;
+    old-0, old-1 ...   the files being replaced, as a second link or a copy;
     journal            which is which, written when the rest is safely on disk.
 
-Then each new file is renamed to its place. The change is made when the journal is removed: as long
-as there is one, the old files are put back, after a failure at once, after a kill by the next run.
-Without one the folder holds all the old files or all the new ones, and what is left of
-`.evenbreak-writing` is removed.
+Then each new file is renamed into place. Removing the journal completes the change: as long as
+there is a journal, the old files are put back, immediately after a failure, or by the next run
+after a kill. Without a journal, the folder holds either all the old files or all the new ones, and
+anything left in `.evenbreak-writing` is removed.
 
 Source: SQLite, "Atomic Commit In SQLite", sections 3 and 4.
 """

@@ -148,7 +148,7 @@ def _contours(axes: Axes, across: tuple[float, float], up: float, levels: list[f
 def _place(level: float, up: float, right: float) -> tuple[float, float]:
     """Return where to write a level: straight above the point where nothing slips, or next to it.
 
-    The lower the level, the nearer to the horizontal, so that the names keep apart.
+    The lower the level, the closer to the horizontal, so that the names don't overlap.
 
     The sensitivity falls as 1/r along every ray from there, so each contour is the next one at
     twice the size.

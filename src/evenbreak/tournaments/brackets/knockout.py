@@ -131,8 +131,8 @@ def knockout(
 ) -> tuple[list[Draft], list[Rank]]:
     """Return a knockout's matches, and who leaves it at which point, best first.
 
-    The number of entrants, one per line, is a power of 2; matches are named by the letter: W1.1,
-    ...
+    The number of entrants, one per line, is a power of 2; matches are named with the letter:
+    W1.1, ...
     """
     drafts: list[Draft] = []
     rounds: list[list[str]] = []

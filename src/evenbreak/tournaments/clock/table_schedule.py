@@ -130,8 +130,8 @@ def _fill(
 class Waiting:
     """Which matches wait for which.
 
-    after[i, j]: match j can't start before match i is over; shared[i, j]: a player of a group is in
-    both, so that they can't overlap.
+    after[i, j]: match j can't start before match i is over; shared[i, j]: both have the same player
+    in a group, so they can't overlap.
     """
 
     names: tuple[str, ...]
