@@ -54,7 +54,7 @@ class LeagueFiles:
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """`[[results]]`: a file of match results; each file has a table of its own."""
+    """`[[results]]`: a file of match results; each file has its own table."""
 
     file: Annotated[str, Field(values.FILE, "The file.")]
     columns: Mapping[str, str] = field(default_factory=lambda: _NOTHING)

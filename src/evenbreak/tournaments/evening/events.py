@@ -104,7 +104,7 @@ class Opened:
 class Drawn:
     """The draw: the players in seed order; other entrants go on the list of late players.
 
-    For an elimination, it also has the player's position on each first-round line (None: a bye).
+    For an elimination, it also has the position of the player on each first-round line (None: bye).
     """
 
     order: tuple[str, ...]

@@ -137,7 +137,7 @@ class Evening:
 
     @cached_property
     def match_numbers(self) -> dict[str, int]:
-        """Each match's number; matches added by a late entry come last, as sheets are out."""
+        """Each match's number; matches added by a late entry come last, because sheets are out."""
         drawn = next((e.what for e in self.events if isinstance(e.what, Drawn)), None)
         first = None
         if drawn and self.lines is not None and len(drawn.order) < len(self.order):
