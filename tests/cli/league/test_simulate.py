@@ -253,7 +253,7 @@ def test_a_roster_can_come_in_by_a_pipe(run, tmp_path):
     text = "player,rating\nAnn,80.5\nBo,70\n"
     found = run("simulate", "-", *FEW, "--weeks", "2", "--out", str(tmp_path / "o"), stdin=text)
     assert found.exit_code == 0
-    assert "1 rating is rounded" in found.stderr
+    assert "1 rating was rounded" in found.stderr
     assert "2 of 2 players" in found.stderr
 
 

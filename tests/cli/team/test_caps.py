@@ -23,7 +23,7 @@ def test_a_cap_takes_from_the_strong_and_chances_average_to_one_half(ask):
         (None, [], 2, "--race, --race-to and --chart"),
         (None, ["--race", "5", "--cap", "5"], 2, "Eight Ballers: no lineup of Ada"),
         (None, ["--race", "5", "--order", "XY"], 2, "XY"),
-        ("team,player,rating\nA,Ann,600\nA,Bo,500\n", ["--race", "5"], 3, "one team only"),
+        ("team,player,rating\nA,Ann,600\nA,Bo,500\n", ["--race", "5"], 3, "only one team"),
         ("team,player,rating\nA,Ann,600\n,Bo,500\n", ["--race", "5"], 3, ":3: team is empty"),
         ("team,player,rating\nA,Ann,x\nB,Bo,500\n", ["--race", "5"], 3, ":2:"),
     ],

@@ -65,7 +65,7 @@ def test_nine_ball_counts_points_and_its_twenty_shares(ask, run, lists):
     used = ("--used", "Ann,Uli", "--score", "12:8")
     assert ask(*asked, "--count", "points", *used)["set"] == 2
     wrong = run(*asked, "--count", "points", "--used", "Ann,Uli", "--score", "11:9")
-    assert "11-9 can't be" in wrong.stderr
+    assert "11-9 is impossible" in wrong.stderr
     assert "points, not games" in run(*asked, "--count", "games").stderr
 
 
