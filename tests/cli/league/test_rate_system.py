@@ -198,7 +198,7 @@ def test_without_a_chart_the_only_one_that_fits_is_used_and_named(rate):
         (["open.csv"], 3, "--chart NAME settles them all"),
         (["night.csv", "--chart", "npl_8"], 3, "5-3 doesn't finish the race 4:3"),
         (["night.csv", "--chart", "npl_9"], 3, "no chart or file with this name"),
-        (["night.csv", "--chart", "apa_8ball"], 2, "Give one of rating differences"),
+        (["night.csv", "--chart", "apa_8ball"], 2, "Give a chart of rating differences"),
         (["none.csv", "--chart", "npl_10"], 3, "there's no such file"),
         (["night.csv", "--roster", "none.csv"], 3, "there's no such file"),
         (

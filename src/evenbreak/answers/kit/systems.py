@@ -167,7 +167,7 @@ def chart_by_difference(name: str, parameter: str = "chart") -> handicaps.Chart:
     found = files.find_chart(name)
     if not isinstance(found, handicaps.Chart):
         refuse(
-            "{parameter} {name!r} is a chart of skill levels. Give one of rating differences.",
+            "{parameter} {name!r} is a chart of skill levels. Give a chart of rating differences.",
             parameter=Parameter(parameter),
             name=name,
         )
