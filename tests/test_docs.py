@@ -81,6 +81,7 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.usefixtures("desk")
 @pytest.mark.parametrize("page", pages_with("python"), ids=name_of)
 def test_python_examples(page: Path) -> None:
@@ -178,6 +179,7 @@ def test_every_page_is_in_a_table_of_contents() -> None:
     assert set(DOCS) - listed == {ROOT / "docs" / page for page in apart}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "page", ["tutorial/evening-by-page.md", "how-to/a-page-for-phones-and-the-screen.md"]
 )

@@ -26,6 +26,7 @@ def test_the_readme_is_short() -> None:
     assert len((ROOT / "README.md").read_text("utf-8").split()) <= 900
 
 
+@pytest.mark.slow
 @each_of("page", SHOWN)
 def test_links_and_pictures_lead_somewhere_on_a_git_host(page: Path) -> None:
     assert broken_links(page, seen_on(page), ROOT) == []

@@ -237,6 +237,7 @@ def test_an_error_of_ones_own_class_is_told_as_its_own(name: str, why: str) -> N
     assert why in said
 
 
+@pytest.mark.slow
 def test_no_package_is_looked_for_where_a_name_is_ours(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

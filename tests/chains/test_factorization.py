@@ -30,6 +30,7 @@ def test_small_classes_between_large_ones_are_taken_together(monkeypatch, small,
     assert factor.values(b) == pytest.approx(inverse.T @ b, rel=1e-13)
 
 
+@pytest.mark.slow
 def test_a_line_without_long_doubles_and_a_hub_are_proved(monkeypatch):
     """Equal arcs repeat the same rounding errors, 3,000 times in doubles alone."""
     n = 3000

@@ -42,6 +42,7 @@ def random_chain(draw):
     return Chain(range(n), csc_array(matrix), 0)
 
 
+@pytest.mark.slow
 @each_of("seed", range(60))
 def test_every_start_of_random_chains(seed):
     chain = random_chain(random.Random(seed))

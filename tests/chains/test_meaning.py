@@ -111,6 +111,7 @@ def chains(draw: st.DrawFn) -> list[tuple[int, int, float]]:
     return triples or [(0, 0, 1.0)]
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(150), deadline=None)
 @given(chains())
 def test_limits_of_any_small_chain(triples: list[tuple[int, int, float]]) -> None:

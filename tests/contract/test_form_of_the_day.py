@@ -120,6 +120,7 @@ def test_a_chance_by_the_curve_is_that_of_all_days(needs, score):
         assert chance_in_form(needs, form, score)(logit(p)) == pytest.approx(known, abs=2e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", [of_lineup, of_tournament, of_tournament_under_way])
 def test_errors_of_ratings_are_averaged_over_beside_it(way, file):
     head, *rows = LIST.format(form=FORM).splitlines()

@@ -85,6 +85,7 @@ def some_kind(data: st.DataObject, of: type[Kind]) -> Kind:
     return data.draw(st.sampled_from([kind for kind in KINDS if type(kind) is of]))
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("of", TYPES)
 @settings(max_examples=40)
 @given(data=st.data())
@@ -95,6 +96,7 @@ def test_what_json_gives_is_read_as_what_is_typed(of: type[Kind], data: st.DataO
     assert outcome(kind.load, value) == outcome(kind.read, typed(kind, value))
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("of", TYPES)
 @settings(max_examples=40)
 @given(data=st.data())

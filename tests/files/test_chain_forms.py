@@ -144,6 +144,7 @@ def test_what_is_no_square_matrix(tmp_path, text, part) -> None:
     assert part in problem(path)
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("end", [b"", b" ", b" 7", b"x", b"e", b"\xff", b"\r"])
 def test_a_matrix_whose_last_line_has_no_end(tmp_path, end) -> None:
     """scipy alone reads past the end of such files, and the program ends by a signal."""

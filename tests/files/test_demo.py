@@ -67,6 +67,7 @@ def test_the_commands_work_as_printed(tmp_path: Path, monkeypatch: pytest.Monkey
         assert result.output
 
 
+@pytest.mark.slow
 def test_the_evening_is_in_the_middle(tmp_path: Path) -> None:
     now = datetime.now().replace(microsecond=0)
     write_demo_evening(tmp_path / "evening.db", now)

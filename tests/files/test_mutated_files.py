@@ -161,6 +161,7 @@ def run(words: str, content: bytes, folder: Path) -> Result:
     return CliRunner().invoke(program, asked)
 
 
+@pytest.mark.slow
 def test_these_files_are_read(good: dict[str, str], tmp_path: Path) -> None:
     for words, text in good.items():
         ran = run(words, text.encode(), tmp_path)

@@ -18,6 +18,7 @@ def test_the_same_seed_gives_the_same_answer_and_another_another():
     assert (one.sd_by_week != three.sd_by_week).any()
 
 
+@pytest.mark.slow
 def test_the_error_of_equal_players_is_the_one_of_the_information_in_their_games():
     # n games against equals tell log-odds to 2 / sqrt(n), and the prior weighs 4 / ln(2)^2 more.
     found = reestimate(np.zeros(40), HOT, weeks=30, leagues=6, seed=2)

@@ -65,6 +65,7 @@ def wins(match: Match, ends: dict[Any, float], player: int) -> float:
     return sum(chance for end, chance in ends.items() if match.winner(end) == player)
 
 
+@pytest.mark.slow
 @FORMATS
 def test_races_in_a_break_format(breaks: Any) -> None:
     longest = Race(MOST, MOST, Rack(0.5, 0.5), breaks=breaks)

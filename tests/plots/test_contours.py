@@ -89,6 +89,7 @@ def titles(figure):
     return [axes.get_title() for axes in figure.axes]
 
 
+@pytest.mark.slow
 def test_titles_have_the_shares_and_every_panel_the_dot():
     figure = breaks_figure(Rack(0.5, 0.1))
     assert titles(figure) == [
@@ -135,6 +136,7 @@ def test_shots_stand_at_their_chances_by_name(look_ahead):
     assert names == {"bank": (0.4, 0.8), "safety": (0.3, 0.3)}
 
 
+@pytest.mark.slow
 def test_the_look_aheads_look_different_and_each_the_same_every_time():
     pictures = [
         image_bytes(draw_shots(SHOTS, look_ahead=look_ahead), "svg")

@@ -106,6 +106,7 @@ CROWDED = [  # two that fall together at either end, and a crowd on the right
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("points", [CROWDED, CROWDED[:4], CROWDED[4:]])
 def test_no_name_covers_another_or_a_mark(points):
     axes = draw_systems(points, chart="npl_10")

@@ -52,6 +52,7 @@ ODD: dict[str, Callable[[], Figure]] = {
 }
 
 
+@pytest.mark.slow
 @each_of("name", ODD)
 def test_plots_of_odd_answers_can_be_read(name: str) -> None:
     assert faults(ODD[name]()) == []

@@ -49,6 +49,7 @@ def test_an_arc_bends_around_a_circle_in_its_way_and_away_from_its_opposite():
     assert there_and_back.bend("a", "b") > 0.0 < there_and_back.bend("b", "a")
 
 
+@pytest.mark.slow
 def test_a_diagram_has_an_arrow_an_arc_and_a_circle_a_state_and_two_at_the_end():
     graph = graph_with(("a", "b", 0.25), ("b", "c", 1.0), ("a", "a", 0.75))
     pen = pen_of(graph)

@@ -124,6 +124,7 @@ def test_stopping_when_it_goes_well_is_found() -> None:
     assert analyzed(DrillLog(level, won, session)).difference.p_value < 0.05
 
 
+@pytest.mark.slow
 def test_tests_let_an_honest_log_pass() -> None:
     """Of 40 logs without memory about 4 fall below .1; 12 or more would be a bad test."""
     p_values = np.array(

@@ -94,6 +94,7 @@ WAYS = [
 ]
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("levels", WAYS)
 @pytest.mark.parametrize("half_life", [None, 30.0])
 def test_a_walk_a_fit_and_a_search_say_the_same(levels, half_life, monkeypatch):
@@ -151,6 +152,7 @@ def test_a_file_without_dates_has_no_first_evenings():
     assert "field" in known_levels(small(6))
 
 
+@pytest.mark.slow
 def test_newcomers_of_strong_events_are_found_to_be_stronger():
     results, skill = city(np.random.default_rng(2), players=200, venues=4)
     ways = [{"prior_sd": 0.5, "levels": Levels(field=size)} for size in (0.0, 0.5, 1.0)]

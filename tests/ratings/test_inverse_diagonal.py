@@ -106,6 +106,7 @@ def test_fronts_eliminate_every_player_once_and_children_first(league):
             assert set(fronts[child].rows.tolist()) <= own
 
 
+@pytest.mark.slow
 def test_a_league_in_divisions_is_cut_up_and_a_mixed_one_is_not():
     rng = np.random.default_rng(5)
     low, high = divisions(rng)

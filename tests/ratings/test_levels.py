@@ -165,6 +165,7 @@ def test_who_gives_games_is_said_to_win_what_they_win(truth, drift):
     assert abs(won - said).mean() < 3.3 * np.sqrt((won * (1.0 - won) / of).mean())
 
 
+@pytest.mark.slow
 def test_one_estimate_of_what_races_take_back_is_used_and_said():
     results, *_ = league(np.random.default_rng(1), races=3.0)
     choice = best_prior(results)

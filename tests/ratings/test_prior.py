@@ -57,6 +57,7 @@ def test_the_range_holds_the_widths_that_lose_little():
     assert (choice.low, choice.high) == (good[0], good[-1])
 
 
+@pytest.mark.slow
 def test_choosing_as_it_goes_costs_little_but_something():
     choice = best_prior(season(0.7, np.random.default_rng(1)))
     assert min(choice.log_loss) < choice.as_it_went < min(choice.log_loss) + 0.02
@@ -137,6 +138,7 @@ def test_a_real_season():
     assert max(loss.values()) < math.log(2)
 
 
+@pytest.mark.slow
 def test_old_games_count_in_full_where_only_the_first_prior_was_too_wide():
     """Races say nearly all here; with the prior that suits results alone, fading them helps."""
     choice = best_prior(by_chart(0, levels=False, off=0.0, form=0.0, matches=500))
@@ -219,6 +221,7 @@ def test_a_few_stretches_show_nothing():
     assert not is_clear(losses(np.full(FEWEST_STRETCHES - 1, 5.0)))
 
 
+@pytest.mark.slow
 def test_no_way_is_tried_twice(monkeypatch):
     tried = []
     losses = Stretches.losses

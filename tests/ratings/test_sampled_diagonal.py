@@ -88,6 +88,7 @@ def test_known_players_make_rows_differ(monkeypatch, shape):
     assert np.abs(error).max() <= 4.5 * stated + 1e-3
 
 
+@pytest.mark.slow
 def test_the_error_is_that_of_draws_with_other_seeds(monkeypatch):
     """Over 60 seeds the errors of each player have the standard deviation that √(2/K) gives."""
     monkeypatch.setattr(module, "BLOCK", 64)

@@ -179,6 +179,7 @@ def written_in(pdf):
     return pieces
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("paper", PAPERS)
 @pytest.mark.parametrize("count", [5, 7, 8])
 def test_a_page_is_filled_by_few_players_and_19_have_one(paper, count):

@@ -211,6 +211,7 @@ def test_nothing_leaves_the_page_or_touches_the_lines_next_to_it(season, options
                 assert not one.overlaps(other), (first, second)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("paper", PAPERS)
 def test_a_league_of_25_fits_a_page_as_one_of_24_does(paper):
     for players in (24, 25, 28):

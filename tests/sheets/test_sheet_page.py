@@ -191,6 +191,7 @@ def test_any_name_stays_one_name(name):
     assert {element["text"] for element in page.all("bdi")} == {shown_name(name), "Bo"}
 
 
+@pytest.mark.slow
 def test_a_large_league_is_cut_and_the_page_says_so(monkeypatch):
     monkeypatch.setattr("evenbreak.sheets.sheet_page.MOST_LISTED", 51)
     for module in ("sheets.sheet_page", "answers.league.report"):

@@ -93,6 +93,7 @@ def final(names: tuple[str, str]) -> list[Event]:
     return [Event("2025-10-01T19:30:00", what) for what in happened]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("usual", ["initials", "hidden"])
 def test_no_file_has_a_name_that_is_not_to_be_shown(usual: str, tmp_path) -> None:
     """The pages, the script's data, the tables, the pictures and the names of files."""

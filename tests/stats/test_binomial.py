@@ -200,6 +200,7 @@ class TestLaws:
         assert law.between(5, 7) == pytest.approx(chance, rel=1e-12, abs=0)
         assert law.between(293, 295) == pytest.approx(chance, rel=1e-12, abs=0)
 
+    @pytest.mark.slow
     def test_a_billion_games_take_no_more_room_than_their_spread(self) -> None:
         low, high, inside = GamesWon(10**9, 0.5).exact_range(0.5)
         assert low + high == 10**9 - 1

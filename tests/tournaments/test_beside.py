@@ -117,6 +117,7 @@ def test_a_night_is_the_same_however_its_entries_were_written(cuts, tmp_path_fac
     assert (there.counted, there.on_tables) == (again.counted, again.on_tables)
 
 
+@pytest.mark.slow
 def test_the_next_matches_are_those_of_all_events_and_each_gets_a_table_of_its_own(tmp_path):
     path = tmp_path / "tonight.db"
     begun(path, tables=4)

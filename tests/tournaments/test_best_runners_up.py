@@ -104,6 +104,7 @@ def chances(players: int) -> np.ndarray:
     return 1.0 / (1.0 + np.exp(skill - skill[:, None]))
 
 
+@pytest.mark.slow
 @each_of("players, groups, size", [(6, 2, 3), (7, 2, 3), (7, 2, 5), (6, 3, 2), (7, 3, 4)])
 def test_odds_against_all_results(players: int, groups: int, size: int) -> None:
     bracket, win = groups_then_knockout(players, groups, knockout_size=size), chances(players)

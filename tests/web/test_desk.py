@@ -156,6 +156,7 @@ def test_a_match_past_its_waiting_time_is_to_be_forfeited(full: Hall) -> None:
     assert full.state.counted[match].winner == other
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("follow", ["stop", "keep"])
 def test_a_correction_asks_what_happens_to_what_is_played_on_it(full: Hall, follow: str) -> None:
     full.site.clock = lambda: "2031-03-01T20:00:00"

@@ -66,6 +66,7 @@ def pages_of(hall: Hall, phone: Phone) -> Iterator[Shown]:
     yield phone.send("/desk/drop", player="Bo")
 
 
+@pytest.mark.slow
 def test_every_form_of_every_page_carries_a_number(six: Hall) -> None:
     six.director.send("/desk/call", match=six.state.standing.to_play[0], table=1)
     six.director.send("/team/new", **TEAMS)
@@ -165,6 +166,7 @@ def test_a_form_that_comes_in_twice_is_taken_once(six: Hall, together: bool) -> 
             assert said[0] == said[1], path
 
 
+@pytest.mark.slow
 def test_a_form_is_known_again_after_a_restart(six: Hall) -> None:
     sent = {**six.director.hidden(), "player": "Ann", "sure": "yes"}
     assert six.director.send_raw("/desk/drop", sent).status == 200
@@ -205,6 +207,7 @@ def test_a_page_of_an_earlier_tournament_changes_nothing_in_the_next(six: Hall) 
     assert (read_events(six.site.path), six.site.pin) == (before, secret)
 
 
+@pytest.mark.slow
 def test_an_evening_begun_twice_is_begun_once(tmp_path: Path) -> None:
     with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
@@ -220,6 +223,7 @@ def test_an_evening_begun_twice_is_begun_once(tmp_path: Path) -> None:
         assert [type(one.what).__name__ for one in read_events(site.path)] == ["Opened", "Drawn"]
 
 
+@pytest.mark.slow
 def test_a_name_from_a_form_is_nobody_elses_that_begins_like_it(six: Hall) -> None:
     for what in ("drop", "forfeit"):
         before = len(six.state.events)

@@ -87,6 +87,7 @@ def test_an_evening_ends_as_by_commands(hall: Hall, tmp_path: Path) -> None:
     assert "phones: " in " ".join(one.by for one in events)
 
 
+@pytest.mark.slow
 def test_two_phones_that_differ_leave_it_to_the_director(hall: Hall) -> None:
     pair = hall.state.pair("W1.1")
     one, other = two_phones(hall.site)
@@ -113,6 +114,7 @@ def test_an_undone_result_is_not_confirmed_by_what_was_sent_before(hall: Hall) -
     assert "W1.1" not in hall.state.counted
 
 
+@pytest.mark.slow
 def test_what_was_sent_against_somebody_else_differs_from_nothing(hall: Hall) -> None:
     for match in ("W1.1", "W1.2"):
         hall.director.send("/desk/result", match=match, a=3, b=0)
@@ -202,6 +204,7 @@ def test_the_first_page_is_small_even_where_it_is_not_compressed(
                 assert phone.travels(path) < size(phone, path) / 2 < 30_000
 
 
+@pytest.mark.slow
 def test_several_matches_are_called_with_one_tap(hall: Hall) -> None:
     asked = {"match": ["W1.1", "W1.2", "W1.3"], "table": [1, 2, 3]}
     for _ in range(2):  # a double tap
@@ -238,6 +241,7 @@ def test_a_match_that_was_played_on_a_wrong_result_may_stand(hall: Hall) -> None
     assert hall.state.counted["W1.1"].score == (1, 3)
 
 
+@pytest.mark.slow
 def test_a_match_moves_to_another_table_and_keeps_its_start(hall: Hall) -> None:
     hall.site.clock = lambda: "2025-03-01T20:00:00"
     hall.director.send("/desk/call", match="W1.1", table=1)
@@ -279,6 +283,7 @@ def test_prizes_that_the_director_keeps_are_seen_by_everybody(hall: Hall) -> Non
     assert kept_prizes(hall.site.path) is None
 
 
+@pytest.mark.slow
 def test_players_see_when_they_play_next_and_what_they_may_win(hall: Hall) -> None:
     hall.director.send("/desk/call", match="W1.1", table=1)
     hall.guest.open("/")
@@ -299,6 +304,7 @@ def test_players_see_when_they_play_next_and_what_they_may_win(hall: Hall) -> No
         assert hall.guest.open("/prizes", fee="9", payout=wrong).status == 400
 
 
+@pytest.mark.slow
 def test_pages_follow_a_file_of_any_name(tmp_path: Path) -> None:
     path = tmp_path / "pool #3 50%?.db"
     assert rows_from(path, 0, 9) == []

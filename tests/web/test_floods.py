@@ -86,6 +86,7 @@ def test_idle_connections_keep_nobody_out(server: Served, sent: bytes) -> None:
         assert server.errors.stat().st_size < 5000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "sent", [STREAM, BODY, ASKED + b"\r\n" + ASKED * 40], ids=["streams", "bodies", "many"]
 )
@@ -122,6 +123,7 @@ def test_a_room_full_of_phones_is_served_at_a_low_limit(server: Served) -> None:
         assert server.errors.stat().st_size < 5000
 
 
+@pytest.mark.slow
 def test_more_descriptors_are_asked_for() -> None:
     ask = "from evenbreak.web.server import descriptors; print(descriptors())"
     words = ["sh", "-c", f"ulimit -Sn 128; exec {sys.executable} -c '{ask}'"]

@@ -66,6 +66,7 @@ def stuck(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stuck]:
         server.communicate()
 
 
+@pytest.mark.slow
 def test_what_cannot_be_written_to_is_read(stuck: Stuck) -> None:
     guest, director = Phone(stuck.site), Phone(stuck.site)
     assert director.send("/pin", pin=stuck.pin).status == 200

@@ -168,6 +168,7 @@ def test_no_head_makes_the_page_fail(
         assert not found.startswith(b"HTTP/1.1 5"), (seed, request)
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("charset", [*CHARSETS, "latin-1", "utf-8"])
 def test_no_charset_of_a_form_makes_the_page_fail(served_hall: Hall, charset: str) -> None:
     place = urlsplit(served_hall.site.address).netloc

@@ -133,6 +133,7 @@ def test_a_program_gets_and_needs_no_cookie(begun: Browser) -> None:
     assert "set-cookie" not in begun.tells("GET", "/api/v1/tonight").headers
 
 
+@pytest.mark.slow
 def test_the_description_keeps_to_openapi() -> None:
     told = description()
     schema = json.loads((HERE / "openapi-3.1.schema.json").read_text(encoding="utf-8"))

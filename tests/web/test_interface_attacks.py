@@ -241,6 +241,7 @@ def test_a_body_that_is_not_what_is_asked_for_is_refused(attacked: Attacked) -> 
             assert attacked.refused(one, whole, idempotency_key=key, **may) == 400, one
 
 
+@pytest.mark.slow
 def test_a_body_that_never_comes_is_given_up(
     attacked: Attacked, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -187,6 +187,7 @@ def test_every_answer_keeps_to_its_schema(director: Browser, form: str) -> None:
     told(director)
 
 
+@pytest.mark.slow
 def test_two_events_share_the_tables(director: Browser) -> None:
     begin(director, "single", name="A")
     others = "\n".join(f"P0{k},{600 - k}" if k < 2 else f"Q0{k},{600 - k}" for k in range(6))
@@ -208,6 +209,7 @@ def test_two_events_share_the_tables(director: Browser) -> None:
     assert [one["match"] and one["match"]["event"] for one in tables] == [1, 2, None]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["single", "swiss", "round-robin"])
 def test_no_place_is_decided_before_anything_is_played(director: Browser, form: str) -> None:
     """However much one player is the favorite."""

@@ -67,6 +67,7 @@ def night(opened: Path, tmp_path: Path) -> Iterator[Night]:
         yield found
 
 
+@pytest.mark.slow
 def test_a_result_says_what_it_changed_and_calls_the_next_match(night: Night) -> None:
     called = night.enters("call", match="1", table="2").json
     assert (called["entries"], called["said"]) == ([3], ["Table 2: Ann against Hal."])
@@ -95,6 +96,7 @@ def test_scores_of_a_program_are_not_what_the_director_takes_back(night: Night) 
     assert not night.room.site.night.state().on_tables
 
 
+@pytest.mark.slow
 def test_a_program_takes_back_the_entry_that_it_names_alone(night: Night) -> None:
     night.enters("call", match="1", table="1")
     entry = night.enters("result", match="1", score=[3, 1]).json["entries"][0]
@@ -111,6 +113,7 @@ def test_a_program_takes_back_the_entry_that_it_names_alone(night: Night) -> Non
     assert night.enters("redo", "desk", entry=entry).status == 200
 
 
+@pytest.mark.slow
 def test_the_same_request_is_entered_once_also_after_a_restart(night: Night) -> None:
     scored = {"match": "1", "score": [1, 0], "_idempotency_key": "7"}
     first = night.enters("score", **scored)
@@ -133,6 +136,7 @@ def test_the_same_request_is_entered_once_also_after_a_restart(night: Night) -> 
     assert night.count == count + 2
 
 
+@pytest.mark.slow
 def test_what_would_be_lost_is_asked_about_first(night: Night) -> None:
     night.enters("call", match="1", table="2")
     night.enters("score", match="1", score=[2, 1])
@@ -161,6 +165,7 @@ def test_what_is_asked_about_has_not_happened_yet(night: Night) -> None:
         assert not {"has", "forfeited", "goes"} & {*got.json["detail"].split()}
 
 
+@pytest.mark.slow
 def test_what_is_so_already_is_not_entered_again(night: Night) -> None:
     same: list[tuple[str, dict[str, Any]]] = [
         ("call", {"match": "1", "table": "1"}),
@@ -179,6 +184,7 @@ def test_what_is_so_already_is_not_entered_again(night: Night) -> None:
         assert said[0] == said[0].upper()
 
 
+@pytest.mark.slow
 def test_who_agrees_to_a_loss_agrees_to_no_other(night: Night) -> None:
     """Between the question and the answer to it, another match began that would be lost."""
     night.enters("score", match="1", score=[2, 1])
@@ -196,6 +202,7 @@ def test_who_agrees_to_a_loss_agrees_to_no_other(night: Night) -> None:
     assert night.enters("drop", "desk", player="Ann", sure=moved.json["how"]["sure"]).status == 200
 
 
+@pytest.mark.slow
 def test_a_repeated_request_is_told_all_that_the_first_changed(night: Night) -> None:
     """Also the calls that came with it, but not what was entered in the same second after it."""
     night.room.site.clock = lambda: AT
@@ -238,6 +245,7 @@ def test_a_score_that_has_moved_on_is_not_written_over(night: Night) -> None:
     assert night.enters("result", match="1", score="3:0", seen=[1, 0]).status == 200
 
 
+@pytest.mark.slow
 def test_an_event_is_named_in_one_way_for_reads_and_writes(night: Night) -> None:
     entrants = "player,rating\nA,600\nB,500\nC,400\nD,300"
     second = {**NEW, "entrants": entrants, "name": "Second", "beside": "1"}
@@ -257,6 +265,7 @@ def test_an_event_is_named_in_one_way_for_reads_and_writes(night: Night) -> None
     assert not night.room.site.night.state().on_tables
 
 
+@pytest.mark.slow
 def test_what_people_call_by_a_number_may_be_one(night: Night) -> None:
     assert night.enters("call", match=1, table=2).status == 200
     assert night.enters("score", match=1, score=[1, 0]).json["matches"][0]["number"] == "1"
@@ -266,6 +275,7 @@ def test_what_people_call_by_a_number_may_be_one(night: Night) -> None:
     assert got.json["detail"] == "'rating': \"600\" is text. Leave out the quotes."
 
 
+@pytest.mark.slow
 def test_a_token_of_a_table_is_for_the_match_on_it(night: Night) -> None:
     scored = {"match": "1", "score": [1, 0]}
     assert night.enters("score", "tv", **scored).status == 403
@@ -290,6 +300,7 @@ def test_a_token_is_taken_back_at_once_at_every_server(night: Night) -> None:
         assert night.enters("undo", "desk", room=another).status == 401
 
 
+@pytest.mark.slow
 def test_a_program_that_runs_wild_is_slowed_down(night: Night) -> None:
     night.room.site.entries.most = 3
     got = [night.enters("score", match="1", score=[1, n % 2]).status for n in range(5)]
@@ -349,6 +360,7 @@ def test_refusals_name_addresses_people_and_what_a_token_is_for(night: Night) ->
     assert (missing.status, missing.json["detail"]) == (404, "There is no such address.")
 
 
+@pytest.mark.slow
 def test_results_that_would_be_lost_have_their_scores(night: Night) -> None:
     for match in ("1", "2"):
         night.enters("result", match=match, score=[3, 1])

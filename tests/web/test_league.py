@@ -116,6 +116,7 @@ def test_wrong_results_are_refused_by_line_and_the_old_ones_kept(director: Phone
     assert director.open("/league/ratings.csv").text == before
 
 
+@pytest.mark.slow
 def test_rude_names_do_no_harm_and_a_restart_goes_on(tmp_path: Path) -> None:
     path = tmp_path / "tonight.db"
     with answering(path) as site:

@@ -43,6 +43,7 @@ def begun(tmp_path):
     return fields
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("races", "shown"),
     [

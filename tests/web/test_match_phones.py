@@ -59,6 +59,7 @@ def test_one_phone_cannot_confirm_itself(hall: Hall, *, private_tab: bool) -> No
     assert hall.director.send("/desk/result", match="W1.1", a=3, b=0).status == 200
 
 
+@pytest.mark.slow
 def test_a_name_belongs_to_the_first_phone_that_claims_it_all_evening(hall: Hall) -> None:
     owner, thief = Player(hall, "127.0.0.2"), Player(hall, "127.0.0.3")
     owner.claims(0)
@@ -92,6 +93,7 @@ def test_the_director_or_the_code_takes_a_name_from_a_thief(hall: Hall) -> None:
         assert line in history
 
 
+@pytest.mark.slow
 def test_two_scores_are_one_case_for_the_director_until_one_gives_way(hall: Hall) -> None:
     players = [Player(hall, "127.0.0.2"), Player(hall, "127.0.0.3")]
     for side, (one, score) in enumerate(zip(players, ((3, 1), (2, 3)), strict=True)):
@@ -129,6 +131,7 @@ def test_a_guessed_code_is_refused_and_guessing_is_slow(hall: Hall) -> None:
     assert [one.kind for one in phone_entries(hall.site.path)] == ["claimed"]
 
 
+@pytest.mark.slow
 def test_a_phone_that_waits_in_a_match_that_nobody_is_in_any_more_is_told_so(hall: Hall) -> None:
     for match in ("W1.1", "W1.2"):
         hall.director.send("/desk/result", match=match, a=3, b=0)
@@ -181,6 +184,7 @@ def test_no_order_of_claims_and_scores_lets_one_address_decide(hall: Hall) -> No
         assert hall.state.counted == {}, seed
 
 
+@pytest.mark.slow
 def test_a_table_s_tablet_taps_for_both_and_can_be_taken_back(hall: Hall) -> None:
     tablet = Phone(hall.site, director=True, address="127.0.0.5")
     match, tap = "W1.1", {"match": "W1.1", "a": 1, "b": 0}
@@ -203,6 +207,7 @@ def test_a_table_s_tablet_taps_for_both_and_can_be_taken_back(hall: Hall) -> Non
     assert tablet.send("/table/4/score", match="W1.2", a=1, b=0).status == 403
 
 
+@pytest.mark.slow
 def test_a_phone_can_be_claimed_before_the_draw(hall: Hall) -> None:
     one = Player(hall, "127.0.0.2")
     hall.director.send("/desk/undo", entry=2, sure="yes")
@@ -212,6 +217,7 @@ def test_a_phone_can_be_claimed_before_the_draw(hall: Hall) -> None:
     assert "Winners' round 1" in one.phone.open("/me").words
 
 
+@pytest.mark.slow
 def test_who_is_called_answers_and_the_desk_knows(hall: Hall) -> None:
     one = Player(hall, "127.0.0.2")
     one.claims(0)
@@ -227,6 +233,7 @@ def test_who_is_called_answers_and_the_desk_knows(hall: Hall) -> None:
     assert "You're up: table 3" in one.phone.open("/me").words
 
 
+@pytest.mark.slow
 def test_a_table_s_page_leads_its_players_to_their_own(hall: Hall) -> None:
     hall.director.send("/desk/call", match="W1.1", table=2)
     one = Player(hall, "127.0.0.2")

@@ -44,6 +44,7 @@ def test_each_format_begins_and_is_drawn(tmp_path: Path, kind: str) -> None:
         assert "Table" in director.open("/desk").words
 
 
+@pytest.mark.slow
 def test_what_a_form_says_is_what_is_planned(tmp_path: Path) -> None:
     with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
@@ -154,6 +155,7 @@ def again(director: Phone) -> dict[str, str]:
     return {"in_place_of": name} if name else {}
 
 
+@pytest.mark.slow
 def test_a_new_tournament_learns_from_those_in_its_folder(tmp_path: Path) -> None:
     with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
@@ -231,6 +233,7 @@ def test_doubtful_ratings_are_said(tmp_path: Path) -> None:
         assert "1 player without a rating (Bo)" in director.send("/new", **new).words
 
 
+@pytest.mark.slow
 def test_another_tournament_takes_the_place_of_the_first(hall: Hall, tmp_path: Path) -> None:
     code = hall.site.player_code("Player 1")
     hall.director.send("/desk/result", match="W1.1", a=3, b=1)
@@ -255,6 +258,7 @@ def test_another_tournament_takes_the_place_of_the_first(hall: Hall, tmp_path: P
     assert "Ann" in hall.guest.open(f"/c/{hall.site.player_code('Ann')}").words
 
 
+@pytest.mark.slow
 def test_the_desk_changes_tables_and_races(hall: Hall) -> None:
     hall.director.send("/desk/call", match="W1.1", table=1)
     shown = hall.director.send("/desk/change", tables=3, race=2)
@@ -274,6 +278,7 @@ def test_the_desk_says_what_would_end_it_sooner(hall: Hall) -> None:
     assert hall.guest.open("/desk/time").status == 403
 
 
+@pytest.mark.slow
 def test_odds_are_those_of_the_moment_after_an_undo(hall: Hall) -> None:
     hall.director.send("/desk/result", match="W1.1", a=3, b=1)
     hall.director.send("/desk/undo", entry=hall.state.numbers[-1], sure="yes")
@@ -302,6 +307,7 @@ def test_a_late_player_is_read_like_one_of_the_list(hall: Hall) -> None:
     assert "from the median" in shown.words
 
 
+@pytest.mark.slow
 def test_odds_that_fail_leave_the_director_a_desk(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -326,6 +332,7 @@ def test_odds_that_fail_leave_the_director_a_desk(
         assert director.send("/desk/call", match="W1.1", table=1).status == 200
 
 
+@pytest.mark.slow
 def test_an_entry_is_corrected_before_the_draw(tmp_path: Path) -> None:
     with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
@@ -372,6 +379,7 @@ def test_a_refusal_leads_back_to_where_it_came_from(hall: Hall) -> None:
     assert 'class="button" href="/"' in shown.text
 
 
+@pytest.mark.slow
 def test_somebody_who_goes_home_is_asked_for_twice(hall: Hall) -> None:
     hall.director.send("/desk/call", match="W1.1", table=1)
     shown = hall.director.send("/desk/drop", player="Player 1")

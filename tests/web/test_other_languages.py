@@ -33,6 +33,7 @@ def begin(site: object) -> Phone:
     return director
 
 
+@pytest.mark.slow
 def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: Path) -> None:
     said = {
         "Tonight": "Ce soir",
@@ -54,6 +55,7 @@ def test_a_page_speaks_a_language_that_is_only_a_folder(tmp_path: Path, locale: 
         assert "Tom and Jerry bat the Shark 3-1" in words
 
 
+@pytest.mark.slow
 def test_english_can_be_said_in_other_words(tmp_path: Path, locale: Path) -> None:
     catalog(locale, "en", {"{winner} beat {loser} {score}": "{loser} lost to {winner}"})
     with answering(tmp_path / "tonight.db") as site:

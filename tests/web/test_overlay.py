@@ -56,6 +56,7 @@ def night(tmp_path: Path) -> Iterator[Night]:
         yield night
 
 
+@pytest.mark.slow
 def test_the_plate_follows_the_match_on_a_table(night: Night) -> None:
     a, b = NAMES[:2]
     state = read_tournament(night.path)

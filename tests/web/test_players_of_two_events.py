@@ -52,6 +52,7 @@ def taps(phone: Phone, match: str, pair: tuple[str, str], a: int, b: int):
     return phone.send("/me/score", match=match, a=a, b=b, **seen)
 
 
+@pytest.mark.slow
 def test_a_phone_follows_its_player_into_the_event_that_they_play(two: Hall) -> None:
     (match,) = second(two).on_tables
     pair = second(two).pair(match)
@@ -87,6 +88,7 @@ def test_nobody_has_two_codes_and_everybody_has_one(two: Hall) -> None:
     assert len(set(codes.values())) == len(codes)
 
 
+@pytest.mark.slow
 def test_the_tablet_of_a_table_serves_every_event_and_says_what_is_wrong(two: Hall) -> None:
     (match,) = second(two).on_tables
     pair = second(two).pair(match)

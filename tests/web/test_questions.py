@@ -85,6 +85,7 @@ def asked_by_http() -> Iterator[Any]:
                 yield pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW))
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("name", list(asked_by_http()))
 def test_the_answer_is_what_the_command_prints(browser: Browser, name: str) -> None:
     with patch.object(ask, "MOST_SECONDS", 60.0):  # of a computer that others work on too
@@ -114,6 +115,7 @@ def _touched(event: str, given: tuple[Any, ...]) -> None:
         _TOUCHED.extend(f"{event} {one}" for one in given if "sneaky" in str(one))
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("command", QUESTIONS)
 def test_no_file_and_no_code_can_be_named(
     browser: Browser, command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -168,6 +170,7 @@ def test_what_is_wrong_is_said(
     assert words in got.json["detail"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("path", "body"),
     [
@@ -195,6 +198,7 @@ def test_numbers_are_numbers(browser: Browser) -> None:
 
 
 # What stops it may be raised in a callback of the garbage collector, which Hypothesis has set.
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_what_takes_long_is_stopped_while_pages_go_on(browser: Browser) -> None:
     done: list[str] = []

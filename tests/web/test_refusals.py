@@ -117,6 +117,7 @@ def test_the_director_gets_in_at_the_computer_while_others_guess(hall: Hall) -> 
         check_tries(elsewhere)
 
 
+@pytest.mark.slow
 def test_two_pages_on_one_computer_keep_their_sessions_apart(tmp_path: Path) -> None:
     with answering(tmp_path / "one.db") as one, answering(tmp_path / "other.db") as other:
         phone = Phone(one, director=True)
@@ -190,6 +191,7 @@ def test_a_slow_body_is_cut_off(served_hall: Hall, monkeypatch: pytest.MonkeyPat
         assert b" 408 " in line.recv(200)
 
 
+@pytest.mark.slow
 def test_connections_that_ask_for_nothing_are_ended(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -248,6 +250,7 @@ def test_names_are_text_everywhere(hall: Hall) -> None:
         assert director.open("/fair", a=SCRIPT, b="Ann").status == 200
 
 
+@pytest.mark.slow
 def test_the_same_tap_twice_enters_once(hall: Hall) -> None:
     for _ in range(2):
         assert hall.director.send("/desk/call", match="W1.1", table=1).status == 200

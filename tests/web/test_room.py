@@ -71,6 +71,7 @@ def test_phones_are_let_in_and_shut_out_while_the_page_runs(tmp_path: Path) -> N
         assert director.open("/desk/phones").status == 200
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("at_room")
 @pytest.mark.parametrize("name", ["", "pool.example:80"])
 def test_lan_lets_them_in_from_the_start(tmp_path: Path, name: str) -> None:

@@ -62,6 +62,7 @@ def test_a_cookie_is_good_for_nothing_once_its_owner_has_left(servers: tuple[Sit
     assert copies[0].open("/desk").status == 403
 
 
+@pytest.mark.slow
 def test_who_leaves_before_the_tournament_begins_has_left_too(tmp_path: Path) -> None:
     with answering(tmp_path / "tonight.db") as site:
         leaves, director = Phone(site, director=True), Phone(site, director=True)

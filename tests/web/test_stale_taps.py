@@ -114,6 +114,7 @@ def test_a_result_counts_from_the_score_that_its_page_showed(table: Table) -> No
     assert "Tap for a game" in one.open("/me/score").words  # where a browser looks again
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("field", ["seen", "phone"])
 def test_what_happens_while_a_tap_comes_in_counts(
     table: Table, field: str, monkeypatch: pytest.MonkeyPatch

@@ -153,6 +153,7 @@ def test_the_advice_is_that_of_the_command(night: Night, tmp_path: Path) -> None
     assert f"{third['p_win']:.0%}" in night.guest.open("/screen").words
 
 
+@pytest.mark.slow
 def test_a_cap_keeps_out_who_would_break_it(tmp_path: Path) -> None:
     with night_of(tmp_path / "tonight.db", cap="15") as night:
         free = lineup(tmp_path, "--order", "ABA", "--cap", "15")
@@ -168,6 +169,7 @@ def test_a_cap_keeps_out_who_would_break_it(tmp_path: Path) -> None:
         assert night.put(0, "Cleo").status == 400
 
 
+@pytest.mark.slow
 def test_the_page_says_when_the_next_set_starts_and_when_the_night_ends(tmp_path: Path) -> None:
     with night_of(tmp_path / "tonight.db", tables="2", discipline="9-ball") as night:
         plan = night.state.plan
@@ -311,6 +313,7 @@ def test_nobody_else_sees_an_unseen_pick(tmp_path: Path, order: str) -> None:
         assert "Dan" in night.director.open("/team/history").words
 
 
+@pytest.mark.slow
 def test_where_it_is_best_to_draw_lots_the_page_draws_them(tmp_path: Path) -> None:
     with night_of(tmp_path / "tonight.db", order="blind") as night:
         found = []
@@ -381,6 +384,7 @@ def test_undo_names_the_entry_and_whose_it_is(night: Night) -> None:
     assert "Zurücknehmen: " in german
 
 
+@pytest.mark.slow
 def test_both_captains_at_the_same_moment_lose_nothing(tmp_path: Path) -> None:
     with night_of(tmp_path / "tonight.db", order="blind") as night:
 
@@ -402,6 +406,7 @@ def test_both_captains_at_the_same_moment_lose_nothing(tmp_path: Path) -> None:
         assert "Racks has won the night" in night.guest.open("/team").words
 
 
+@pytest.mark.slow
 def test_a_night_survives_a_restart_and_needs_no_tournament(tmp_path: Path) -> None:
     path = tmp_path / "tonight.db"
     with night_of(path) as night:
@@ -481,6 +486,7 @@ def test_a_captains_pin_is_for_one_night_and_guessing_is_slow(night: Night) -> N
     assert night.guest.send("/pin", pin=night.site.pin).status == 429
 
 
+@pytest.mark.slow
 def test_who_names_next_waits_for_the_result_where_it_decides_that(tmp_path: Path) -> None:
     with night_of(
         tmp_path / "tonight.db", order="loser", doubles="3", times="2", sets="3"
@@ -504,6 +510,7 @@ def test_who_names_next_waits_for_the_result_where_it_decides_that(tmp_path: Pat
 SCRIPT = "<script>alert(1)</script>"
 
 
+@pytest.mark.slow
 def test_names_of_teams_and_players_are_text(tmp_path: Path) -> None:
     more = {"team_b": SCRIPT, "players_b": f"player,rating\n{SCRIPT},500\n'; DROP,400\nC,300"}
     with night_of(tmp_path / "tonight.db", team_a="../../x", **more) as night:

@@ -129,6 +129,7 @@ def test_a_night_of_two_divisions_and_a_second_chance(director: Browser) -> None
     assert sum(one.by.startswith(BY_ITSELF) for one in calls) > len(calls) * 0.7
 
 
+@pytest.mark.slow
 def test_the_desk_says_when_the_whole_night_ends(director: Browser) -> None:
     site = director.room.site
     opened(director, "Division A", 4, format="single")
@@ -147,6 +148,7 @@ def test_the_desk_says_when_the_whole_night_ends(director: Browser) -> None:
     assert len(seated(site)) == TABLES
 
 
+@pytest.mark.slow
 def test_who_goes_home_does_so_from_all_events_if_the_director_says_so(director: Browser) -> None:
     site = director.room.site
     opened(director, "A", 8, format="double")

@@ -195,6 +195,7 @@ def test_nothing_acknowledged_is_lost_in_company(tmp_path: Path, company: str) -
     views_are_right(path)
 
 
+@pytest.mark.slow
 def test_a_page_and_a_command_in_the_middle_of_an_entry_take_nothing_away(tmp_path: Path) -> None:
     path = tmp_path / "tonight.db"
     matches = begun(path)

@@ -367,6 +367,7 @@ def test_what_a_captain_hands_in_unseen_shows_nowhere_else(rooms: Rooms) -> None
     assert shown[1:] == shown[:-1]
 
 
+@pytest.mark.slow
 def test_each_role_passes_where_it_is_declared_and_nowhere_else(rooms: Rooms) -> None:
     # The last one: in the end everybody has left.
     tried = 0

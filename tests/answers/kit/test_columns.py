@@ -25,6 +25,7 @@ def test_each_key_has_one_entry():
     assert [key for key, times in keys.items() if times > 1] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", sorted(set(ANSWERS.rglob("*.py")) - MAKERS), ids=lambda p: p.stem)
 def test_only_the_registry_makes_columns_and_quantities(path):
     nodes = [node for tree in trees_of([path]) for node in ast.walk(tree)]

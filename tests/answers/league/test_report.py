@@ -74,6 +74,7 @@ def test_json_has_the_tables_of_the_files():
     assert answer["summary"]["games_lo"] is None
 
 
+@pytest.mark.slow
 def test_pairs_that_cannot_be_compared_have_no_race_but_a_group():
     sheet = sheet_of(two_groups())
     text = to_text(report_answer(sheet))

@@ -50,6 +50,7 @@ class Rounded:
 WRITTEN = {**CATALOG, **{name: Ladder(chart(name)) for name in CHARTS}, "rounded": Rounded()}
 
 
+@pytest.mark.slow
 @each_of("name", WRITTEN)
 def test_written_chances_out_of_a_state_add_up_to_1(name):
     road = road_of(WRITTEN[name])

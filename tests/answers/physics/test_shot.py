@@ -96,6 +96,7 @@ def test_a_straight_shot_has_no_angles_that_rounding_made():
     assert (answer["target_y_in"], answer["object_pocket"]) == (pytest.approx(1.125), "foot-right")
 
 
+@pytest.mark.slow
 @settings(max_examples=examples(20))
 @given(
     st.floats(-89.0, 89.0),

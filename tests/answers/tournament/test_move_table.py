@@ -56,6 +56,7 @@ def test_the_help_of_a_command_fits_a_screen(name):
     assert shown.stdout.count("\n") <= 40
 
 
+@pytest.mark.slow
 def test_what_a_command_enters_a_form_enters_too(tmp_path):
     path = tmp_path / "tonight.db"
     plan = Plan("double", 3, final="true", tables=4, labels=("1", "2", "3", "TV"))

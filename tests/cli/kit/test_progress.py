@@ -48,6 +48,7 @@ def lines(printed):
     return [line for line in re.sub(r"\x1b\[\S*?[lhKA]", "", printed).split("\r") if line.strip()]
 
 
+@pytest.mark.slow
 def test_long_work_is_counted_and_the_bar_erased(monkeypatch):
     printed = counted(monkeypatch, Screen(), 0.0)
     states = lines(printed)
@@ -85,6 +86,7 @@ def test_the_bar_is_as_long_as_what_is_done_and_fits_a_terminal(monkeypatch):
     assert max(map(len, lines(screen.getvalue()))) <= 80
 
 
+@pytest.mark.slow
 def test_nothing_is_shown_for_short_work_or_in_a_file(monkeypatch):
     assert counted(monkeypatch, Screen(), 60.0) == ""
     assert counted(monkeypatch, io.StringIO(), 0.0) == ""
@@ -140,6 +142,7 @@ def test_the_line_says_how_many_and_how_much_of_the_work(monkeypatch):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stderr", [io.StringIO(), Screen()], ids=["file", "dumb terminal"])
 def test_long_work_prints_a_plain_line_where_there_is_no_bar(monkeypatch, stderr):
     monkeypatch.setenv("TERM", "dumb")

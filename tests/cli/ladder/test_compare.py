@@ -40,6 +40,7 @@ def test_systems_side_by_side(compared):
     assert rows["elo 16", "fixed_9"]["sd_doublings"] < 1.0
 
 
+@pytest.mark.slow
 def test_a_row_of_the_comparison_says_what_the_ladder_says(ladder, compared):
     rows = compared()["systems"]
     (row,) = (row for row in rows if (row["system"], row["chart"]) == ("npl", "npl_10"))
@@ -61,6 +62,7 @@ def test_no_step_of_the_front_is_beaten(compared):
     assert [row["system"] for row in steps if not row["on_front"]] == ["step 6"]
 
 
+@pytest.mark.slow
 def test_the_comparison_as_one_table_and_as_a_picture(run, tmp_path):
     path = tmp_path / "systems.svg"
     result = run("ladder", "--compare", "--plot", str(path))

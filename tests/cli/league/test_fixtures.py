@@ -38,6 +38,7 @@ def test_fixtures_go_round_to_season_and_back(ask, run, teams, tmp_path):
     assert "Warning" not in season.stderr
 
 
+@pytest.mark.slow
 def test_players_and_a_simulated_season(run, tmp_path):
     roster = str(DATA / "demo_roster.csv")
     made = run("league", "fixtures", roster, "--rounds-a-night", "2", "--tables", "4", "--csv")

@@ -27,6 +27,7 @@ def test_in_a_script_the_proposals_are_taken(run, folder):
         assert line in result.stdout
 
 
+@pytest.mark.slow
 def test_what_it_says_to_run_runs_in_the_folder_and_pointed_at_it(run, folder, monkeypatch):
     run("league", "init")
     here = [run("matchups", "--json"), run("league", "table", "--json"), run("rate", "--json")]

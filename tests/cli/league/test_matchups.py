@@ -265,6 +265,7 @@ def test_minutes_go_by_the_discipline_and_the_turnover(run, roster):
     assert answer(run, roster(), "--chart", "npl_10")["pace"] is None
 
 
+@pytest.mark.slow
 def test_the_seed_decides_an_evening_that_is_simulated(run, roster):
     words = (roster(), *SURE, "--minutes-per-game", "8", "--tables", "2")
     first, again, other = (

@@ -122,6 +122,7 @@ def test_pairs_that_nothing_links_have_no_numbers(told):
     assert "no chain of opponents" in pair["note"]
 
 
+@pytest.mark.slow
 def test_the_best_prior_is_among_those_tried(told):
     answer = told("--prior", "best", season=(DATA / "demo_league.csv").read_text(encoding="utf-8"))
     best = min(answer["priors_tried"], key=lambda tried: tried["log_loss"])

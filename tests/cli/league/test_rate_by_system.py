@@ -66,6 +66,7 @@ def test_all_games_are_refitted(run):
     assert rows["Di"]["rating_before"] == "525"
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("league")
 def test_a_class_of_ones_own(run):
     rows = after(run, "our_league:Wins")

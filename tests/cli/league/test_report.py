@@ -489,6 +489,7 @@ def test_an_end_while_files_take_their_places_leaves_the_new_ones(run, tmp_path,
     assert content(old) == content(new)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ratings.csv", "matchups.csv", "summary.csv"])
 def test_the_results_are_never_overwritten(run, tmp_path, name):
     season = tmp_path / name
@@ -510,6 +511,7 @@ def test_a_page_never_takes_the_place_of_what_was_read(run, tmp_path):
         assert run("rate", str(season), "--html", other).exit_code == 0
 
 
+@pytest.mark.slow
 def test_entrants_are_paired_and_strangers_start_at_the_mean(run, tmp_path):
     entrants = tmp_path / "entrants.txt"
     entrants.write_text("zoë kestleman\nA Stranger\nInes Valbrecht\n", encoding="utf-8")

@@ -209,6 +209,7 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_work(run, tmp_pat
     assert "afile is a file" in found.stderr
 
 
+@pytest.mark.slow
 def test_a_match_that_is_listed_twice_in_a_week_is_a_warning(run, tmp_path):
     fixtures = tmp_path / "fixtures.csv"
     fixtures.write_text("week,player_a,player_b\n1,Ann,Bo\n2,Ann,Bo\n1,bo,ann\n")

@@ -25,6 +25,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.usefixtures("folder")
 @pytest.mark.parametrize(
     "words",

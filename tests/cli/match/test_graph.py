@@ -168,6 +168,7 @@ def test_a_defective_race_is_written_nevertheless(write) -> None:
     assert answer["difference_eigen"] < 1e-15
 
 
+@pytest.mark.slow
 def test_classes_periods_and_winners(write) -> None:
     answer, folder = write("series, alternate breaks")
     assert answer["classes"] == [

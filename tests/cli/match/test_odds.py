@@ -194,6 +194,7 @@ def test_csv_into_a_pipe(run, odds):
             assert text == ("" if value is None else str(value))
 
 
+@pytest.mark.slow
 def test_a_person_at_a_terminal_reads_text():
     pty = pytest.importorskip("pty")
     ours, theirs = pty.openpty()

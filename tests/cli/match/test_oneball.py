@@ -86,6 +86,7 @@ def test_csv_into_a_pipe(run):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["png", "svg"])
 def test_plot(run, tmp_path, kind):
     path = tmp_path / f"shots.{kind}"

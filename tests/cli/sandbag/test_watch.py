@@ -65,6 +65,7 @@ def test_what_each_match_of_a_player_weighs(watch):
     assert {row["won"] for row in rows} == {"yes", ""}
 
 
+@pytest.mark.slow
 def test_varying_form_weakens_the_evidence(watch, run):
     plain = {row["player"]: row for row in table(watch(*LEAGUE))}
     varied = {row["player"]: row for row in table(watch(*LEAGUE, "--day-sd", "30"))}
@@ -127,6 +128,7 @@ def test_races_that_are_not_stated_are_even(run, plain):
     assert {(row["needs"], row["opponent_needs"]) for row in matches} == {(7, 7)}
 
 
+@pytest.mark.slow
 def test_established_is_doubted_where_players_have_no_ratings_of_their_own(run, plain):
     assert "3 of 3 players" in run("sandbag", "watch", *plain, "--honest", "established").stderr
     assert "3 of 3 players" not in run("sandbag", "watch", *plain).stderr

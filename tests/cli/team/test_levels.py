@@ -57,6 +57,7 @@ def test_who_would_break_the_rule_is_named_and_not_offered(ask, run, lists):
     assert "can no longer stay within its caps" in over.stderr
 
 
+@pytest.mark.slow
 def test_nine_ball_counts_points_and_its_twenty_shares(ask, run, lists):
     asked = ("lineup", *lists, "--chart", "apa_9ball", "--cap", "23", "--sets", "3")
     told = ask(*asked, "--count", "points")
@@ -69,6 +70,7 @@ def test_nine_ball_counts_points_and_its_twenty_shares(ask, run, lists):
     assert "points, not games" in run(*asked, "--count", "games").stderr
 
 
+@pytest.mark.slow
 def test_ratings_beside_levels_give_the_chances(ask, run, lists, tmp_path):
     rated = [
         written(
@@ -87,6 +89,7 @@ def test_ratings_beside_levels_give_the_chances(ask, run, lists, tmp_path):
     assert mixed["p_win"] == ask("lineup", *lists, *asked)["p_win"]
 
 
+@pytest.mark.slow
 def test_a_round_and_the_caps_of_a_league_of_levels(ask, run, tmp_path):
     two = [
         written(tmp_path / f"{side}.csv", list(team.items())[:5])

@@ -88,6 +88,7 @@ def test_what_cannot_be_is_refused_in_one_line(run, options, what):
     assert what in result.stderr.splitlines()[-1]
 
 
+@pytest.mark.slow
 def test_who_has_no_rating_is_said(run, tmp_path):
     ours = tmp_path / "ours.csv"
     ours.write_text("player,rating,scale\nAnn,600,fargo\nBo,,fargo\n")

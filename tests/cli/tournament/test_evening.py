@@ -81,6 +81,7 @@ def test_the_exported_matches_can_be_rated(night, tmp_path):
     assert rated.exit_code == 0, rated.stderr
 
 
+@pytest.mark.slow
 def test_a_player_who_drops_out_forfeits(night):
     night("draw")
     night("drop", "player 02")
@@ -115,6 +116,7 @@ def test_the_file_must_be_a_tournament(night, tmp_path):
     assert "entrants.csv" in result.stderr
 
 
+@pytest.mark.slow
 def test_the_commands_in_remedies_run_as_they_stand(night, tmp_path):
     night("draw")
     for wrong in (("correct", "W1.2", "3-1"), ("score", "W1.3", "3-1")):

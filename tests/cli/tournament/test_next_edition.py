@@ -56,6 +56,7 @@ def test_a_doubtful_line_is_refused_with_its_remedy(said) -> None:
     assert not Path("x.db").exists()
 
 
+@pytest.mark.slow
 def test_the_night_is_one_page(said) -> None:
     said("draw")
     while (state := read_tournament("tonight.db")).standing.to_play:

@@ -101,6 +101,7 @@ def test_what_cannot_be_is_refused(run, file, words, what):
     assert what in result.stderr.splitlines()[-1]
 
 
+@pytest.mark.slow
 def test_the_best_runner_up_is_seen_on_the_screen_and_in_print(run, tmp_path):
     names = tmp_path / "names.csv"
     names.write_text("player,rating\n" + "".join(f"P{k},{600 - 10 * k}\n" for k in range(1, 13)))

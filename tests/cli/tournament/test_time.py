@@ -40,6 +40,7 @@ def test_the_finish_and_each_start(times):
     assert starts[14]["start_p90"] < answer["finish_p90"]
 
 
+@pytest.mark.slow
 def test_tables_races_and_pace_matter(times):
     four = times("--tables", "4", "--discipline", "9-ball")
     two = times("--tables", "2", "--discipline", "9-ball")
@@ -86,6 +87,7 @@ def test_wrong_options_are_refused(run, entrants, words, named):
     assert named in result.stderr
 
 
+@pytest.mark.slow
 def test_earlier_nights_set_the_pace(run, times, entrants, tmp_path):
     last = str(tmp_path / "last.db")
     new = ("tournament", "new", entrants, "--race", "5", "--tables", "4")

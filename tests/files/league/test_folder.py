@@ -116,6 +116,7 @@ def test_scores_that_go_with_the_player_are_not_proposed_the_other_way_around():
     assert not any(way["player_a"] == "Gegen" and way["score_a"] == "S1" for way in ways)
 
 
+@pytest.mark.slow
 def test_of_the_demo_files_those_of_the_largest_league_are_taken(tmp_path):
     for place in DATA.glob("*.csv"):
         shutil.copy(place, tmp_path)

@@ -76,6 +76,7 @@ def as_records_from_both_sides(matches):
     return json.dumps(both)
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("seed", range(tries("sources", 12)))
 def test_every_match_counts_once_whichever_files_have_it(tmp_path, seed):
     rng = np.random.default_rng(seed)

@@ -64,6 +64,7 @@ def test_a_damaged_database_is_answered_in_words(seed: int, tmp_path: Path) -> N
         assert str(tmp_path) not in text
 
 
+@pytest.mark.slow
 def test_the_pages_are_those_of_the_director(tmp_path: Path) -> None:
     good = shutil.copy(SAVED / "v0_2_0" / "tournament.db", tmp_path)
     assert [status for _, status, _ in pages(Path(good))] == [200] * len(PAGES)

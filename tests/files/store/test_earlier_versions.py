@@ -65,6 +65,7 @@ def test_the_files_of_earlier_versions_hold_what_they_held(earlier: Path) -> Non
     assert {path: path.read_bytes() for path in earlier.iterdir()} == before  # reading changes none
 
 
+@pytest.mark.slow_after(2)
 @pytest.mark.parametrize("change", CHANGES)
 def test_an_earlier_file_is_copied_before_its_first_change(
     earlier: Path, change: str, caplog: pytest.LogCaptureFixture

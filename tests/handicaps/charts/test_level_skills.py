@@ -86,6 +86,7 @@ def league(rng, points, *, players=60, matches=400, spread=45.0):
     return Results.from_names(names[a].tolist(), names[b].tolist(), *won, **levels)
 
 
+@pytest.mark.slow
 def test_errors_from_results_cover_the_true_gaps():
     # 40 leagues of 60 players and 400 matches, whose levels differ from other leagues' by 50 points
     # (one standard deviation): 15 gaps each, strongly correlated within a league.

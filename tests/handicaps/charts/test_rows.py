@@ -52,6 +52,7 @@ ends = st.integers(0, 12)
 rows = st.builds(ChartRow, ends, st.none() | ends, st.integers(1, 3), st.integers(1, 3))
 
 
+@pytest.mark.slow
 @given(st.lists(rows, min_size=1, max_size=4))
 def test_rows_without_a_fault_are_a_chart_and_others_are_none(some):
     faults = list(row_faults(some))

@@ -79,6 +79,7 @@ def test_who_walks_a_span_makes_no_difference(way):
     assert seen[-1] == (60, 60, pytest.approx(1.0))
 
 
+@pytest.mark.slow
 def test_who_predicts_a_stretch_makes_no_difference(monkeypatch):
     """In a large season, of which nothing is kept from one search to the next."""
     monkeypatch.setattr("evenbreak.ratings.stretches.KEPT_UP_TO", 0)

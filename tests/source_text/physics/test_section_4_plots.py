@@ -97,6 +97,7 @@ def test_the_tips_without_throw_lie_on_a_line_from_the_cloth() -> None:
 # Fig. 4.7: where the cue ball goes, by the cut angle.
 
 
+@pytest.mark.slow
 def test_deflections_pass_through_the_points_of_the_text() -> None:
     axes, slope = figure("figure_4_7").axes
     roll, stun, draw = curves(axes)

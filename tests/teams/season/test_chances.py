@@ -67,6 +67,7 @@ def _key(rules: TableRules, team: int, rows: list[list[int]]) -> tuple[float, ..
     return _points(rules, team, rows), *(of[tie] for tie in rules.ties if tie in of)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ties", [("difference", "scored"), (), ("head-to-head",)])
 def test_places_equal_every_ending_played_out(ties: tuple[str, ...]) -> None:
     asked = season(ties)
