@@ -218,7 +218,7 @@ class TestRefusals:
         chain = chain_of(OneBall(0.3, 0.6))
         with pytest.raises(InputError, match="k must be a whole number, 2 or more; you gave 1"):
             spectrum(chain, k=1)
-        with pytest.raises(InputError, match="the chain has 4 states"):
+        with pytest.raises(InputError, match="at most 4, the number of states"):
             spectrum(chain, k=5)
 
 

@@ -196,7 +196,7 @@ def test_who_is_level_is_ranked_by_games_for_each_match_and_then_by_lot() -> Non
     # The second of A loses 4:5 and wins 5:4; that of B loses 1:5 and wins 5:1: level in games too.
     state = evening(events)
     assert tied_groups(state) == ["2"]
-    assert "The best 2nd is still open" in night_answer(Outlook(state, AT)).sentences[0]
+    assert "The best 2nd is still undecided" in night_answer(Outlook(state, AT)).sentences[0]
     drawn = {break_ties(state, np.random.default_rng(k)).ranked.order for k in range(20)}
     assert len(drawn) == 2
     assert break_ties(state, np.random.default_rng(0)).by_lot

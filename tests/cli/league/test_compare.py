@@ -87,7 +87,7 @@ def test_a_pace_gives_the_minutes_of_a_match(simulated, found):
 
 def test_a_difference_within_its_error_is_none(simulated):
     words = ("--compare", "npl, step 1", "--newcomers", "0", "--text")
-    assert "No difference in fairness was shown" in simulated(RATED, *words).stdout
+    assert "No difference in fairness was found" in simulated(RATED, *words).stdout
 
 
 def test_one_league_shows_no_difference(simulated):

@@ -65,7 +65,7 @@ def test_on_a_terminal_it_asks_and_asks_again(folder, monkeypatch):
     league = read_league(folder)
     assert (league.name, league.discipline, league.scale.name) == ("Thursday", "10-ball", "fargo")
     assert (league.race_to, league.chart, league.tables) == (9, None, 4)
-    assert "demo_league.csv: 408 matches of 24 players" in result.stderr
+    assert "demo_league.csv: 408 matches among 24 players" in result.stderr
     (folder / "league.toml").write_text("tables = 3\n")
     kept = CliRunner().invoke(program, ["league", "init"], input="n\n")
     assert kept.exit_code != 0

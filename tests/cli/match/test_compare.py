@@ -107,9 +107,9 @@ def test_the_usage_line_names_ratings_and_formats(run):
         (["--p", "0.6", "9:5", "--hold", "p2"], "--hold"),
         (["--p1", "1", "--p2", "0.5", "--breaks", "winner", "--hold", "break", "9:5"], "--hold p2"),
         (["--p", "0.6", *["2:1"] * 8], "you gave 8"),
-        (["--p", "0.6", "99:99 win by 2"], "9,801 scores"),
-        ([*BREAKS, "2:2 of 40:40"], "1,600 scores"),
-        ([*BREAKS, "200:200"], "40,000 scores"),
+        (["--p", "0.6", "99:99 win by 2"], "9,801 possible scores"),
+        ([*BREAKS, "2:2 of 40:40"], "1,600 possible scores"),
+        ([*BREAKS, "200:200"], "40,000 possible scores"),
     ],
 )
 def test_wrong_use(refused, line, named):

@@ -114,7 +114,7 @@ def refuse_for_system(file: files.RosterFile, system: handicaps.System) -> None:
     if system.publishes == "levels":
         if np.isnan(file.roster.level).all():
             refuse(
-                "{whose} moves skill levels, but {file} has none. Add a column level.",
+                "{whose} moves skill levels, but {file} has none. Add a level column.",
                 file=file.source,
                 whose=whose,
             )

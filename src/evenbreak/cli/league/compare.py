@@ -86,7 +86,7 @@ def _refuse_without_teams(asked: Simulate, file: files.SeasonPlayers) -> None:
     of_teams = [name for name in ("sets", "cap", "best_line_ups") if name in asked.given]
     if file.teams is None and of_teams:
         asked.refuse(
-            "{part} is for teams. Add a column team to {file}.", part=Parameter(of_teams[0]),
+            "{part} is for teams. Add a team column to {file}.", part=Parameter(of_teams[0]),
             file=file.source,
         )  # fmt: skip
     if file.teams is not None and asked.random:
