@@ -160,7 +160,7 @@ def test_a_result_of_both_players_is_taken_back_only_by_its_number() -> None:
     night.add(moves.result(night.state, "W1.1", (3, 1)), "phones: P0 and P3")
     assert list(undoable(night.state)) == [4, 3]
     assert undo(night.state) == [Undone(3)]
-    with pytest.raises(InputError, match="follow from entry 2"):
+    with pytest.raises(InputError, match="depend on entry 2"):
         undo(night.state, 2)
     _, after = night.add(*undo(night.state, 4))
     assert not after.counted

@@ -128,7 +128,7 @@ def test_without_scripts_a_phone_scores_and_the_director_confirms(browser: Any, 
     players.goto(f"{hall.site.address}/me")
     one, _ = hall.state.pair("W1.1")
     players.get_by_role("button", name=one, exact=True).click()
-    players.click("text=We're playing already")
+    players.click("text=We're already playing")
     for _ in range(3):
         players.get_by_role("button", name=f"Game for {one}, who").click()
     assert "counts once" in players.inner_text("main")

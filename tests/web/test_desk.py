@@ -145,7 +145,7 @@ def test_a_match_past_its_waiting_time_is_to_be_forfeited(full: Hall) -> None:
     gone, other = full.state.pair(match)
     full.site.clock = lambda: "2031-03-01T20:00:00"
     full.director.send("/desk/wait", match=match, absent=gone, until="20:15", reason="traffic")
-    assert "waits until 20:15, traffic" in full.director.open("/desk").words
+    assert "waiting until 20:15, traffic" in full.director.open("/desk").words
     full.site.clock = lambda: "2031-03-01T20:16:00"
     desk = full.director.open("/desk")
     assert "Waited until 20:15" in desk.words
@@ -305,7 +305,7 @@ def test_a_match_that_waits_says_for_whom_and_ends_its_wait_by_one_tap(full: Hal
     name, number = full.state.pair(match)[0], full.state.number_of(match)
     full.director.send("/desk/wait", match=match, absent=name, until="23:59")
     sheet = full.director.open(f"/desk?match={number}")
-    assert f"Waits for {name} until 23:59" in sheet.words
+    assert f"Waiting for {name} until 23:59" in sheet.words
     here = next(form for form in forms_in(sheet.text) if form.words.strip() == "They're here")
     assert full.director.send_raw("/desk/wait", dict(here.fields)).status == 200
     assert not full.state.waiting_for

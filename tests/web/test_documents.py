@@ -112,7 +112,7 @@ def test_a_double_click_keeps_tonight_in_the_documents(clicked: list[str], tmp_p
     shown = click(p8000="address already in use")
     assert shown.exit_code == 0, shown.output
     assert f"{tmp_path / 'evenbreak' / str(date.today())}.db" in shown.output
-    assert "Port 8000: address already in use; taking 8001" in shown.output
+    assert "Port 8000: address already in use; using 8001" in shown.output
     assert "http://127.0.0.1:8001" in shown.output
     assert not clicked  # the browser waits for the server
 
@@ -161,7 +161,7 @@ def test_a_ticket_lets_one_browser_of_this_computer_in_once(tmp_path: Path) -> N
         assert own.send("/pin", ticket=ticket).status == 303
         assert own.open("/new").status == 200
         other = Browser(room, address="127.0.0.1")
-        assert "worked once" in other.open("/pin", ticket=ticket).words
+        assert "worked only once" in other.open("/pin", ticket=ticket).words
         for tried in (ticket, "guessed", site.ticket.draw()[:-1], ""):
             assert other.send("/pin", ticket=tried).status == 403
         late = site.ticket.draw()

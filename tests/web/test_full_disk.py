@@ -48,7 +48,7 @@ def stuck(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stuck]:
             line = server.stderr.readline()
             assert line, said
             said += line
-        assert "no copy of" in said
+        assert "couldn't be backed up" in said
         site = Site(path, address=f"http://127.0.0.1:{port}")
         until = time.monotonic() + 20
         while True:

@@ -344,11 +344,11 @@ def test_refusals_name_addresses_people_and_what_a_token_is_for(night: Night) ->
         ("drop", "desk", '{"player": "Ha"}'): (400, "if you mean Hal, write that."),
         ("drop", "board", '{"player": "Hal"}'): (
             403,
-            "good for: scores, results and calls. This needs one for: everything a director can do",
+            "good for: scores, results and calls. This needs a token for: everything a director can do",
         ),
         ("score", "tv", '{"match": "1", "score": [1, 0]}'): (
             403,
-            "Match 1 isn't on the table of this program's token (only table 2).",
+            "Match 1 isn't on the table that this program's token is for (only table 2).",
         ),
     }
     for (move, who, body), (status, words) in told.items():

@@ -228,7 +228,7 @@ def test_doubtful_ratings_are_said(tmp_path: Path) -> None:
     with answering(tmp_path / "tonight.db") as site:
         director = Phone(site, director=True)
         shown = director.send("/new", **ASKED | {"scale": "npl"})
-        assert "Is it the right scale?" in shown.words
+        assert "is it the right scale?" in shown.words
         new = ASKED | {"entrants": "Ann,612\nBo"} | again(director)
         assert "1 player without a rating (Bo)" in director.send("/new", **new).words
 

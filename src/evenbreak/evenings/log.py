@@ -155,7 +155,7 @@ def read_json(kind: type[What], text: str) -> What:
         data = json.loads(text, parse_constant=_lowest)
         json.dumps(data, ensure_ascii=False).encode()  # no half of a letter is in it
     except (ValueError, RecursionError):
-        raise InputError("what is damaged JSON") from None
+        raise InputError("the data is damaged JSON") from None
     try:
         found = msgspec.convert(data, kind)
     except msgspec.ValidationError as error:

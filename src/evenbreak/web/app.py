@@ -197,7 +197,7 @@ async def _failed(request: Request, error: Exception) -> Response:
     _LOG.exception("%s failed", request.url.path, exc_info=error)
     if is_asked(request):
         return problem(request, RefusalError("That failed; nothing was changed."), 500)
-    return PlainTextResponse("This page failed; nothing was changed by it.\n", status_code=500)
+    return PlainTextResponse("This page failed; nothing was changed.\n", status_code=500)
 
 
 class _Answer(NamedTuple):

@@ -44,7 +44,7 @@ def serve(asked: Serve, league: LeagueFile | None) -> None:
     with Alone() as alone:
         if alone.running and (asked.file is None or Path(asked.file).resolve() == Path(alone.of)):
             click.echo(f"{alone.of} is open already: {alone.running}", err=True)
-            click.echo("To open another night, end that program first.", err=True)
+            click.echo("To open another night, stop that program first.", err=True)
             show(alone.running)
             return
         path = Path(asked.file) if asked.file else tonights_file(documents(), date.today())
@@ -66,7 +66,7 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
         try:
             back_up(path, datetime.now())
         except (EvenbreakError, OSError) as error:  # it can be shown all the same
-            click.echo(f"Warning: no copy of {path} could be made: {error}", err=True)
+            click.echo(f"Warning: {path} couldn't be backed up: {error}", err=True)
         renew_views(path)
     elif not path.parent.is_dir():
         asked.refuse(
@@ -84,7 +84,7 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
     if last not in (0, port):
         moved = say(
             "The page has moved from port {last} to port {port}: phones, QR codes and overlays "
-            "that know the old one don't find it. Let everyone scan the code again.",
+            "that use the old port won't find it. Have everyone scan the code again.",
             last=last,
             port=port,
         )
@@ -123,14 +123,14 @@ def _instead(path: Path) -> str:
         with suppress(EvenbreakError, OSError):
             _read(copy)
             return (
-                f"The newest copy that can be read is {copy.name}, beside it: "
-                f"drop that on the program, or start evenbreak serve {copy}\n"
+                f"The newest readable copy is {copy.name}, next to it: "
+                f"drop that file on the program, or run evenbreak serve {copy}\n"
                 f"To start afresh, rename {path.name}."
             )
     return (
-        f"There is no copy of it. To start afresh, rename {path.name}."
+        f"It has no backup copy. To start afresh, rename {path.name}."
         if path.suffix == ".db"
-        else "Files of a tournament end in .db."
+        else "A tournament's file ends in .db."
     )
 
 
@@ -161,7 +161,7 @@ def _port(asked: Serve, last: int) -> int:
     why = _taken("127.0.0.1", asked.port)
     rest = range(asked.port + 1, asked.port + _PORTS) if asked.open else ()
     if why and (free := next((n for n in rest if not _taken("127.0.0.1", n)), None)):
-        click.echo(f"Port {asked.port}: {why}; taking {free}", err=True)
+        click.echo(f"Port {asked.port}: {why}; using {free}", err=True)
         return free
     if why:
         _refuse(asked, why)
@@ -206,7 +206,7 @@ def _demo() -> Path:
     """Write the demo's evening to a separate folder, and return its file."""
     path = Path(mkdtemp(prefix="evenbreak-demo-"), "evening.db")
     write_demo_evening(path, datetime.now())
-    click.echo(f"The demo: {path}, which you may delete", err=True)
+    click.echo(f"The demo: {path}, which you can delete afterward", err=True)
     return path
 
 

@@ -402,7 +402,7 @@ def waits_words(state: Evening, one: DeskMatch) -> Sentence | str:
         for slot, seat in zip(slots, seats, strict=True)
         if seat is None and isinstance(slot, Source) and state.number_of(slot.match)
     ]
-    return say("waits for {matches}", matches=listed(numbers)) if numbers else ""
+    return say("waiting for {matches}", matches=listed(numbers)) if numbers else ""
 
 
 def soon(

@@ -76,12 +76,15 @@ class Guard:
         host = given.get(b"host", b"").decode("latin-1").rsplit(":", 1)[0].strip("[]").lower()
         if host not in self.hosts:
             await turn_away(
-                scope, send, 421, "This address is not that of the tournament's computer."
+                scope, send, 421, "This is not the address of the tournament's computer."
             )
             return
         if len(scope["raw_path"]) + len(scope["query_string"]) + _size(scope) > MOST_HEAD:
             await turn_away(
-                scope, send, 431, f"More than {MOST_HEAD >> 10} KB stand above the form."
+                scope,
+                send,
+                431,
+                f"The request's address and headers are larger than {MOST_HEAD >> 10} KB.",
             )
             return
         length = given.get(b"content-length", b"0")

@@ -73,7 +73,7 @@ FIELDS = {
     "a": say("the first score"),
     "b": say("the second score"),
     "sets": say("the number of sets"),
-    "times": say("how often each may play"),
+    "times": say("how often each player may play"),
     "table": say("the table"),
     "player": say("the name"),
     "games": say("the loser's games"),

@@ -120,7 +120,7 @@ def plan_of(
         filled = one.file.roster.with_starters(scale.center, scale.points_per_doubling, scale)
         warnings += filter(None, [starters_words(one.file.roster, filled)])
     rated = np.concatenate([one.file.roster.rating for one in lists])
-    doubts = [] if by_level else league_doubts(scale, rated, say("Is it the right scale?"))
+    doubts = [] if by_level else league_doubts(scale, rated, say("is it the right scale?"))
     return plan, [*dict.fromkeys(warnings), *doubts, *filter(None, [rests_on])]
 
 
@@ -174,8 +174,8 @@ def _scale(form: Form, lists: list[TeamList], league: League) -> Scale:
         return scale_of(points)
     if any(one.file.levels for one in lists):
         raise RefusalError(
-            "The lists have skill levels instead of ratings. Choose a chart of skill levels, or "
-            "under More enter how many levels double the odds."
+            "The lists have skill levels instead of ratings. Choose a skill-level chart, or "
+            "open More and enter how many levels double the odds."
         )
     stated = [one.file.scale for one in lists if one.file.scale is not None]
     if any(not stated[0].same_points(other) for other in stated[1:]):

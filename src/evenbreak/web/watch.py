@@ -102,7 +102,7 @@ class Watch:
             try:
                 await self._look()
             except Exception as error:  # the next look may fare better
-                _LOG.exception("the file could not be looked at", exc_info=error)
+                _LOG.exception("the file could not be checked", exc_info=error)
 
     async def _look(self) -> None:
         async with self._reading:

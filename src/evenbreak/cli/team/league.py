@@ -371,7 +371,7 @@ def scale_of_teams(lists: Sequence[TeamList], stated: Scale | None) -> tuple[Sca
             refuse_to_read(each.file, scale, "the other team's list", SAY_WHICH)
     warnings = list(dict.fromkeys(line for each in lists for line in each.file.warnings))
     if not scales:
-        warnings += league_doubts(scale, rated, "Is it the right scale?")
+        warnings += league_doubts(scale, rated, "is it the right scale?")
     return scale, warnings
 
 

@@ -239,7 +239,9 @@ class Format:
             "How many players advance from all groups together.",
             usual="the qualifiers from all groups",
             metavar="M",
-            label=say("Players advancing from all groups together (blank: as many from each)"),
+            label=say(
+                "Players advancing from all groups together (blank: the same number from each)"
+            ),
             section=_FORMAT,
             formats=("groups",),
             more="If 16 advance from 5 groups, they are the top three in each group and the "

@@ -423,7 +423,9 @@ def call_back(state: Evening, match: str) -> CalledBack:
     """Take a match off its table; its score is kept."""
     name = known_match(state, match)
     if state.plan.form == "chips":
-        raise InputError("a chip tournament has no calls: the players at the tables play on")
+        raise InputError(
+            "a chip tournament has no calls: the players at the tables just keep playing"
+        )
     if name not in state.on_tables:
         raise InputError("{match} isn't on a table", match=state.match_words(name))
     return CalledBack(name, state.pair(name))

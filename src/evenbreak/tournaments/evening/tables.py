@@ -40,7 +40,9 @@ def wait(
     """
     name = undecided(state, match)
     if state.plan.form == "chips":
-        raise InputError("a chip tournament has no calls: the players at the tables play on")
+        raise InputError(
+            "a chip tournament has no calls: the players at the tables just keep playing"
+        )
     pair = state.pair(name)
     for player in absent:
         refuse_stranger(state, player, name, pair)

@@ -165,9 +165,14 @@ def _why_not(state: Evening, events: Mapping[int, Event], entry: int) -> Sentenc
         match = state.match_words(what.match) if state.drawn else what.match
         return say("{match} has been played or called again since that call", match=match)
     if entry not in (own := _own(events, entry)):
-        return say("entry {entry} came with entry {other}. Undo that.", entry=entry, other=own[-1])
+        return say(
+            "entry {entry} came with entry {other}. Undo entry {other} instead.",
+            entry=entry,
+            other=own[-1],
+        )
     return say(
-        "other entries follow from entry {entry}. Undo those first, or correct it.", entry=entry
+        "other entries depend on entry {entry}. Undo those first, or correct entry {entry}.",
+        entry=entry,
     )
 
 

@@ -65,11 +65,11 @@ def answer_in_json(command: str, values: dict[str, Any]) -> bytes:
         with told(_refuse):
             return to_json(answer_to(command, question_of(command)(**values))).encode()
     except (MemoryError, OverflowError, RecursionError):
-        raise InputError("The numbers of this question are too large. Ask for less.") from None
+        raise InputError("The numbers in this question are too large. Ask for less.") from None
 
 
 def _refuse(why: str) -> NoReturn:
-    raise InputError("{why}. Ask for less, or use the command on a computer of your own.", why=why)
+    raise InputError("{why}. Ask for less, or run the command on your own computer.", why=why)
 
 
 def _resources() -> Iterator[Resource]:

@@ -61,7 +61,7 @@ def _refuse_number() -> NoReturn:
 
 
 def _refuse_depth() -> NoReturn:
-    raise ProblemError("The body has lists inside lists more than {most} deep.", most=_DEEPEST)
+    raise ProblemError("Lists in the body are nested more than {most} deep.", most=_DEEPEST)
 
 
 def _check(value: Any, deeper: int = _DEEPEST) -> None:

@@ -16,22 +16,22 @@ from evenbreak.web.api.resource import V1, Resource
 _TEMPLATE = "#/components/schemas/{name}"
 _BEARER = "token"
 _TAGS = {
-    "tonight": "The tournament of tonight, as everyone in the room sees it.",
-    "enter": "What a program enters, with a token that the director created.",
-    "questions": "What the commands answer, such as `evenbreak odds`.",
+    "tonight": "Tonight's tournament, as everyone in the room sees it.",
+    "enter": "Entries that a program makes with a token created by the director.",
+    "questions": "The answers of commands such as `evenbreak odds`.",
     "interface": "The interface itself.",
 }
 _REFUSALS = {
     400: "A parameter is wrong, missing or unknown.",
     401: "The token is missing, or it has been revoked.",
     403: "The token doesn't allow this.",
-    404: "There is no such thing, or not yet.",
-    409: "Something else would be lost by it, or has come in between.",
+    404: "What you asked for doesn't exist, or doesn't exist yet.",
+    409: "The entry would undo something else, or something else was entered in the meantime.",
     413: "More was sent than is allowed.",
     415: "The body is not JSON.",
-    422: "The Idempotency-Key came with another request before.",
-    429: "Too much was asked from this address within a minute.",
-    503: "Many wait for answers already; Retry-After says when to ask again.",
+    422: "This Idempotency-Key was already used for a different request.",
+    429: "Too many requests came from this address within a minute.",
+    503: "Too many requests are already waiting; Retry-After tells you when to try again.",
 }
 
 
@@ -48,9 +48,10 @@ def describe(resources: Sequence[Resource]) -> dict[str, Any]:
             "title": "evenbreak",
             "version": __version__,
             "summary": "Tonight's tournament, and answers to questions, for other programs.",
-            "description": "Names are only added within a version of the address (v1). Times are "
-            "local, as ISO 8601 has them without a zone; chances run from 0 to 1. Sentences come "
-            "in the language of Accept-Language.",
+            "description": "Within a version of the address (v1), names may be added but are "
+            "never changed or removed. Times are local, in ISO 8601 format "
+            "without a time zone; chances run from 0 to 1. Sentences are in the "
+            "language that Accept-Language asks for.",
             "license": {"name": "MIT", "identifier": "MIT"},
         },
         "servers": [{"url": "/", "description": "The computer that runs the tournament."}],
@@ -62,7 +63,7 @@ def describe(resources: Sequence[Resource]) -> dict[str, Any]:
                 _BEARER: {
                     "type": "http",
                     "scheme": "bearer",
-                    "description": "Drawn by the director, for scores or for everything.",
+                    "description": "Created by the director, for scores only or for everything.",
                 }
             },
         },
@@ -139,14 +140,16 @@ def _parameters(one: Resource) -> Iterator[dict[str, Any]]:
         yield {
             "name": "Idempotency-Key",
             "in": "header",
-            "description": "Chosen by the program: the same request again enters nothing twice.",
+            "description": "A key chosen by the program, so that repeating a request doesn't "
+            "enter anything twice.",
             "schema": {"type": "string", "minLength": 1, "maxLength": 200},
         }
     if one.method == "GET" and not one.streams:
         yield {
             "name": "If-None-Match",
             "in": "header",
-            "description": "The ETag of the last answer; 304 while nothing has changed.",
+            "description": "The ETag of the last answer; as long as nothing has changed, the "
+            "answer is 304.",
             "schema": {"type": "string"},
         }
 

@@ -24,34 +24,38 @@ from evenbreak.words import Face, Parameter, Sentence, capital_in_face, in_face
 class Lost:
     """A match that would leave its table, or a result that would no longer count."""
 
-    match: Annotated[str, Meta(description="By its number.")]
+    match: Annotated[str, Meta(description="The match's number.")]
     players: tuple[str, str]
-    table: Annotated[str | None, Meta(description="The table that it would leave.")]
+    table: Annotated[str | None, Meta(description="The table the match would leave.")]
     score: Annotated[
-        tuple[int, int] | None, Meta(description="Its score so far, or that of its result.")
+        tuple[int, int] | None, Meta(description="The score so far, or the final score.")
     ]
-    result: Annotated[bool, Meta(description="Whether it has a result, which would not count.")]
+    result: Annotated[
+        bool, Meta(description="Whether the match has a result, which would no longer count.")
+    ]
 
 
 @dataclass(frozen=True)
 class Problem:
     """Why a request is rejected, in the language it asks for (Accept-Language)."""
 
-    title: Annotated[str, Meta(description="What HTTP calls it.", examples=["Bad Request"])]
-    status: Annotated[int, Meta(description="The status of HTTP.", ge=400, le=599)]
+    title: Annotated[str, Meta(description="HTTP's name for the status.", examples=["Bad Request"])]
+    status: Annotated[int, Meta(description="The HTTP status.", ge=400, le=599)]
     detail: Annotated[str, Meta(description="What is wrong and how to correct it.")]
-    parameter: Annotated[str, Meta(description="The parameter that is wrong, if it is one.")] = ""
+    parameter: Annotated[
+        str, Meta(description="The parameter that is wrong, if the problem is a parameter.")
+    ] = ""
     how: Annotated[
-        dict[str, Any], Meta(description="What to send besides, to have it entered anyway.")
+        dict[str, Any], Meta(description="What to add to the request to have it entered anyway.")
     ] = field(default_factory=dict)
     score: Annotated[
-        tuple[int, int] | None, Meta(description="The score that there is, if it is not `seen`.")
+        tuple[int, int] | None, Meta(description="The current score, if it differs from `seen`.")
     ] = None
     lost: Annotated[
-        list[Lost], Meta(description="What would be lost, if you have to confirm it first.")
+        list[Lost], Meta(description="What would be lost, if you have to confirm that first.")
     ] = field(default_factory=list)
     schema: Annotated[
-        dict[str, Any], Meta(description="The JSON schema of the value that was wanted.")
+        dict[str, Any], Meta(description="The JSON schema of the expected value.")
     ] = field(default_factory=dict)
 
 

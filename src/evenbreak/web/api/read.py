@@ -283,7 +283,7 @@ RESOURCES = [
     ),
     Resource(
         "/tonight/bracket",
-        "The bracket, all that it takes to draw it.",
+        "The bracket, with everything needed to draw it.",
         told(_bracket),
         shapes.Bracket,
         asks=(EVENT,),
@@ -296,11 +296,11 @@ RESOURCES = [
         asks=(EVENT,),
     ),
     Resource(
-        "/tonight/tables", "What is on each table of the house.", told(_tables), shapes.Tables
+        "/tonight/tables", "What is on each of the house's tables.", told(_tables), shapes.Tables
     ),
     Resource(
         "/tonight/queue",
-        "The matches that can be called now, the next first.",
+        "The matches that can be called now, starting with the next one.",
         told(_queue),
         shapes.Queue,
         asks=(EVENT,),
@@ -317,7 +317,7 @@ RESOURCES = [
     ),
     Resource(
         "/tonight/standings",
-        "Who has finished where, and how groups stand.",
+        "Who has finished where, and the standings in each group.",
         told(_standings),
         shapes.Standings,
         asks=(EVENT,),
@@ -331,12 +331,12 @@ RESOURCES = [
     ),
     Resource(
         "/tonight/race",
-        "What two players would race to, and their chances.",
+        "Two players' race, and each one's chance of winning it.",
         told(_race),
         shapes.Race,
         asks=(
-            _asks("a", "A player of tonight; the beginning of a name will do."),
-            _asks("b", "The other one."),
+            _asks("a", "One of tonight's players; the beginning of the name is enough."),
+            _asks("b", "The other player."),
             EVENT,
         ),
     ),

@@ -36,8 +36,8 @@ EVENT = Declared(
     "event",
     Field(
         Whole(1, 99),
-        "The number of the event, on a night with several.",
-        usual="the first; of the queue all",
+        "The event's number, on a night with several events.",
+        usual="the first event; for the queue, all events",
     ),
     None,
 )

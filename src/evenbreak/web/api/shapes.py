@@ -9,7 +9,7 @@ from msgspec import Meta
 
 Chance: TypeAlias = Annotated[float, Meta(ge=0, le=1)]
 Number: TypeAlias = Annotated[
-    str, Meta(pattern="^[0-9]+$", description="A match, as people call it.", examples=["12"])
+    str, Meta(pattern="^[0-9]+$", description="The match number that people use.", examples=["12"])
 ]
 When: TypeAlias = Annotated[
     str,
@@ -19,17 +19,26 @@ When: TypeAlias = Annotated[
         examples=["2026-03-01T19:40:00"],
     ),
 ]
-EventNumber: TypeAlias = Annotated[int, Meta(ge=1, le=99, description="The event of the night.")]
+EventNumber: TypeAlias = Annotated[
+    int, Meta(ge=1, le=99, description="The event's number that night.")
+]
 Stage: TypeAlias = Annotated[
     Literal["registered", "under_way", "finished"],
     Meta(description="registered: the draw hasn't been made yet."),
 ]
 State: TypeAlias = Annotated[
     Literal["waits", "ready", "called", "playing", "done", "forfeit"],
-    Meta(description="waits: for its players; ready: for a table; called: on its way there."),
+    Meta(
+        description="waits: its players aren't known yet; ready: it is waiting for a table; "
+        "called: its players are on their way to the table."
+    ),
 ]
 Known: TypeAlias = Annotated[
-    bool, Meta(description="False: not worked out yet (ask again in seconds), or nothing is left.")
+    bool,
+    Meta(
+        description="False if this hasn't been worked out yet (ask again in a few "
+        "seconds), or if there is nothing left to play."
+    ),
 ]
 Older: TypeAlias = Annotated[
     bool, Meta(description="Whether this was worked out before the last entry.")
@@ -49,16 +58,26 @@ class Times:
 class Side:
     """A player in a match."""
 
-    name: Annotated[str, Meta(description="'' while it is open who it is.")]
+    name: Annotated[str, Meta(description="'' until the player is known.")]
     comes_from: Annotated[
-        str, Meta(description="Where an open one comes from.", examples=["winner of 12"])
+        str,
+        Meta(
+            description="Where a player who isn't known yet will come from.",
+            examples=["winner of 12"],
+        ),
     ]
     needs: Annotated[
-        int | None, Meta(description="The race: the games this player needs; null while open.")
+        int | None,
+        Meta(
+            description="How many games this player needs to win the match; null "
+            "until the race is known."
+        ),
     ]
     games: Annotated[int | None, Meta(description="Games won so far; null before the first score.")]
     won: bool
-    chance: Annotated[Chance | None, Meta(description="Of winning the match from this score on.")]
+    chance: Annotated[
+        Chance | None, Meta(description="The chance of winning the match from the current score.")
+    ]
 
 
 @dataclass(frozen=True)
@@ -67,20 +86,26 @@ class Match:
 
     number: Number
     name: Annotated[
-        str, Meta(description="As the file and the stream of changes name it.", examples=["W1.2"])
+        str,
+        Meta(
+            description="The match's name in the file and in the stream of changes.",
+            examples=["W1.2"],
+        ),
     ]
     event: EventNumber
-    part: Annotated[str, Meta(description="Of the bracket.", examples=["Winners"])]
+    part: Annotated[str, Meta(description="The part of the bracket.", examples=["Winners"])]
     round: Annotated[str, Meta(examples=["Quarterfinals"])]
     column: Annotated[int, Meta(ge=0, description="The round's place among `rounds` of its part.")]
-    players: Annotated[tuple[Side, Side], Meta(description="Its two players.")]
+    players: Annotated[tuple[Side, Side], Meta(description="The match's two players.")]
     state: State
     hill_hill: Annotated[bool, Meta(description="Whether both need one more game.")]
     disputed: Annotated[bool, Meta(description="Whether the players have sent different scores.")]
-    table: Annotated[str, Meta(description="By the house's name; '' unless it is on one.")]
+    table: Annotated[
+        str, Meta(description="The house's name for the table; '' if the match isn't on one.")
+    ]
     called: When | None
     ended: When | None
-    starts: Annotated[Times | None, Meta(description="About when it starts.")]
+    starts: Annotated[Times | None, Meta(description="When the match is expected to start.")]
     winner_to: Annotated[Number | None, Meta(description="The winner's next match.")]
     loser_to: Annotated[Number | None, Meta(description="The loser's next match.")]
 
@@ -110,17 +135,17 @@ class Tonight(Event):
     """A tournament: what is played, by whom, and what is on the tables."""
 
     format_words: Annotated[str, Meta(examples=["double elimination"])]
-    races: Annotated[str, Meta(description="What is raced to, in words.")]
+    races: Annotated[str, Meta(description="The races, in words.")]
     discipline: Annotated[str, Meta(examples=["9-ball"])]
-    scale: Annotated[str, Meta(description="Of the ratings.", examples=["fargo"])]
-    date: Annotated[str, Meta(description="'' unless the director has given one.")]
-    begun: Annotated[When, Meta(description="When the tournament was begun on the page.")]
-    matches: Annotated[int, Meta(description="How many there will be.")]
-    played: Annotated[int, Meta(description="How many are over.")]
+    scale: Annotated[str, Meta(description="The scale of the ratings.", examples=["fargo"])]
+    date: Annotated[str, Meta(description="The date the director has set; '' if there is none.")]
+    begun: Annotated[When, Meta(description="When the tournament was started on the page.")]
+    matches: Annotated[int, Meta(description="How many matches the tournament will have.")]
+    played: Annotated[int, Meta(description="How many matches are over.")]
     champion: Annotated[str, Meta(description="'' until it is over.")]
     players: list[Player]
-    under_way: Annotated[list[Match], Meta(description="What is on the tables.")]
-    events: Annotated[list[Event], Meta(description="All events of the night.")]
+    under_way: Annotated[list[Match], Meta(description="The matches on the tables.")]
+    events: Annotated[list[Event], Meta(description="All of the night's events.")]
 
 
 @dataclass(frozen=True)
@@ -128,16 +153,20 @@ class Part:
     """A part of the bracket: a side, a group, or a list of matches."""
 
     title: Annotated[str, Meta(examples=["Winners"])]
-    linked: Annotated[bool, Meta(description="Whether winners go from column to column.")]
+    linked: Annotated[
+        bool, Meta(description="Whether winners move on from one column to the next.")
+    ]
     rounds: Annotated[list[str], Meta(description="The heading of each column.")]
-    matches: Annotated[list[Match], Meta(description="From the top of each column down.")]
+    matches: Annotated[
+        list[Match], Meta(description="The matches of each column, from top to bottom.")
+    ]
 
 
 @dataclass(frozen=True)
 class Bracket(Event):
     """The whole bracket, with everything needed to draw it."""
 
-    races: Annotated[str, Meta(description="What is raced to, in words.")]
+    races: Annotated[str, Meta(description="The races, in words.")]
     champion: Annotated[str, Meta(description="'' until it is over.")]
     parts: Annotated[list[Part], Meta(description="Empty before the draw.")]
 
@@ -158,10 +187,12 @@ class Table:
     name: str
     number: Annotated[int, Meta(ge=1)]
     state: Literal["free", "called", "playing"]
-    reserved: Annotated[bool, Meta(description="Whether it is given out by hand only.")]
-    streamed: Annotated[bool, Meta(description="Whether it is filmed.")]
-    match: Annotated[Match | None, Meta(description="What is on it.")]
-    next: Annotated[Match | None, Meta(description="What would be called to it now.")]
+    reserved: Annotated[bool, Meta(description="Whether the table is only assigned by hand.")]
+    streamed: Annotated[bool, Meta(description="Whether the table is on the stream.")]
+    match: Annotated[Match | None, Meta(description="The match on this table.")]
+    next: Annotated[
+        Match | None, Meta(description="The match that would be called to this table now.")
+    ]
 
 
 @dataclass(frozen=True)
@@ -176,7 +207,9 @@ class Waiting:
     """A match that can be called now."""
 
     match: Match
-    table: Annotated[str, Meta(description="The free table it would get; '' if none is free.")]
+    table: Annotated[
+        str, Meta(description="The free table the match would get; '' if none is free.")
+    ]
 
 
 @dataclass(frozen=True)
@@ -199,10 +232,15 @@ class PlayerOdds:
     """A player's chances."""
 
     name: str
-    title: Annotated[Chance, Meta(description="Of winning the tournament.")]
-    title_low: Annotated[Chance | None, Meta(description="Where it may lie, of a new player.")]
+    title: Annotated[Chance, Meta(description="The chance of winning the tournament.")]
+    title_low: Annotated[
+        Chance | None,
+        Meta(description="For a new player, the low end of the range the chance may be in."),
+    ]
     title_high: Chance | None
-    places: Annotated[list[PlaceChance], Meta(description="Those that can still be reached.")]
+    places: Annotated[
+        list[PlaceChance], Meta(description="The places the player can still finish in.")
+    ]
 
 
 @dataclass(frozen=True)
@@ -212,7 +250,7 @@ class Odds:
     event: EventNumber
     known: Known
     older: Older
-    exact: Annotated[bool, Meta(description="Whether they are exact rather than simulated.")]
+    exact: Annotated[bool, Meta(description="Whether the odds are exact rather than simulated.")]
     players: Annotated[list[PlayerOdds], Meta(description="The most likely winner first.")]
 
 
@@ -224,7 +262,7 @@ class Finish:
     state: Stage
     known: Known
     older: Older
-    ends: Annotated[Times | None, Meta(description="null unless it is known.")]
+    ends: Annotated[Times | None, Meta(description="null until it is known.")]
     matches: int
     played: int
 
@@ -235,19 +273,23 @@ class Placed:
 
     place: Annotated[str, Meta(examples=["5-6"])]
     name: str
-    prize: Annotated[float, Meta(ge=0, description="0 where there is none.")]
+    prize: Annotated[float, Meta(ge=0, description="0 if there is none.")]
 
 
 @dataclass(frozen=True)
 class Rank:
     """A player in a group, a Swiss or a chip tournament."""
 
-    rank: Annotated[int, Meta(ge=1, description="The same of players who are level.")]
+    rank: Annotated[int, Meta(ge=1, description="Tied players have the same rank.")]
     name: str
-    won: Annotated[int, Meta(description="Matches won, in a Swiss after the finished rounds.")]
+    won: Annotated[int, Meta(description="Matches won; in a Swiss, as of the last finished round.")]
     lost: Annotated[int, Meta(description="Matches lost.")]
-    buchholz: Annotated[int | None, Meta(description="Of a Swiss.")]
-    chips: Annotated[int | None, Meta(description="Left, of a chip tournament.")]
+    buchholz: Annotated[
+        int | None, Meta(description="The Buchholz score in a Swiss; null in other formats.")
+    ]
+    chips: Annotated[
+        int | None, Meta(description="Chips left in a chip tournament; null in other formats.")
+    ]
 
 
 @dataclass(frozen=True)
@@ -264,7 +306,7 @@ class Standings:
 
     event: EventNumber
     state: Stage
-    places: Annotated[list[Placed], Meta(description="Those that are decided.")]
+    places: Annotated[list[Placed], Meta(description="The places decided so far.")]
     groups: list[Group]
 
 
@@ -273,10 +315,14 @@ class Rating:
     """A player's rating."""
 
     name: str
-    rating: Annotated[float, Meta(description="As it was entered.")]
-    error: Annotated[float, Meta(ge=0, description="Its standard error; 0: exact.")]
+    rating: Annotated[float, Meta(description="The rating as it was entered.")]
+    error: Annotated[
+        float, Meta(ge=0, description="The rating's standard error; 0 if the rating is exact.")
+    ]
     provisional: bool
-    tonight: Annotated[float | None, Meta(description="As tonight's games have moved it.")]
+    tonight: Annotated[
+        float | None, Meta(description="The rating as adjusted for tonight's games.")
+    ]
 
 
 @dataclass(frozen=True)
@@ -293,7 +339,7 @@ class Racer:
     """A player in a race."""
 
     name: str
-    rating: Annotated[float, Meta(description="As tonight's games have moved it.")]
+    rating: Annotated[float, Meta(description="The rating as adjusted for tonight's games.")]
     needs: Annotated[int, Meta(ge=1, description="Games.")]
     chance: Chance
 
@@ -312,7 +358,9 @@ class TeamSet:
     """A set in a team night."""
 
     number: Annotated[int, Meta(ge=1)]
-    players: Annotated[tuple[str, str], Meta(description="'' while it is open or unseen.")]
+    players: Annotated[
+        tuple[str, str], Meta(description="'' until the player is known and may be shown.")
+    ]
     needs: tuple[int, int] | None
     score: tuple[int, int] | None
 
@@ -324,6 +372,7 @@ class TeamNight:
     teams: tuple[str, str]
     sets: list[TeamSet]
     chances: Annotated[
-        tuple[Chance, Chance] | None, Meta(description="Of winning the night; null: not yet known.")
+        tuple[Chance, Chance] | None,
+        Meta(description="Each team's chance of winning the night; null until it is known."),
     ]
     over: bool

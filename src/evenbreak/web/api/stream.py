@@ -48,30 +48,37 @@ class Change:
     id: Annotated[
         str,
         Meta(
-            description="Its place among all entries, and a sum of what it says, so that "
-            "another file is noticed. Send it back as it is to go on."
+            description="The entry's position among all entries, plus a checksum of its "
+            "content, so that a change of file is noticed. To continue from here, "
+            "send it back unchanged."
         ),
     ]
-    at: Annotated[str, Meta(description="When it was entered.")]
+    at: Annotated[str, Meta(description="When the entry was made.")]
     kind: Annotated[
         str,
         Meta(
-            description="What was entered, such as called, scored, result or undone; `phones` or "
-            "`team night` where something changed there that is not sent."
+            description="The type of entry, such as called, scored, result or undone; `phones` "
+            "or `team night` if something changed there whose details aren't sent."
         ),
     ]
     event: EventNumber | None = None
-    entry: Annotated[int | None, Meta(description="Its number in its event.")] = None
-    match: Annotated[str | None, Meta(description="Its name, as in /tonight/matches.")] = None
+    entry: Annotated[int | None, Meta(description="The entry's number in its event.")] = None
+    match: Annotated[str | None, Meta(description="The match's name, as in /tonight/matches.")] = (
+        None
+    )
     number: Number | None = None
-    players: Annotated[tuple[str, str] | None, Meta(description="Of the match.")] = None
-    score: Annotated[tuple[int, int] | None, Meta(description="Their games.")] = None
-    winner: Annotated[str | None, Meta(description="Of a result.")] = None
+    players: Annotated[tuple[str, str] | None, Meta(description="The match's players.")] = None
+    score: Annotated[tuple[int, int] | None, Meta(description="Each player's games.")] = None
+    winner: Annotated[str | None, Meta(description="The winner, if the entry is a result.")] = None
     forfeit: Annotated[bool | None, Meta(description="Whether the loser forfeited.")] = None
-    corrects: Annotated[bool | None, Meta(description="Whether it corrects a result.")] = None
-    table: Annotated[str | None, Meta(description="By the house's name, of a call.")] = None
+    corrects: Annotated[bool | None, Meta(description="Whether the entry corrects a result.")] = (
+        None
+    )
+    table: Annotated[
+        str | None, Meta(description="The house's name for the table, if the entry is a call.")
+    ] = None
     of: Annotated[
-        int | None, Meta(description="The entry that is undone or redone; absent: the last one.")
+        int | None, Meta(description="The entry that is undone or redone; if absent, the last one.")
     ] = None
 
 
@@ -150,16 +157,17 @@ _AFTER = Declared(
     "after",
     Field(
         Text(),
-        "The id of the last entry that is known, for programs that can't send "
-        "Last-Event-ID: 0 for all entries. Without either, from now on.",
+        "The id of the last entry you have, for programs that can't send Last-Event-ID; 0 for "
+        "all entries. Without either, the stream starts with the next entry.",
     ),
     None,
 )
 RESOURCES = [
     Resource(
         "/tonight/changes",
-        "Every entry of the night as it is made, as server-sent events: `entry`, with what is "
-        "described here as data, and `reset` where entries were missed: read everything anew.",
+        "Every entry of the night as it is made, as server-sent events: `entry`, whose data is "
+        "described here, and `reset`, which means that entries were missed and you must read "
+        "everything again.",
         changes,
         Change,
         asks=(_AFTER,),

@@ -28,7 +28,7 @@ from evenbreak.web.sessions import address_of
 from evenbreak.words import say
 
 _LONGEST = 200
-_NONE = say("This needs a token. The director creates it under More, Programs.")
+_NONE = say("This needs a token. The director creates one under More, Other apps.")
 _GONE = say("This token is unknown here, or it has been revoked.")
 _NOT_FOR_THIS = {"www-authenticate": 'Bearer realm="evenbreak", error="insufficient_scope"'}
 _MINUTE = {"retry-after": "60"}
@@ -49,7 +49,7 @@ async def check_token(request: Request, move: str) -> None:
         needed = SCORES if move in MOVES_OF_SCORES else DIRECTOR
         plan = (await asyncio.to_thread(site.night.state)).plan if site.night.exists else None
         raise ProblemError(
-            "This program's token is good for: {scope}. This needs one for: {needed}.",
+            "This program's token is good for: {scope}. This needs a token for: {needed}.",
             scope=scope_words(held, plan) if plan else held.scope,
             needed=scopes(plan)[needed] if plan else needed,
             status=403,
@@ -74,7 +74,7 @@ def check_still(request: Request, state: Evening, match: str | None) -> None:
         on = state.on_tables.get(known_match(state, match or ""))
         if on is None or on.call.table != held.table:
             raise ProblemError(
-                "{match} isn't on the table of this program's token ({scope}).",
+                "{match} isn't on the table that this program's token is for ({scope}).",
                 match=state.match_words(known_match(state, match or "")),
                 scope=scope_words(held, state.plan),
                 status=403,

@@ -57,8 +57,9 @@ _SURE = Declared(
     "sure",
     Field(
         _Agreed(),
-        "Enter it even if a match in play leaves its table, or a result no longer counts: the "
-        "'sure' of the refusal agrees to what it named, and true to whatever it takes.",
+        "Enter it even if a match in play leaves its table or a result no longer counts. The "
+        "value of 'sure' from the refusal agrees to exactly what the refusal listed; true "
+        "agrees to anything.",
     ),
     False,
 )
@@ -68,7 +69,7 @@ _SEEN = Declared(
     None,
 )
 _OWN = ("sure", "seen")
-_ENTRY = "The entry, by its number: of `entries` in an answer, of the stream, or of the history."
+_ENTRY = "The entry's number, from `entries` in an answer, from the stream or from the history."
 _TAPS = ("score", "result")
 _KEY = re.compile(r"[!-~]{1,200}")
 
@@ -78,11 +79,15 @@ class Written:
     """What was entered."""
 
     event: shapes.EventNumber
-    said: Annotated[list[str], Meta(description="What it changed, in words.")]
+    said: Annotated[list[str], Meta(description="What the request changed, in words.")]
     entries: Annotated[list[int], Meta(description="The numbers of the new entries.")]
-    matches: Annotated[list[shapes.Match], Meta(description="The matches that it changed.")]
+    matches: Annotated[list[shapes.Match], Meta(description="The matches that changed.")]
     taken_before: Annotated[
-        bool, Meta(description="Whether the same request came before: nothing was entered twice.")
+        bool,
+        Meta(
+            description="Whether the same request had come before, so that nothing was "
+            "entered this time."
+        ),
     ]
 
 
@@ -154,7 +159,8 @@ def _hashed(*texts: str) -> str:
 def _refuse_other(earlier: set[str], whole: str | None) -> None:
     if whole not in earlier:
         raise ProblemError(
-            "This Idempotency-Key came with another request before. Use a new one for each.",
+            "This Idempotency-Key was already used for a different request. Use a new key for "
+            "each request.",
             status=422,
             parameter="Idempotency-Key",
         )

@@ -89,7 +89,7 @@ NOT_WITH_FORMAT = {
 
 
 PACES = (
-    ("0.8", say("20% faster than usual")),
+    ("0.8", say("20% less time than usual")),
     ("1", say("as long as usual")),
     ("1.15", say("a little longer")),
     ("1.3", say("a third longer")),
@@ -242,8 +242,8 @@ async def delete(request: Request) -> Response:
         raise RefusalError("No tournament is running yet.", status=404)
     if not form.text("sure"):
         line = say(
-            "The tournament of {players} players, started on {day}, is deleted. A copy of its file "
-            "is kept.",
+            "The tournament of {players} players, started on {day}, will be deleted. A copy of "
+            "its file is kept.",
             players=there.players,
             day=there.begun[:10],
         )
@@ -292,8 +292,8 @@ def _put_aside(form: Form, site: Site) -> int:
         return 0
     if form.text("in_place_of") != there.name:
         raise RefusalError(
-            "A tournament is already running. Tick the box to archive it, or leave this "
-            "page to continue it.",
+            "A tournament is already running. Check the box to archive it, or leave this page "
+            "to continue it.",
             status=409,
         )
     back_up(site.path, datetime.now())
@@ -309,7 +309,7 @@ def _begun(
     file = read_upload(content, read_entrants) if content.strip() else nobody()
     if not (content.strip() or stated or (league and league.sheet)):
         raise RefusalError(
-            "No one has entered yet, so nothing shows the scale of the ratings. Choose it below."
+            "No one has entered yet, so the rating scale can't be detected. Choose it below."
         )
     if file.levels and stated is None:
         raise RefusalError(
@@ -330,7 +330,7 @@ def _begun(
     doubts = (
         []
         if known
-        else league_doubts(scale, read.rating, say("Is it the right scale?"), read.players)
+        else league_doubts(scale, read.rating, say("is it the right scale?"), read.players)
     )
     doubts += chart_doubts(plan.chart, scale)
     unrated = zip(rows, np.isnan(read.rating).tolist(), strict=True)
@@ -352,12 +352,12 @@ def _plan(form: Form, scale: Scale, earlier: tuple[EarlierNight, ...]) -> Plan:
     _refuse_of_other_formats(form, kind)
     if form.text("qualifiers") and form.text("final") == "single":
         raise RefusalError(
-            "A double elimination that ends with qualifiers has one final. Leave out one "
-            "of the two choices."
+            "A double elimination that ends with qualifiers has one final. Choose only one of "
+            "the two."
         )
     if races in CHARTS and (form.text("losers_race") or form.text("final_race")):
         raise RefusalError(
-            "The chart sets all races. Leave the races of the losers' side and of the final blank."
+            "The chart sets all races. Leave the races on the losers' side and in the final blank."
         )
     has_race = kind != "chips" and races not in CHARTS
     length = form.whole("race", 1, LONGEST_RACE) if has_race else None

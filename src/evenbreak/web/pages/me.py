@@ -289,13 +289,13 @@ def _mine(request: Request, pair: tuple[str, str]) -> str:
     """Return which of two players this phone belongs to; reject everyone else."""
     name = night_of(request).phones().of(phone_of(request))
     if name not in pair:
-        raise RefusalError("Only a match's players keep its score.", status=403)
+        raise RefusalError("Only the players in a match can keep its score.", status=403)
     return name
 
 
 def _still(request: Request, name: str) -> None:
     if night_of(request).phones().of(phone_of(request)) != name:
-        raise RefusalError("Only a match's players keep its score.", status=403)
+        raise RefusalError("Only the players in a match can keep its score.", status=403)
 
 
 async def withdraw(request: Request) -> Response:

@@ -28,7 +28,7 @@ from evenbreak.words import Parameter, say
 _MONEY = re.compile(r"[0-9]{1,7}(\.[0-9]{1,2})?", re.ASCII)
 
 UNITS = (
-    ("0", say("cents, as they come out")),
+    ("0", say("the cent")),
     ("1", say("whole dollars or euros")),
     ("5", say("fives")),
     ("10", say("tens")),
@@ -138,8 +138,8 @@ def money_of(form: Form) -> PrizeMoney | None:
         money = PrizeMoney(fee, added, house, payout.lower().replace(",", "."), unit)
     except InputError:
         raise RefusalError(
-            "{value!r}: choose a table from the list, or write the percentage for each "
-            "place, such as 50/30/20, adding up to 100 at most.",
+            "{value!r} isn't a way to split the prizes. Choose a table from the list, or enter "
+            "the percentage for each place, such as 50/30/20, adding up to 100 at most.",
             value=payout,
         ) from None
     return money if fee or added else None

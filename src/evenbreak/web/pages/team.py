@@ -297,7 +297,7 @@ def _refuse_unseen(state: TeamEvening, side: int, number: int) -> None:
     """Keep the director from finding out by guessing what a captain has submitted unseen."""
     if not state.open(number) and state.sets[number - 1].picks[side]:
         raise RefusalError(
-            "{name} has already handed in for this set. Undo that first, or let the "
+            "{name} has already handed in a pick for this set. Undo that first, or let the "
             "captain change it.",
             status=409,
             name=state.teams[side],
