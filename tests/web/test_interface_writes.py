@@ -344,7 +344,7 @@ def test_refusals_name_addresses_people_and_what_a_token_is_for(night: Night) ->
         ("drop", "desk", '{"player": "Ha"}'): (400, "if you mean Hal, write that."),
         ("drop", "board", '{"player": "Hal"}'): (
             403,
-            "good for: scores, results and calls. This needs a token for: everything a director can",
+            "good for: scores, results and calls. This needs a token for: everything a director",
         ),
         ("score", "tv", '{"match": "1", "score": [1, 0]}'): (
             403,
