@@ -37,7 +37,7 @@ def test_the_error_names_what_to_type(run, line: str, says: str) -> None:
     assert result.exit_code in (1, 2, 3)
     assert result.stdout == ""
     assert says in result.stderr
-    assert "The night is kept in" not in result.stderr
+    assert "Tonight's file is" not in result.stderr
 
 
 def test_a_toss_that_shows_in_no_digit_makes_no_difference(run) -> None:

@@ -123,7 +123,7 @@ def test_faults_of_a_chart_of_levels(write):
         "F: doesn't say how many games level 4 needs against level 5. Add a row.",
         "F: doesn't say how many games level 5 needs against level 4. Add a row.",
         "F:4: level 3 needs 3 games against level 4 here but 2 in line 3. Keep one of the two.",
-        "F:6: level 5 needs 2 games against level 3, which needs 3",
+        "F:6: level 5 needs 2 games against level 3, but level 3 needs 3",
     ]
 
 

@@ -83,10 +83,10 @@ def test_all_problems_are_told_at_once(drill_file):
     path = drill_file("level,success\n0,yes\n1,maybe\n,no\n101,no\n2,\n3,no,no\n")
     assert problems(path) == [
         ":2: level '0' isn't a whole number from 1 to 100. Write 1, 2, 3, ...",
-        ":3: success 'maybe' isn't yes or no. Write one of them, and a row for each attempt.",
+        ":3: success 'maybe' isn't yes or no. Write one of them, in one row per attempt.",
         ":4: level is empty. Write 1, 2, 3, ...",
         ":5: level '101' isn't a whole number from 1 to 100. Write 1, 2, 3, ...",
-        ":6: success is empty. Write one of them, and a row for each attempt.",
+        ":6: success is empty. Write one of them, in one row per attempt.",
         (
             ":7: has 3 cells, but the header has 2. Add what's missing, or put cells that "
             "contain the separator in quotes."

@@ -78,7 +78,7 @@ class Evening:
             self.desk.get_by_role("button", name="Draw 19 players").click()
         self.commands.append("draw")
         self.desk.goto(f"{self.site.address}/desk/more")
-        itself = self.desk.get_by_role("switch", name="A result calls the next match by itself")
+        itself = self.desk.get_by_role("switch", name="Call the next match automatically when a result comes in")
         if itself.get_attribute("aria-checked") == "false":
             self.tap(itself)
         self.desk.goto(f"{self.site.address}/desk")
@@ -200,7 +200,7 @@ class Evening:
         left = {name for match in state.standing.to_play for name in state.pair(match)}
         name = min(left - playing or left)
         self.desk.goto(f"{self.site.address}/desk/more")
-        self.tap(self.desk.get_by_text("Someone goes home"), goes=False)
+        self.tap(self.desk.get_by_text("Someone is going home"), goes=False)
         form = self.desk.locator("form[action='/desk/drop']")
         form.locator("select").select_option(name)
         self.taps += 1

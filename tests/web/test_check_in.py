@@ -39,7 +39,7 @@ def test_the_draw_is_of_those_who_are_here(tmp_path: Path) -> None:
         assert order == sorted(order)  # no tap moves a row
 
         assert "The director will let you in" in guest.send("/play", name="Eve", rating=530).words
-        assert "asks to play · says 530" in director.open("/desk/check-in").words
+        assert "is asking to play · says 530" in director.open("/desk/check-in").words
         other = Phone(site)
         other.send("/play", name="Fox")
         director.send("/desk/decline", name="Fox", back="/desk/check-in")
@@ -54,7 +54,7 @@ def test_the_draw_is_of_those_who_are_here(tmp_path: Path) -> None:
         assert set(state.entrants) == {"Ann", "Bo", "Eve"}
         assert set(state.registered) == {"Cy", "Di"}
         shown = director.open("/desk/check-in")
-        assert "Cy asks to play" in shown.words
+        assert "Cy is asking to play" in shown.words
         assert "Draw" not in shown.words.partition("Player Here Paid")[2]
         people = director.open("/next").text
         assert all(name in people for name in ("Cy, 500", "Di, 480", "Eve, 530"))

@@ -101,7 +101,7 @@ def test_the_undo_of_a_result_takes_back_the_call_that_came_with_it(full: Hall) 
 
 
 def test_calls_are_made_by_hand_where_the_director_wants_it(full: Hall) -> None:
-    assert "You call each match." in full.director.send("/desk/calling", itself="").words
+    assert "You now call each match yourself." in full.director.send("/desk/calling", itself="").words
     match = on(full, 4)
     words = taps(full, match, 2)
     assert 4 not in [one.call.table for one in full.state.on_tables.values()]
@@ -310,4 +310,4 @@ def test_a_match_that_waits_says_for_whom_and_ends_its_wait_by_one_tap(full: Hal
     assert full.director.send_raw("/desk/wait", dict(here.fields)).status == 200
     assert not full.state.waiting_for
     words = full.director.send("/desk/forfeit", player=name, match=match, sure="yes").words
-    assert f"{name} goes home" in words
+    assert f"{name} is going home" in words

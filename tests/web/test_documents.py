@@ -133,7 +133,7 @@ def test_a_second_start_opens_the_first(clicked: list[str], tmp_path: Path) -> N
         assert "saturday.db is open already: http://127.0.0.1:8123" in shown.output
         assert clicked == ["http://127.0.0.1:8123"]
         first.kill()  # however it ends, its turn ends too
-    assert "The night is kept in" in click().output
+    assert "Tonight's file is" in click().output
 
 
 def test_without_a_folder_for_it_nobody_is_kept_out(tmp_path: Path) -> None:

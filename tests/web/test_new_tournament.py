@@ -132,7 +132,7 @@ def test_a_tournament_is_deleted_once_that_is_meant_and_a_copy_stays(hall: Hall)
     assert hall.guest.send("/desk/delete", sure="yes").status == 403
     before = hall.state
     shown = hall.director.send("/desk/delete", sure="yes")
-    assert "Deleted. The copy is" in shown.words
+    assert "Deleted. A copy was saved as" in shown.words
     (copy,) = folder.glob("*.backup.db")
     assert read_tournament(copy).events == before.events
     assert "No tournament" in hall.guest.open("/players").words

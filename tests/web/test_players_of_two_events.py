@@ -98,7 +98,7 @@ def test_the_tablet_of_a_table_serves_every_event_and_says_what_is_wrong(two: Ha
     shown = tablet.send("/table/3/score", match=match, a=2, b=0, **seen)
     assert "That's wrong" in shown.words
     assert second(two).counted[match].score == (2, 0)
-    assert "tablet of table 3" in two.director.open("/desk?event=2").words
+    assert "tablet for table 3" in two.director.open("/desk?event=2").words
     (following,) = (name for name, on in two.state.on_tables.items() if on.call.table == 3)
     form = re.search(r'action="/table/3/wrong">.*?</form>', shown.text, re.DOTALL)
     assert form

@@ -174,8 +174,8 @@ def sum_problems(
     wrong = np.sort(first[np.abs(sums[leaving] - 1.0) > SUM_TOLERANCE])
     return {
         row: say(
-            "the arcs out of {state} sum to {sum:.12g}, not 1. Add what's missing (self-loops "
-            "count), or write more digits.",
+            "the probabilities of the arcs out of {state} sum to {sum:.12g}, not 1. Add the "
+            "missing arcs (self-loops count), or write more digits.",
             state=quoted(states[sources[row]]),
             sum=sums[sources[row]],
         )

@@ -34,7 +34,7 @@ STATES = Schema(
     "states",
     state=Text("name, node", "the state's name", needed=True),
     kind=Text(about="`start` for the state that the chain starts in"),
-    winner=Text(about="the number of the player who has won there"),
+    winner=Text(about="the number of the player who has won in that state"),
 ) | Schema(**dict.fromkeys(("class", "class_kind", "period", "limit"), Text()))
 """A list of states; the lists that `evenbreak chain` writes have more columns."""
 
@@ -163,8 +163,8 @@ def _of_graph(path: str | Path, parsed: Any) -> ArcsFile:
             weighted = not attributes.keys() & {*names[:-1]} and WEIGHT in attributes
             problems.add(
                 None,
-                "the arc {start} -> {end} has {chance}. Give each arc a probability from 0 to "
-                "1, in an attribute of that name{scaled}.",
+                "the arc {start} -> {end} has {chance}. Give each arc an attribute named "
+                "probability, with a number from 0 to 1{scaled}.",
                 start=quoted(str(j)),
                 end=quoted(str(i)),
                 chance=say("no probability")

@@ -44,10 +44,10 @@ DIFFERENCES = Schema(
         empty=None,
     ),
     stronger_needs=_GAMES.called(
-        "stronger, higher needs, games stronger", "the games that the stronger player needs"
+        "stronger, higher needs, games stronger", "how many games the stronger player needs"
     ),
     weaker_needs=_GAMES.called(
-        "weaker, lower needs, games weaker", "the games that the weaker player needs"
+        "weaker, lower needs, games weaker", "how many games the weaker player needs"
     ),
 )
 """A chart by rating difference."""
@@ -57,10 +57,11 @@ LEVELS = Schema(
     opponent_level=_LEVEL.called(
         "opponent, opponent skill level, level b", "the other player's level"
     ),
-    needs=_GAMES.called("games, own games", "the games that the player at `level` needs"),
+    needs=_GAMES.called("games, own games", "how many games the player at `level` needs"),
     opponent_needs=_GAMES.called(
         "opponent games",
-        "the games that the opponent needs; can be left out if every pair is listed in both orders",
+        "how many games the opponent needs; can be left out if every pair is listed in both "
+        "orders",
         filled=False,
     ),
 )
@@ -69,7 +70,8 @@ LEVELS = Schema(
 POINTS = LEVELS.only("level") | Schema(
     points=_GAMES.called(
         "points to win, needs points",
-        "the points that a player at this level needs; more in each row than in the one above",
+        "how many points a player at this level needs; each row must have more than the row "
+        "above it",
     )
 )
 """A points chart."""
@@ -202,14 +204,14 @@ def _levels(table: TextTable, name: str) -> LevelChart:
             opponent=opponent,
         )
     if len(missing) > MOST_MISSING:
-        table.problems.add(None, "lacks {n} more pairs of levels", n=len(missing) - MOST_MISSING)
+        table.problems.add(None, "is missing {n} more pairs of levels", n=len(missing) - MOST_MISSING)
     for (mine, opponent), (games, row) in races.items():
         against = races.get((opponent, mine), (games, row))[0]
         if mine > opponent and games < against:
             table.note(
                 row,
-                "level {level} needs {games} games against level {opponent}, which needs "
-                "{against}; the higher level must need at least as many",
+                "level {level} needs {games} games against level {opponent}, but level "
+                "{opponent} needs {against}; the higher level must need at least as many",
                 level=mine,
                 games=games,
                 opponent=opponent,
@@ -225,7 +227,7 @@ def _points(table: TextTable, name: str) -> PointsChart:
     try:
         return PointsChart(name, table["level"].tolist(), table["points"].tolist())
     except InputError as error:
-        table.problems.add(None, "isn't a chart of points: {why}", why=error.sentence)
+        table.problems.add(None, "isn't a valid points chart: {why}", why=error.sentence)
         table.problems.raise_any()
         raise
 

@@ -68,7 +68,7 @@ DRILL_LOG = Schema(
         needed=True,
         filled=True,
         values=WORDS,
-        write=say("one of them, and a row for each attempt"),
+        write=say("one of them, in one row per attempt"),
     ),
     session=Text("practice session, visit, evening"),
     date=Text(_DAY),
@@ -92,14 +92,14 @@ SCORES = Schema(
 
 OUTCOME = Outcome(
     "made it, success, hit",
-    "instead of made and tried, with a row for each try: `made` or `missed`, `yes` or `no`, "
-    "`1` or `0`, `x` or `-`; also titled `result` or `made`",
+    "used instead of made and tried, in one row per try: `made` or `missed`, `yes` or `no`, `1` "
+    "or `0`, `x` or `-`; also titled `result` or `made`",
     filled=True,
     values=WORDS,
     choices=say("made or missed"),
     write=say(
-        "made or missed in a row for each try, or columns shot, made and tried with a row for "
-        "each shot of each day"
+        "made or missed, in one row per try, or use the columns shot, made and tried, in one "
+        "row per shot and day"
     ),
 )
 
@@ -267,15 +267,15 @@ def _jump_warning(table: TextTable, log: DrillLog, rows: NDArray[np.int64]) -> l
     row = int(log.jumps[0])
     step = 1 if log.success[row - 1] else -1
     problem = say(
-        "level {level} follows a {outcome} at level {before}, which leads to level {by_rule}; "
-        "{count}. Keep the rows in the order of the attempts; a session or date column shows "
-        "where a session starts",
+        "level {level} follows a {outcome} at level {before}, which should lead to level "
+        "{by_rule}; {count}. Keep the rows in the order of the attempts; a session or date "
+        "column shows where a session starts",
         level=log.level[row],
         outcome=say("success") if step > 0 else say("miss"),
         before=log.level[row - 1],
         by_rule=min(max(int(log.level[row - 1]) + step, 1), len(log.attempts)),
         count=say_count(
-            "it counts as a new start", "{n:,} such rows count as new starts", len(log.jumps)
+            "this row counts as a new start", "{n:,} such rows count as new starts", len(log.jumps)
         ),
     )
     return [warning(table.source, table.lines[rows[row]], problem)]
@@ -372,7 +372,7 @@ def _shots(table: TextTable, drill: str | None) -> ShotsFile:
     good = table.read["made"].good & table.read["tried"].good
     table.note(
         good & (made > tried),
-        "made {made} of {tried}. Correct one of them.",
+        "{made} made out of {tried} tried can't be right. Correct one of them.",
         made=made,
         tried=tried,
     )

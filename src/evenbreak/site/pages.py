@@ -187,8 +187,8 @@ class _Pages:
             changed = {row.player: _arrow(row.change, decimals) for row in rows}
         about = (
             f"From {league.ratings.matches:,} matches, on "
-            f"{like_scale_words(league.ratings.scale)}. A player's true rating is within the "
-            "± about two times in three."
+            f"{like_scale_words(league.ratings.scale)}. About two times in three, a player's "
+            "true rating is within the ± shown."
         )
         return {
             file: self._page(
@@ -338,20 +338,19 @@ class _Pages:
         if league.races.levels:
             won = f" {game}, and the race {_percent(p)} of the time." if alone else ""
             said = (
-                f"{name} is a skill level {first:g}, and {opponent}, the last opponent, is a skill "
-                f"level {second:g}. The chart gives {race((m, n))}.{won}"
+                f"{name} is a skill level {first:g}, and the last opponent, {opponent}, is a skill "
+                f"level {second:g}. The chart's race is {race((m, n))}.{won}"
             )
         else:
             apart = abs(first - second)
             points = f"{{:.{league.decimals}f}}".format
             fair = isinstance(league.races.rule, OfferedRaces)
             played = race((m, n))
-            reason = "is the race closest to even" if fair else "is what the chart gives"
+            reason = "The race closest to even is" if fair else "The chart's race is"
             said = (
-                f"{name} is rated {points(first)}, and {opponent}, the last opponent, is rated "
-                f"{points(second)}, so they are {points(apart)} points apart. {game}, "
-                f"and {played} {reason}: "
-                f"{name} wins it {_percent(p)} of the time."
+                f"{name} is rated {points(first)}, and the last opponent, {opponent}, is rated "
+                f"{points(second)}: a difference of {points(apart)} points. {game}. "
+                f"{reason} {played}, which {name} wins {_percent(p)} of the time."
             )
         more = [
             f"If {one.winner} wins their next match {one.score}, the race becomes "
@@ -430,7 +429,7 @@ def _parted(
 def _names_words(ways: Mapping[str, str]) -> str:
     many = {way: [*ways.values()].count(way) for way in ("full", "initials", "hidden")}
     if many["full"] == len(ways):
-        return "Everyone is shown by their full name."
+        return "Everyone's full name is shown."
     said = [
         (many["full"], "by full name"),
         (many["initials"], "by initials"),

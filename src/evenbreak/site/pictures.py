@@ -89,7 +89,7 @@ def history(league: PublishedLeague, player: str) -> Chart | None:
     lower = [(at, axis.y(r - e)) for at, r, e in zip(x, rating, error, strict=True)]
     middle = [(at, axis.y(r)) for at, r in zip(x, rating, strict=True)]
     return Chart(
-        f"The rating from {rating[0]:.0f} on {short_day(known[0][0])} to "
+        f"The rating went from {rating[0]:.0f} on {short_day(known[0][0])} to "
         f"{rating[-1]:.0f} on {short_day(known[-1][0])}",
         _ticks(axis),
         below=[(LEFT, short_day(known[0][0]), "start"), (x[-1], short_day(known[-1][0]), "end")],
@@ -152,7 +152,7 @@ def _spread(league: PublishedLeague) -> tuple[str, Chart, str] | None:
         f"of the {len(placed)} players are between {low:.0f} and {high:.0f}. The bars show "
         "how far off each rating may be."
     )
-    label = "The rating of every player with a place, the highest on the left"
+    label = "Every ranked player's rating, with the highest on the left"
     below = [(x[0], "1st", "middle"), (x[-1], f"{len(placed)}", "end")]
     return "How far apart the players are", Chart(label, _ticks(axis), below, dots=dots), words
 
@@ -185,9 +185,9 @@ def _evenness(league: PublishedLeague) -> tuple[str, Chart, str] | None:
         size = np.abs(apart[part])
         below.append((at, f"{size.min():.0f}–{size.max():.0f}", "middle"))
     words = (
-        f"The stronger player won {100 * won.mean():.0f}% of {len(rows):,} matches; by "
+        f"The stronger player won {100 * won.mean():.0f}% of {len(rows):,} matches; from "
         f"today's ratings, you'd expect {100 * float(np.mean(expected)):.0f}%. A dot on the dashed "
-        "line means even races. Below each dot is how many points apart the two players were. The "
+        "line means even races. Below each dot is the rating difference between the two players. The "
         "bars show how far luck alone can move a dot."
     )
     chart = Chart(

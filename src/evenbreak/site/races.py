@@ -48,9 +48,9 @@ class LeagueRaces:
         if isinstance(self.rule, Chart) and len(self.rule.rows) == 1:
             return f"Every race is to {self.rule.rows[0].stronger_needs} for both players."
         if isinstance(self.rule, PointsChart):
-            return f"The chart {self._chart} gives the points that each skill level needs."
+            return f"The chart {self._chart} sets how many points each skill level needs."
         by = "any two skill levels" if self.skills is not None else "each difference in ratings"
-        return f"The chart {self._chart} gives the race for {by}."
+        return f"The chart {self._chart} sets the race for {by}."
 
     @property
     def _chart(self) -> str:

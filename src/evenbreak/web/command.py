@@ -75,7 +75,7 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
         )
     elif not path.suffix:
         asked.refuse("there's no file {file}. Name a .db file, such as {file}.db.", file=path)
-    click.echo(f"The night is kept in {path.resolve()}", err=True)
+    click.echo(f"Tonight's file is {path.resolve()}", err=True)
     site = Site(path, rules=league, color=asked.color, origins=frozenset(asked.allow_origin))
     last = site.last_port
     port = _port(asked, last)
@@ -96,7 +96,7 @@ def _serve(asked: Serve, path: Path, league: LeagueFile | None, alone: Alone | N
     click.echo(f"The director's PIN: {site.pin}", err=True)
     if places:
         segno.make(places[0], error="l").terminal(sys.stderr, compact=True)
-    click.echo("Ctrl+C ends it; nothing is lost.", err=True)
+    click.echo("Press Ctrl+C to stop; nothing is lost.", err=True)
     if alone is not None:
         alone.keep(here, path)
     # A page does not wait until the odds, worked out beside it, have had their usual 5 ms.
@@ -125,10 +125,10 @@ def _instead(path: Path) -> str:
             return (
                 f"The newest readable copy is {copy.name}, next to it: "
                 f"drop that file on the program, or run evenbreak serve {copy}\n"
-                f"To start afresh, rename {path.name}."
+                f"To start over, rename {path.name}."
             )
     return (
-        f"It has no backup copy. To start afresh, rename {path.name}."
+        f"It has no backup copy. To start over, rename {path.name}."
         if path.suffix == ".db"
         else "A tournament's file ends in .db."
     )
@@ -146,7 +146,8 @@ def _room_again(site: Site, port: int) -> list[str]:
         return []
     there = [one for one in addresses() if not _taken(one, port)]
     again = say("Phones are let in again, as before the restart.")
-    cannot = say("Phones were let in before, but can't be now. Join the network, then let them in.")
+    cannot = say("Phones could connect before the restart, but they can't now. Join the "
+                 "network, then let them in.")
     _say(site, again if there else cannot)
     return there
 

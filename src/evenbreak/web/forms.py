@@ -38,7 +38,7 @@ LONGEST = 200
 EVEN, FAIR = "even", "fair"
 RACES = {
     EVEN: say("Even: same race for both"),
-    FAIR: say("Handicapped: the weaker player gets games"),
+    FAIR: say("Handicapped: the weaker player needs fewer games"),
 }
 """The races that don't come from a chart, and their labels."""
 

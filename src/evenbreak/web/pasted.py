@@ -122,7 +122,8 @@ def _with_league(line: Line, known: Known | None, stated: Collection[str]) -> Li
     if abs(own - its) <= APART:
         return line
     why = say(
-        "The list says {own:g} for {player}; the league's results say {its:g}: which counts?",
+        "The list has {own:g} for {player}, but the league's results give {its:g}. Which one "
+        "counts?",
         own=own,
         player=row.name,
         its=its,

@@ -212,7 +212,7 @@ def author_words(kept: str) -> str:
     if kept == DIRECTORS_PAGE:
         return say("director's page")
     if kept.startswith(_TABLET):
-        return say("tablet of table {table}", table=kept.removeprefix(_TABLET))
+        return say("tablet for table {table}", table=kept.removeprefix(_TABLET))
     if kept.startswith("phone: "):
         return say("phone: {player}", player=kept.removeprefix("phone: "))
     if kept.startswith(_PHONES):

@@ -118,7 +118,7 @@ def test_a_chart_of_points(run, ask, tmp_path):
     assert ask(str(path))["levels"] == ask("apa_9ball")["levels"]
     path.write_text("level,points\n1,14\n2,9\n", encoding="utf-8")
     assert (
-        "points0/nine.csv: isn't a chart of points: points must increase; 9 comes after 14"
+        "points0/nine.csv: isn't a valid points chart: points must increase; 9 comes after 14"
         in run("chart", "audit", str(path)).stderr
     )
     for words in (["--scale", "npl"], ["--plot", "x.png"]):

@@ -93,7 +93,7 @@ def test_matches_in_two_files_are_named(run, seasons, tmp_path):
     both = tmp_path / "both.csv"
     both.write_text(seasons[0].read_text() + seasons[1].read_text().split("\n", 1)[1])
     result = run("rate", str(seasons[0]), str(both), "--prior", "30", "--text")
-    assert "in an earlier file too" in result.stderr
+    assert "also in an earlier file" in result.stderr
 
 
 @pytest.mark.slow_after(3)

@@ -101,8 +101,8 @@ def test_double_matches_of_two_files_are_one_line_and_each_in_the_details(office
     assert [one["file"] for one in double] == ["b.csv", "c.csv", "c.csv", "c.csv"]
     short, full = (run("league", "tidy", "--text", *more).stdout for more in ((), ("--verbose",)))
     assert "2 matches are in a.csv too" in " ".join(short.split())
-    assert short.count("the same match is in") == 2
-    assert full.count("the same match is in") == 2 + len(double)
+    assert short.count("this match is also in") == 2
+    assert full.count("this match is also in") == 2 + len(double)
 
 
 def test_how_the_files_are_written_is_said_by_init_and_tidy_alone(tmp_path, run, monkeypatch):

@@ -152,7 +152,7 @@ def test_every_key_with_a_value_that_it_cannot_have_is_named_with_its_line(folde
         ("name = 'A'\nhours = [\n '19:00',\n '25:00',\n]", 2, "write when a night starts and ends"),
         ("[files]\nroster = 'player.csv'", 2, "(did you mean 'players.csv'?), or delete the line"),
         ("chart = 'nochart'", 1, "no chart or file with this name"),
-        ("chart = 'npl_10'\nrace = 5", 2, "race and chart both say how long races are. Keep one"),
+        ("chart = 'npl_10'\nrace = 5", 2, "race and chart both set the length of races. Keep one"),
         ("begins = 2026-09-01\nends = 2026-08-01", 2, "ends before it starts."),
         ("ends = '1/2/2026'", 1, "'1/2/2026' isn't a date. Write it as 2026-09-01"),
         ("[aliases]\nAl = 'Bo'\nBo = 'Cy'", 2, "'Al' means 'Bo', which means 'Cy'"),

@@ -290,8 +290,8 @@ def test_lists_as_they_are_pasted(tmp_path, text, players, ratings):
     ("text", "said"),
     [
         ("Players:\nAnn\nBo\n", "'Players:' was left out, because it looks like a heading"),
-        ("Ann Lee,0\nBo,612\n", "'Ann Lee' has the rating 0. Leave it out if it means no rating"),
-        ("Ann Lee,-30\nBo,612\n", "'Ann Lee' has the rating -30"),
+        ("Ann Lee,0\nBo,612\n", "'Ann Lee' has a rating of 0. Leave it out if it means no rating"),
+        ("Ann Lee,-30\nBo,612\n", "'Ann Lee' has a rating of -30"),
         (
             "3) Ann\n5) Bo\n",
             "the numbers in front of names, such as the 3 before 'Ann', were left out",

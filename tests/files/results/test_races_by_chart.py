@@ -25,9 +25,9 @@ def test_levels_set_the_race_and_so_the_winner(read):
     assert np.transpose([file.results.score_a, file.results.score_b])[:2].tolist() == winners
     texts = [text.partition("night.csv")[2] for text in file.warnings]
     assert texts == [
-        ": 2 matches get their races from apa_8ball, by the levels stated",
+        ": 2 matches get their races from apa_8ball, based on the levels given",
         (
-            ":4: the score 1-1 doesn't complete the 2:3 race for the levels stated (and 1 more "
+            ":4: the score 1-1 doesn't complete the 2:3 race for the levels given (and 1 more "
             "like this). Check them."
         ),
     ]
@@ -62,7 +62,7 @@ def test_ratings_set_the_race_by_a_chart_of_differences(read):
 
 def test_a_chart_that_can_set_no_race_says_so(read):
     points = read("Ann,Bo,4,1,5,3", chart="apa_9ball")
-    assert "is a chart of points" in points.warnings[0]
+    assert "is a points chart" in points.warnings[0]
     without = read("Ann,Bo,4,1", header="player_a,player_b,score_a,score_b")
     assert "level_a and level_b are missing" in without.warnings[0]
     for file in (points, without):

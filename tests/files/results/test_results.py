@@ -263,7 +263,7 @@ def test_rows_that_stand_twice_are_told_with_the_line_of_the_first(tmp_path):
     other = "2024-01-02,Ann,Bo,5,3\n"
     path.write_text("date,player_a,player_b,score_a,score_b\n" + row + other + row + row)
     (warning,) = [text for text in read_results(path).warnings if "earlier" in text]
-    assert ":4: 2 rows are the same as an earlier one" in warning
+    assert ":4: 2 rows are identical to earlier ones" in warning
 
 
 def test_rows_without_dates_may_be_alike(tmp_path):

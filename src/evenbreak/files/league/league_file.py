@@ -75,7 +75,7 @@ class TeamRules:
     players: Annotated[int | None, Field(Whole(1, 100), "How many players a team puts up.")] = None
     sets: Annotated[int | None, Field(values.SETS, "How many sets are played.")] = None
     cap: Annotated[
-        float | None, Field(values.CAP, "The largest sum of skill levels in a lineup.")
+        float | None, Field(values.CAP, "The highest total of skill levels allowed in a lineup.")
     ] = None
     at_most: Annotated[
         tuple[int, float] | None,
@@ -160,7 +160,8 @@ class LeagueFile:
     ] = None
     race: Annotated[
         int | None,
-        Field(Whole(1, LONGEST_RACE), "Without a chart: every race is even, to this many games."),
+        Field(Whole(1, LONGEST_RACE), "Without a chart: every race is to this many games for "
+                                      "both players."),
     ] = None
     race_to: Annotated[
         int | None,
@@ -315,7 +316,7 @@ class _Reader:
         if len(races) > 1:
             self.note(
                 (races[1],),
-                "{key} and {other} both say how long races are. Keep one.",
+                "{key} and {other} both set the length of races. Keep one.",
                 key=races[1],
                 other=races[0],
             )

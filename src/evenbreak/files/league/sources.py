@@ -149,8 +149,8 @@ def league_results(
             league.place(names[k]),
             None,
             say_count(
-                "{n} match is a repeat, with the same players, score and day, and counts once",
-                "{n:,} matches are repeats, with the same players, score and day, and count once",
+                "{n} match is a repeat (same players, score and day) and counts only once",
+                "{n:,} matches are repeats (same players, score and day) and count only once",
                 n,
             ),
         )
@@ -197,7 +197,7 @@ def _changes(
 
 def _again(rows: _Rows, first: int) -> Sentence:
     return say(
-        "the same match is in {source}, line {line}",
+        "this match is also in {source}, line {line}",
         source=rows.names[rows.source[first]],
         line=int(rows.line[first]),
     )
@@ -295,7 +295,7 @@ class _Rows:
             others = [row for row in rows if row not in undated]
             if len(undated) == 1 == len(others):
                 text = say(
-                    "the same match as in {source}, line {line}, but without a date; both count"
+                    "the same match, without a date, is in {source}, line {line}; both count"
                 )
                 doubts += self._between([others[0], undated[0]], text)
         return doubts

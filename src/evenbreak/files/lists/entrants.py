@@ -160,7 +160,8 @@ def roster_of_entrants(league: RosterFile, entrants: RosterFile) -> RosterFile:
         warning(
             entrants.source,
             entrants.lines[k],
-            "the rating {stated:g} for {player} isn't used, because {list} has {rating:g}",
+            "the rating {stated:g} for {player} isn't used, because the rating in {list} is "
+            "{rating:g}",
             stated=stated.rating[k],
             player=quoted(roster.players[k]),
             list=league.source,

@@ -98,7 +98,7 @@ ROSTER = Schema(
     ),
     provisional=YesNo(
         "preliminary",
-        "whether the rating is based on too few games for a place in the list",
+        "whether the rating is based on too few games for the player to be ranked",
         values={"yes": True, "no": False, "true": True, "false": False, "1": True, "0": False},
     ),
     races_won=_COUNT.called(

@@ -25,8 +25,8 @@ _POINTS = Number(least=-LARGEST, most=LARGEST, write=say("points"))
 OF_PRIOR = Schema(
     prior_mean=_POINTS.called(
         "",
-        "the mean of the prior that the rating was made with. This prior is removed, so that "
-        "only the new one counts; if the cell is empty, the rating is used as it is",
+        "the mean of the prior used for the rating. This prior is removed, so that only the new "
+        "one counts; if the cell is empty, the rating is used as it is",
     ),
     prior=_POINTS.called("", "the prior's standard deviation", least=0),
     as_of=Day(
@@ -121,8 +121,8 @@ def read_saved(path: str | Path, scale: Scale, players: Sequence[str]) -> Saved:
         raise DataError(
             [
                 say(
-                    "{source} says its ratings are {stated}, but the results are rated on "
-                    "{asked}. Give {scale} {stated}.",
+                    "{source} says its ratings are on scale {stated}, but the results are being "
+                    "rated on scale {asked}. Give {scale} {stated}.",
                     source=FilePath(file.source),
                     stated=file.scale.text,
                     asked=scale.text,

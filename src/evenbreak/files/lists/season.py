@@ -395,7 +395,8 @@ def _twice(table: TextTable, week: NDArray[np.int64], pairs: NDArray[np.int64]) 
         warning(
             table.source,
             table.lines[row],
-            "the same two already meet in week {week}, in line {line}; both matches will be played",
+            "these two players already meet in week {week} (line {line}); both matches will be "
+            "played",
             week=week[row],
             line=table.lines[earlier[row]],
         )

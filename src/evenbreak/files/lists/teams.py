@@ -92,7 +92,7 @@ TEAMS = Schema(
     team=Name("name, team name", "the team's name; each team is listed once", needed=True),
     points=Number(
         "head start, bonus, deduction, adjustment",
-        "points that the team has in addition to those it won in matches",
+        "extra points, on top of the points that the team won in matches",
         least=-10_000,
         most=10_000,
         write=say("points such as -2"),
@@ -319,7 +319,8 @@ def read_team_results(
     home, away = table.read["home_score"], table.read["away_score"]
     table.note(
         table["forfeit"] & (home.values + away.values == 0),
-        "is a forfeit without a score. Write the sets that it counts for, such as 3 and 0.",
+        "is a forfeit without a score. Write how many sets each team gets for it, such as 3 and "
+        "0.",
     )
     table.note(
         (home.stated != away.stated) & home.good & away.good,

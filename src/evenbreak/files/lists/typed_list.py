@@ -130,7 +130,7 @@ def _left_out(read: Sequence[Reading], source: str) -> list[str]:
             rating = player.cells[0] if player.cells else ""
             if rating and float(rating.replace(",", ".")) <= 0:
                 low = say(
-                    "{name} has the rating {rating}. Leave it out if it means no rating.",
+                    "{name} has a rating of {rating}. Leave it out if it means no rating.",
                     name=quoted(player.name),
                     rating=rating,
                 )

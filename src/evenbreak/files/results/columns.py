@@ -47,19 +47,19 @@ RESULTS = Schema(
     ),
     score_a=_GAMES.called(
         "score 1, games a, games 1, home score, frames a, racks won a",
-        "the games that player a won",
+        "how many games player a won",
     ),
     score_b=_GAMES.called(
         "score 2, games b, games 2, away score, frames b, racks won b",
-        "the games that player b won",
+        "how many games player b won",
     ),
     date=Day("day, match date, played, played on"),
     race_a=_RACE.called(
         "race 1, race to a, needs a, home race",
-        "the games that player a needed. The winner is then the player who reached the race, "
-        "no matter what the scores are",
+        "how many games player a needed. The winner is then the player who got to their number, "
+        "even if the other player won more games",
     ),
-    race_b=_RACE.called("race 2, race to b, needs b, away race", "the games that player b needed"),
+    race_b=_RACE.called("race 2, race to b, needs b, away race", "how many games player b needed"),
     winner=Text(
         "won by, match winner, winning player, winner name",
         "the winner of the match: `a`, `b`, or a name; checked against scores and races",
@@ -107,7 +107,7 @@ RESULTS = Schema(
 LAYOUTS = Schema(
     loser=Name(
         "losing player, loser name, lost by",
-        "with `winner`, instead of the two players: player a is then the winner",
+        "used with `winner` instead of the two players; player a is then the winner",
     ),
     score=Text(
         "result, final score, match score", "both scores in one cell: `7-5`, `7:5` or `7/5`"
@@ -118,16 +118,16 @@ LAYOUTS = Schema(
     remark=Text("", "used only if all it says is `forfeit`, `bye` or the like"),
     winner_score=Text(
         "winner games, winners score, games won by winner",
-        "with `winner` and `loser`, instead of the two scores",
+        "used with `winner` and `loser` instead of the two scores",
     ),
     loser_score=Text("loser games, losers score, games won by loser", "the same for the loser"),
     race=Text(
         "race to, match race",
-        "instead of `race_a` and `race_b`: `7`, `race to 7`, or `7-5` if the players need "
+        "used instead of `race_a` and `race_b`: `7`, `race to 7`, or `7-5` if the players need "
         "different numbers",
     ),
-    winner_race=Text("winner needs, winners race", "the games that the winner needed"),
-    loser_race=Text("loser needs, losers race", "the games that the loser needed"),
+    winner_race=Text("winner needs, winners race", "how many games the winner needed"),
+    loser_race=Text("loser needs, losers race", "how many games the loser needed"),
     winner_team=Text("winners team", "the winner's team"),
     loser_team=Text("losers team", "the loser's team"),
     winner_level=Text(

@@ -131,7 +131,7 @@ def _score(text: str) -> Pair | str:
     if score is not None:
         return str(int(score[1])), str(int(score[2]))
     if len(_SCORE_CELL.findall(text)) > 1:
-        return say("is more than one score. Write a row for each set.")
+        return say("has more than one score. Write a row for each set.")
     return say("isn't a score. Write 7-5.")
 
 
@@ -180,8 +180,8 @@ def _not_won(won: int, lost: int, needed: int, other: int) -> str:
     if needed and other:
         if won < needed and lost >= other:
             return say(
-                "the loser reached the race ({won}-{lost} in a race {needed}:{other}). Write "
-                "the winner's number first, in both the score and the race.",
+                "the loser would have won this race ({won}-{lost} in a {needed}:{other} race). "
+                "Write the winner's number first, in both the score and the race.",
                 needed=needed,
                 other=other,
                 **score,

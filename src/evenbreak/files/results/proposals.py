@@ -87,11 +87,12 @@ def columns_hint(
     ]
     if not places and not readings:
         return say(
-            "Is it the right file? Results have one match per row: {columns}.",
+            "Is this the right file? Results have one match per row: {columns}.",
             columns=",".join(called.get(name, name) for name in TEAMS),
         )
     if not 0 < len(readings) <= _MOST_READINGS:
-        return say("Add them. One score column, with 7-5 in a cell, can replace the two.")
+        return say("Add them. A single score column, with cells such as 7-5, can replace the "
+                   "two score columns.")
     options = [_option(reading) for reading in readings]
     if len(options) == 1:
         return say(

@@ -40,8 +40,8 @@ def races_by_chart(
         return results, []
     if isinstance(of_league, PointsChart) and not points:
         text = say(
-            "{chart} is a chart of points, so it sets no race in games here, and scores count as "
-            "games",
+            "{chart} is a points chart, so it doesn't set races in games here, and scores are "
+            "read as games",
             chart=of_league.name,
         )
         return results, [warning(source, None, text)]
@@ -74,18 +74,18 @@ def races_by_chart(
     told: list[str] = []
     if filled.any():
         text = say_count(
-            "{n} match gets its race from {chart}, by the levels stated",
-            "{n:,} matches get their races from {chart}, by the levels stated",
+            "{n} match gets its race from {chart}, based on the levels given",
+            "{n:,} matches get their races from {chart}, based on the levels given",
             int(filled.sum()),
             chart=of_league.name,
         )
         told.append(warning(source, None, text))
     if (unknown := unset & ~known).any():
         text = say_count(
-            "{n} match has neither a race nor levels from {chart}; it counts game by game, "
-            "without a winner unless one is stated",
+            "{n} match has neither a race nor levels from {chart}; it counts game by game, with "
+            "no winner unless one is given",
             "{n:,} matches, starting with this one, have neither a race nor levels from "
-            "{chart}; they count game by game, without a winner unless one is stated",
+            "{chart}; they count game by game, with no winner unless one is given",
             int(unknown.sum()),
             chart=of_league.name,
         )
@@ -93,8 +93,8 @@ def races_by_chart(
     if (unfit := unset & known & ~ends).any():
         row = int(unfit.argmax())
         text = say_count(
-            "the score {a}-{b} doesn't complete the {race} race for the levels stated. Check it.",
-            "the score {a}-{b} doesn't complete the {race} race for the levels stated (and "
+            "the score {a}-{b} doesn't complete the {race} race for the levels given. Check it.",
+            "the score {a}-{b} doesn't complete the {race} race for the levels given (and "
             "{more:,} more like this). Check them.",
             int(unfit.sum()),
             a=int(score_a[row]),

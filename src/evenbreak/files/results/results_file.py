@@ -307,10 +307,10 @@ def _repeated_rows(table: TextTable) -> list[str]:
     if not len(again):
         return []
     text = say_count(
-        "{n} row is the same as an earlier one, date included; all are counted, so delete any "
-        "that were entered twice",
-        "{n:,} rows are the same as an earlier one, date included; all are counted, so delete "
-        "any that were entered twice",
+        "{n} row is identical to an earlier one, including the date; both are counted, so "
+        "delete one if the match was entered twice",
+        "{n:,} rows are identical to earlier ones, including the date; all are counted, so "
+        "delete any that were entered twice",
         len(again),
     )
     return [warning(table.source, table.lines[again[0]], text)]
@@ -327,8 +327,8 @@ def _tied(results: Results, table: TextTable) -> tuple[str, ...]:
     text = say_count(
         "the score is tied ({a}-{b}), and no race is given; this match is counted game by game, "
         "without a winner",
-        "the score is tied ({a}-{b}), and no race is given; this and {more:,} more are counted "
-        "game by game, without a winner",
+        "the score is tied ({a}-{b}), and no race is given; this match and {more:,} more like "
+        "it are counted game by game, without a winner",
         len(tied),
         a=results.score_a[row],
         b=results.score_b[row],
@@ -400,11 +400,10 @@ def _in_two_files(files: Sequence[ResultsFile], results: Results) -> Iterator[st
                 file.source,
                 None,
                 say_count(
-                    "{n} match is in an earlier file too, with the same players, score "
-                    "and day. Leave it out of one of the files, or it counts twice.",
-                    "{n:,} matches are in an earlier file too, with the same players, "
-                    "score and day. Leave them out of one of the files, or they count "
-                    "twice.",
+                    "{n} match is also in an earlier file, with the same players, score and "
+                    "day. Leave it out of one of the files, or it will count twice.",
+                    "{n:,} matches are also in an earlier file, with the same players, score "
+                    "and day. Leave them out of one of the files, or they will count twice.",
                     again,
                 ),
             )

@@ -90,8 +90,8 @@ def _unknown(table: TextTable, said: Mapping[str, Sequence[str]]) -> list[str]:
     if not words:
         return []
     text = say(
-        "unknown statuses count as played: {words}. If a match wasn't played, write forfeit, "
-        "bye or postponed.",
+        "matches with an unknown status count as played: {words}. If a match wasn't played, "
+        "write forfeit, bye or postponed.",
         words=quoted_list(list(words)),
     )
     return [warning(table.source, None, text)]

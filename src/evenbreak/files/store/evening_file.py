@@ -212,8 +212,8 @@ def _check(base: sqlite3.Connection, place: Path) -> None:
     if version > FORMAT:
         raise refused(
             place,
-            "{name} was written by a newer version of evenbreak, in format {version}, "
-            "and this one knows formats up to {newest}. Update evenbreak.",
+            "{name} was written by a newer version of evenbreak, in format {version}, but this "
+            "version only reads formats up to {newest}. Update evenbreak.",
             version=version,
             newest=FORMAT,
         )

@@ -216,7 +216,7 @@ class Header:
         if len(missing) == 1 and self._hint is None:
             problem = missing_column(missing[0], self.required[missing[0]], among)
             if not places:
-                problem = say("{problem} Is it the right file?", problem=problem)
+                problem = say("{problem} Is this the right file?", problem=problem)
             problems.add(line, problem)
         elif missing:
             remedy = say("Add them.") if self._hint is None else self._hint(places, titles, sample)

@@ -81,7 +81,7 @@ NOT_WITH_FORMAT = {
     "qualifiers": say(
         "In this format no one qualifies. Leave the number of players advancing blank."
     ),
-    "rounds": say("Only a Swiss has a number of rounds. Leave it blank."),
+    "rounds": say("Only a Swiss tournament has a number of rounds. Leave it blank."),
     "final": say("Only a double elimination has a choice of final."),
     "third_place": say("Only a single elimination has a match for third place."),
 }
@@ -242,8 +242,8 @@ async def delete(request: Request) -> Response:
         raise RefusalError("No tournament is running yet.", status=404)
     if not form.text("sure"):
         line = say(
-            "The tournament of {players} players, started on {day}, will be deleted. A copy of "
-            "its file is kept.",
+            "The {players}-player tournament that was started on {day} will be deleted. A copy "
+            "of its file is kept.",
             players=there.players,
             day=there.begun[:10],
         )
@@ -254,7 +254,7 @@ async def delete(request: Request) -> Response:
     copy = await asyncio.to_thread(back_up, site.path, datetime.now())
     await asyncio.to_thread(delete_tournament, site.path)
     site.night.forget()
-    return done(request, "/new", say("Deleted. The copy is {name}.", name=copy.name))
+    return done(request, "/new", say("Deleted. A copy was saved as {name}.", name=copy.name))
 
 
 class There(NamedTuple):
@@ -293,7 +293,7 @@ def _put_aside(form: Form, site: Site) -> int:
     if form.text("in_place_of") != there.name:
         raise RefusalError(
             "A tournament is already running. Check the box to archive it, or leave this page "
-            "to continue it.",
+            "to go back to it.",
             status=409,
         )
     back_up(site.path, datetime.now())

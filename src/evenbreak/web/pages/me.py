@@ -254,7 +254,7 @@ async def release(request: Request) -> Response:
         taps.note(request, _night_with(request, name), key, decide, DIRECTORS_PAGE)
 
     await asyncio.to_thread(work)
-    words = say("{name} has no phone now. The next one that claims the name gets it.", name=name)
+    words = say("{name} no longer has a phone. The next phone that claims the name gets it.", name=name)
     return done(request, "/desk/codes", words)
 
 
@@ -337,7 +337,7 @@ def _count(request: Request, what: str) -> None:
 
 _DID: dict[str, Callable[..., str]] = {
     CLAIMED: lambda name, **_: say("this phone is {name}'s", name=name),
-    RELEASED: lambda name, **_: say("{name} has no phone now", name=name),
+    RELEASED: lambda name, **_: say("{name} no longer has a phone", name=name),
     COMING: lambda name, match, **_: say(
         "{match}: {name} answered the call", match=match, name=name
     ),
@@ -350,8 +350,8 @@ _DID: dict[str, Callable[..., str]] = {
     OBJECTED: lambda match, score, **_: say(
         "{match}: the table says that {score} is wrong", match=match, score=score
     ),
-    TABLET: lambda name, **_: say("this is the tablet of table {table}", table=name),
-    NO_TABLET: lambda name, **_: say("this is no longer the tablet of table {table}", table=name),
+    TABLET: lambda name, **_: say("this is the tablet for table {table}", table=name),
+    NO_TABLET: lambda name, **_: say("this is no longer the tablet for table {table}", table=name),
 }
 
 

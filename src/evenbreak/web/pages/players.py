@@ -139,7 +139,7 @@ def money_of(form: Form) -> PrizeMoney | None:
     except InputError:
         raise RefusalError(
             "{value!r} isn't a way to split the prizes. Choose a table from the list, or enter "
-            "the percentage for each place, such as 50/30/20, adding up to 100 at most.",
+            "a percentage for each place, such as 50/30/20, with a total of 100 at most.",
             value=payout,
         ) from None
     return money if fee or added else None
