@@ -131,7 +131,7 @@ def test_so_many_missing_pairs_are_counted(write):
     path = write("level,opponent_level,needs\n" + "".join(f"{i},{i},3\n" for i in range(9)))
     problems = problems_of(path)
     assert len(problems) == 21
-    assert problems[-1] == "F: lacks 52 more pairs of levels"
+    assert problems[-1] == "F: is missing 52 more pairs of levels"
 
 
 @pytest.mark.parametrize("name", ["npl_10", "NPL-10", " npl 10 "])

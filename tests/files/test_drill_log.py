@@ -70,7 +70,7 @@ def test_a_step_against_the_rule_is_a_new_start_with_a_warning(drill_file):
 def test_levels_of_the_drill(drill_file):
     path = drill_file("level,success\n1,yes\n2,yes\n2,no\n")
     assert read_drill_log(path).warnings == ()
-    assert "leads to level 3" in read_drill_log(path, levels=3).warnings[0]
+    assert "should lead to level 3" in read_drill_log(path, levels=3).warnings[0]
     assert read_drill_log(path, levels=5).log.attempts.tolist() == [1, 2, 0, 0, 0]
     assert problems(path, levels=1) == [
         f":{line}: level '2' isn't a whole number from 1 to 1. Write 1, 2, 3, ..., or give the "

@@ -222,7 +222,7 @@ def test_the_sheet_of_a_match_has_its_acts_for_the_director_alone(full: Hall, pa
     words = full.director.open(page, match=number).words
     for act in ("Take it off the table", "Let it wait", "Forfeit", "Another table", "Ended early"):
         assert act in words, act
-    assert "Winner to match" in words
+    assert "Winner goes to match" in words
     assert "Take it off the table" not in full.guest.open(page, match=number).words
     for odd in ("0", "999", "x", "²"):
         assert "Take it off" not in full.director.open(page, match=odd).words
@@ -285,7 +285,7 @@ def test_the_card_of_an_act_has_that_act_alone(full: Hall) -> None:
     assert card.count("Table 2: ") == 1
     assert f"Table 2: {called[0]} against {called[1]}." in card
     assert "Table 1: " not in card
-    assert "Winner to match" in card
+    assert "Winner goes to match" in card
 
 
 def test_an_undo_can_be_redone_from_the_desk(full: Hall) -> None:

@@ -178,7 +178,7 @@ def test_a_chart_of_points_gives_the_points_of_each_pair(run, roster):
     assert rows[0]["p_win_a"] == pytest.approx(odds.p_win_1)
     assert rows[0]["match_points_b"] == pytest.approx(odds.share_2)
     assert "'Cy' has no skill level" in run("matchups", *words).stderr
-    assert "doesn't set races in games" in run("matchups", *words, "--race-to", "5").stderr
+    assert "no race in games" in run("matchups", *words, "--race-to", "5").stderr
 
 
 def test_a_level_rates_a_player_who_has_no_rating(run, roster):
