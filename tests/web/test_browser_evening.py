@@ -78,7 +78,9 @@ class Evening:
             self.desk.get_by_role("button", name="Draw 19 players").click()
         self.commands.append("draw")
         self.desk.goto(f"{self.site.address}/desk/more")
-        itself = self.desk.get_by_role("switch", name="Call the next match automatically when a result comes in")
+        itself = self.desk.get_by_role(
+            "switch", name="Call the next match automatically when a result comes in"
+        )
         if itself.get_attribute("aria-checked") == "false":
             self.tap(itself)
         self.desk.goto(f"{self.site.address}/desk")

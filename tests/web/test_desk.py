@@ -101,7 +101,9 @@ def test_the_undo_of_a_result_takes_back_the_call_that_came_with_it(full: Hall) 
 
 
 def test_calls_are_made_by_hand_where_the_director_wants_it(full: Hall) -> None:
-    assert "You now call each match yourself." in full.director.send("/desk/calling", itself="").words
+    assert (
+        "You now call each match yourself." in full.director.send("/desk/calling", itself="").words
+    )
     match = on(full, 4)
     words = taps(full, match, 2)
     assert 4 not in [one.call.table for one in full.state.on_tables.values()]

@@ -165,7 +165,9 @@ def problems_of(message: Message) -> Iterator[str]:
             yield say("{text!r}: {error}", text=text, error=error)
             continue
         for name in sorted(unknown):
-            yield say("{text!r} has {name!r}, which isn't in the English text", text=text, name=name)
+            yield say(
+                "{text!r} has {name!r}, which isn't in the English text", text=text, name=name
+            )
 
 
 def _all(text: str | tuple[str, ...] | list[str] | None) -> list[str]:

@@ -60,8 +60,7 @@ LEVELS = Schema(
     needs=_GAMES.called("games, own games", "how many games the player at `level` needs"),
     opponent_needs=_GAMES.called(
         "opponent games",
-        "how many games the opponent needs; can be left out if every pair is listed in both "
-        "orders",
+        "how many games the opponent needs; can be left out if every pair is listed in both orders",
         filled=False,
     ),
 )
@@ -204,7 +203,9 @@ def _levels(table: TextTable, name: str) -> LevelChart:
             opponent=opponent,
         )
     if len(missing) > MOST_MISSING:
-        table.problems.add(None, "is missing {n} more pairs of levels", n=len(missing) - MOST_MISSING)
+        table.problems.add(
+            None, "is missing {n} more pairs of levels", n=len(missing) - MOST_MISSING
+        )
     for (mine, opponent), (games, row) in races.items():
         against = races.get((opponent, mine), (games, row))[0]
         if mine > opponent and games < against:

@@ -186,9 +186,9 @@ def _evenness(league: PublishedLeague) -> tuple[str, Chart, str] | None:
         below.append((at, f"{size.min():.0f}–{size.max():.0f}", "middle"))
     words = (
         f"The stronger player won {100 * won.mean():.0f}% of {len(rows):,} matches; from "
-        f"today's ratings, you'd expect {100 * float(np.mean(expected)):.0f}%. A dot on the dashed "
-        "line means even races. Below each dot is the rating difference between the two players. The "
-        "bars show how far luck alone can move a dot."
+        f"today's ratings, you'd expect {100 * float(np.mean(expected)):.0f}%. A dot on the "
+        "dashed line means even races. Below each dot is the rating difference between the two "
+        "players. The bars show how far luck alone can move a dot."
     )
     chart = Chart(
         "How often the stronger player won, by the difference in ratings",

@@ -146,8 +146,10 @@ def _room_again(site: Site, port: int) -> list[str]:
         return []
     there = [one for one in addresses() if not _taken(one, port)]
     again = say("Phones are let in again, as before the restart.")
-    cannot = say("Phones could connect before the restart, but they can't now. Join the "
-                 "network, then let them in.")
+    cannot = say(
+        "Phones could connect before the restart, but they can't now. Join the "
+        "network, then let them in."
+    )
     _say(site, again if there else cannot)
     return there
 

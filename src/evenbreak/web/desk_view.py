@@ -388,7 +388,9 @@ def next_words(state: Evening, name: str) -> list[Sentence]:
         ("loser", say("Loser"), played.loser_place),
     ):
         if outcome in to:
-            found.append(say("{who} goes to {match}.", who=words, match=state.match_words(to[outcome])))
+            found.append(
+                say("{who} goes to {match}.", who=words, match=state.match_words(to[outcome]))
+            )
         elif place:
             found.append(say("{who} finishes {place}.", who=words, place=place_words(place)))
     return found

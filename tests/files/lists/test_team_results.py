@@ -47,8 +47,9 @@ def test_another_kind_of_file_is_told_the_columns_of_the_one_wanted(tmp_path):
         with pytest.raises(DataError) as caught:
             read(path)
         needed = [name for name, column in columns.columns.items() if column.needed]
-        assert f"Is this the right file? Results have one match per row: {','.join(needed)}." in str(
-            caught.value
+        assert (
+            f"Is this the right file? Results have one match per row: {','.join(needed)}."
+            in str(caught.value)
         )
 
 

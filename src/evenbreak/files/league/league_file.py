@@ -160,8 +160,10 @@ class LeagueFile:
     ] = None
     race: Annotated[
         int | None,
-        Field(Whole(1, LONGEST_RACE), "Without a chart: every race is to this many games for "
-                                      "both players."),
+        Field(
+            Whole(1, LONGEST_RACE),
+            "Without a chart: every race is to this many games for both players.",
+        ),
     ] = None
     race_to: Annotated[
         int | None,

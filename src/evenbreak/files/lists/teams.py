@@ -319,8 +319,7 @@ def read_team_results(
     home, away = table.read["home_score"], table.read["away_score"]
     table.note(
         table["forfeit"] & (home.values + away.values == 0),
-        "is a forfeit without a score. Write how many sets each team gets for it, such as 3 and "
-        "0.",
+        "is a forfeit without a score. Write how many sets each team gets for it, such as 3 and 0.",
     )
     table.note(
         (home.stated != away.stated) & home.good & away.good,

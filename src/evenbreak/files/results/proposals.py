@@ -91,8 +91,10 @@ def columns_hint(
             columns=",".join(called.get(name, name) for name in TEAMS),
         )
     if not 0 < len(readings) <= _MOST_READINGS:
-        return say("Add them. A single score column, with cells such as 7-5, can replace the "
-                   "two score columns.")
+        return say(
+            "Add them. A single score column, with cells such as 7-5, can replace the "
+            "two score columns."
+        )
     options = [_option(reading) for reading in readings]
     if len(options) == 1:
         return say(

@@ -92,8 +92,11 @@ async def calling(request: Request) -> Response:
     form = await directors_form(request)
     itself = bool(form.text("itself"))
     await asyncio.to_thread(site_of(request).let_call, itself)
-    said = say("The next match is now called automatically when a result comes in.") if itself else say("You now call each "
-                                                                        "match yourself.")
+    said = (
+        say("The next match is now called automatically when a result comes in.")
+        if itself
+        else say("You now call each match yourself.")
+    )
     return done(request, of_event("/desk/more", event_of(request)), said)
 
 

@@ -254,7 +254,9 @@ async def release(request: Request) -> Response:
         taps.note(request, _night_with(request, name), key, decide, DIRECTORS_PAGE)
 
     await asyncio.to_thread(work)
-    words = say("{name} no longer has a phone. The next phone that claims the name gets it.", name=name)
+    words = say(
+        "{name} no longer has a phone. The next phone that claims the name gets it.", name=name
+    )
     return done(request, "/desk/codes", words)
 
 

@@ -184,7 +184,10 @@ async def tablet(request: Request) -> Response:
         return done(request, f"/table/{number}")
     await asyncio.to_thread(let_out, request, DIRECTOR)
     label = state.plan.table_name(number)
-    words = say("This is now the tablet for table {table}, and it's signed out as the director.", table=label)
+    words = say(
+        "This is now the tablet for table {table}, and it's signed out as the director.",
+        table=label,
+    )
     return done(request, f"/table/{number}", words)
 
 
