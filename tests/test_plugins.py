@@ -130,7 +130,7 @@ def broken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, forgotten: None) -> 
         (
             "system",
             "lazy",
-            "it's a class without initial and update. Write it",
+            "the class has no initial and update. Add what's missing",
         ),
         ("system", "nameless", "it can't be made without arguments (missing a required"),
         ("system", "one-sided", "in the system none, the race is"),
@@ -227,7 +227,7 @@ def test_chances_for_a_game_that_takes_none_are_refused(tmp_path: Path) -> None:
         ("Unset", "it failed with AttributeError: 'Unset' object has no attribute 'nobodys'"),
         ("Importing", "it failed with ModuleNotFoundError: No module named 'nowhere'"),
         ("Nobodys", "but broken_rules has no Nobodys. Name one of its classes"),
-        ("Lazy", "it's a class without initial and update. Write it"),
+        ("Lazy", "the class has no initial and update. Add what's missing"),
     ],
 )
 def test_an_error_of_ones_own_class_is_told_as_its_own(name: str, why: str) -> None:

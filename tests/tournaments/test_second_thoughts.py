@@ -178,7 +178,7 @@ def test_a_substitute_takes_a_place_and_a_table(form: str) -> None:
     night.add(moves.result(night.state, name, (3, 1)))
     with pytest.raises(InputError, match="already played match"):
         roster.substitute(night.state, "Cy", Entrant("Di", 1.0))
-    with pytest.raises(InputError, match="follow from entry"):
+    with pytest.raises(InputError, match="depend on entry"):
         undo(night.state, len(night.events) - 1)
 
 

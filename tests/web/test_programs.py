@@ -37,7 +37,7 @@ def test_a_token_is_shown_once_and_revoked(director: Browser) -> None:
     again = director.open("/desk/programs")
     assert token not in again.text
     assert "&lt;b&gt;board" in again.text
-    assert "only table 2 · no entry yet" in again.words
+    assert "only table 2 · no entries yet" in again.words
     refused = director.send("/desk/programs/create", name="<B>board", may="director")
     assert (refused.status, "already has a token" in refused.words) == (400, True)
     for may in ("table:3", "table:x", "table:0", "table:", "all", "", "Director"):

@@ -28,7 +28,7 @@ _AVERAGE = Field(
 )
 _POINTS = Number(0.0, 1e6, " isn't 0 or more points", metavar="POINTS")
 _BESIDE = Field(_CHART, "A chart to compare with.", many=True)
-_MEETINGS = Field(Whole(1, 1000), "Pairs of players in a round.", metavar="K")
+_MEETINGS = Field(Whole(1, 1000), "How many pairs of players meet in a round.", metavar="K")
 
 Chart: TypeAlias = Annotated[str, Field(_CHART, "The chart.", argument=True)]
 
