@@ -82,7 +82,9 @@ def made(named: Any, *arguments: Any) -> Any:
             raise InputError("it's already complete and takes no chances. Leave them out.")
         return named
     if lacking := sorted(getattr(named, "__abstractmethods__", ())):
-        raise InputError("the class has no {lacking}. Add what's missing.", lacking=" and ".join(lacking))
+        raise InputError(
+            "the class has no {lacking}. Add what's missing.", lacking=" and ".join(lacking)
+        )
     try:
         inspect.signature(named).bind(*arguments)
     except TypeError as error:

@@ -272,7 +272,10 @@ class Change(Entry):
     ] = None
     slower: Annotated[
         float | None,
-        Field(Number(0.5, 2.0, metavar="X"), "How long matches take here compared with usual: 1.2 is 20% longer."),
+        Field(
+            Number(0.5, 2.0, metavar="X"),
+            "How long matches take here compared with usual: 1.2 is 20% longer.",
+        ),
     ] = None
 
 

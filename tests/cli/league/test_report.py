@@ -549,6 +549,6 @@ def test_a_name_after_an_option_without_one_gets_a_hint(run, tmp_path, words):
 @pytest.mark.slow
 def test_a_prior_from_too_few_results_is_doubted(run, tmp_path):
     result = run("report", "-", "--out", str(tmp_path), "--prior", "best", stdin=SMALL)
-    assert "too few" in result.stderr
+    assert "aren't enough" in result.stderr
     result = run("report", str(DEMO), "--out", str(tmp_path), "--prior", "best")
     assert "Warning" not in result.stderr

@@ -73,7 +73,7 @@ def test_varying_form_weakens_the_evidence(watch, run):
     refused = run("sandbag", "watch", *SEASON, "--day-sd", "500")
     assert refused.exit_code == 2
     assert (
-        "Error: --day-sd must be from 0 to 120 points (which double the odds 4 times); you gave 500"
+        "Error: --day-sd must be 0 to 120 points (4 doublings of the odds); you gave 500"
     ) in refused.stderr
 
 

@@ -66,8 +66,8 @@ def refuse_too_varying(asked: Question, system: handicaps.StepSystem, *names: st
     for name in names:
         if getattr(asked, name) > most:
             asked.refuse(
-                "{part} must be points from 0 to {most:.0f}, which double the odds "
-                "{times:g} times; you gave {points:g}",
+                "{part} must be 0 to {most:.0f} points ({times:g} doublings of the odds); "
+                "you gave {points:g}",
                 part=Parameter(name),
                 points=getattr(asked, name),
                 most=most,
