@@ -61,7 +61,7 @@ def test_a_scale_that_the_list_contradicts_is_refused(run, tmp_path, title):
     told = run("sandbag", "watch", results, "--roster", roster, "--scale", "npl")
     if title == "Rating":
         assert told.exit_code == 0
-        assert "the results don't fit NPL ratings: with those" in told.stderr
+        assert "the results don't fit NPL ratings: the higher-rated player won" in told.stderr
     else:
         assert told.exit_code == 2
         assert "states that its ratings are on the Fargo scale" in told.stderr

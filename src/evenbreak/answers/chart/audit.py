@@ -63,8 +63,8 @@ def chart_audit_answer(report: ChartAudit, *, warnings: Sequence[str] = ()) -> A
                 "rows",
                 columns,
                 list(map(_paired, report.rows)),
-                "The stronger player's chance in each band of differences; each race is exactly "
-                "fair at the difference 'even at':",
+                "The stronger player's chance in each band of rating differences, and the "
+                "difference at which the race is exactly fair (even at):",
             ),
         ],
         details=list(_tilt(report, fitted=fitted)),
@@ -204,7 +204,7 @@ def _tilt(report: ChartAudit, *, fitted: bool) -> Iterator[str]:
     yield (
         "'Place' is where in its band a race is even: 0 at the start, 0.5 in the middle, 1 at the "
         f"end. The chart's tilt is the place that suits all its races best: "
-        f"{decimals(2)(report.fit.tilt)}. The bands start {report.fit.misfit:.2f} points from "
+        f"{decimals(2)(report.fit.tilt)}. The bands start {report.fit.misfit:.2f} points away from "
         f"where this tilt would put them (root mean square); rounding to whole points accounts "
         "for 0.29."
     )
@@ -250,10 +250,10 @@ def level_audit_answer(
                 "",
                 columns,
                 list(map(_paired, between)),
-                "The higher level's chance if the two players are as close as their levels "
-                "allow (start), average for their levels (middle), or as far apart as possible "
-                "(end); the difference at which the race is fair (even at), and the difference "
-                "between average players (apart):",
+                "The higher level's chance of winning if the two players are as close as their "
+                "levels allow (start), average for their levels (middle), or as far apart as "
+                "possible (end). 'Even at' is the difference at which the race is fair, and "
+                "'apart' is the difference between average players:",
             ),
             Table(
                 "levels",
@@ -263,8 +263,9 @@ def level_audit_answer(
             ),
         ],
         details=[
-            f"With these ratings, the races are fair at differences {report.misfit:.1f} points "
-            "away from those between the levels (root mean square over all pairs of levels)."
+            f"With these ratings, the difference at which a race is fair is {report.misfit:.1f} "
+            "points away from the difference between its two levels (root mean square over all "
+            "pairs of levels)."
         ],
         warnings=warnings,
         data={
@@ -311,9 +312,9 @@ def _chances(between: Sequence[LevelCell], skills: LevelSkills) -> list[float]:
 def _in_fact(between: Sequence[LevelCell], chances: Sequence[float]) -> str:
     most, cell = max(zip(chances, between, strict=True), key=lambda pair: pair[0])
     return (
-        "That assumes that the levels are as far apart as the races make up for. In some "
-        f"40,000 matches in other leagues with this chart they weren't: the higher level won "
-        f"{percent(min(chances))} to {percent(most)} of the matches, the most between levels "
+        "That assumes that the gaps between levels are exactly what the races make up for. In "
+        "some 40,000 matches in other leagues with this chart, they weren't: the higher level won "
+        f"{percent(min(chances))} to {percent(most)} of the matches, most often between levels "
         f"{cell.level} and {cell.opponent_level}."
     )
 
@@ -350,10 +351,10 @@ def points_audit_answer(chart: PointsChart, *, warnings: Sequence[str] = ()) -> 
             _even(report),
             _wrong_level(report, few, many),
             Table("levels", columns, list(map(astuple, report.levels))),
-            f"The chart doesn't say how well the players of a level play. Here a player is "
+            f"The chart doesn't say how well the players at each level play. Here a player is "
             f"assumed to need {report.innings:g} innings on average to reach their points; "
-            f"every shot has the same chance and counts one point, and a miss ends the "
-            f"inning. The second point for the 9, balls that no one scores, and safeties are "
+            f"every shot is equally likely to go in and is worth one point, and a miss ends "
+            f"the inning. The second point for the 9, balls that no one scores, and safeties are "
             f"left out.",
         ],
         warnings=warnings,

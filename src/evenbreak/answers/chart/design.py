@@ -60,13 +60,13 @@ class DesignTask:
     def heading(self, up_to: int) -> str:
         """Return the requirements, in two lines."""
         low, high = self.limits.games
-        words = [f"Races with a maximum of {low} to {high} games"]
+        words = [f"Races that can last {low} to {high} games at most"]
         if self.limits.games_p90 is not None:
-            words.append(f"9 out of 10 matches within {self.limits.games_p90} games")
+            words.append(f"9 out of 10 ending within {self.limits.games_p90} games")
         if self.rows is not None:
-            words.append(f"at most {count_of(self.rows, 'row')}")
+            words.append(f"in at most {count_of(self.rows, 'row')}")
         if high - low > SPREAD:
-            words.append(f"maximums at most {SPREAD} games apart")
+            words.append(f"with maximums at most {SPREAD} games apart")
         goal = "the smallest unfairness on average"
         if self.target != 0.5:
             goal += f", with a target of {percent(self.target)}"
@@ -125,8 +125,9 @@ def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
 def _in_words(found: ChartMeasure, target: float) -> str:
     return (
         f"At differences up to {found.up_to}, the stronger player's chance is within "
-        f"{100 * found.worst_unfairness:.1f} percentage points of {percent(target)}, and "
-        f"{100 * found.mean_unfairness:.1f} off on average. A match takes {found.mean_games:.1f} "
+        f"{100 * found.worst_unfairness:.1f} percentage points of {percent(target)}, and is "
+        f"off by {100 * found.mean_unfairness:.1f} on average. A match takes "
+        f"{found.mean_games:.1f} "
         f"games on average; 9 out of 10 end within {found.games_p90}."
     )
 
@@ -165,8 +166,8 @@ def _compared(chart: Chart, found: ChartMeasure, spans: Sequence[_Span], target:
     races = f"different races at {count} of the" if count else "the same races at all"
     return (
         f"For comparison, {chart.name} stays within {100 * found.worst_unfairness:.1f} percentage "
-        f"points of {percent(target)}, and is {100 * found.mean_unfairness:.1f} off on "
-        f"average; a match takes {found.mean_games:.1f} games on average; 9 out of 10 end within "
+        f"points of {percent(target)}, and is off by {100 * found.mean_unfairness:.1f} on "
+        f"average. A match takes {found.mean_games:.1f} games on average; 9 out of 10 end within "
         f"{found.games_p90}. The "
         f"two charts have {races} {found.up_to + 1} differences."
     )
@@ -192,9 +193,7 @@ def _other_races(chart: Chart, spans: Sequence[_Span]) -> Table:
     first = f", the first {MOST_LISTED} of {len(spans)} ranges" if len(shown) < len(spans) else ""
     columns = columns_of("difference design beside", chart=chart.name)
     rows = [(range_words(span.first, span.last), span.design, span.beside) for span in shown]
-    return Table(
-        "", columns, rows, f"Where the races differ from the races of {chart.name}{first}:"
-    )
+    return Table("", columns, rows, f"Where the races differ from those in {chart.name}{first}:")
 
 
 def _prices(task: DesignTask, made: Chart, up_to: int) -> Table | None:

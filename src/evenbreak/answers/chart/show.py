@@ -197,7 +197,7 @@ def team_handicap_answer(
     """
     first, second = averages
     return Answer(
-        f"Team 1 averages {first:g} and team 2 {second:g}, {scale_words(scale)}",
+        f"Team 1 averages {first:g} and team 2 averages {second:g}, {scale_words(scale)}",
         [
             _in_words(found),
             _how(found, match_ups),

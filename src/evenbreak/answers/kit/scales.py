@@ -143,9 +143,8 @@ def contradiction(scale: Scale, roster: Roster, results: Results) -> str:
     own, name = NAMES.get(scale.name, scale.name), NAMES[other.name]
     seen = percent(float(won.sum() / (won + lost).sum()))
     return say(
-        "the results don't fit {own} ratings: with those, the higher-rated player would have "
-        "won {expected} of the games, and with {other} ratings {likelier}; the actual share "
-        "was {seen}",
+        "the results don't fit {own} ratings: the higher-rated player won {seen} of the games, "
+        "but {own} ratings predict {expected}, and {other} ratings predict {likelier}",
         own=own,
         expected=share(scale),
         other=name,
@@ -276,9 +275,9 @@ def starter_doubts(scale: Scale, ratings: ArrayLike) -> list[str]:
         return []
     return [
         say(
-            "new players start at {start:g}, the middle of the {scale} scale, but the "
-            "other ratings go from {least:g} to {most:g}. Set the rating of a new player "
-            "with {starter}.",
+            "new players start at {start:g}, the middle of the {scale} scale, but the other "
+            "ratings range from {least:g} to {most:g}. Set the rating of a new player with "
+            "{starter}.",
             start=scale.center,
             scale=NAMES.get(scale.name, scale.name),
             least=least,
@@ -303,9 +302,9 @@ def chart_doubts(chart: Any, scale: Scale) -> list[str]:
         return []
     return [
         say(
-            "the races of {chart} fit a scale on which about {points:.0f} points double "
-            "the odds, but here {own:.4g} do. Make sure that it's the chart for these "
-            "ratings.",
+            "the races in {chart} fit a scale on which about {points:.0f} points double the "
+            "odds, but on the scale used here {own:.4g} points do. Make sure that it's the "
+            "chart for these ratings.",
             chart=chart.name,
             points=best.points_per_doubling,
             own=own,
@@ -332,9 +331,9 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
         f"Day-to-day form: from match to match the difference in strength between two players "
         f"varies by "
         f"{points:.0f} ± {error:.0f} points, so sweeps are likelier and hill-hill "
-        "games rarer than ratings alone would say. This list of ratings includes that figure "
-        f"({form.sd:.2f} in log-odds). Its errors allow for it, and so do odds, fair, live "
-        f"and matchups."
+        "games rarer than ratings alone would suggest. This list of ratings includes that figure "
+        f"({form.sd:.2f} in log-odds). The errors on the list allow for it, and so do the "
+        f"commands odds, fair, live and matchups."
     )
 
 
@@ -343,7 +342,7 @@ def form_details(form: DayForm | None, scale: Scale) -> Iterator[str]:
     if form is None:
         return
     v, low, high = form.variance
-    end = "The effect is clear." if form.established else "It may be luck, so nothing uses it."
+    end = "The effect is clear." if form.established else "It may be luck, so it isn't used."
     yield (
         f"Day-to-day form, estimated from {form.races:,} matches, each compared with the ratings "
         f"from all others: a standard deviation of {scale.points(form.sd):.1f} points (variance "

@@ -147,7 +147,7 @@ def refuse_levels(file: files.RosterFile | files.SeasonPlayers, remedy: str = SA
     """Reject a list of skill levels when ratings in points are needed."""
     if file.levels:
         refuse(
-            "the ratings of {file} are skill levels, and not points of a scale. {remedy}",
+            "the ratings in {file} are skill levels, not points on a scale. {remedy}",
             file=file.source,
             remedy=remedy,
         )
@@ -201,8 +201,8 @@ def chart_for(system: handicaps.StepSystem, name: str | None) -> tuple[handicaps
         chart, warnings = file.chart, list(file.warnings)
     if not isinstance(chart, handicaps.Chart):
         refuse(
-            "{chart} {name!r} is a chart of skill levels, which no single match moves by "
-            "points. Give a chart of rating differences, such as npl_10, or {system} "
+            "{chart} {name!r} is a chart of skill levels, and levels don't move by points after "
+            "a match. Give a chart of rating differences, such as npl_10, or {system} "
             "level-steps.",
             name=name,
         )

@@ -134,8 +134,8 @@ def _question(ladder: handicaps.Ladder, asked: LadderErrors, opponents: str) -> 
     within = round(NEAR * doubling) if asked.within is None else asked.within
     if abs(start) > ladder.widest:
         asked.refuse(
-            "{start_error} must be an error from -{widest} to {widest} points, where "
-            "this ladder ends; you gave {start}",
+            "{start_error} must be from -{widest} to {widest} points, the largest errors "
+            "possible on this ladder; you gave {start}",
             start=start,
             widest=ladder.widest,
         )

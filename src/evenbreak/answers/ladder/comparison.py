@@ -96,8 +96,8 @@ def ladder_comparison_answer(found: LadderComparison, warnings: Sequence[str] = 
         _EXPLANATION,
         *_notes(found),
         _view([row for row, _ in found.steps], f"Step sizes on chart {found.chart.name}:"),
-        "With longer steps ratings settle sooner but stay less accurate, so they pay off where "
-        f"there are many newcomers. {_never_worth_it(beaten)}",
+        "Longer steps make ratings settle sooner but leave them less accurate, so they pay off "
+        f"where there are many newcomers. {_never_worth_it(beaten)}",
     ]
     return Answer(
         f"Handicap systems side by side\n{OPPONENTS[found.opponents]}",
@@ -111,8 +111,8 @@ def ladder_comparison_answer(found: LadderComparison, warnings: Sequence[str] = 
 _EXPLANATION = (
     "'Error': how far ratings are typically off in the long run (standard deviation), in points "
     "and as a percentage of a doubling (the points that double the odds of winning a game). "
-    "'Settles in': the matches it takes a rating that starts one doubling too low to come "
-    "within a sixth of a doubling, on average and for 9 out of 10 players. 'Favorite': how "
+    "'Settles in': how many matches it takes for a rating that starts one doubling too low to "
+    "come within a sixth of a doubling, on average and for 9 out of 10 players. 'Favorite': how "
     "often the player favored by the errors wins, and in how many of 100 matches their chance "
     "is 60% or more. 'Games': the average length of a match."
 )
@@ -173,13 +173,13 @@ def _notes(found: LadderComparison) -> Iterator[str]:
         yield (
             f"{refitted.row.system}: all ratings are refitted to all results every week, as "
             f"in Fargo. Its figures come from {REFITTED_LEAGUES} simulated leagues of "
-            f"{REFITTED_PLAYERS} players, each over a year, and are uncertain: the error is "
-            f"uncertain by about {refitted.sd_error:.2f} points and the settling by about "
+            f"{REFITTED_PLAYERS} players over a year, so they are uncertain: the error may be off "
+            f"by about {refitted.sd_error:.2f} points, and the settling time by about "
             f"{refitted.settling_error:.1f} matches."
         )
     rising = [f"{row.system} by {row.inflation:+.2f}" for row in found.systems if row.inflation]
     if rising:
-        yield f"Ratings inflate, in points a match: {', '.join(rising)}."
+        yield f"Ratings inflate (in points a match): {', '.join(rising)}."
 
 
 def _never_worth_it(steps: Sequence[str]) -> str:

@@ -95,7 +95,8 @@ def _heading(found: LadderFindings) -> str:
 
 def _form(when: str, sd: float) -> str:
     return (
-        f"Everyone's form varies from {when} to {when}, by up to {sd:g} points two times in three"
+        f"Everyone's form varies from {when} to {when}, by up to {sd:g} points two-thirds of the "
+        f"time"
     )
 
 
@@ -178,8 +179,8 @@ def _how_soon_forgotten(found: LadderFindings) -> Iterator[str]:
         half = math.log(0.5) / math.log1p(-found.gap)
         every = "match" if half < 1.5 else f"{half:,.0f} matches"
         yield (
-            f"In the long run, an old error halves every {every}: each match removes a share of "
-            f"{found.gap:.4f} of what is left (the spectral gap)."
+            f"In the long run, an old error halves every {every}: each match removes "
+            f"{100 * found.gap:.2f}% of what is left (the spectral gap)."
         )
     if found.mixing_matches is not None:
         started = f"started {_too(start, str(abs(start)))}" if start else "started right"

@@ -65,8 +65,8 @@ level off 24% of the time.
             *_in_words(rows, share),
             Table("levels", columns_of(_COLUMNS), rows),
             "'Wins at that level': the chance of winning a match while the level is right. "
-            f"'Matches to get "
-            f"there': for a newcomer who starts at level {newcomer}, on average.",
+            "'Matches "
+            f"to get there': how many a newcomer who starts at level {newcomer} needs on average.",
             skills.why,
         ],
         warnings=list(warnings),

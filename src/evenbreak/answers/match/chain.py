@@ -184,7 +184,10 @@ def _named(graph: nx.DiGraph[Any]) -> nx.DiGraph[str]:
 
     names = {state: str(state) for state in graph}
     if len(set(names.values())) < len(names):
-        raise GameError("two of the game's states have the same text. Give each state its own.")
+        raise GameError(
+            "two of the game's states look the same when printed. Make each state "
+            "print differently."
+        )
     named: nx.DiGraph[str] = nx.relabel_nodes(graph, names)
     return named
 

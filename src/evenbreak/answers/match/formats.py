@@ -111,15 +111,16 @@ def _advice(compared: Sequence[Compared], players: TwoPlayers) -> str:
     fair = [name for name, win in zip(names, wins, strict=True) if abs(win - 0.5) < nearest + SAME]
     most = max(one.odds.p_win_2 for one in compared)
     return (
-        f"{a} does best with {listed(best)}, winning {percent(max(wins))} of the time, and {b} "
-        f"with {listed(worst)}, winning {percent(most)}.\nClosest to even: {listed(fair)}."
+        f"{a} does best with {listed(best)}, winning {percent(max(wins))} of the time; {b} "
+        f"does best with {listed(worst)}, winning {percent(most)}.\nClosest to even: "
+        f"{listed(fair)}."
     )
 
 
 def _stays(axis: str, hold: str | None) -> str:
     if axis == "p":
         return ""
-    return " (the advantage of the break stays)" if hold == "break" else " (p2 stays)"
+    return " (the break advantage stays the same)" if hold == "break" else " (p2 stays)"
 
 
 def _turns(
@@ -178,15 +179,17 @@ def breaks_answer(
         [
             f"{_who_gains(usual)}\n{_in_a_session(usual[0])}",
             Table("formats", columns, [_breaks_row(value, lose) for value in values]),
-            "'Even if a win pays': what A should get for a rack won to make the stakes fair. "
+            "'Even if a win pays': what A should get for each rack won to make the stakes fair. "
             "'First break': how many more racks A wins in a long session by breaking first.",
             *by_way(via, ((value.share, kernel[value.name]) for value in values)),
         ],
         [
-            "'Spread of points': multiply it by the square root of N for the standard deviation of "
+            "'Spread of points': multiply it by the square root of N to get the standard "
+            "deviation of "
             "A's points over N racks. 'Left after a rack': how much of the first break's effect is "
-            "left one rack later (the second eigenvalue of the chain of breakers); below 0, the "
-            "advantage changes sides."
+            "left one rack later (the second eigenvalue of the chain of breakers); if it is "
+            "below 0, "
+            "the advantage changes sides."
         ],
     )
 

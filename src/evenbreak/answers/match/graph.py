@@ -104,11 +104,14 @@ def _classes_words(road: Road) -> str:
     passing = structure.count - closed
     if structure.count == 1:
         period = int(structure.periods[0])
-        again = f": a state can return only after a multiple of {period} steps" * (period > 1)
-        return f"Every state can be reached from every other: one class, of period {period}{again}."
+        again = f", so a state can return only after a multiple of {period} steps" * (period > 1)
+        return (
+            "Every state can be reached from every other. They form one class, with period "
+            f"{period}{again}."
+        )
     periods = sorted(set(structure.periods[structure.closed].tolist()))
     return (
-        f"Its states form {structure.count:,} classes. {closed:,} "
+        f"Its states form {structure.count:,} classes. {closed:,} of them "
         f"{'is' if closed == 1 else 'are'} never left (period {listed(periods, 'or')}), and "
         f"{passing:,} {'is' if passing == 1 else 'are'} left for good."
     )
@@ -124,7 +127,7 @@ def _ways_words(road: Road) -> str:
     if "kernel" in road.refused:
         text += " The closed form is for states in a line, and these states aren't in a line."
     if "eigen" in road.refused:
-        text += f" By eigenvectors: {road.refused['eigen']}."
+        text += f" Eigenvectors weren't used: {road.refused['eigen']}."
     return text
 
 
@@ -135,8 +138,8 @@ def _spectrum_words(road: Road) -> str:
     gap = _gap_words(road)
     if "spectrum" in road.refused:
         return (
-            "Only the eigenvectors of eigenvalue 1 are given. The others do not all exist (the "
-            f"matrix of a race is defective), or are not certain.{gap}"
+            "Only the eigenvectors of eigenvalue 1 are given. Some of the others don't exist "
+            f"(the matrix of a race is defective) or are not certain.{gap}"
         )
     if n == 1:
         return f"The only eigenvalue is 1.{gap}"
@@ -152,13 +155,13 @@ def _gap_words(road: Road) -> str:
     if road.gap is None:
         return f" How fast the distance to the limit falls is not certain: {road.refused['gap']}."
     if road.gap > 1.0 - SAME and road.limit.is_cesaro:
-        return " After a fixed number of steps the chain only goes round (the gap is 1)."
+        return " After a fixed number of steps the chain only repeats itself (the gap is 1)."
     if road.gap > 1.0 - SAME:
         return " The limit is reached after a fixed number of steps (the gap is 1)."
     what, ages = "long-run cycle" if road.limit.is_cesaro else "limit", ""
     if road.period != road.limit.period:
         what = f"limit, averaged over {road.period} steps,"
-        ages = f" For a very long time the chain goes round as if its period were {road.period}."
+        ages = f" For a very long time the chain behaves as if its period were {road.period}."
     return (
         f" In the end the distance to the {what} falls by {percent(road.gap)} with each step (the "
         f"gap is {road.gap:.4g}).{ages}"

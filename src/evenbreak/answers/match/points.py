@@ -36,7 +36,7 @@ def points_answer(
     if odds.share_1 is not None and odds.share_2 is not None:
         texts.append(
             say(
-                "On average {a} gets {x:.1f} of the {points} match points, and {b} {y:.1f}.",
+                "On average {a} gets {x:.1f} of the {points} match points, and {b} gets {y:.1f}.",
                 a=a,
                 x=odds.share_1,
                 points=MATCH_POINTS,
@@ -62,10 +62,10 @@ def points_answer(
             *texts,
             Quantities(quantities_of(values, a=a, b=b)),
             say(
-                "The chances rest on an assumption, not a measurement: that players of every "
-                "level need about {innings:.0f} innings to reach their points, and make each "
-                "shot with the same chance. With {few:.0f} to {many:.0f} innings {a}'s chance "
-                "is {low} to {high}.",
+                "These chances assume that players of every level need about {innings:.0f} "
+                "innings to reach their points, and that every shot in a match is equally "
+                "hard; neither has been measured. If players need {few:.0f} to {many:.0f} "
+                "innings, {a}'s chance is {low} to {high}.",
                 innings=INNINGS,
                 few=FEW,
                 many=MANY,

@@ -57,20 +57,21 @@ def oneball_answer(
     shot = ranked[0].shot
     heading = (
         f"You make the shot with probability {shot.p1:g}; after a miss, the opponent makes theirs "
-        f"with {shot.p2:g}"
+        f"with probability {shot.p2:g}"
     )
     words = "'Even at': the game is even if a miss leaves the opponent this chance."
     if len(ranked) > 1:
         heading = f"You shoot first and have {count_of(len(ranked), 'shot')} to choose from"
         words = (
             f"The shots are ranked by your chance {_SUPPOSED[look_ahead]}. {words} 'Best up to': "
-            "the shot is the best one if a miss leaves less than this."
+            "the shot is the best one if a miss leaves the opponent less than this chance."
         )
     known = any(one.later for one in shots)
     columns = [column for column in _COLUMNS if known or column.name not in _OF_LATER]
     if known:
         words = (
-            f"'Then': your chance for the shot after these two, the opponent's, and so on. {words}"
+            f"'Then': your chance of making the shot after these two, then the opponent's, and so "
+            f"on. {words}"
         )
     return Answer(
         heading,
@@ -200,15 +201,15 @@ def straight_answer(match: StraightPool, averages: tuple[float, float] | None = 
 
 def _heading(match: StraightPool, averages: tuple[float, float] | None) -> str:
     if averages is not None:
-        text = f"A averages {averages[0]:g} balls an inning, B {averages[1]:g}"
+        text = f"A averages {averages[0]:g} balls an inning and B averages {averages[1]:g}"
     else:
-        text = f"A makes a shot with probability {match.p1:g}, B with {match.p2:g}"
+        text = f"A makes a shot with probability {match.p1:g} and B with probability {match.p2:g}"
     text += f"; {' AB'[match.first]} shoots first\n"
     if match.safety_1 != 1:
         text += (
             f"The first shot of an inning goes in {match.safety_1:g} times as often as the others\n"
         )
-    return text + f"A plays to {match.points_1} points, B to {match.points_2}"
+    return text + f"A plays to {match.points_1} points and B plays to {match.points_2}"
 
 
 def _in_words(match: StraightPool, odds: StraightPoolOdds, spot: Spot) -> str:

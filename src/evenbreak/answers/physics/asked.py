@@ -83,8 +83,8 @@ def aim(asked: questions.Aim) -> Answer:
         answer = aim_answer(hit, asked.distance * units.length.size, units, squirt=asked.squirt)
     except InputError:
         asked.refuse(
-            "{cut} {angle:g} can't be reached: friction throws every hit fuller than "
-            "that. Give a smaller cut angle, or another {topspin} or {english}.",
+            "{cut} {angle:g} can't be reached: throw makes every hit fuller than that. "
+            "Give a smaller cut angle, or a different {topspin} or {english}.",
             angle=asked.cut,
         )
     return replace(answer, warnings=measures.unit_doubts(units, speed=asked.speed))

@@ -159,10 +159,10 @@ def cut_words(cut: float) -> str:
 
 
 SQUIRT = (
-    "Squirt and swerve are left out: with english the cue ball starts off the line of the cue, "
-    "to the side away from the english, and with a raised cue it curves back. Allow for them "
-    "so that the cue ball travels along the line given here; to find how much, shoot the "
-    "length of the table with this english and see how far off it lands."
+    "Squirt and swerve are left out. With english, the cue ball leaves the tip a little to one "
+    "side of the cue's line, away from the english; with a raised cue, it then curves back. "
+    "Allow for both, so that the cue ball travels along the line given here. To find out how "
+    "much, shoot the length of the table with this english and see how far off the ball lands."
 )
 """What an answer about where to aim can't tell if there is english."""
 

@@ -185,7 +185,8 @@ def break_cue_answer(forearm: float, ball: float, weight: Unit, stick: float | N
     speed = None if share is None else math.sqrt(share / most)
     sentence = f"The best cue to break with weighs {weight.text(best * ball)}."
     if stick is not None and speed is not None:
-        sentence += f" One of {weight.typed(stick)} breaks {_slower(speed)} for the same effort."
+        weighing = f" One that weighs {weight.typed(stick)}"
+        sentence += f"{weighing} breaks {_slower(speed)} for the same effort."
     optimal = weight.quantity("optimal_cue", best * ball)
     ounces = IMPERIAL.mass.quantity("-optimal_cue", best * ball)
     values = {"energy_share": most, "stick_energy_share": share, "stick_speed_share": speed}
@@ -194,7 +195,7 @@ def break_cue_answer(forearm: float, ball: float, weight: Unit, stick: float | N
         *quantities_of(values),
     ]
     return Answer(
-        f"Forearm and hand of {weight.typed(forearm)}, cue ball of {weight.typed(ball)}",
+        f"Forearm and hand: {weight.typed(forearm)}; cue ball: {weight.typed(ball)}",
         [sentence, Quantities(quantities)],
     )
 

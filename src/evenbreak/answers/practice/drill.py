@@ -110,9 +110,10 @@ def drill_log_answer(
         details=[
             Quantities(spread(analysis.implied), "The level in the long run:"),
             *_tests(analysis),
-            "A p-value (p) is how often chance alone gives a result at least this extreme, here "
-            f"among {count_of(analysis.replicas, 'log')} simulated for each test, with sessions "
-            f"like yours; {_luck(analysis)}.",
+            "A p-value (p) is how often chance alone gives a result at least this extreme. For "
+            "each "
+            f"test, {count_of(analysis.replicas, 'log')} with sessions like yours were simulated; "
+            f"{_luck(analysis)}.",
             GAIN_WORDS,
         ],
         warnings=file.warnings,
@@ -184,9 +185,9 @@ def _practice(analysis: LogAnalysis) -> str:
     second = max(others, key=lambda report: report.p_best, default=best)
     if best.p_best < CLEAR:
         return (
-            f"It is too early to tell which level to practice: the chance is "
-            f"{_percent(best.p_best)} for level {best.level} and {_percent(second.p_best)} "
-            f"for level {second.level}. A longer log would tell."
+            f"It is too early to tell which level to practice: the chance of "
+            f"being the best is {_percent(best.p_best)} for level {best.level} and "
+            f"{_percent(second.p_best)} for level {second.level}. A longer log would tell."
         )
     text = (
         f"Practice level {best.level} next: {better(best.p or 0.0)} there raises your average "
@@ -198,8 +199,8 @@ def _practice(analysis: LogAnalysis) -> str:
     if best.p_best >= SURE:
         return f"{text}."
     return (
-        f"{text}, and {_percent(second.p_best)} for level {second.level}; a longer log would "
-        f"show which of the two it is."
+        f"{text}; for level {second.level}, that chance is {_percent(second.p_best)}. A longer log "
+        f"would show which of the two it is."
     )
 
 
@@ -271,8 +272,8 @@ def _tests(analysis: LogAnalysis) -> Iterator[Part]:
     yield (
         f"Levels: if you went on forever with these success rates, {100 * test.seen:.0f} "
         f"attempts "
-        f"in 100 would be at other levels than so far; in simulated sessions like yours this is "
-        f"{100 * test.by_chance:.0f} in 100 ({_p(test)})."
+        f"in 100 would be at different levels than so far; in simulated sessions like yours, "
+        f"{100 * test.by_chance:.0f} in 100 are ({_p(test)})."
     )
     if analysis.memory is not None:
         test = analysis.memory

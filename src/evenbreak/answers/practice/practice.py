@@ -33,8 +33,9 @@ def before_and_after_answer(before: ScoresFile, after: ScoresFile, found: Compar
     if found.low is not None and found.high is not None:
         sentences.append(
             f"The true difference is between {found.low:+.2f} and {found.high:+.2f}, with "
-            f"{100 * found.confidence:g}% confidence. Of one score before and one "
-            f"after, the later one is higher {100 * found.effect.p_after_higher:.0f}% of the time."
+            f"{100 * found.confidence:g}% confidence. If you take one score from before and "
+            f"one from after, the later one is higher {100 * found.effect.p_after_higher:.0f}% "
+            f"of the time."
         )
     return Answer(
         f"Before: {_scores(before)}\nAfter: {_scores(after)}",
@@ -306,8 +307,8 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
             f"known "
             "only from your earlier scores. The normal distribution ignores that and is "
             f"overconfident. "
-            f"Counted from the nearer end of the {share} interval of the average, it is more "
-            "cautious. The rank needs no distribution at all."
+            f"The cautious measure counts from the nearer end of the {share} interval of the "
+            "average. The rank needs no distribution at all."
         ],
         warnings=file.warnings,
     )

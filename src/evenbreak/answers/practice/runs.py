@@ -126,9 +126,10 @@ def _middle(law: RunLength | InningsScore, innings: int) -> str:
 
 def _heading(law: RunLength | InningsScore, innings: int) -> str:
     safety = float(law.safety)
-    first = "" if safety == 1 else f", the first one of an inning with {float(law.p) * safety:.4g}"
+    first = float(law.p) * safety
+    opening = "" if safety == 1 else f", but the first of an inning with probability {first:.4g}"
     played = "The run in one inning" if innings == 1 else f"The score of {innings} innings"
-    return f"{played}, for a player who makes a shot with probability {float(law.p):.4g}{first}"
+    return f"{played}, for a player who makes a shot with probability {float(law.p):.4g}{opening}"
 
 
 def runs(asked: Runs) -> Answer:
