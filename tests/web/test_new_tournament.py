@@ -61,7 +61,10 @@ def test_what_a_form_says_is_what_is_planned(tmp_path: Path) -> None:
             plan = read_tournament(site.path).plan
             assert {name: getattr(plan, name) for name in wanted} == wanted
         shown = director.send("/new", **ASKED | {"races": "npl_8"} | again(director))
-        assert "about 30 points double the odds, but on the scale used here 100 points do" in shown.words
+        assert (
+            "about 30 points double the odds, but on the scale used here 100 points do"
+            in shown.words
+        )
         assert read_tournament(site.path).plan.chart.name == "npl_8"
         assert director.send("/desk/draw").status == 200
 

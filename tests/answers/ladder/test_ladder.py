@@ -25,7 +25,7 @@ def test_the_first_sentence_has_the_numbers_of_the_json(npl):
 
 def test_statistics_are_details(npl):
     assert not any("spectral" in text or "variation" in text for text in npl.sentences)
-    assert f"{npl.to_dict()['gap']:.4f}" in npl.to_dict()["details"][0]
+    assert f"{100 * npl.to_dict()['gap']:.2f}%" in npl.to_dict()["details"][0]
 
 
 def test_files_have_a_row_for_each_error(npl):

@@ -24,7 +24,7 @@ def answer_of(*texts):
 
 def test_the_advice_names_the_best_for_each_and_the_fairest():
     best_for_a, fairest = answer_of("1:1", "3:3").sentences[0].split("\n")
-    assert best_for_a.index("A does best with 3:3") < best_for_a.index("B with 1:1")
+    assert best_for_a.index("A does best with 3:3") < best_for_a.index("B does best with 1:1")
     assert fairest == "Closest to even: 1:1."
 
 

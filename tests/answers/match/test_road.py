@@ -38,5 +38,5 @@ def test_states_that_are_written_alike_are_refused():
         def winner(self, state):  # noqa: ARG002
             return None
 
-    with pytest.raises(GameError, match="the same text"):
+    with pytest.raises(GameError, match="look the same"):
         road_of(Alike())

@@ -29,7 +29,8 @@ def test_no_level_is_named_while_none_is_likely_to_be_it(analysis):
     levels = [one._replace(p_best=one.p_best and 0.36) for one in analysis.levels]
     said = answer_of(analysis, levels=tuple(levels)).sentences[0]
     assert said.startswith(
-        "It is too early to tell which level to practice: the chance is 36% for level"
+        "It is too early to tell which level to practice: the chance of being the best is 36% for "
+        "level"
     )
 
 
@@ -95,7 +96,7 @@ def test_an_unsure_advice_names_the_second_level(analysis):
     assert "90%" in advice(0.9)
     assert "level 3" not in advice(0.9)
     assert "60%" in advice(0.6)
-    assert "40% for level 3" in advice(0.6)
+    assert "for level 3, that chance is 40%" in advice(0.6)
 
 
 @pytest.mark.parametrize(

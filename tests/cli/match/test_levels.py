@@ -76,9 +76,7 @@ def test_points_to_win_are_an_assumption_with_its_range(run, club):
     assert found["match_points_a"] == pytest.approx(odds.share_1)
     low, high = found["p_win_a_range"]
     assert low < found["p_win_a"] < high
-    assert (
-        "an assumption, not a measurement" in run("odds", "7", "4", "--chart", "apa_9ball").stderr
-    )
+    assert "neither has been measured" in run("odds", "7", "4", "--chart", "apa_9ball").stderr
     names = club("player,SL\nAnn,7\nBo,4\n")
     named = ("odds", "Ann", "Bo", "--from", names, "--chart", "apa_9ball")
     assert answer(run, *named)["needs_a"] == 55

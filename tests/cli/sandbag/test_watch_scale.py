@@ -75,5 +75,5 @@ def test_a_list_that_states_the_wrong_scale_is_refused_with_both_readings(run, t
     assert told.exit_code == 2
     (line,) = told.stderr.splitlines()[-1:]
     assert "the results don't fit NPL ratings" in line
-    assert "with Fargo ratings" in line
+    assert "and Fargo ratings predict" in line
     assert "--scale fargo" in line
