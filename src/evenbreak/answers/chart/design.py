@@ -85,7 +85,7 @@ def chart_design_answer(task: DesignTask, design: tuple[Chart, int]) -> Answer:
     >>> task = DesignTask(SCALES["npl"], RaceLimits((7, 9), 5, 2), up_to=59)
     >>> print(chart_design_answer(task, task.design()).sentences[0])
     At differences up to 59, the stronger player's chance is within 7.2 percentage points of 50%,
-    and 2.9 off on average. A match takes 6.6 games on average; 9 out of 10 end within 9.
+    and is off by 2.9 on average. A match takes 6.6 games on average; 9 out of 10 end within 9.
     """
     made, up_to = design
     ours, *theirs = (
