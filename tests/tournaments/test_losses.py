@@ -224,4 +224,4 @@ def test_a_result_of_a_round_whose_draw_is_undone_is_set_aside_in_words() -> Non
     events.append(Event(AT, *undo(evening(events))))
     answer = night_answer(Outlook(evening(events), AT))
     (warning,) = answer.warnings
-    assert "in match 1, but the match is not drawn now" in warning
+    assert "in match 1, but the match is no longer in the draw" in warning

@@ -311,7 +311,7 @@ def test_the_two_ways_of_a_correction_are_said_as_people_say_them() -> None:
     assert stopped.details[-1] == "3-1 and 0-2 stay in the history."
     assert "Table TV: " in stopped.details[0]
     assert "race to 5, from 0-0." in stopped.details[0]
-    assert stopped.button == "Change it, stop both"
+    assert stopped.button == "Change it and stop both"
     assert kept.headline == "Let both finish as they are."
     assert kept.details == ["The bracket stays; only the record of match 1 changes."]
     keep = Event(AT, moves.correct(before, "1", (4, 5), follow="keep"))

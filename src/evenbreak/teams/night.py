@@ -224,7 +224,7 @@ def order_of(text: str, sets: int, more: Sequence[str] = ()) -> str:
         )
     if len(pattern) > sets:
         raise InputError(
-            "{order} is {text!r}, {letters} letters for {sets} sets. {wanted}",
+            "{order} is {text!r}, which has {letters} letters, but there are {sets} sets. {wanted}",
             order=Parameter("order"),
             text=text,
             letters=len(pattern),

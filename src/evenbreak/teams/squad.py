@@ -185,8 +185,8 @@ def line_ups(squad: Squad, sizes: Sequence[int]) -> LineUps:
     ]
     if not used[-1]:
         raise InputError(
-            "no lineup of {players} for {sets} sets stays within {caps}. Raise the limit, or "
-            "add players who count for less.",
+            "no lineup of {players} for {sets} sets keeps {caps}. Raise the limit, or add "
+            "players who count for less.",
             players=", ".join(squad.names),
             sets=len(sizes),
             caps=_asked(squad),

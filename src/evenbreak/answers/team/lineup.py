@@ -157,7 +157,7 @@ def _in_words(found: Advice, named: Sequence[str]) -> Sentence:
                 "Put up {pick}: you win the night at least {p} of the time.", pick=_name(best), p=p
             )
         return say(
-            "Pick at random, {picks}: you win the night {p} of the time, whatever they do.",
+            "Pick at random ({picks}): you win the night {p} of the time, whatever they do.",
             picks=listed(mixed),
             p=p,
         )
@@ -178,7 +178,8 @@ def _in_words(found: Advice, named: Sequence[str]) -> Sentence:
         )
     if named:
         return say(
-            "Their best answer to {ours} is {pick}: you win the night {p} of the time.",
+            "If you put up {ours}, their best answer is {pick}, and you win the night {p} of "
+            "the time.",
             ours=names_words(named),
             pick=_name(best),
             p=p,
@@ -230,8 +231,8 @@ def _toss(meeting: Meeting, solution: SolvedNight) -> tuple[dict[str, float] | N
     if str(percent(first)) == str(percent(second)):
         return toss, say("The toss makes no difference.")
     return toss, say(
-        "If you win the toss, {choice}: you win {better} of such nights, compared with {worse} the "
-        "other way around.",
+        "If you win the toss, {choice}: you win the night {better} of the time, compared with "
+        "{worse} the other way around.",
         choice=say("answer") if second > first else say("put up first"),
         better=percent(max(first, second)),
         worse=percent(min(first, second)),
@@ -307,15 +308,15 @@ def sealed_answer(
     if len(played) == 1:
         line_up = listed(list(played[0].names))
         words = say(
-            "Play {players}, in an order drawn at random: you win the night {p} of the time, "
-            "whatever they do.",
+            "Play {players} in a random order: you win the night {p} of the time, whatever they "
+            "do.",
             players=line_up,
             p=percent(found.worth),
         )
     else:
         words = say(
-            "Pick one of the lineups below at random, weighted by its share, then pick its "
-            "order at random: you win the night {p} of the time, whatever they do.",
+            "Pick one of the lineups below at random, using the shares as weights, then put it "
+            "in a random order: you win the night {p} of the time, whatever they do.",
             p=percent(found.worth),
         )
     columns = columns_of("-name sits_out p_win_night cost mix")
@@ -375,5 +376,5 @@ def race_words(race: SetRace) -> Sentence:
     if isinstance(race, int):
         return say("races to {n}", n=race)
     if isinstance(race, PointsChart):
-        return say("points by {chart}", chart=race.name)
-    return say("races by {chart}", chart=race.name)
+        return say("points from {chart}", chart=race.name)
+    return say("races from {chart}", chart=race.name)

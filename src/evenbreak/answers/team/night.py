@@ -63,7 +63,7 @@ def needed_words(state: TeamEvening, chances: tuple[float, float] | None) -> str
         )
     needed = [state.plan.sets // 2 + 1 - won for won in (a, b)]
     return say(
-        "To win the night {first} needs {n} of the {sets} left, and {second} needs {m}.",
+        "To win the night, {first} needs {n} of the {sets} left, and {second} needs {m}.",
         first=first,
         n=needed[0],
         sets=_sets_words(left),
@@ -81,7 +81,7 @@ def chance_words(state: TeamEvening, chances: tuple[float, float]) -> str:
     first, second = state.teams
     counted = state.plan.count == "sets" and state.plan.sets % 2
     text = say(
-        "{first} wins the night {p} of the time, {second} {q}.",
+        "{first} wins the night {p} of the time, and {second} wins {q} of the time.",
         first=first,
         p=percent(chances[0]),
         second=second,
@@ -94,7 +94,12 @@ def cap_words(state: TeamEvening, team: int) -> list[str]:
     """Return how much of a team's caps is used up, and who can still be put up."""
     found = choices(state, team)
     lines: list[str] = [
-        say("So far {cap} is {total:g} of {most:g}.", cap=cap.name, total=cap.total, most=cap.most)
+        say(
+            "So far, {cap} is {total:g}; the limit is {most:g}.",
+            cap=cap.name,
+            total=cap.total,
+            most=cap.most,
+        )
         for cap in found.caps
     ]
     line = state.to_name
@@ -167,7 +172,7 @@ def event_words(event: Event, plan: NightPlan, shown: set[int]) -> str:
     names = [team.name for team in plan.teams]
     match event.what:
         case Begun():
-            return say("start of {a} against {b}", a=names[0], b=names[1])
+            return say("night started: {a} against {b}", a=names[0], b=names[1])
         case PutUp(team, number, pick):
             if number not in shown:
                 return say("{team} put up a player in set {n}", team=names[team], n=number)
@@ -192,6 +197,6 @@ def event_words(event: Event, plan: NightPlan, shown: set[int]) -> str:
                 n=number,
             )
         case Result(number, score):
-            return say("result of set {n}: {score}", n=number, score=tally(score))
+            return say("result in set {n}: {score}", n=number, score=tally(score))
         case Undone():
             return say("last entry undone")

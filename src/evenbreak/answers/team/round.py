@@ -55,21 +55,22 @@ def team_round_answer(
     >>> law = round_law(us, them, games=2)
     >>> asked = {"played": "2 games", "scale": SCALES["fargo"], "games": 2}
     >>> print(team_round_answer((us, them), law, **asked).sentences[0])
-    Without a head start team 1 wins the round 11% of the time, loses it 44% and ties it 44%.
-    With 1 game for team 1 it is nearest to even: they win it 56% of the time and lose it 44%; \
-there are no ties.
+    Without a head start, team 1 wins the round 11% of the time, loses it 44% of the time, and \
+ties it 44% of the time.
+    With a head start of 1 game for team 1, the round is closest to even: they win it 56% of the \
+time and lose it 44% of the time; there are no ties.
     """
     fair, plain = law.fair_start, law.with_start(0)
-    words = [f"Without a head start {names[0]} {_in_words(plain, 'wins', 'loses', 'ties')}."]
+    words = [f"Without a head start, {names[0]} {_in_words(plain, 'wins', 'loses', 'ties')}."]
     if fair:
         ahead = law.with_start(fair)
         seen = ahead if fair > 0 else Outcome(ahead.lose, ahead.tie, ahead.win)
         words.append(
-            f"With {count_of(abs(fair), unit)} for {names[fair < 0]} the round is closest to "
-            f"even: they {_in_words(seen, 'win', 'lose', 'tie').replace(' the round', ' it', 1)}."
+            f"With a head start of {count_of(abs(fair), unit)} for {names[fair < 0]}, the round is "
+            f"closest to even: they {_in_words(seen, 'win', 'lose', 'tie').replace(' the round', ' it', 1)}."
         )
     else:
-        words.append(f"No head start of whole {unit}s brings it closer to even.")
+        words.append(f"No head start of a whole number of {unit}s brings the round closer to even.")
     parts: list[Part] = ["\n".join(words)]
     csi: int | None = None
     if games is not None:
@@ -108,8 +109,9 @@ def _start_words(start: int, names: tuple[str, str]) -> str:
 def _in_words(seen: Outcome, win: str, lose: str, tie: str) -> str:
     won = f"{win} the round {percent(seen.win)} of the time"
     if not seen.tie:
-        return f"{won} and {lose} it {percent(seen.lose)}; there are no ties"
-    return f"{won}, {lose} it {percent(seen.lose)} and {tie} it {percent(seen.tie)}"
+        return f"{won} and {lose} it {percent(seen.lose)} of the time; there are no ties"
+    lost = f"{lose} it {percent(seen.lose)} of the time"
+    return f"{won}, {lost}, and {tie} it {percent(seen.tie)} of the time"
 
 
 def _csi(
@@ -127,7 +129,7 @@ def _csi(
         one, other, match_ups=pairs, games=games, points_won=1.0, points_lost=0.0, scale=scale
     )
     start = found.points if found.to_team == 1 else -found.points
-    weaker, times = names[law.mean > 0], f", then times {games}" if games > 1 else ""
+    weaker, times = names[law.mean > 0], f", then multiplied by {games}" if games > 1 else ""
     text = (
         f"CSI's formula (from the two averages, one game per match, rounded down{times}) gives "
         f"{count_of(found.points, 'game')}"
@@ -136,11 +138,14 @@ def _csi(
         text += f" to {names[(found.to_team or 1) - 1]}"
     if found.given_away > 0.005:
         text += (
-            f"; {found.even_points:.2f} would even out the averages, so rounding costs "
-            f"{weaker} {percent(found.given_away)} of that"
+            f". A head start of {found.even_points:.2f} would even out the averages, so rounding "
+            f"costs {weaker} {percent(found.given_away)} of it"
         )
     seen = law.with_start(start)
-    return start, f"{text}. Then {names[0]} {_in_words(seen, 'wins', 'loses', 'ties')}."
+    return (
+        start,
+        f"{text}. With CSI's head start, {names[0]} {_in_words(seen, 'wins', 'loses', 'ties')}.",
+    )
 
 
 _IN_WORDS = {
@@ -262,10 +267,10 @@ def _order_words(order: str, nights: Floats) -> str:
     edges = first_edges(nights)
     mean, widest = float(np.nanmean(edges)), float(np.nanmax(np.abs(edges)))
     if widest < _SMALL:
-        return f"In the order {order} it makes no difference who puts up first."
+        return f"In the order {order}, it makes no difference who puts up first."
     if abs(mean) < _SMALL:
         return (
-            f"In the order {order} it makes no difference on average who puts up first in set 1; "
+            f"In the order {order}, it makes no difference on average who puts up first in set 1; "
             f"between two of your teams it can matter by up to {_points(widest)}."
         )
     return (

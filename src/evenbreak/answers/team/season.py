@@ -64,9 +64,9 @@ def _in_words(found: SeasonChances) -> str:
     teams, title = found.season.teams, found.p_first(1)
     best, *others = np.argsort(-title, kind="stable")[:3].tolist()
     if title[best] >= 1.0 - 1e-12:
-        return f"{teams[best]} have won the title."
+        return f"{teams[best]} has won the title."
     following = [f"{teams[k]} ({percent(title[k])})" for k in others if title[k] > 0.0]
-    text = f"{teams[best]} are the favorites and win the title {percent(title[best])} of the time"
+    text = f"{teams[best]} is the favorite and wins the title {percent(title[best])} of the time"
     if following:
         text += f"; next {'are' if len(following) > 1 else 'is'} {listed(following)}"
     return f"{text}."
@@ -178,9 +178,9 @@ def _error(found: SeasonChances) -> float:
 
 def _how(found: SeasonChances, *, known: bool) -> str:
     strengths = (
-        "the strengths are treated as exact"
+        "the teams' strengths are treated as exact"
         if known
-        else "they allow for how uncertain the teams' strengths still are"
+        else "the chances allow for how uncertain the teams' strengths still are"
     )
     if found.exact:
         return (

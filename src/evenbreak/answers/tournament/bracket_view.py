@@ -328,7 +328,7 @@ def source_words(slot: Source, numbers: Mapping[str, int]) -> Sentence | str:
         rank = ordinal(int(slot.match))
         return say("{nth} best {rank}", nth=ordinal(slot.outcome), rank=rank)
     if isinstance(slot.outcome, int):
-        return say("number {n} of {group}", n=slot.outcome, group=slot.match)
+        return say("number {n} in {group}", n=slot.outcome, group=slot.match)
     if slot.match not in numbers:
         return say("to be drawn")
     if slot.outcome == "winner":

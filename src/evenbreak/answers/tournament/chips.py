@@ -86,10 +86,10 @@ def chip_changes(before: Evening, after: Evening) -> list[Sentence]:
         said += [say("Table {n} is closed.", n=k) for k in was.tables if k not in now.tables]
     gone = {one.result.match for one in before.aside}
     came = [rack_words(one.result) for one in after.aside if one.result.match not in gone]
-    said += [say("Set aside: {result}.", result=words) for words in came]
+    said += [say("On hold: {result}.", result=words) for words in came]
     back = gone & after.counted.keys()
     return said + [
-        say("Counted again: {results}.", results=rack_words(after.counted[name]))
+        say("Restored: {results}.", results=rack_words(after.counted[name]))
         for name in sorted(back)
     ]
 
@@ -179,8 +179,8 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
     data = odds_data(night)
     warnings = [
         say(
-            "{result}, but after the correction one of the players had no chips left by then; "
-            "the rack is on hold, and its chip is given back",
+            "{result}, but with the corrected result, one of them was already out of chips by then. "
+            "That rack is on hold, and the chip lost in it is given back",
             result=rack_words(one.result),
         )
         for one in state.aside
@@ -259,15 +259,15 @@ def chip_time_answer(
     parts: list[Part] = [words, finish_quantities(finishes), change, finish_luck(finishes)]
     plain = outlook.pace.mean_minutes(1)
     usual_words = say(
-        "A rack of {game} usually takes about {minutes:.0f} minutes, including the change of "
-        "players.",
+        "A rack of {game} usually takes about {minutes:.0f} minutes, including the time to "
+        "change players.",
         game=state.plan.discipline,
         minutes=plain,
     )
     if timed := len(outlook.timed):
         adjusted = say_count(
-            "That is adjusted for the {n} rack timed so far tonight.",
-            "That is adjusted for the {n} racks timed so far tonight.",
+            "The finish time is adjusted for the {n} rack timed so far tonight.",
+            "The finish time is adjusted for the {n} racks timed so far tonight.",
             timed,
         )
         usual_words = joined([usual_words, adjusted])

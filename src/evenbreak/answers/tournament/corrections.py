@@ -42,21 +42,24 @@ def correction_choices(before: Evening, stop: Evening, match: str) -> list[Choic
         players=and_words(_first_names(before, before.counted[match].players)),
     )
     if not in_play:
-        stopped = say_count("Open {n} match again.", "Open {n} matches again.", many)
-        stop_button = say("Change it, reopen what follows")
-        kept, keep_button = say("Let everything stand."), say("Change it, let everything stand")
+        stopped = say_count("Reopen {n} match.", "Reopen {n} matches.", many)
+        stop_button = say("Change it and reopen what follows")
+        kept, keep_button = say("Let everything stand."), say("Change it and let everything stand")
     elif many == 1:
-        stopped, stop_button = say("Stop it."), say("Change it, stop it")
-        kept, keep_button = say("Let it finish as it is."), say("Change it, let it finish")
+        stopped, stop_button = say("Stop it."), say("Change it and stop the match")
+        kept, keep_button = (
+            say("Let it finish as it is."),
+            say("Change it and let the match finish"),
+        )
     elif many == 2:
-        stopped, stop_button = say("Stop both."), say("Change it, stop both")
+        stopped, stop_button = say("Stop both."), say("Change it and stop both")
         kept = say("Let both finish as they are.")
-        keep_button = say("Change it, let both finish")
+        keep_button = say("Change it and let both finish")
     else:
         stopped = say("Stop all {n}.", n=many)
-        stop_button = say("Change it, stop all {n}", n=many)
+        stop_button = say("Change it and stop all {n}", n=many)
         kept = say("Let all {n} finish as they are.", n=many)
-        keep_button = say("Change it, let all {n} finish", n=many)
+        keep_button = say("Change it and let all {n} finish", n=many)
     bracket = say("The bracket stays; only the record of {match} changes.", match=number)
     return [
         Choice("stop", joined([stopped, traded]), _stop_details(stop, lost), stop_button),
@@ -72,7 +75,7 @@ def _stop_details(stop: Evening, lost: Sequence[Loss]) -> list[Sentence]:
         if one.match in stop.on_tables:
             said.append(
                 say(
-                    "Table {table}: {pair}, {race}, from {none}.",
+                    "Table {table}: {pair}, {race}, starting at {none}.",
                     table=stop.plan.table_name(stop.on_tables[one.match].call.table),
                     pair=against(_first_names(stop, stop.pair(one.match))),
                     none=tally((0, 0)),

@@ -77,7 +77,7 @@ def fairer_races(tournament: Tournament) -> list[Part]:
         raise InputError("even races have no handicap to make fairer. Use handicapped races.")
     if tournament.to_draw or exact_plan(bracket) is None:
         raise InputError(
-            "fairer races need a bracket that is drawn and small enough for exact odds"
+            "to find fairer races, the bracket must be drawn and small enough for exact odds"
         )
     asked: Any = {"scale": tournament.scale, "form": tournament.file.form}
     today = tournament_fairness(bracket, tournament.ratings, races, **asked)
@@ -101,9 +101,9 @@ def fairer_races(tournament: Tournament) -> list[Part]:
     return [
         table,
         *by_round,
-        "Unfairness is 0 if everyone has the same title odds, and 1 if they are off by an equal "
-        "share on average (root mean square). The stronger player races to the games in the table; "
-        "the weaker gets the fairest race.",
+        "Unfairness is 0 if everyone has the same title odds, and 1 if the odds are typically "
+        "off by as much as an equal share (root mean square). The table shows the stronger "
+        "player's race; the weaker player gets the fairest race.",
     ]
 
 
@@ -142,8 +142,9 @@ def _by_round(tournament: Tournament, today: Fairness, by_side: Sequence[Fairnes
         {"unfairness_by_round": best.found.spread, "games_mean_by_round": best.found.games_mean}
     )
     said = (
-        f"Round by round, races of other lengths bring unfairness from {today.spread:.2f} down to "
-        f"{best.found.spread:.2f}, with {best.found.games_mean:.0f} games on average."
+        "Choosing the length of the races round by round brings unfairness down from "
+        f"{today.spread:.2f} to {best.found.spread:.2f}, with {best.found.games_mean:.0f} games "
+        "on average."
     )
     table = Table("races_by_round", columns, rows, title="The fairest races by round")
     return [said, Quantities(quantities), table]

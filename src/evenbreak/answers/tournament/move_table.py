@@ -259,7 +259,7 @@ def _said(_: Evening, after: Evening, __: object) -> list[Sentence]:
 def _redone_words(before: Evening, after: Evening, _: object) -> list[Sentence]:
     events = dict(zip(after.numbers, after.events, strict=True))
     back = max(events.keys() - set(before.numbers))
-    said = say("Entered again: {entry}.", entry=event_words(events[back].what, after))
+    said = say("Redone: {entry}.", entry=event_words(events[back].what, after))
     return [said, *reopened(before, after)]
 
 

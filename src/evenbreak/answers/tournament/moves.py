@@ -196,7 +196,7 @@ def reopened(before: Evening, after: Evening, besides: str = "") -> list[Sentenc
         if name not in before.counted and name != besides and name in after.records
     ]
     if back:
-        said.append(say("Counted again: {results}.", results=joined(back, "; ")))
+        said.append(say("Restored: {results}.", results=joined(back, "; ")))
     return said
 
 
@@ -209,7 +209,7 @@ def lost_words(before: Evening, after: Evening) -> list[Sentence]:
     if before.drawn and not after.drawn:
         said.append(say("The draw would be undone, and a new one may be different."))
     said += [
-        say("The draw of round {n} would be undone.", n=stage[1:])
+        say("The draw for round {n} would be undone.", n=stage[1:])
         for stage in before.later.keys() - after.later.keys()
         if after.drawn and stage != KNOCK_OUT
     ]
@@ -413,7 +413,7 @@ def history_words(events: Sequence[Event], state: Evening) -> list[Sentence]:
             words = (
                 say("entry {n} undone: {entry}", n=entry, entry=said[entry - 1])
                 if isinstance(one.what, Undone)
-                else say("entry {n} entered again: {entry}", n=entry, entry=said[entry - 1])
+                else say("entry {n} redone: {entry}", n=entry, entry=said[entry - 1])
             )
             said[k] = words
     return said
@@ -442,7 +442,7 @@ def _entry_words(what: What) -> Sentence:
         case CheckedIn() | Registered() | Declined():
             return _list_words(what)
         case Changed():
-            return say("change of tables or races")
+            return say("tables or races changed")
         case Undone(entry=None):
             return say("last entry undone")
         case Undone(entry=entry):

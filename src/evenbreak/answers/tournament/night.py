@@ -42,8 +42,8 @@ from evenbreak.words import Command, Sentence, joined, listed, say, say_count
 
 _LISTED = 8  # waiting matches that are named
 _UNDECIDED = say(
-    "How much each match decides isn't shown: many matches are left, or something is still to "
-    "be drawn."
+    "How much each match decides isn't shown, because too many matches are left or a draw still "
+    "has to be made."
 )
 _SHOWN = 6  # players whose title odds everybody sees
 
@@ -222,13 +222,13 @@ def _aside_words(state: Evening, result: Result) -> str:
     words = state.match_words(name)
     play = say("Play {match} again, let it stand ({stand})", match=words, stand=stand)
     if seats is None:  # its draw was undone
-        now, play = say("the match is not drawn now"), say("Draw again")
+        now, play = say("the match is no longer in the draw"), say("Draw again")
     elif NOBODY in seats:
         now, play = say("the match is no longer needed"), say("Let it stand ({stand})", stand=stand)
     elif None in seats:
-        now = say("the match is waiting for {matches} now", matches=waits_for(state, name))
+        now = say("the match is now waiting for {matches}", matches=waits_for(state, name))
     else:
-        now = say("it is {pair} now", pair=against(state.pair(name)))
+        now = say("the match is now {pair}", pair=against(state.pair(name)))
     return say(
         "{result} in {match}, but {now}, so that result is on hold. {settle} or undo the "
         "correction",

@@ -240,7 +240,7 @@ def _matches_words(odds: TitleOdds, rematches: float) -> str:
     if abs(matches - round(matches)) < 1e-9:
         text = f"{count_of(round(matches), 'match is', 'matches are')} played"
     else:
-        text = f"On average {matches:.1f} matches are played"
+        text = f"On average, {matches:.1f} matches are played"
     if rematches > 0.0:
         text += f", {rematches:.1f} of them between players who have met before"
     if "F2" in odds.bracket.by_name:
@@ -261,34 +261,34 @@ def how_words(
     elif to_draw == "qualifiers":
         lines.append("The qualifiers from the losers' side are still to be drawn.")
     if to_draw == "racks" and not odds.exact:
-        drawn = ", each time with other ratings" if averaged else ""
+        drawn = ", each time with different ratings" if averaged else ""
         lines.append(
-            f"The rest of the evening was played out {samples} times{drawn}; with other "
+            f"The rest of the evening was played out {samples} times{drawn}; with different "
             f"random numbers, no title odds would move by more than about {title}."
         )
     elif to_draw == "rounds":
-        drawn = ", each time with other ratings" if averaged else ""
+        drawn = ", each time with different ratings" if averaged else ""
         lines.append(
-            f"The remaining rounds were paired and played {samples} times{drawn}; with other "
+            f"The remaining rounds were paired and played {samples} times{drawn}; with different "
             f"random numbers, no title odds would move by more than about {title}."
         )
     elif averaged:
         lines.append(
             f"The odds allow for rating uncertainty: they are averages over {samples} sets of "
-            f"ratings, drawn using their standard errors. With other draws, no figure would "
+            f"ratings, drawn using their standard errors. With different draws, no figure would "
             f"move by more than about {off}."
         )
     elif odds.exact:
         lines.append("The odds are exact, if the ratings are right.")
     elif to_draw == "lines":
         lines.append(
-            f"{samples} draws were sampled, and the odds of each were calculated; with other "
-            f"samples, no title odds would move by more than about {title}."
+            f"The odds were calculated for {samples} random draws; with different "
+            f"draws, no title odds would move by more than about {title}."
         )
     else:
         lines.append(
             f"The first rounds were sampled {samples} times, and the rest was calculated "
-            f"exactly; with other samples, no figure would move by more than about {off}."
+            f"exactly; with different samples, no figure would move by more than about {off}."
         )
     if walkovers:
         lines.append(

@@ -90,7 +90,7 @@ def score_cards(state: Evening, match: str | None = None) -> list[Card]:
     found = known_match(state, match) if match is not None else None
     if found is not None and found not in state.standing.to_play:
         raise InputError(
-            "{match} can't be played yet. Print its card once it can.",
+            "{match} isn't ready to be played. Print its card once it is.",
             match=state.match_words(found),
         )
     names = [found] if found is not None else list(state.standing.to_play)

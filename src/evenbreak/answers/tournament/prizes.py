@@ -60,7 +60,7 @@ def tournament_prizes_answer(
         csv = _expected(odds, amounts)
         parts.append(csv)
     else:
-        parts.append(say("Each player's expected payout is known after the draw."))
+        parts.append(say("Each player's expected payout will be known after the draw."))
     how = say("Shares: {payouts}.", payouts=payouts.name)
     if payouts.source:
         how = say("Shares: {payouts} ({source}).", payouts=payouts.name, source=payouts.source)
@@ -130,23 +130,24 @@ def calcutta_answer(
     table = Table("lots", columns, rows)
     bids = sum(sold.values())
     if not rows:
-        words = f"All players are sold, for a total of {bids:.2f}."
+        words = f"All players have been sold, for a total of {bids:.2f}."
     elif rows[0][2] is None:
         words = (
-            "No player is sold yet, so no one knows how large the pot will be: the shares show "
-            "what part of it each player is worth."
+            "No player has been sold yet, so no one knows how large the pot will be. The shares "
+            "show what part of the pot each player is worth."
         )
     else:
         words = (
-            f"{count_of(len(sold), 'player is', 'players are')} sold so far, for {bids:.2f}. "
+            f"{count_of(len(sold), 'player has', 'players have')} been sold so far, for {bids:.2f}. "
             f"{rows[0][0]} is worth a bid of "
             f"up to {rows[0][2]:,.2f} now."
         )
     parts: list[Part] = [
         words,
         table,
-        "A break-even bid wins back what it costs, on average, if the players still to be sold go "
-        "for their shares. A player who may buy half back should do so at any lower bid.",
+        "On average, a break-even bid wins back what it costs if the remaining players go for "
+        "what their shares are worth. Players who are allowed to buy back half of themselves "
+        "should do so at any lower bid.",
     ]
     return Answer(source or "Calcutta", parts, csv=table)
 

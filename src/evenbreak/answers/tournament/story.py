@@ -50,7 +50,7 @@ def won_words(result: Result) -> Sentence:
 def chance_words(step: Step) -> Sentence:
     """Return what a match's winner had been given, or that it went to the last game."""
     if step.chance is not None and step.chance < 0.5:
-        return say("given {p} before the match", p=share_at_a_glance(step.chance))
+        return say("given a {p} chance before the match", p=share_at_a_glance(step.chance))
     if step.hill:
         return say("from hill-hill")
     return say("moved the odds most")
@@ -95,7 +95,7 @@ def story_answer(state: Evening, story: Story) -> Answer:
         say("{kind}: {what}, {why}.", kind=one.kind, what=one.what, why=one.why)
         for one in remarks(story)
     ]
-    heading = say("The story of the night: who wins it, after each match")
+    heading = say("The story of the night: the title odds after each match")
     table = Table("story", columns, rows)
     data = {"odds": [{"at": one.at, "title": one.title} for one in story.steps]}
     every = Table("odds", columns_of("happened_at match name p_title"), odds)

@@ -199,7 +199,9 @@ def venue_words(discipline: str, earlier: Iterable[EarlierNight]) -> Sentence | 
         return ""
     ran = _against_usual(venue_ratio(nights, prior_nights=0.0))
     times = _against_usual(venue_ratio(nights))
-    allowed = say("the times are {times}, because part of that may be chance", times=times)
+    allowed = say(
+        "the times here are {times}, because part of the difference may be chance", times=times
+    )
     return say_count(
         "Your last night of {game} at this venue ran {longer}; {allowed}.",
         "Your last {n} nights of {game} at this venue ran {longer}; {allowed}.",
@@ -229,10 +231,10 @@ def assumed_words(tables: int, pace: Pace | str, turnover: Turnover | None) -> s
     if turnover is not None:
         between = say("{minutes:g} minutes on average", minutes=turnover.mean)
     return say(
-        "{games}, on {tables}, with {between} between two matches on a table. As on most "
-        "evenings, a round starts when the rounds that feed it are over; priority goes to the "
-        "match with the most rounds still to follow. Calling matches as soon as both players "
-        "and a table are free saves some of this time.",
+        "{games}. The times are for {tables}, with {between} between matches on the same table. "
+        "As on most evenings, a round starts when the rounds that feed it are over, and the "
+        "match with the most rounds still to follow goes first. Calling each match as soon as "
+        "both players and a table are free saves some of this time.",
         games=of_games,
         tables=say_count("{n} table", "{n} tables", tables),
         between=between,

@@ -170,7 +170,7 @@ def met_words(bracket: Bracket, slot: Slot, numbers: Numbers) -> str:
     if isinstance(slot.outcome, int) and slot.match.isdigit():
         return say("the {runner_up}", runner_up=source_words(slot, {}))
     if isinstance(slot.outcome, int):
-        return say("the number {n} of {group}", n=slot.outcome, group=slot.match)
+        return say("the number {n} player in {group}", n=slot.outcome, group=slot.match)
     if slot.outcome == "winner":
         return say("the winner of match {n}", n=numbers[slot.match])
     return say("the loser of match {n}", n=numbers[slot.match])

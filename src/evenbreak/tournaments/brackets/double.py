@@ -105,7 +105,8 @@ def drop_orders(
     for number, (order, count) in enumerate(zip(given, counts, strict=False), 1):
         if sorted(order) != list(range(1, count + 1)):
             raise InputError(
-                "{drops} has {order} for its round {number}. Give 1 to {count}, each once.",
+                "{drops} has {order} for its round {number}. Give each number from 1 to {count} "
+                "once.",
                 order=order,
                 number=number,
                 count=count,

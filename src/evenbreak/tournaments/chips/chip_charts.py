@@ -53,15 +53,15 @@ class ChipChart:
         for weaker, stronger in pairwise(rows):
             if not stronger.rating_from > weaker.rating_from:
                 raise InputError(
-                    "the row from {above:g} must start above the one from {below:g}. "
-                    "Give each rating once, the lowest first.",
+                    "the row from {above:g} comes after the row from {below:g}, so it must "
+                    "start higher. Give each rating once, the lowest first.",
                     above=stronger.rating_from,
                     below=weaker.rating_from,
                 )
             if stronger.chips > weaker.chips:
                 raise InputError(
-                    "players rated {rating:g} or above get {chips} chips, more than weaker "
-                    "players, who get {weaker}",
+                    "stronger players can't get more chips than weaker ones: players rated "
+                    "{rating:g} or above get {chips}, but weaker players get only {weaker}",
                     rating=stronger.rating_from,
                     chips=stronger.chips,
                     weaker=weaker.chips,

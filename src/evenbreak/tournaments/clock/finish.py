@@ -362,8 +362,8 @@ def minutes_later(one: Finish, other: Finish) -> tuple[float, float]:
     """
     if one.finishes.shape != other.finishes.shape:
         raise InputError(
-            "the two were played out different numbers of times. Use the same "
-            "number of runs for both."
+            "the two finish times come from different numbers of runs. Use the same number of "
+            "runs for both."
         )
     later = one.finishes - other.finishes
     return float(later.mean()), float(later.std() / np.sqrt(len(later)))

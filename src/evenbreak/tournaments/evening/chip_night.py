@@ -180,9 +180,9 @@ class _Walk:
         """Enter or correct a rack's result."""
         rack = self.racks.get(result.match)
         if rack is None or {result.winner, result.loser} != set(rack.players):
-            players = " against ".join(result.players)
+            players = " and ".join(result.players)
             raise InputError(
-                "{match} isn't a rack of {players}", match=result.match, players=players
+                "{match} isn't a rack between {players}", match=result.match, players=players
             )
         if rack.name in self.won:
             self.correct(rack, result.winner)

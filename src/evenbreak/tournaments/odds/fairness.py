@@ -150,7 +150,7 @@ def fairest_races(
     combinations = [Races(race, other, last) for race, other, last in chosen]
     if not 1 <= len(combinations) <= _MOST_CHOICES:
         raise InputError(
-            "there are {n_combinations} combinations of races. Give lists that make 1 to "
+            "the lists of races make {n_combinations} combinations. Give lists that make 1 to "
             "{most_choices}.",
             n_combinations=len(combinations),
             most_choices=_MOST_CHOICES,
