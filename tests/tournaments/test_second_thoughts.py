@@ -310,7 +310,7 @@ def test_the_two_ways_of_a_correction_are_said_as_people_say_them() -> None:
     assert stopped.headline == "Stop both. José and Karl-Heinz trade places."
     assert stopped.details[-1] == "3-1 and 0-2 stay in the history."
     assert "Table TV: " in stopped.details[0]
-    assert "race to 5, from 0-0." in stopped.details[0]
+    assert "race to 5, starting at 0-0." in stopped.details[0]
     assert stopped.button == "Change it and stop both"
     assert kept.headline == "Let both finish as they are."
     assert kept.details == ["The bracket stays; only the record of match 1 changes."]

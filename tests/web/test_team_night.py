@@ -345,7 +345,7 @@ def test_both_captains_enter_a_result_and_the_director_settles_what_differs(nigh
     by = [one.by for one in read_team_events(night.site.path)]
     assert by[1:3] == ["captain of Racks", "captain of Cues"]
     assert {by[0], by[-1]} == {"director's page"}
-    assert "Result of set 1: 2-4" in night.director.open("/team/history").words
+    assert "Result in set 1: 2-4" in night.director.open("/team/history").words
 
 
 def test_a_form_that_comes_in_twice_does_nothing_twice(night: Night) -> None:
@@ -379,7 +379,7 @@ def test_undo_names_the_entry_and_whose_it_is(night: Night) -> None:
     night.put(1, "Wim")
     assert night.direct("undo", seen=seen[1]).status == 409
     night.direct("result", number=1, a=4, b=2)
-    assert "Undo: result of set 1: 4-2" in night.director.open("/team").words
+    assert "Undo: result in set 1: 4-2" in night.director.open("/team").words
     german = Phone(night.site, director=True, language="de").open("/team").words
     assert "Zurücknehmen: " in german
 

@@ -58,7 +58,7 @@ def test_a_cap_says_who_cannot_be_put_up():
     assert cap_words(after(), 0) == []
     assert cap_words(after(cap=15), 0)[1].startswith("Every player")
     state = after(NAMED[0], NAMED[1], NAMED[3], NAMED[2], cap=15)
-    assert cap_words(state, 0)[0] == "So far the sum of the levels is 11 of 15."
+    assert cap_words(state, 0)[0] == "So far, the sum of the levels is 11; the limit is 15."
     assert cap_words(state, 0)[1].startswith("Cleo can't be put up in set 3")
     assert cap_words(after(order="sealed", cap=15), 0) == []
 
@@ -77,7 +77,8 @@ def test_the_sum_under_a_cap_counts_who_has_just_been_put_up(order):
             state = after(*happened, order=order, cap=15)
             for team in (0, 1):
                 words = cap_words(state.seen_by(team), team)
-                assert words[0] == f"So far the sum of the levels is {sums[team]} of 15."
+                spent = f"the sum of the levels is {sums[team]}; the limit is 15."
+                assert words[0] == f"So far, {spent}"
         happened.append(Result(number, (4, 1)))
 
 
@@ -111,5 +112,5 @@ def test_a_night_that_an_undo_brings_back_has_its_own_names_again():
     what = [Begun(first), Begun(second), Undone(), PutUp(0, 1, ("Ann",))]
     events = [Event(AT, one) for one in what]
     lines = history_words(events, team_evening(events))
-    assert lines[1] == "start of Cues against Racks"
+    assert lines[1] == "night started: Cues against Racks"
     assert lines[3] == "Racks put up Ann in set 1"

@@ -24,5 +24,5 @@ def test_words():
     assert "npl_10" in races_words(tonight.races)
     groups = groups_then_knockout(8, 2)
     last = groups.matches[-1]
-    assert slot_words(groups, groups.by_name["K1.1"].slots[0]).startswith("number 1 of")
+    assert slot_words(groups, groups.by_name["K1.1"].slots[0]).startswith("number 1 in")
     assert "winner of" in slot_words(groups, last.slots[0])

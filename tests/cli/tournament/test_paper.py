@@ -47,7 +47,7 @@ def test_cards_are_printed_for_the_matches_that_can_be_played(run, file, tmp_pat
     assert place.read_bytes().startswith(b"%PDF")
     late = run("tournament", "print", "cards", "--match", "F", "--file", file)
     assert late.exit_code != 0
-    assert "match 4 can't be played yet" in late.stderr
+    assert "match 4 isn't ready to be played" in late.stderr
 
 
 def test_prizes_may_be_kept_with_the_tournament(run, file, tmp_path):

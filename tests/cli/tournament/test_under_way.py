@@ -96,7 +96,7 @@ def test_a_match_stands_and_results_count_again(begun):
     wrong = begun("correct", "W1.1", "0:3", "--yes")
     assert [one["match"] for one in wrong["set_aside"]] == [3]
     shown = begun.run("tournament", "stand", "W2.1", "--file", begun.file, "--text").stdout
-    assert "Counted again" in shown
+    assert "Restored" in shown
     assert not begun("next")["set_aside"]
     undone = begun.run("tournament", "undo", "--file", begun.file, "--text", "--yes")
     assert "Reopened: match 3" in undone.stdout

@@ -301,7 +301,7 @@ def sealed_answer(
     >>> squads = Squad(us.players), Squad(them.players)
     >>> meeting = Meeting(us, them, squads, 5, SCALES["fargo"], (1,), "sealed")
     >>> print(sealed_answer(meeting, ()).sentences[0])
-    Play Ann, in an order drawn at random: you win the night 67% of the time, whatever they do.
+    Play Ann in a random order: you win the night 67% of the time, whatever they do.
     """
     found = solution or sealed(meeting.night())
     played = [one for one in found.ours if one.mix > 5e-4]

@@ -65,9 +65,10 @@ time and lose it 44% of the time; there are no ties.
     if fair:
         ahead = law.with_start(fair)
         seen = ahead if fair > 0 else Outcome(ahead.lose, ahead.tie, ahead.win)
+        they = _in_words(seen, "win", "lose", "tie").replace(" the round", " it", 1)
         words.append(
             f"With a head start of {count_of(abs(fair), unit)} for {names[fair < 0]}, the round is "
-            f"closest to even: they {_in_words(seen, 'win', 'lose', 'tie').replace(' the round', ' it', 1)}."
+            f"closest to even: they {they}."
         )
     else:
         words.append(f"No head start of a whole number of {unit}s brings the round closer to even.")
@@ -231,8 +232,8 @@ def team_rules_answer(
     >>> rules = LeagueRules(rosters, squads, levels, 5, SCALES["fargo"], 2, "AB")
     >>> answer = team_rules_answer(rules)
     >>> print(answer.sentences[0])
-    In the order AB, putting up first in set 1 costs 0.9 percentage points on average; \
-between two teams of yours at most 0.9.
+    In the order AB, putting up first in set 1 costs 0.9 percentage points on average, \
+and at most 0.9 between any two of your teams.
     """
     rules.check()
     nights = rules.nights(rules.order)

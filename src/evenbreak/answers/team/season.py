@@ -38,8 +38,7 @@ def team_season_answer(
     >>> season = TeamSeason(["Acers", "Bankers", "Caroms"], [[0, 1, 3, 2]], [[0, 2], [1, 2]],
     ...                     [[3, 2], [2, 3]], [[0.5, 0.5], [0.5, 0.5]])
     >>> print(team_season_answer(season_chances(season)).sentences[0])
-    Acers are the favorites and win the title 58% of the time; next are Caroms (33%) and Bankers
-    (8.3%).
+    The favorite is Acers, with title odds of 58%; next are Caroms (33%) and Bankers (8.3%).
     """
     season = found.season
     table = _table(found, up, down)
@@ -64,9 +63,9 @@ def _in_words(found: SeasonChances) -> str:
     teams, title = found.season.teams, found.p_first(1)
     best, *others = np.argsort(-title, kind="stable")[:3].tolist()
     if title[best] >= 1.0 - 1e-12:
-        return f"{teams[best]} has won the title."
+        return f"The title goes to {teams[best]}."
     following = [f"{teams[k]} ({percent(title[k])})" for k in others if title[k] > 0.0]
-    text = f"{teams[best]} is the favorite and wins the title {percent(title[best])} of the time"
+    text = f"The favorite is {teams[best]}, with title odds of {percent(title[best])}"
     if following:
         text += f"; next {'are' if len(following) > 1 else 'is'} {listed(following)}"
     return f"{text}."

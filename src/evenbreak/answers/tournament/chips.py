@@ -179,8 +179,8 @@ def chip_night_answer(night: Outlook, said: Sequence[str], heading: str) -> Answ
     data = odds_data(night)
     warnings = [
         say(
-            "{result}, but with the corrected result, one of them was already out of chips by then. "
-            "That rack is on hold, and the chip lost in it is given back",
+            "{result}, but with the corrected result, one of them was already out of chips by "
+            "then. That rack is on hold, and the chip lost in it is given back",
             result=rack_words(one.result),
         )
         for one in state.aside

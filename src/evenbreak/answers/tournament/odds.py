@@ -66,7 +66,7 @@ def tournament_odds_answer(
     >>> asked = double_elimination(club.players), Races(5), SCALES["fargo"], "as listed"
     >>> print(tournament_odds_answer(Tournament(file, club, *asked)).sentences[0])
     The favorite is Ann, who wins the tournament 72% of the time; next are Bo (22%) and Cy (4.9%).
-    An equal share would be 25%. On average 6.4 matches are played, 1.3 of them between players
+    An equal share would be 25%. On average, 6.4 matches are played, 1.3 of them between players
     who have met before; a second final is needed 41% of the time.
     """
     found = solved(tournament, sure=sure, walkovers=walkovers, seed=seed)
@@ -154,7 +154,7 @@ def bands_words(bands: Bands) -> Sentence | str:
     """Return the range of unrated players' title odds; '' if there are none.
 
     >>> bands_words({"Di": (0.002, 0.57)})
-    'Without a rating, the title odds are uncertain: Di 0.2%-57%.'
+    'Players without a rating have uncertain title odds: Di 0.2%-57%.'
     """
     each = [say("{name} {band}", name=name, band=band(ends)) for name, ends in bands.items()]
     if not each:

@@ -30,7 +30,7 @@ def tournament_prizes_answer(
     >>> begun = Opened(Plan("single", 5), (Entrant("Ann", 80.0), Entrant("Bo", 70.0)))
     >>> state = evening([Event("2025-03-01T19:30:00", begun)])
     >>> print(tournament_prizes_answer(state, PrizeMoney(added=200.0), None).sentences[0])
-    200.00 is paid to 2 places of 2 players: 140.00 for the winner.
+    200.00 is paid to 2 places among 2 players: 140.00 for the winner.
     """
     entrants = len(state.entrants)
     payers = state.payers
@@ -138,9 +138,8 @@ def calcutta_answer(
         )
     else:
         words = (
-            f"{count_of(len(sold), 'player has', 'players have')} been sold so far, for {bids:.2f}. "
-            f"{rows[0][0]} is worth a bid of "
-            f"up to {rows[0][2]:,.2f} now."
+            f"{count_of(len(sold), 'player has', 'players have')} been sold so far, for "
+            f"{bids:.2f}. {rows[0][0]} is worth a bid of up to {rows[0][2]:,.2f} now."
         )
     parts: list[Part] = [
         words,

@@ -191,8 +191,8 @@ def venue_words(discipline: str, earlier: Iterable[EarlierNight]) -> Sentence | 
 
     >>> nights = [EarlierNight(f"2025-03-0{k}T19:30:00", "9-ball", 1.1) for k in (1, 2)]
     >>> print(venue_words("9-ball", nights))
-    Your last 2 nights of 9-ball at this venue ran 10% longer than usual; the times are 5% longer
-    than usual, because part of that may be chance.
+    Your last 2 nights of 9-ball at this venue ran 10% longer than usual; the times here are 5%
+    longer than usual, because part of the difference may be chance.
     """
     nights = nights_of(discipline, earlier)
     if not nights:

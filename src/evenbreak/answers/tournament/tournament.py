@@ -112,7 +112,7 @@ def races_words(races: Races) -> Sentence:
     """Return what is played.
 
     >>> races_words(Races(7, losers=5, final=9))
-    "Races to 7, on the losers' side to 5, in the final to 9"
+    "Races to 7 (to 5 on the losers' side, to 9 in the final)"
     >>> races_words(Races(Fairest(7)))
     'Races to 7 for the stronger player; the weaker gets the fairest race'
     """
