@@ -130,7 +130,7 @@ def test_fairness_and_a_fairer_chart() -> None:
         (lambda: play_chips([3, 3], np.full((3, 3), 0.5)), "racks"),
         (lambda: play_chips([3, 0], np.full((2, 2), 0.5)), "chips"),
         (lambda: ChipChart("x", [(0, 5), (100, 6)]), "stronger players can"),
-        (lambda: ChipChart("x", [(100, 5), (0, 4)]), "above"),
+        (lambda: ChipChart("x", [(100, 5), (0, 4)]), "start higher"),
         (lambda: ChipChart("x", [(100, 5)]).chips([50]), "below"),
         (lambda: chip_fairness([500, 400], "moon"), "moon"),
         (lambda: fairest_chips([500, 400], fewest=5, most=4), "fewest"),

@@ -163,7 +163,7 @@ def test_a_cap_keeps_out_who_would_break_it(tmp_path: Path) -> None:
         for side, name, total in ((0, "Ann", 6), (1, "Wim", 4), (1, "Vic", 9), (0, "Bo", 11)):
             assert night.put(side, name).status == 200
             words = night.captains[side].open("/team").words
-            assert f"is {total} of 15" in words
+            assert f"is {total}; the limit is 15" in words
         words = night.captains[0].open("/team").words
         assert "Cleo can't be put up in set 3" in words
         assert night.put(0, "Cleo").status == 400
