@@ -88,7 +88,7 @@ def test_games_mean_the_same_error_in_a_tournament_begun(tmp_path: Path) -> None
     lists = written(tmp_path, "games", GAMES)
     words = f"tournament new {lists['list']} --race 5 --tables 2 --out {tmp_path / 'tonight.db'}"
     result = CliRunner().invoke(program, words.split())
-    assert "The errors of 4 ratings come from their games" in result.output
+    assert "The errors of 4 ratings were worked out from the number of games" in result.output
     entrants = read_tournament(tmp_path / "tonight.db").entrants.values()
     assert [one.standard_error for one in entrants] == pytest.approx(ERRORS)
 

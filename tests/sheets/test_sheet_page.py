@@ -201,7 +201,7 @@ def test_a_large_league_is_cut_and_the_page_says_so(monkeypatch):
     (ratings,) = page.all("table", class_="ratings")
     assert len(page.within(ratings, "tr")) == 1 + 51
     assert [plain(what) for what in page.all("strong")] == (
-        ["1 of 52 rated players", "the races of 4 of 52 paired players"]
+        ["1 of 52 rated players", "the races for 4 of 52 paired players"]
     )
 
 

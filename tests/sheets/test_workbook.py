@@ -51,7 +51,7 @@ def test_a_report_has_a_sheet_for_each_table():
             assert row["p_win_a_low"] < row["p_win_a"] < row["p_win_a_high"]
     assert [row[0] for row in sheets["Chart"]][:2] == ["difference_from", 0.0]
     assert [row[0] for row in sheets["Left out"]] == (
-        ["what", "the races of 6 pairs", "Warning about season.csv"]
+        ["what", "the races for 6 pairs", "Warning about season.csv"]
     )
     assert ["results_file", "season.csv"] in sheets["About"]
 

@@ -45,17 +45,17 @@ def test_players_known_by_the_winner_alone_have_a_result():
 
 
 def test_players_who_are_not_paired_are_counted():
-    assert items(league(3), top=2) == ["the races of 1 rated player"]
+    assert items(league(3), top=2) == ["the races for 1 rated player"]
 
 
 def test_groups_are_counted_whether_they_are_paired_or_not():
-    assert items(two_groups()) == ["the races of 4 pairs"]
+    assert items(two_groups()) == ["the races for 4 pairs"]
     assert "comparisons between 2 groups of players" in items(two_groups(), players=["Ann", "Bo"])
 
 
 def test_what_a_list_or_table_cuts_off_is_counted():
     assert items(league(5), shown=(4, 3)) == [
         "1 of 5 rated players",
-        "the races of 2 of 5 paired players",
+        "the races for 2 of 5 paired players",
     ]
     assert items(league(5), shown=(5, 5)) == []

@@ -70,7 +70,7 @@ def test_what_rests_on_few_players_is_said_not_to_be_used():
 def test_how_much_of_the_field_newcomers_have_is_said():
     ratings = fit(SEASON, levels=Levels(field=0.85))
     (text,) = level_words(ratings, None)
-    assert "85% of its distance from the usual field" in text
+    assert "85% of the difference between that field and the usual one" in text
     found = Evidence("field", (0.75,), (Estimate(0.001, 0.0005, 0.0015),), True, 0.85, 0.1)
     choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
     (text,) = level_words(ratings, choice)
@@ -86,7 +86,7 @@ def test_teams_that_are_too_many_to_compare_are_said_not_to_be_used(monkeypatch)
     monkeypatch.setattr(levels, "MOST_SHARES", 7)
     assert not levels.has_groups(SEASON, "team")
     assert list(groups_warnings(file, chosen)) == [
-        "The difference between teams was not used: 2 among 4 players are too many to compare."
+        "The difference between teams was not used: 2 for 4 players are too many to compare."
     ]
     assert not list(groups_warnings(file, chosen._replace(learned=False)))
     assert not list(groups_warnings(file, None))

@@ -112,7 +112,7 @@ def test_it_says_where_no_race_is_fair():
         roster, all_pairs(roster), scale=NPL, offered=OfferedRaces((3, 3))
     ).frame
     # 3:1 gives Ann .365, 2:2 .808: nothing is fair.
-    assert frame["note"].tolist() == ["no race allowed is fair: the nearest gives A 0.37"]
+    assert frame["note"].tolist() == ["no allowed race is fair: the closest gives A 0.37"]
 
 
 def test_levels():

@@ -87,7 +87,7 @@ def spots(*counts):
     [
         (((100, 200), (68, 100), (32, 100)), ["Taken together", "2 games gives too little", "68%"]),
         (((92, 200), (100, 200), (108, 200)), []),
-        (((180, 400), (200, 400), (228, 400)), ["The more games are given, the more often", "57%"]),
+        (((180, 400), (200, 400), (228, 400)), ["The more games a player gives, the more often", "57%"]),
     ],
 )
 def test_starts_that_are_fair_only_on_average_are_named(by_the_book, counts, parts):

@@ -108,7 +108,7 @@ def test_lists_that_lack_a_level_or_a_player_take_them_from_the_results(run, tmp
     taken = [
         one
         for one in found["warnings"]
-        if "Bo 3" in one or "No level known for New: assumed to be 2" in one
+        if "Bo 3" in one or "No level is known for New; it is assumed to be 2" in one
     ]
     assert len(taken) == 2
     race = {(row["player_a"], row["player_b"]): row for row in found["pairs"]}

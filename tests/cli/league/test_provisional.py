@@ -48,7 +48,7 @@ def test_rate_lists_a_visitor_last_and_says_so(season: str) -> None:
     unlisted = run("rate", season, "--provisional", "0", "--text")
     assert "Eve is rated highest" in unlisted
     assert "provisional" not in unlisted
-    assert "No one has a place yet" in run("rate", season, "--provisional", "500", "--text")
+    assert "No one is ranked yet" in run("rate", season, "--provisional", "500", "--text")
 
 
 def test_a_saved_list_counts_all_games_and_next_season_goes_on_with_them(

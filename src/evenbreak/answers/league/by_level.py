@@ -128,8 +128,8 @@ def with_known_level(
             each = [f"{roster.players[k]} {found[k]:g}" for k in np.flatnonzero(known)]
             notes.append(
                 say(
-                    "some levels in the results are missing from {file}; each player's last one "
-                    "is used: {players}",
+                    "some players' levels are in the results but not in {file}; each player's "
+                    "last one is used: {players}",
                     file=FilePath(file.source),
                     players=listed(each),
                 )
@@ -138,12 +138,16 @@ def with_known_level(
     if new.any() and starter is not None:
         who = listed([roster.players[k] for k in np.flatnonzero(new)])
         notes.append(
-            say("No level known for {players}: assumed to be {level:g}", players=who, level=starter)
+            say(
+                "No level is known for {players}; it is assumed to be {level:g}",
+                players=who,
+                level=starter,
+            )
         )
     return with_level(file, starter), notes
 
 
 SCALE_OF_LEVELS = say(
-    "{scale} is for ratings, and here the chances come from skill levels. Leave it out.",
+    "{scale} is for ratings, but here the chances come from skill levels. Leave it out.",
     scale=Parameter("scale"),
 )

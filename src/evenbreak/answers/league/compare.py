@@ -140,9 +140,9 @@ def comparison_answer(
 
 
 _FAIRER = say(
-    "A system is fairer if it makes more matches even, and not just because luck decides them. "
-    "A match is even if neither player's chance of winning it is above {even:.0%}, given how good "
-    "the two really are.",
+    "A system is fairer if it makes more matches even without leaving more to luck. A match is "
+    "even if neither player's chance of winning it is above {even:.0%}, given how good the two "
+    "really are.",
     even=EVEN,
 )
 
@@ -150,20 +150,21 @@ _SAME = say("All systems had the same players, nights and luck.")
 
 _READ = say(
     "'Ratings off by': how far off ratings typically are (root mean square), in doublings of "
-    "the odds of a game, over the last quarter of the nights. 'Newcomers right': the nights it "
-    "takes until newcomers' ratings are off by less than {right:g} doublings. 'Dumping pays': "
-    "how much larger a share of the matches that count a player wins after holding back in the "
-    "weeks before. 'Titles': the titles won by the strongest fifth; 1 is an equal share.",
+    "the odds of a game, over the last quarter of the nights. 'Newcomers right': how many "
+    "nights it takes until newcomers' ratings are off by less than {right:g} doublings. "
+    "'Dumping pays': how much a player's share of wins in the matches that count goes up if "
+    "they hold back in the weeks before. 'Titles': the titles won by the strongest fifth; 1 is "
+    "an equal share.",
     right=RIGHT,
 )
 
 
 _READ_DETAILS = say(
     "'Right races': the races that make up for the difference in skill to within {close:g} "
-    "doublings, however long they are. 'Doubling wins': the chance of a player who is a "
-    "doubling better than their race expects; if a coin flip decided, it would be 50%. 'Better "
-    "wins': the better player's mean chance. 'Titles, weakest': the titles won by the weakest "
-    "fifth. 'Games of the last': the games of the player (or team) that plays the most on a "
+    "doublings, however long they are. 'Doubling wins': how often a player wins if they're a "
+    "doubling better than their race assumes; if a coin flip decided matches, it would be 50%. "
+    "'Better wins': how often the better player wins. 'Titles, weakest': the titles won by the "
+    "weakest fifth. 'Games of the last': the most games that any player (or team) plays on a "
     "night. 'Changes a season': how often a player's number changes. 'Drift': how much all "
     "numbers rise compared with the skills, in doublings.",
     close=CLOSE,
@@ -175,7 +176,7 @@ def _minutes(comparison: Comparison, pace: Pace | str) -> Sentence:
     means = at.mean_minutes(comparison.measures["mean_games"].value)
     each = [say("{minutes:.0f} minutes with {name}", minutes=float(mean), name=name)
             for name, mean in zip(comparison.names, means, strict=True)]  # fmt: skip
-    return say("At {game:.2g} minutes a game and {more:.2g} more a match, a match takes {each}.",
+    return say("At {game:.2g} minutes a game plus {more:.2g} a match, a match takes {each}.",
                game=at.per_game, more=at.overhead, each=listed(each))  # fmt: skip
 
 
@@ -231,8 +232,8 @@ def _verdict(comparison: Comparison) -> Iterator[Sentence]:
             )
         else:
             yield say(
-                "{own} is the fairest: {of_own:.1%} of its matches are even, {more:.1f} in 100 "
-                "more than with {best}, the runner-up ({low:.1f} to {high:.1f}).",
+                "{own} is the fairest: {of_own:.1%} of its matches are even. That's {more:.1f} "
+                "more in 100 than with {best}, the runner-up ({low:.1f} to {high:.1f}).",
                 **values,
             )
         yield _gains(comparison, best)
@@ -273,8 +274,8 @@ _LONGER: Mapping[str, tuple[float, Sentence, Sentence]] = {
     ),
     "games_a_night": (
         0.2,
-        say("whoever is done last plays {by:.1f} more games a night"),
-        say("whoever is done last plays {by:.1f} fewer games a night"),
+        say("whoever finishes last plays {by:.1f} more games a night"),
+        say("whoever finishes last plays {by:.1f} fewer games a night"),
     ),
     "changes_a_season": (
         0.5,

@@ -213,14 +213,14 @@ def time_words(pace: Pace, turnover: float | None = None) -> str:
 
     >>> from evenbreak.matches import PACES
     >>> print(time_words(PACES["9-ball"]))
-    Times assume 9-ball: 5.6 minutes a game and 3.8 more a match on average; two matches in
-    three take within 29% of their expected time.
+    Times assume 9-ball: 5.6 minutes a game plus 3.8 a match on average; two matches in
+    three finish within 29% of their expected time.
     """
     which = f"{pace.discipline}: " if pace.discipline else ""
-    more = f" and {pace.overhead:.2g} more a match" if pace.overhead else ""
+    more = f" plus {pace.overhead:.2g} a match" if pace.overhead else ""
     text = (
         f"Times assume {which}{pace.per_game:.2g} minutes a game{more} on average; two "
-        f"matches in three take within {percent(pace.log_sd)} of their expected time"
+        f"matches in three finish within {percent(pace.log_sd)} of their expected time"
     )
     if turnover is None:
         return f"{text}."
@@ -265,7 +265,7 @@ def about_players(tonight: Round) -> Iterator[Remark]:
         (
             ~unrated & filled & (read.games == 0),
             "without games",
-            "rating assumed to be within ± {1:g}",
+            "rating error assumed to be ± {1:g}",
         ),
         (
             ~unrated & filled & (read.games == NOT_STATED),
@@ -282,7 +282,8 @@ def about_players(tonight: Round) -> Iterator[Remark]:
         yield _remark(tonight, silent & here, "without a standard error", "rating treated as exact")
     by_games = ~unrated & filled & (read.games > 0) & here
     for place in np.flatnonzero(by_games)[:1]:
-        how = f"calculated from the games, such as ± {started.standard_error[place]:.3g} after "
+        error = f"{started.standard_error[place]:.3g}"
+        how = f"calculated from the number of games, such as ± {error} after "
         yield _remark(tonight, by_games, "without a standard error", f"{how}{read.games[place]:,}")
 
 
@@ -305,13 +306,14 @@ def about_method(tonight: Round) -> Iterator[Remark]:
     if doubtful(tonight):
         yield Remark(
             "Uncertainty of the ratings (±, one standard error)",
-            "each chance and each length allows for it, treating two players' errors as "
-            "independent and normal",
+            "the chances and lengths allow for it; two players' errors are treated as "
+            "independent and normally distributed",
         )
     if tonight.form:
         yield Remark(
             "Day-to-day form",
-            "each chance and each length allows for it; the chance of a single game stays the same",
+            "the chances and lengths allow for it; the chance of winning a single game stays "
+            "the same",
         )
     for end in tonight.evening:
         if not end.exact:
@@ -353,7 +355,7 @@ def levels_data(levels: LevelSkills) -> dict[str, Any]:
 def game_model(tonight: Round) -> str:
     """Return how the chance of winning a game follows from two ratings, in a sentence."""
     alone = "independently of every other game"
-    alone += " but for day-to-day form, whoever breaks." if tonight.form else ", whoever breaks."
+    alone += " apart from day-to-day form, whoever breaks." if tonight.form else ", whoever breaks."
     if tonight.levels is not None:
         placed = ", ".join(
             f"{level} at {points:.0f}"
@@ -398,9 +400,11 @@ def points_matchups_answer(
         [
             f"The points come from the chart {chart.name}.",
             table,
-            "The chances are an assumption, not a measurement: that players of every level need "
-            f"about {INNINGS:.0f} innings to reach their points, and make each shot with the same "
-            "chance.",
+            "The chances are based on an assumption, not on measurements: players of every "
+            "level are "
+            f"assumed to need about {INNINGS:.0f} innings to reach their points, and to have "
+            f"the same "
+            "chance on each shot.",
         ],
         warnings=[*file.warnings, *warnings],
         data={"chart": chart.name, "innings": INNINGS},

@@ -34,12 +34,12 @@ NAMES = {
 
 _SUBJECTS = {
     "joined": say("Joining late"),
-    "newcomers": say("How new a player is"),
+    "newcomers": say("A player's experience"),
     "field": say("The field at the first event"),
-    "race": say("What the races make up for"),
+    "race": say("The handicap in each race"),
     "team_sd": say("The difference between teams"),
     "division_sd": say("The difference between divisions"),
-    "half_life": say("How old the games are"),
+    "half_life": say("The age of the games"),
     "brought_sd": say("Ratings from elsewhere"),
 }
 """The same at the start of a sentence."""
@@ -51,28 +51,29 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
     >>> from evenbreak.ratings import Levels, Results, fit
     >>> night = Results.from_names(["Ann"], ["Bo"], [50], [50])
     >>> print(*level_words(fit(night, scale="fargo", levels=Levels(newcomers=0.5)), None))
-    A player's first games are predicted best with a start 48.1 points below the average player,
-    half of which is gone after 50 games.
+    A player's first games are predicted best if the player starts 48.1 points below the average
+    player; half of that gap is gone after 50 games.
     """
     levels, points = ratings.levels, ratings.scale.points
     if levels.beginning is not None:
         yield from _beginning_words(ratings)
     if levels.joined:
         side = "below" if levels.joined > 0 else "above"
-        error = _error(choice, "joined", points(1.0), _ONE, " points")
+        error = _error(choice, "joined", points(1.0), _ONE, "")
         yield (
             f"Players who joined after the first {OPENING / 7:.0f} weeks are expected to be "
-            f"{_ONE(abs(points(levels.joined)))} points {side} those who were there from the start"
-            f"{error}."
+            f"{_ONE(abs(points(levels.joined)))}{error} points {side} those who were there from "
+            f"the "
+            f"start."
         )
     if levels.newcomers:
         below = ratings.newcomer
         side = "below" if below > 0 else "above"
-        error = _error(choice, "newcomers", points(1.0) * ratings.newcomer_share, _ONE, " points")
+        error = _error(choice, "newcomers", points(1.0) * ratings.newcomer_share, _ONE, "")
         yield (
-            f"Predictions of a player's first games are best if the player starts "
-            f"{_ONE(abs(below))} points "
-            f"{side} the average player{error}, half of which is gone after {SETTLED:g} games."
+            f"A player's first games are predicted best if the player starts "
+            f"{_ONE(abs(below))}{error} "
+            f"points {side} the average player; half of that gap is gone after {SETTLED:g} games."
         )
     if levels.field:
         yield _field_words(levels.field, _error_of(choice, "field"))
@@ -99,19 +100,17 @@ def _beginning_words(ratings: Ratings) -> Iterator[str]:
     others = [name for name in ratings.players if name not in set(beginning.players)]
     known = len(ratings.players) - len(others)
     if beginning.unknown_error and not off:
-        yield (
-            "The ratings from elsewhere don't help to predict these results, so they aren't used."
-        )
+        yield ("The ratings from elsewhere don't help predict these results, so they aren't used.")
         return
-    have = "brings a rating" if known == 1 else "bring a rating"
-    text = f"{known:,} of {count_of(len(ratings.players), 'player')} {have} along"
+    text = f"{known:,} of {count_of(len(ratings.players), 'player')} came with a rating"
+    if 0 < len(others) <= _FEW:
+        text += f"; {listed(others)} didn't"
+    text += "."
     if beginning.unknown_error:
         points, by_games = _ONE(ratings.scale.points(off)), beginning.by_games.any()
-        open_ = f"the uncertainty that its games leave plus another {points} points"
-        text += f", which is assumed to be off by {open_ if by_games else f'{points} points or so'}"
-    if 0 < len(others) <= _FEW:
-        text += f"; {listed(others)} {'does' if len(others) == 1 else 'do'} not"
-    yield f"{text}."
+        on_top = ", on top of the uncertainty from its number of games" if by_games else ""
+        text += f" Each rating is assumed to be off by {points} points or so{on_top}."
+    yield text
 
 
 def _group_words(group: Group) -> str:
@@ -145,13 +144,14 @@ def _too_few_words(found: Evidence) -> Sentence:
 def _field_words(share: float, error: float | None) -> Sentence:
     if error is None:
         return say(
-            "Where newcomers start depends on the field at their first event: {share} of its "
-            "distance from the usual field is added to their start.",
+            "Where newcomers start depends on the field at their first event: {share} of the "
+            "difference between that field and the usual one is added to their starting rating.",
             share=Figure(share, ".0%"),
         )
     return say(
-        "Where newcomers start depends on the field at their first event: {share} of its "
-        "distance from the usual field is added to their start (± {error}).",
+        "Where newcomers start depends on the field at their first event: {share} (± {error}) "
+        "of the difference between that field and the usual one is added to their starting "
+        "rating.",
         share=Figure(share, ".0%"),
         error=Figure(error, ".0%"),
     )
@@ -172,10 +172,10 @@ def evidence_table(choice: PriorChoice) -> Table:
     columns = columns_of("of log_loss_gain used")
     rows = [(NAMES[found.of], found.gain, found.used) for found in choice.evidence]
     title = (
-        "What each further piece of information gains in addition to those above it, with 95% "
-        "intervals from resampling stretches of the season. To be used, it must rest on more "
-        "than a few players, and its gain must be above 0 with 99% confidence, or with 90% if "
-        "it makes the results 20 times likelier:"
+        "What each piece of information gains on top of those above it, with 95% intervals from "
+        "resampling stretches of the season. It is used only if it rests on more than a few "
+        "players and its gain is above 0 with 99% confidence; 90% is enough if it makes the "
+        "results 20 times likelier:"
     )
     return Table("", columns, rows, title)
 
@@ -236,9 +236,9 @@ def prior_words(ratings: Ratings) -> str:
     """Return the assumptions about players before any result."""
     width = _ONE(ratings.scale.points(ratings.prior_sd))
     start = "average" if ratings.named else f"at {round(ratings.anchor, 1):g}"
-    apart = ", apart from what is known about them," if ratings.levels else ""
+    apart = ", and apart from what is known about them" if ratings.levels else ""
     return (
-        f"Before any result, every player{apart} is assumed to be {start}, ± {width} "
+        f"Before any result{apart}, every player is assumed to be {start}, ± {width} "
         "points (the prior)."
     )
 
@@ -247,7 +247,7 @@ def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
     """Return how the prior was chosen by prediction."""
     width = _ONE(ratings.scale.points(choice.prior_sd))
     text = (
-        f"Of {len(choice.tried)} values of the prior tried, {width} points predicted the "
+        f"Of the {len(choice.tried)} values tried for the prior, {width} points predicted the "
         f"{choice.predicted:,} later results best."
     )
     if choice.prior_sd in (choice.tried[0], choice.tried[-1]):
@@ -256,8 +256,8 @@ def choice_words(ratings: Ratings, choice: PriorChoice) -> str:
         text += f" It is the {end} value tried, so a {beyond} one may be better still."
     if choice.part is not None:
         text += (
-            f" {choice.part:,} of the {ratings.matches:,} matches were enough to choose by: "
-            f"matches in some groups of players who often meet."
+            f" To choose it, {choice.part:,} of the {ratings.matches:,} matches were enough: "
+            f"those in some groups of players who often play each other."
         )
     return text
 
@@ -277,7 +277,7 @@ def groups_warnings(file: ResultsFile, choice: PriorChoice | None) -> Iterator[S
         return
     for kind, many in too_many_groups(file.results).items():
         yield say(
-            "{what} was not used: {groups:,} among {players:,} players are too many to compare.",
+            "{what} was not used: {groups:,} for {players:,} players are too many to compare.",
             what=_SUBJECTS[f"{kind}_sd"],
             groups=many,
             players=len(file.results.players),
@@ -290,11 +290,11 @@ def too_few_for_prior_words(choice: PriorChoice, scale: Scale) -> str:
     >>> from evenbreak.ratings import scale_of
     >>> few = PriorChoice(0.693, (0.1, 0.693), (0.6, 0.6), 22, 0.1, 0.693, False, 0.6)
     >>> print(too_few_for_prior_words(few, scale_of("npl")))
-    22 later results aren't enough to choose a prior by; the default of 30.0 points is used.
+    22 later results aren't enough to choose a prior; the default of 30.0 points is used.
     """
     few = "isn't enough" if choice.predicted == 1 else "aren't enough"
     return (
-        f"{count_of(choice.predicted, 'later result')} {few} to choose a prior by; the default of "
+        f"{count_of(choice.predicted, 'later result')} {few} to choose a prior; the default of "
         f"{_ONE(scale.points(choice.prior_sd))} points is used."
     )
 
@@ -338,11 +338,13 @@ def games_words(listed: Roster, filled: Roster) -> str:
 
     >>> listed = Roster(["Ann", "Bo"], [600, 500], games=[300, 12])
     >>> games_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
-    'The errors of 2 ratings come from their games, such as ± 83 for Bo after 12.'
+    'The errors of 2 ratings were worked out from the number of games behind each; for example,
+    ± 83 for Bo, after 12 games.'
     >>> listed = Roster(["Ann", "Bo"], [600, 500], games=[300, NOT_STATED])
     >>> games_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
-    'The error of 1 rating comes from its games: ± 17 for Ann after 300. The games of 1 rating (Bo)
-    are not stated: it is assumed to be as uncertain as that of a new player, ± 100.'
+    'The error of 1 rating was worked out from the number of games behind it: ± 17 for Ann, after
+    300 games. The number of games behind 1 rating (Bo) isn't given. That rating is assumed to be
+    as uncertain as a new player's, ± 100.'
     """
     rated = ~np.isnan(listed.rating) & np.isnan(listed.standard_error)
     by_games = np.flatnonzero(rated & (listed.games != NOT_STATED))
@@ -353,10 +355,10 @@ def games_words(listed: Roster, filled: Roster) -> str:
         error = filled.standard_error[filled.position(name)]
         said.append(
             say_count(
-                "The error of {n} rating comes from its games: ± {error} for {player} after "
-                "{games:,}.",
-                "The errors of {n:,} ratings come from their games, such as ± {error} for "
-                "{player} after {games:,}.",
+                "The error of {n} rating was worked out from the number of games behind it: ± "
+                "{error} for {player}, after {games:,} games.",
+                "The errors of {n:,} ratings were worked out from the number of games behind "
+                "each; for example, ± {error} for {player}, after {games:,} games.",
                 int(by_games.size),
                 error=Figure(error, f".{0 if error >= 10 else 1}f"),
                 player=name,
@@ -368,10 +370,10 @@ def games_words(listed: Roster, filled: Roster) -> str:
     if not np.isnan(error):
         said.append(
             say_count(
-                "The number of games behind {n} rating ({players}) isn't given: it is assumed "
-                "to be as uncertain as a new player's, ± {error:.4g}.",
-                "The number of games behind {n:,} ratings ({players}) isn't given: they are "
+                "The number of games behind {n} rating ({players}) isn't given. That rating is "
                 "assumed to be as uncertain as a new player's, ± {error:.4g}.",
+                "The number of games behind {n:,} ratings ({players}) isn't given. Those "
+                "ratings are assumed to be as uncertain as a new player's, ± {error:.4g}.",
                 len(silent),
                 players=some_of(silent),
                 error=float(error),

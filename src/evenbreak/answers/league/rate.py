@@ -104,8 +104,9 @@ def _error_of_errors_in_words(ratings: Ratings) -> Iterator[str]:
     """Yield how far off the standard errors are, if they are sampled."""
     if ratings.error_of_errors:
         yield (
-            "With this many players the standard errors are estimated from random draws: for every "
-            f"player the estimate is within {percent(ratings.error_of_errors)} of the exact "
+            "With this many players, the standard errors are estimated from random draws: for "
+            "every "
+            f"player, the estimate is within {percent(ratings.error_of_errors)} of the exact "
             "value at least two times in three."
         )
 
@@ -162,7 +163,7 @@ def _highest_in_words(ratings: Ratings) -> str:
     best = next((k for k in first if not ratings.provisional[k]), None)
     where = " in the largest group" if ratings.component.max() > 1 else ""
     if best is None:
-        return f"No one{where} has a place yet."
+        return f"No one{where} is ranked yet."
     return (
         f"{ratings.players[best]} is rated highest{where}: {_ONE(ratings.rating[best])} ± "
         f"{_ONE(ratings.standard_error[best])}. The ± covers a player's true rating about two "
@@ -178,7 +179,7 @@ def provisional_words(ratings: Ratings, mark: str = "") -> list[str]:
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["Ann", "Cy"], ["Bo", "Bo"], [50, 2], [40, 0])
     >>> print(*provisional_words(fit(season)))
-    1 player with fewer than 31 games is listed last, without a place: the rating is provisional.
+    1 player with fewer than 31 games is listed last, unranked: the rating is provisional.
     """
     few = int(ratings.provisional.sum())
     if not few:
@@ -187,8 +188,8 @@ def provisional_words(ratings: Ratings, mark: str = "") -> list[str]:
     marked = f" ({mark}1{f' to {mark}{few:,}' if few > 1 else ''})" if mark else ""
     games = count_of(ratings.established_from, "game")
     return [
-        f"{count_of(few, 'player')}{marked} with fewer than {games} {are} listed last, without a "
-        f"place: {rating} provisional."
+        f"{count_of(few, 'player')}{marked} with fewer than {games} {are} listed last, unranked: "
+        f"{rating} provisional."
     ]
 
 
@@ -238,7 +239,7 @@ def unlinked_words(ratings: Ratings) -> Iterator[str]:
     >>> from evenbreak.ratings import Results, fit
     >>> season = Results.from_names(["A", "C", "D"], ["B", "D", "E"], [7, 7, 7], [2, 3, 6])
     >>> print(*unlinked_words(fit(season)))
-    2 groups of players (3 and 2) never met: compare ratings only within a group. All
+    2 groups of players (3 and 2) have never met: compare ratings only within a group. All
     groups are assumed to be equally strong on average; a match or two between them would link
     them.
     """
@@ -247,8 +248,9 @@ def unlinked_words(ratings: Ratings) -> Iterator[str]:
         more = [f"{len(sizes) - SIZES:,} more"] if len(sizes) > SIZES else []
         yield (
             f"{len(sizes):,} groups of players "
-            f"({listed([*(f'{size:,}' for size in sizes[:SIZES]), *more])}) never met: compare "
-            "ratings only within a group. All groups are assumed to be equally strong on average; "
+            f"({listed([*(f'{size:,}' for size in sizes[:SIZES]), *more])}) have never "
+            "met: compare ratings only within a group. All groups are assumed to be equally "
+            "strong on average; "
             "a match or two between them would link them."
         )
     idle = int(ratings.idle.sum())

@@ -120,7 +120,7 @@ def _newcomers(moves: RatingChanges) -> str:
     if not ((before != NOT_STATED) & (before < first)).any():
         return ""
     stages = [
-        f"{factor} times in the next {matches}"
+        f"{factor} times as far in the next {matches}"
         if stage
         else f"{factor} times as far in their first {matches} matches"
         for stage, (matches, factor) in enumerate(steps)

@@ -40,7 +40,8 @@ def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None
     >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
     >>> answer = report_answer(Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2]))
     >>> answer.parts[1].title
-    "Find your row and your opponent's column. 7:6 means that you need 7 games and your opponent 6."
+    "Find your row and your opponent's column. 7:6 means that you need 7 games and your "
+    "opponent needs 6."
     """
     shown = sheet.strongest(MOST_ON_SHEET)
     many = len(shown.listed)
@@ -103,7 +104,9 @@ def _ratings_table(sheet: Sheet) -> Table:
     return Table("", columns, rows, f"{title}Give or take: one standard error.")
 
 
-NOTHING_LEFT_OUT = "Nothing: every match in the file was used, and every player is on this sheet."
+NOTHING_LEFT_OUT = (
+    "Nothing was left out: every match in the file was used, and every player is on this sheet."
+)
 
 
 def left_out(
@@ -145,7 +148,7 @@ def _unlinked(sheet: Sheet) -> Iterator[Remark]:
         )
     why = "no chain of opponents links them"
     if apart := int(sheet.paired["race_a"].isna().sum()):
-        yield Remark(f"the races of {count_of(apart, 'pair')}", why)
+        yield Remark(f"the races for {count_of(apart, 'pair')}", why)
     elif (groups := count_groups(ratings)) > 1:
         yield Remark(f"comparisons between {groups:,} groups of players", why)
 
@@ -160,13 +163,13 @@ def _not_shown(sheet: Sheet, listed: int | None, in_table: int | None) -> Iterat
         )
     if in_table is not None and in_table < paired:
         yield Remark(
-            f"the races of {paired - in_table:,} of {paired:,} paired players",
+            f"the races for {paired - in_table:,} of {paired:,} paired players",
             f"the table holds the first {in_table:,} on the list; matchups.csv has all of them",
         )
     if paired < rated:
         yield Remark(
-            f"the races of {count_of(rated - paired, 'rated player')}",
-            "they were not chosen; ratings.csv has their ratings",
+            f"the races for {count_of(rated - paired, 'rated player')}",
+            "these players were not chosen; ratings.csv has their ratings",
         )
 
 
@@ -201,7 +204,7 @@ def how_to_read(paired: pd.DataFrame) -> str:
     for pair in rows:
         text += (
             f" {race((pair.race_a, pair.race_b))} means that you need "
-            f"{count_of(pair.race_a, 'game')} and your opponent {pair.race_b}."
+            f"{count_of(pair.race_a, 'game')} and your opponent needs {pair.race_b}."
         )
     return text
 
@@ -233,7 +236,7 @@ def about_ratings(sheet: Sheet) -> Iterator[str]:
         f"{round(ratings.anchor, 1):g}; they are not official ratings."
     )
     if (groups := count_groups(ratings)) > 1:
-        yield (f"{groups:,} groups of players have never met: compare ratings within a group only.")
+        yield (f"{groups:,} groups of players have never met: compare ratings only within a group.")
     yield from provisional_words(ratings, "P")
     if idle := int(ratings.idle.sum()):
         yield f"{count_of(idle, 'more player has', 'more players have')} no games yet."
@@ -271,8 +274,8 @@ def how_rated(sheet: Sheet) -> str:
 def rating_model(sheet: Sheet) -> str:
     """Return how the ratings were estimated, in a sentence or two."""
     ratings = sheet.ratings
-    alike = ", and early and late matches count alike" if ratings.half_life is None else ""
-    races = ", and on the chance of winning the race where only its winner is known"
+    alike = "; early and late matches count the same" if ratings.half_life is None else ""
+    races = ", and on the chance of winning the race where only the winner is known"
     if not ratings.races_won.any():
         races = ""
     breaks = "whoever breaks"

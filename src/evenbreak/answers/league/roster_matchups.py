@@ -70,8 +70,8 @@ class OfferedRaces:
             return f"The fairest races in which the stronger player needs {needs}."
         low, high = self.games
         span = f"{low:,} to " if low < high else ""
-        text = f"The fairest races with a maximum of {span}{count_of(high, 'game')}"
-        return f"{text}; for each pair, the closest to even." if low < high else f"{text}."
+        text = f"The fairest races that last {span}{count_of(high, 'game')} at most"
+        return f"{text}; each pair gets the one closest to even." if low < high else f"{text}."
 
 
 FAIR_WITHIN = 0.1
@@ -341,7 +341,7 @@ def _notes(roster: Roster, pairs: Ints, linked: NDArray[np.bool_], best: Races |
         chances = np.full(len(pairs), 0.5)
         chances[linked] = best.p_win
         for row in np.flatnonzero(unfair(chances)).tolist():
-            notes[row].append(f"no race allowed is fair: the nearest gives A {chances[row]:.2f}")
+            notes[row].append(f"no allowed race is fair: the closest gives A {chances[row]:.2f}")
     new = roster.games == 0
     for row in np.flatnonzero(new[pairs].any(axis=1)).tolist():
         a, b = new[pairs[row]]

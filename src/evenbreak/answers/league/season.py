@@ -97,7 +97,7 @@ def _ratings(weeks: pd.DataFrame, season: Season) -> str:
     start = "At the start" if first["week"] == 0 else f"After week {first['week']:.0f}"
     text = (
         f"How far off are the ratings? {start}, {_percent(first['p_near'], first['p_near_se'])} "
-        f"are within {points} points of the true skill (a sixth of a doubling of the odds); "
+        f"are within {points} points of the true skill (a sixth of what doubles the odds); "
         f"{_end(int(last['week']), season.system.cycle)}, "
         f"{_percent(last['p_near'], last['p_near_se'])} are, and 9 out of 10 are off by "
         f"{last['error_p05']:+.0f} to {last['error_p95']:+.0f} points (a minus "
@@ -138,7 +138,8 @@ def _fairness(fairness: pd.DataFrame) -> str:
     low, high = fifths.iloc[0], fifths.iloc[-1]
     return (
         f"{text} The weakest fifth of the players win {_percent(low['p_win'], low['p_win_se'])} "
-        f"of their matches, and the strongest fifth {_percent(high['p_win'], high['p_win_se'])}."
+        f"of their matches, and the strongest fifth win "
+        f"{_percent(high['p_win'], high['p_win_se'])} of theirs."
     )
 
 
@@ -183,8 +184,9 @@ def _luck(data: Mapping[str, Any]) -> str:
     share = luck**2 / (between**2 + luck**2) if between or luck else 1.0
     return (
         f"How much of the table is luck? About {100 * share:.0f}% of the differences in one "
-        "season's table; the rest is who the players are and how often they play. By luck, a "
-        f"player's wins typically vary by {luck:.1f} from season to season; the players' averages "
+        "season's table; the rest comes from who the players are and how often they play. From "
+        f"luck alone, a player's wins typically vary by {luck:.1f} from season to season; the "
+        f"players' averages "
         f"differ by {between:.1f}."
     )
 

@@ -126,7 +126,7 @@ def _leader(table: LeagueTable, score: str) -> str:
     if many > 1:
         return (
             f"{listed(table.names[:many])} share first place with "
-            f"{_number_of(points[0], 'point')}; no rule separates them."
+            f"{_number_of(points[0], 'point')}; no tiebreaker separates them."
         )
     text = (
         f"{first} leads with {_number_of(points[0], 'point')} from "
@@ -149,12 +149,12 @@ def _number_of(number: float, one: str) -> str:
 
 
 def rules_words(
-    rules: TableRules, *, sets: bool, level: str = "tied on points", last: str = "a shared place"
+    rules: TableRules, *, sets: bool, level: str = "tied on points", last: str = "a shared rank"
 ) -> str:
     """Return the rules for the standings, in words.
 
     >>> rules_words(TableRules(3, 1, 0, ties=("head-to-head",)), sets=False) '3 points for a win, 1
-    for a draw, 0 for a loss; tied on points: the matches among those tied, a shared place'
+    for a draw, 0 for a loss; tied on points: the matches among those tied, a shared rank'
     """
     unit = "set" if sets else "game"
     text = f"{rules.win:g} points for a win, {rules.draw:g} for a draw, {rules.loss:g} for a loss"

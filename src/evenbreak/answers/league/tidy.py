@@ -67,7 +67,7 @@ def tidy_answer(
             if found.results.winner is None
             else int((found.results.winner[forfeits] == 0).sum())
         )
-        text = f"{count_of(many, 'forfeit')} among them, which no rating counts"
+        text = f"{count_of(many, 'forfeit')} among them; ratings don't count forfeits"
         if unknown:
             text += (
                 f". The winner isn't given for {count_of(unknown, 'forfeit')}, so the table "
@@ -78,7 +78,7 @@ def tidy_answer(
     if changes["doubt"]:
         parts.append(
             f"{count_of(changes['doubt'], 'match', 'matches')} may be in two files, with "
-            f"different scores or without a date; both count until you correct a file."
+            f"different scores or without a date; both entries count until you correct a file."
         )
     if answers:
         parts += [

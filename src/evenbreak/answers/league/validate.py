@@ -205,7 +205,7 @@ def _no_skill(found: Validation, slope: Estimate | None, scale: Scale) -> str:
     plenty = games_each >= PLENTY and found.skill.low <= 0.0 and not turned
     if plenty and found.choice is None:
         return say(
-            "With a prior of {points} points the ratings predict no better than a coin toss. "
+            "With a prior of {points} points, the ratings predict no better than a coin toss. "
             "Leave {prior} out to find the best one.",
             points=points_text(found.prior_sd, scale),
         )

@@ -135,19 +135,20 @@ _EXPLAINED = (
     "How good the predictions were, with 95% intervals. Log-loss is the average of -ln(p), where "
     "p is the predicted chance of what happened; the Brier score is the mean squared error. Lower "
     "is better; tossing a coin scores 0.6931 and 0.25. The slope shows whether the chances are "
-    "right: at 1 they are, below 1 they are too extreme, above 1 too cautious. 'Plug-in' takes "
-    "the ratings at face value, 'integrated' averages over their uncertainty, and 'default' does "
+    "right: at 1 they are, below 1 they are too extreme, above 1 they are too cautious. 'Plug-in' "
+    "takes the ratings at face value, 'integrated' averages over their uncertainty, and "
+    "'default' does "
     "so with the default prior. The prior, in points, is how far apart players are assumed to be "
     "before any result. The intervals come from "
     f"{REPLICAS:,} samples; other samples would move their ends by about "
-    f"{percent(2.0 * END_ERROR)} of their length."
+    f"{percent(2.0 * END_ERROR)} of the intervals' length."
 )
 _TESTS_EXPLAINED = (
     "Whether play within matches agrees with the model. 'Spread of scores' compares the squared "
     "errors of scores with what known strengths would give: more than expected suggests good "
-    "and bad days, beyond any day-to-day form that is allowed for. Fewer 'runs of racks' won "
-    "by one player than expected mean streaks, which winner breaks also cause. p is how often "
-    "luck alone makes a difference this large."
+    "and bad days, beyond any day-to-day form that is allowed for. Fewer 'runs of racks' than "
+    "expected mean that games are won in streaks, which winner breaks also cause. p is how "
+    "often luck alone makes a difference this large."
 )
 
 
@@ -194,9 +195,9 @@ def _prior(found: Validation, scale: Scale) -> str:
     cost = choice.log_loss[choice.tried.index(PRIOR_SD)] - least
     return say(
         "The prior that predicts later scores best is {points} (the one that rate {prior} best "
-        "finds). Its average log-loss is {least:.4f} a game, over up to {stretches} stretches "
-        "of the season and allowing for rating uncertainty. The default of {default} points "
-        "costs {cost:.4f} more; if the prior had been chosen anew for each stretch, the "
+        "finds). Over up to {stretches} stretches of the season, its average log-loss is "
+        "{least:.4f} a game, with rating uncertainty allowed for. The default of {default} "
+        "points costs {cost:.4f} more; if the prior had been chosen anew for each stretch, the "
         "log-loss would have been {as_it_went:.4f}.",
         points=points,
         stretches=STRETCHES,
@@ -246,8 +247,8 @@ def _experience(found: Validation, scale: Scale) -> Table:
         for one in found.experience
     ]
     title = (
-        "Games won by the less experienced player in a match, by the number of games they had "
-        "played before; below 0 points, they are overrated compared with their opponents:"
+        "Games won by the less experienced player in a match, by how many games they had played "
+        "before; below 0 points, they are overrated compared with their opponents:"
     )
     return Table("", columns, rows, title)
 

@@ -224,18 +224,16 @@ def _unfair_by_size(found: Validation, scale: Scale) -> str:
     if wrong := unfair_starts(spots):
         text = " ".join(_unfair(one, found.starts, scale) for one in wrong)
         if wrong[-1] is spots[-1] and wrong[-1].share > 0.5:
-            text += (
-                " No head start is larger, so it also has to do for players who are farther apart."
-            )
+            text += " No head start is larger, so players who are farther apart get this one too."
         return text
     way = starts_trend(spots)
     if not way:
         return ""
     small, large = spots[0], spots[-1]
     return (
-        f"The more games are given, the {more_or_less(way > 0)} often the player who gives them "
-        f"wins: from {percent(small.share)} with {count_of(int(small.spot or 0), 'game')} to "
-        f"{percent(large.share)} with {large.spot}."
+        f"The more games a player gives, the {more_or_less(way > 0)} often that player wins: "
+        f"{percent(small.share)} of the time when giving {count_of(int(small.spot or 0), 'game')}, "
+        f"and {percent(large.share)} when giving {large.spot}."
     )
 
 
@@ -244,7 +242,7 @@ def _unfair(one: HandicapFairness, starts: Starts | None, scale: Scale) -> str:
     way = 1 if one.share > 0.5 else -1
     games = int(one.spot or 0)
     should = "".join(
-        f" It makes up for {scale.points(group.taken):.0f} points and should make up for "
+        f" It makes up for {scale.points(group.taken):.0f} points, but should make up for "
         f"{scale.points(group.stronger.value):z.0f}."
         for group in _by_games(starts)
         if group.apart == games and (group.stronger.value - group.taken) * way > 0.0
@@ -270,7 +268,7 @@ def _against(starts: Starts | None, way: int, scale: Scale) -> str:
     if starts is None or (starts.stronger.value - starts.taken) * way <= 0.0:
         return ""
     text = (
-        f"On average they make up for {scale.points(starts.taken):.0f} points and should make "
+        f"On average, they make up for {scale.points(starts.taken):.0f} points, but should make "
         f"up for {scale.points(starts.stronger.value):.0f} ± {_error(starts.stronger, scale)}"
     )
     groups = _by_games(starts)
@@ -282,7 +280,7 @@ def _against(starts: Starts | None, way: int, scale: Scale) -> str:
         if clearly_off(group.stronger, group.taken, tests=len(groups)) == way
     ]
     more = len(sizes) - MOST_SIZES
-    rest = f"{count_of(more, 'larger head start')} likewise"
+    rest = f"{count_of(more, 'larger head start')} {'is' if more == 1 else 'are'} off the same way"
     shown = sizes[:MOST_SIZES] + ([rest] if more > 0 else [])
     return f"{text}; by size, {listed(shown)}." if shown else f"{text}."
 
@@ -293,7 +291,7 @@ def _class_worth(starts: Starts, a_class: Estimate, way: int, scale: Scale) -> s
     if not clearly_off(a_class, 0.0):
         return f"The {many} make no clear difference: one {worth}."
     chance = percent(float(scale.win_probability(scale.points(a_class.value))))
-    text = f"A {worth}: players win {chance} of their games against those of the {one} below."
+    text = f"A {worth}: players win {chance} of their games against players one {one} below."
     next_to = next((group for group in starts.groups if group.apart == 1), None)
     if next_to is None:
         return text
@@ -329,7 +327,7 @@ def _fair_scale(chart: LeagueChart) -> tuple[str, str]:
             return "", ""
         return (
             f"The races assume that {fair.assumed:.3g} points double the odds of winning a game. "
-            f"The results agree: they give {points.value:.1f} ± {error:.1f}."
+            f"The results agree: they suggest {points.value:.1f} ± {error:.1f}."
         ), ""
     low, high = fair.games
     return (
@@ -357,8 +355,8 @@ def starts_table(starts: Starts, scale: Scale) -> Table:
     )
     value, low, high = starts.share
     title = (
-        "How many points stronger the player who should give games is, and how many points "
-        f"the races make up for. Taken together, the results suggest that players differ by "
+        "How far apart the players are according to the results, and how many points the races "
+        f"make up for. Taken together, the results suggest that players differ by "
         f"{value:.2f} times what the races make up for ({low:.2f} to {high:.2f}):"
     )
     return Table("", columns, list(starts.groups), title)

@@ -108,8 +108,8 @@ def why_answer(
             *([_more_table(more, now, names, scale, played)] if more else []),
             *(_matches_table(matches, name, scale) for name in names),
             say(
-                "Worth: how much lower (or, with a minus, higher) the rating would be if just "
-                "this match had not been played."
+                "Worth: how much lower (or, with a minus, higher) the rating would be without "
+                "this match."
             ),
         ],
         details=[*prior_details(ratings, choice), *([] if brought else sources)],
@@ -149,8 +149,8 @@ def _now_in_words(
     rated = {"first": points(first), "second": points(second)}
     if now.race is None or now.p_win is None or now.difference_error is None:
         return say(
-            "{a} is rated {first} and {b} {second}. No chain of opponents links the two, so they "
-            "can't be compared.",
+            "{a} is rated {first} and {b} is rated {second}. No chain of opponents links the "
+            "two, so they can't be compared.",
             a=a,
             b=b,
             **rated,
@@ -159,9 +159,9 @@ def _now_in_words(
     fair = {"race": race(now.race), "p": percent(now.p_win)}
     if charted is not None and charted.stated is not None:
         return say(
-            "By their own results {a} is rated {first} and {b} {second}: {gap} points apart, ± "
-            "{error}. {a} would then win {played} {played_p} of the time, and the race nearest to "
-            "even would be {race} ({p}).",
+            "By their own results, {a} is rated {first} and {b} is rated {second}: {gap} points "
+            "apart, ± {error}. In that case, {a} would win the {played} race {played_p} of the "
+            "time, and the race closest to even would be {race} ({p}).",
             a=a,
             b=b,
             **rated,
@@ -171,8 +171,8 @@ def _now_in_words(
             played_p=percent(charted.p_rated),
         )
     return say(
-        "{a} is rated {first} and {b} {second}: {gap} points apart, ± {error}. Their fairest race "
-        "is {race}, and {a} wins it {p} of the time.",
+        "{a} is rated {first} and {b} is rated {second}: {gap} points apart, ± {error}. Their "
+        "fairest race is {race}, and {a} wins it {p} of the time.",
         a=a,
         b=b,
         **rated,
@@ -237,11 +237,11 @@ def _chart_in_words(charted: ByChart, names: tuple[str, str]) -> Sentence:
         "p": percent(charted.p_win),
     }
     if charted.stated is None:
-        return say("With {chart} their race is {race}, and {a} wins it {p} of the time.", **words)
+        return say("In {chart}, their race is {race}, and {a} wins it {p} of the time.", **words)
     x, y, skills = charted.stated
     return say(
-        "{a} is a skill level {x:.0f} and {b} a {y:.0f}: with {chart} their race is {race}, and "
-        "{a} wins it {p} of the time. {why}",
+        "{a} is a skill level {x:.0f} and {b} is a {y:.0f}. In {chart}, their race is {race}, "
+        "and {a} wins it {p} of the time. {why}",
         **words,
         b=names[1],
         x=x,

@@ -69,8 +69,8 @@ def sandbag_pay(ladder: Ladder, question: PayQuestion, *, cycles: bool = True) -
     most = most_dumped(ladder, question.start)
     if not most:
         raise InputError(
-            "with the system {name} a single loss takes the rating more than {widest} points "
-            "below the skill. Use smaller steps, or a higher rating at the start.",
+            "with the system {name}, a single loss takes the rating more than {widest} points "
+            "below the skill. Use smaller steps, or start with a higher rating.",
             name=ladder.system.name,
             widest=ladder.widest,
         )
@@ -97,7 +97,8 @@ def sandbag_pay_answer(
     >>> question = PayQuestion(2, 20, 0, 10.0, 1.0, 3, 0.0)
     >>> found = sandbag_pay(Ladder("npl", widest=120), question, cycles=False)
     >>> print(sandbag_pay_answer(found, question).sentences[0])
-    Sandbagging pays at these stakes, most of all with 64 matches dumped: a profit of 57.67.
+    Sandbagging pays at these stakes. The most profitable plan is to dump 64 matches, for a profit
+    of 57.67.
     """
     ladder, best = found.ladder, found.all_pays.best
     shown = len(found.pays.rows) - 1
@@ -130,8 +131,9 @@ _EXPLANATION = (
     "'Wins given up': how many of the dumped matches an honest player would have won. 'Extra "
     "wins': how many more of the matches that count the sandbagger wins; 'from the last': how "
     "many of these come from the last match dumped. 'Pays from': for sandbagging to pay, a win "
-    "that counts must be worth at least this many times a win in a dumped match. 'Profit': the "
-    "gain over an honest player, in the unit of the stakes."
+    "that counts must be worth at least this many times as much as a win in a dumped match. "
+    "'Profit': how much more the player gains than an honest one, in the same unit as the "
+    "stakes."
 )
 
 
@@ -152,7 +154,7 @@ def stakes_in_words(question: PayQuestion) -> str:
     prize = f"; a tournament win pays {question.prize:g}" if question.prize else ""
     return (
         f"Stakes: winning is worth {question.stake:g} in a match that counts, "
-        f"{question.dumped_stake:g} in one that is dumped{prize}."
+        f"and {question.dumped_stake:g} in a dumped match{prize}."
     )
 
 
@@ -160,18 +162,18 @@ def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
     best, cheapest, cycle = found.all_pays.best, found.all_pays.cheapest, found.cycle
     if best.dumped:
         yield (
-            "Sandbagging pays at these stakes, most of all with "
-            f"{count_of(best.dumped, 'match', 'matches')} dumped: a profit of {best.profit:.2f}."
+            "Sandbagging pays at these stakes. The most profitable plan is to dump "
+            f"{count_of(best.dumped, 'match', 'matches')}, for a profit of {best.profit:.2f}."
         )
     else:
         yield "Sandbagging does not pay at these stakes, however many matches are dumped."
     if math.isfinite(cheapest.break_even):
-        aside = "Leaving the prize aside, it" if question.prize else "It"
+        aside = "Leaving the prize aside, for it" if question.prize else "For it"
         yield (
-            f"{aside} pays off over {count_of(question.earnest, 'match', 'matches')} that "
-            f"count only if a win in them is worth at least {cheapest.break_even:.2f} times "
-            f"as much as a win in a dumped match "
-            f"(with {cheapest.dumped} dumped)."
+            f"{aside} to pay off over {count_of(question.earnest, 'match', 'matches')} that "
+            f"count, a "
+            f"win in them must be worth at least {cheapest.break_even:.2f} times as much as a win "
+            f"in a dumped match (with {cheapest.dumped} dumped)."
         )
     if cycle is not None and cycle.dumped and cycle.profit > 0.0:
         yield (
@@ -183,7 +185,7 @@ def _in_words(found: PayFindings, question: PayQuestion) -> Iterator[str]:
         )
     steps = ""
     if "newcomer" in found.enters:
-        steps = f"; with the newcomer steps, {found.enters['newcomer']:.2f} more"
+        steps = f"; with the newcomer steps, they win {found.enters['newcomer']:.2f} more"
     yield (
         f"A player who enters the league {found.doubling} points underrated wins "
         f"{found.enters['established']:.2f} more of their first {question.earnest} matches than a "
@@ -231,7 +233,8 @@ def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -
             f"{most.ladder.chart.name}: up to {most.all_pays.best.profit:.2f}.",
             Table("charts", columns, rows),
             "Each row is for the number of dumped matches that pays most. 'Pays from': for "
-            f"sandbagging to pay, a win that counts must be worth at least this many times a "
+            f"sandbagging to pay, a win that counts must be worth at least this many times as "
+            f"much as a "
             f"win in a dumped match. 'Enters low': how many more of their first "
             f"{question.earnest} matches are won by a player who enters the league "
             f"{found[0].doubling} points underrated.",

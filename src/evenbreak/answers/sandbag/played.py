@@ -64,8 +64,8 @@ def dumping_answer(
     best = max(rows, key=lambda row: (profit(row), -row.dumped))
     error = f" ± {question.stake * best.error:.2f}" if leagues else ""
     first = (
-        "Sandbagging pays at these stakes, most of all with "
-        f"{count_of(best.dumped, 'match', 'matches')} dumped: a profit of "
+        "Sandbagging pays at these stakes. The most profitable plan is to dump "
+        f"{count_of(best.dumped, 'match', 'matches')}, for a profit of "
         f"{profit(best):.2f}{error}."
         if best.dumped and profit(best) > 2.0 * question.stake * best.error
         else "Sandbagging does not pay at these stakes, however many matches are dumped."

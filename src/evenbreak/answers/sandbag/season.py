@@ -41,7 +41,7 @@ def with_even_races(season: ResultsFile) -> tuple[ResultsFile, list[str]]:
         return season, []
     warning = say(
         "{source}: no race is given for {many}, so each is read as an even race to the winner's "
-        "games; if a chart set the races, name it with {chart}",
+        "number of games; if a chart set the races, name it with {chart}",
         source=season.source,
         many=count_of(changed, "match", "matches"),
         chart=Parameter("chart"),

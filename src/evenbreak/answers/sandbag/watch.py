@@ -95,7 +95,7 @@ def sandbag_watch_answer(
             say(
                 "The chance that {honest} is ever flagged is at most {alpha}. If all {n:,} "
                 "players are honest, at most {flagged:.2g} of them are flagged on average. "
-                "This holds if form varies by as much as {day_sd} allows.",
+                "This holds as long as form varies by no more than {day_sd} allows.",
                 honest=HONEST_PLAYER[honest],
                 alpha=percent(alpha),
                 n=len(rows),
@@ -104,7 +104,7 @@ def sandbag_watch_answer(
         ],
         details=[
             f"If players were flagged only at {evidence(len(rows) / alpha)}, the chance that even "
-            f"one honest player of the league is flagged would be at most {percent(alpha)}. The "
+            f"one honest player in the league is flagged would be at most {percent(alpha)}. The "
             "evidence is an e-value: its mean over honest players is at most 1 after any number "
             "of matches.",
             *_tried(watched[0]),
@@ -130,7 +130,7 @@ def day_sd_doubts(results: Results, scale: Scale | str) -> list[str]:
         say(
             "honest players are assumed to play at the same strength every day, but in these "
             "results their form varies by about {points:.0f} points from match to match. Give "
-            "{day_sd} {points:.0f}, or players may be flagged for a good or bad day.",
+            "{day_sd} {points:.0f}, or players may be flagged for having a good or bad day.",
             points=points,
         )
     ]
@@ -229,10 +229,11 @@ def _tried(one: Watched) -> Iterator[str]:
     events = _events(one)
     if events:
         yield say(
-            "Besides dumping in any event, dumping in just one event was tried for each of the "
-            "{events} ({names}). The evidence is the average of these {tried} e-values, which "
-            "is an e-value too, so honest players are flagged no more often. With {dumps_in}, "
-            "only the event that you name is tried. Choose it before you look at the results.",
+            "The test looked for dumping in all events together, and then for dumping in each "
+            "of the {events} alone ({names}). The evidence is the average of these {tried} "
+            "e-values, which is an e-value too, so honest players are flagged no more often. "
+            "With {dumps_in}, only the event that you name is tested. Choose it before you "
+            "look at the results.",
             events=count_of(len(events), "event"),
             names=some_of(events, NAMED),
             tried=len(one.tried),
