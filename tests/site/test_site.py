@@ -203,8 +203,8 @@ def test_teams_have_their_own_standings() -> None:
 def test_a_player_is_told_why_a_race_is_what_it_is(rule) -> None:
     page = site_files(published(rule=rule))["players/ann-lee.html"].decode()
     assert re.search(
-        r"Ann Lee is rated \d+, and [^,]+, the last opponent, is rated \d+, so they are \d+ points "
-        "apart",
+        r"Ann Lee is rated \d+, and the last opponent, [^,]+, is rated \d+: a difference of \d+ "
+        "points",
         page,
     )
 
