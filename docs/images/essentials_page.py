@@ -50,7 +50,7 @@ PAGES = (
                 "A late player takes an open bye",
                 'tournament late "Wanda Late" --rating 60',
             ),
-            ("Someone goes home", 'tournament drop "Otto Birnhuber"'),
+            ("Someone is going home", 'tournament drop "Otto Birnhuber"'),
             ("The bracket, and a picture of it", "tournament show --out bracket.pdf"),
             ("Odds for every place; prizes", "tournament odds; tournament prizes --fee 20"),
             ("Score cards, bracket or draw on paper", "tournament print cards"),
