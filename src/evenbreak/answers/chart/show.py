@@ -126,8 +126,8 @@ def chart_show_answer(
 
     >>> from evenbreak.handicaps import chart
     >>> print(chart_show_answer(chart("npl_8")).sentences[0])
-    Equal players race to 4. From a difference of 49 points on, the race is 6:2: the stronger player
-    needs 6 games, the weaker 2.
+    Equal players race to 4. At a difference of 49 points or more, the race is 6:2: the stronger
+    player needs 6 games and the weaker player 2.
     """
     return Answer(
         f"Chart {chart.name}",

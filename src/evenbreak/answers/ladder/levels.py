@@ -31,8 +31,8 @@ def level_ladder_answer(
     >>> from evenbreak.handicaps import system_of
     >>> answer = level_ladder_answer(system_of("level-steps"), None, 3)
     >>> print(answer.sentences[0])
-    In the long run players are at the level that fits their strength 76% of the time, and one \
-level off 24% of the time.
+    In the long run players are at the level that fits their strength 76% of the time, and they \
+are one level off 24% of the time.
     """
     chart: Any = system.chart
     skills = level_skills(chart)

@@ -25,7 +25,7 @@ def points_answer(
     >>> answer = points_answer(points_chart("apa_9ball"), (5, 3))
     >>> print("\n".join(answer.sentences[:2]))
     B wins the match 50% of the time.
-    On average A gets 9.9 of the 20 match points, and B 10.1.
+    On average A gets 9.9 of the 20 match points, and B gets 10.1.
     """
     odds = points_odds(chart, *levels, score=score)
     by_innings = [points_odds(chart, *levels, score=score, innings=n).p_win_1 for n in (FEW, MANY)]

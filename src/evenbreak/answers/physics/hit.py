@@ -192,7 +192,8 @@ def squirt_words(angle: float, units: Units) -> Sentence:
 
     The angle is in degrees, positive with right english.
 
-    >>> from evenbreak.answers.physics.units import IMPERIAL >>> print(squirt_words(-1.0, IMPERIAL))
+    >>> from evenbreak.answers.physics.units import IMPERIAL
+    >>> print(squirt_words(-1.0, IMPERIAL))
     Point the cue 1.00 degrees to the left of the line that the cue ball has to travel (0.21 inches
     a foot): with left english it squirts to the right.
     """
