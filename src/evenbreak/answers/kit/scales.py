@@ -114,8 +114,8 @@ def contradiction(scale: Scale, roster: Roster, results: Results) -> str:
     >>> contradiction(SCALES["fargo"], listed, season)
     ''
     >>> contradiction(SCALES["npl"], listed, season)
-    'the results contradict NPL ratings: by them the player rated higher would have won 89% of the
-    games, by Fargo ratings 65%; they won 67%'
+    "the results don't fit NPL ratings: the higher-rated player won 67% of the games, but NPL
+    ratings predict 89%, and Fargo ratings predict 65%"
     """
     import numpy as np
 
@@ -319,10 +319,10 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
     >>> from evenbreak.ratings.fitted import DayForm
     >>> from evenbreak.ratings import SCALES
     >>> print(*form_words(DayForm(Estimate(0.12, 0.06, 0.18), 900), SCALES["npl"]))
-    Day-to-day form: from match to match the strength difference of two players varies by 15
-    ± 2 points, so sweeps are likelier and hill-hill games rarer than ratings alone
-    would say. This list of ratings states it (0.35 in log-odds); its errors, and odds, fair, live
-    and matchups, allow for it.
+    Day-to-day form: from match to match the difference in strength between two players
+    varies by 15 ± 2 points, so sweeps are likelier and hill-hill games rarer than ratings alone
+    would suggest. This list of ratings includes that figure (0.35 in log-odds). The errors on the
+    list allow for it, and so do the commands odds, fair, live and matchups.
     """
     if form is None or not form.established:
         return
