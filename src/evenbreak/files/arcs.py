@@ -166,8 +166,8 @@ def sum_problems(
 ) -> dict[int, Sentence]:
     """Return the states whose arcs don't sum to 1 as problems, each at its first arc.
 
-    >>> sum_problems(["S", "W"], np.array([0]), np.array([0.9]))[0][:32]
-    "the arcs out of 'S' sum to 0.9, "
+    >>> sum_problems(["S", "W"], np.array([0]), np.array([0.9]))[0][:52]
+    "the probabilities of the arcs out of 'S' sum to 0.9,"
     """
     leaving, first = np.unique(sources, return_index=True)
     sums = np.bincount(sources, weights=p, minlength=len(states))

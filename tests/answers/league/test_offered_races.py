@@ -23,5 +23,5 @@ def test_the_fairest_race_is_within_the_limits(error):
 
 def test_one_game_is_no_games():
     assert "needs 1 game." in OfferedRaces(race_to=1).in_words
-    assert "maximum of 1 game." in OfferedRaces((1, 1)).in_words
-    assert "7 to 13 games;" in OfferedRaces((7, 13)).in_words
+    assert "last 1 game at most." in OfferedRaces((1, 1)).in_words
+    assert "7 to 13 games at most;" in OfferedRaces((7, 13)).in_words

@@ -41,7 +41,9 @@ def test_the_error_of_an_estimate_is_given_with_it():
     ratings = fit(results, prior_sd=choice.prior_sd, levels=choice.levels)
     data = levels_data(ratings, choice)
     assert 0 < data["joined_below_standard_error"] < data["joined_below"]
-    assert f"{data['joined_below']:.1f} points below" in " ".join(level_words(ratings, choice))
+    below, error = data["joined_below"], data["joined_below_standard_error"]
+    text = " ".join(level_words(ratings, choice))
+    assert f"{below:.1f} ± {error:.1f} points below" in text
     used = {row["of"]: row["used"] for row in evidence_rows(choice)}
     assert used["joined"]
     assert not used["team_sd"]
@@ -74,7 +76,7 @@ def test_how_much_of_the_field_newcomers_have_is_said():
     found = Evidence("field", (0.75,), (Estimate(0.001, 0.0005, 0.0015),), True, 0.85, 0.1)
     choice = PriorChoice(0.7, (0.7,), (0.6,), 200, 0.7, 0.7, True, 0.6, evidence=(found,))
     (text,) = level_words(ratings, choice)
-    assert text.endswith("(± 10%).")
+    assert "85% (± 10%) of" in text
     assert levels_data(ratings, choice)["field_standard_error"] == 0.1
 
 
@@ -93,6 +95,6 @@ def test_teams_that_are_too_many_to_compare_are_said_not_to_be_used(monkeypatch)
 
 
 def test_a_share_of_the_field_above_one_is_said():
-    assert "125% of its distance" in " ".join(
+    assert "125% of the difference" in " ".join(
         level_words(fit(SEASON, levels=Levels(field=1.25)), None)
     )

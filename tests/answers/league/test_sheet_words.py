@@ -94,8 +94,8 @@ def test_how_it_was_rated():
 def test_the_model_is_the_one_that_was_used():
     season = Results.from_names(["Ann"], ["Bo"], [7], [5], date=["2026-01-31"])
     assert "d/100" in rating_model(sheet_of(season, scale="fargo"))
-    assert "alike" in rating_model(sheet_of(season))
-    assert "alike" not in rating_model(sheet_of(season, half_life=90))
+    assert "count the same" in rating_model(sheet_of(season))
+    assert "count the same" not in rating_model(sheet_of(season, half_life=90))
     sheet = sheet_of(season)
     breaks = replace(sheet, ratings=replace(sheet.ratings, break_advantage=12.34))
     assert "12.3 points better" in rating_model(breaks)
@@ -106,4 +106,4 @@ def test_the_model_is_the_one_that_was_used():
         winner=[1],
         unscored=[True],
     )
-    assert "only its winner" in rating_model(sheet_of(winners))
+    assert "only the winner" in rating_model(sheet_of(winners))

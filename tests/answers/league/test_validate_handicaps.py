@@ -46,7 +46,7 @@ def test_a_class_has_its_worth_beside_what_a_start_takes_back():
     fair, worth = said(by_class(1, matches=800))
     assert "too little" in fair
     taken, should = map(
-        int, re.search(r"make up for (\d+) points and should .* (\d+) ±", fair).groups()
+        int, re.search(r"make up for (\d+) points, but should .* (\d+) ±", fair).groups()
     )
     assert taken < 20 < 30 < should
     assert re.search(r"A class is worth 2[0-4] ± ", worth)
@@ -87,7 +87,10 @@ def spots(*counts):
     [
         (((100, 200), (68, 100), (32, 100)), ["Taken together", "2 games gives too little", "68%"]),
         (((92, 200), (100, 200), (108, 200)), []),
-        (((180, 400), (200, 400), (228, 400)), ["The more games a player gives, the more often", "57%"]),
+        (
+            ((180, 400), (200, 400), (228, 400)),
+            ["The more games a player gives, the more often", "57%"],
+        ),
     ],
 )
 def test_starts_that_are_fair_only_on_average_are_named(by_the_book, counts, parts):

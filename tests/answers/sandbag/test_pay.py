@@ -22,7 +22,7 @@ def found():
 def test_the_sentences_have_the_numbers_of_the_json(found):
     answer = sandbag_pay_answer(found, QUESTION)
     data, text = answer.to_dict(), " ".join(answer.sentences)
-    assert f"{data['best']['dumped']} matches dumped" in text
+    assert f"dump {data['best']['dumped']} matches," in text
     assert f"a profit of {data['best']['profit']:.2f}" in text
     assert f"dump {data['cycle']['dumped']} and play {data['cycle']['earnest']}" in text
     assert f"{data['enters_low']['established']:.2f} more" in text

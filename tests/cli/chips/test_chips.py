@@ -76,7 +76,7 @@ def test_wrong_options_are_refused(chips, words, named):
 @pytest.mark.parametrize(
     ("listed", "named"),
     [
-        ("rating_from,chips\n,5\n400,6\n", "players rated 400 or above get 6 chips"),
+        ("rating_from,chips\n,5\n400,6\n", "players rated 400 or above get 6"),
         ("rating_from,chips\n400,6\n400,5\n", "row from 400"),
         ("rating_from,chips\n,5\n400,none\n", "ours.csv:3"),
         ("rating_from\n400\n", "chips"),

@@ -170,7 +170,7 @@ def test_the_help_names_all_systems(run):
         (("--start-error", "61"), 2, "from -60 to 60"),
         (("--start-error", "half"), 2, "'half'"),
         (("--day-sd", "-1"), 2, "'-1'"),
-        (("--day-sd", "1e9"), 2, "from 0 to 120"),
+        (("--day-sd", "1e9"), 2, "0 to 120 points"),
         (("--scale", "0.01"), 2, "--scale 0.01"),
         (("--match-sd", "nan"), 2, "'nan'"),
         (("--drift", "2"), 2, "from -0.9 to 0.9"),

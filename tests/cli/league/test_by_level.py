@@ -45,11 +45,11 @@ def test_a_chart_knows_who_won(run, sheet):
     assert found["chart_p_win_a"] == pytest.approx(level_skills("apa_8ball").gap(5, 3).win(4, 2))
     words = run("why", "Ann", "Bo", "--results", sheet, "--chart", "apa_8ball").stderr
     by_level, by_ratings = (
-        words.index("with apa_8ball their race is 4:2"),
+        words.index("In apa_8ball, their race is 4:2"),
         words.index("own results"),
     )
     assert by_level < by_ratings
-    rated = re.search(r"Ann would then win 4:2 (\d+)% of the time", " ".join(words.split()))
+    rated = re.search(r"Ann would win the 4:2 race (\d+)% of the time", " ".join(words.split()))
     gap = Gap(found["difference"], found["difference_error"], "fargo")
     assert int(rated[1]) == round(100 * float(gap.win(4, 2)))
 

@@ -171,7 +171,10 @@ def test_cp1252_is_read_with_a_warning(run):
             HEADER + "S,W,1.5\nS,L,-0.5\n",
             ["stdin:2: probability '1.5'", "stdin:3: probability '-0.5'"],
         ),
-        (HEADER + "S,W,0.5\nS,L,0.4\n", ["stdin:2: the arcs out of 'S' sum to 0.9"]),
+        (
+            HEADER + "S,W,0.5\nS,L,0.4\n",
+            ["stdin:2: the probabilities of the arcs out of 'S' sum to 0.9"],
+        ),
         (HEADER + "S,W,0.5\nS,W,0.5\n", ["stdin:3: the arc 'S' -> 'W' is already in line 2"]),
         (HEADER + ",W,1\nW,,1\n", ["stdin:2: source is empty", "stdin:3: target is empty"]),
         (HEADER + "S,W\n", ["stdin:2: has 2 cells"]),

@@ -288,7 +288,7 @@ def test_numbers_beside_a_word_are_scores(run):
 @pytest.mark.parametrize(
     ("rows", "more", "words"),
     [
-        ("shot,made,tried\ncut,11,10", (), "stdin:2: made 11 of 10"),
+        ("shot,made,tried\ncut,11,10", (), "stdin:2: 11 made out of 10"),
         ("shot,made,tried\ncut,1,0", (), "tried"),
         ("shot,made\ncut,6", (), "no column 'tried'"),
         ("date,shot,result\n2025-01-01,cut,x\n2025-01-02,cut,yes", (), "made and tried"),

@@ -342,9 +342,9 @@ def games_words(listed: Roster, filled: Roster) -> str:
     ± 83 for Bo, after 12 games.'
     >>> listed = Roster(["Ann", "Bo"], [600, 500], games=[300, NOT_STATED])
     >>> games_words(listed, listed.with_starters(500.0, 100.0, "fargo"))
-    'The error of 1 rating was worked out from the number of games behind it: ± 17 for Ann, after
+    "The error of 1 rating was worked out from the number of games behind it: ± 17 for Ann, after
     300 games. The number of games behind 1 rating (Bo) isn't given. That rating is assumed to be
-    as uncertain as a new player's, ± 100.'
+    as uncertain as a new player's, ± 100."
     """
     rated = ~np.isnan(listed.rating) & np.isnan(listed.standard_error)
     by_games = np.flatnonzero(rated & (listed.games != NOT_STATED))

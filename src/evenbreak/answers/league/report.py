@@ -40,8 +40,8 @@ def report_answer(sheet: Sheet, *, across: int = MOST_ACROSS, listed: int | None
     >>> file = ResultsFile(season, "season.csv", (), (), "0123456789abcdef")
     >>> answer = report_answer(Sheet.of(file, fit(season), OfferedRaces(race_to=7), [0, 1, 2]))
     >>> answer.parts[1].title
-    "Find your row and your opponent's column. 7:6 means that you need 7 games and your "
-    "opponent needs 6."
+    "Find your row and your opponent's column. 7:6 means that you need 7 games and your
+    opponent needs 6."
     """
     shown = sheet.strongest(MOST_ON_SHEET)
     many = len(shown.listed)

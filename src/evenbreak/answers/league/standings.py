@@ -47,7 +47,7 @@ def table_answer(
     >>> from evenbreak.ratings import Results
     >>> season = Results.from_names(["Ann", "Bo", "Cy"], ["Bo", "Cy", "Ann"], [5, 5, 5], [3, 1, 4])
     >>> print(table_answer(league_table(player_matches(season))).sentences[0])
-    Bo leads with 2 points from 2 matches, level with Ann and Cy, ahead by games won less lost.
+    Bo leads with 2 points from 2 matches, tied with Ann and Cy but ahead on games won minus lost.
     """
     rows = table_rows(table, earlier, who=who, score=score)
     return Answer(
@@ -153,8 +153,9 @@ def rules_words(
 ) -> str:
     """Return the rules for the standings, in words.
 
-    >>> rules_words(TableRules(3, 1, 0, ties=("head-to-head",)), sets=False) '3 points for a win, 1
-    for a draw, 0 for a loss; tied on points: the matches among those tied, a shared rank'
+    >>> rules_words(TableRules(3, 1, 0, ties=("head-to-head",)), sets=False)
+    '3 points for a win, 1 for a draw, 0 for a loss; tied on points: the matches among those tied, a
+    shared rank'
     """
     unit = "set" if sets else "game"
     text = f"{rules.win:g} points for a win, {rules.draw:g} for a draw, {rules.loss:g} for a loss"
