@@ -61,7 +61,7 @@ def test_a_scale_that_the_list_contradicts_is_refused(run, tmp_path, title):
     told = run("sandbag", "watch", results, "--roster", roster, "--scale", "npl")
     if title == "Rating":
         assert told.exit_code == 0
-        assert "the results don't fit NPL ratings: with those" in told.stderr
+        assert "the results don't fit NPL ratings: the higher-rated player won" in told.stderr
     else:
         assert told.exit_code == 2
         assert "states that its ratings are on the Fargo scale" in told.stderr
@@ -75,5 +75,5 @@ def test_a_list_that_states_the_wrong_scale_is_refused_with_both_readings(run, t
     assert told.exit_code == 2
     (line,) = told.stderr.splitlines()[-1:]
     assert "the results don't fit NPL ratings" in line
-    assert "with Fargo ratings" in line
+    assert "and Fargo ratings predict" in line
     assert "--scale fargo" in line
