@@ -8,7 +8,6 @@ import json
 import re
 import urllib.parse
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from html import unescape
 from html.parser import HTMLParser
@@ -19,7 +18,7 @@ from starlette.applications import Starlette
 
 from evenbreak.web.app import cookie_name, make_app
 from evenbreak.web.site import Site
-from web.phones import carried, seen_at
+from web.phones import answer_of, carried, seen_at
 
 
 class Got(NamedTuple):
@@ -140,43 +139,15 @@ class Browser:
         return await self._asked(method, path, head, body)
 
     async def _asked(self, method: str, path: str, head: dict[str, str], body: bytes) -> Got:
-        got: list[Any] = []
-
-        async def receive() -> dict[str, Any]:
-            await asyncio.sleep(0)
-            return {"type": "http.request", "body": body, "more_body": False}
-
-        async def send(message: Any) -> None:
-            got.append(message)
-
-        plain, _, query = path.partition("?")
-        scope = {
-            "type": "http",
-            "method": method,
-            "path": urllib.parse.unquote(plain),
-            "raw_path": plain.encode(),
-            "query_string": query.encode(),
-            "headers": [(name.encode(), value.encode()) for name, value in head.items() if value],
-            "client": (self.address, 1),
-            "server": ("localhost", 80),
-            "scheme": "http",
-            "http_version": "1.1",
-            "root_path": "",
-        }
-        with suppress(*self.expected):
-            await self.room.app(scope, receive, send)
-        headers = [(name.decode(), value.decode()) for name, value in got[0]["headers"]]
+        status, headers, sent = await answer_of(
+            self.room.app, method, path, head, body, address=self.address, expected=self.expected
+        )
         for name, value in headers:
             if name == "set-cookie" and not self.fixed:
                 key, _, held = value.partition(";")[0].partition("=")
                 self.cookies[key] = held
         to = urllib.parse.urlsplit(dict(headers).get("location", ""))
-        return Got(
-            got[0]["status"],
-            b"".join(one.get("body", b"") for one in got[1:]),
-            to._replace(scheme="", netloc="").geturl(),
-            dict(headers),
-        )
+        return Got(status, sent, to._replace(scheme="", netloc="").geturl(), dict(headers))
 
 
 def session(site: Site, held: Mapping[str, object], key: str = "") -> dict[str, str]:

@@ -62,36 +62,45 @@ def _loop() -> asyncio.AbstractEventLoop:
     return loop
 
 
-async def _answer(
-    app: Starlette, req: urllib.request.Request, address: str
+async def answer_of(
+    app: Starlette,
+    method: str,
+    path: str,
+    head: Mapping[str, str],
+    body: bytes,
+    *,
+    address: str,
+    expected: tuple[type[Exception], ...] = (),
 ) -> tuple[int, list[tuple[str, str]], bytes]:
-    """Return the status, headers and body that an application answers."""
-    url = urllib.parse.urlsplit(req.full_url)
-    body = req.data if isinstance(req.data, bytes) else b""
-    head = {name.lower(): value for name, value in req.header_items()}
-    host, _, port = url.netloc.partition(":")
+    """Return the status, headers and body that an application answers to an address.
+
+    `expected` is what it may fail with, once it has answered.
+    """
     got: list[Any] = []
 
     async def receive() -> dict[str, Any]:
+        await asyncio.sleep(0)
         return {"type": "http.request", "body": body, "more_body": False}
 
     async def send(message: Any) -> None:
         got.append(message)
 
+    plain, _, query = path.partition("?")
     scope = {
         "type": "http",
-        "method": req.get_method(),
-        "path": urllib.parse.unquote(url.path),
-        "raw_path": url.path.encode(),
-        "query_string": url.query.encode(),
-        "headers": [(name.encode(), value.encode("latin-1")) for name, value in head.items()],
+        "method": method,
+        "path": urllib.parse.unquote(plain),
+        "raw_path": plain.encode(),
+        "query_string": query.encode(),
+        "headers": [(k.lower().encode(), v.encode("latin-1")) for k, v in head.items() if v],
         "client": (address, 1),
-        "server": (host, int(port)),
+        "server": ("localhost", 80),
         "scheme": "http",
         "http_version": "1.1",
         "root_path": "",
     }
-    await app(scope, receive, send)
+    with suppress(*expected):
+        await app(scope, receive, send)
     raw = got[0]["headers"]
     headers = [(name.decode("latin-1"), value.decode("latin-1")) for name, value in raw]
     return got[0]["status"], headers, b"".join(one.get("body", b"") for one in got[1:])
@@ -107,8 +116,11 @@ class _From(urllib.request.HTTPHandler):
     def http_open(self, req: urllib.request.Request) -> Any:
         app = _ANSWERING.get(req.host)
         if app is not None:
-            asked = asyncio.run_coroutine_threadsafe(_answer(app, req, self.address), _loop())
-            status, headers, body = asked.result(20)
+            sent = req.data if isinstance(req.data, bytes) else b""
+            asked = (req.get_method(), req.selector, dict(req.header_items()), sent)
+            answer = answer_of(app, *asked, address=self.address)
+            waiting = asyncio.run_coroutine_threadsafe(answer, _loop())
+            status, headers, body = waiting.result(20)
             message = http.client.HTTPMessage()
             for name, value in headers:
                 message[name] = value
