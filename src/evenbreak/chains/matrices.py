@@ -67,8 +67,7 @@ def _only_reading(matrix: csc_array) -> Rows:
     if not by_rows and not by_columns:
         raise ChainError(
             "the matrix's rows or its columns must all sum to 1; neither do. Give probabilities "
-            "that sum to 1 within 1e-9, with a 1 on the diagonal for any state that is never "
-            "left."
+            "that sum to 1 within 1e-9, with a 1 on the diagonal for any state that is never left."
         )
     if by_rows and by_columns and (matrix - matrix.T).count_nonzero():
         raise ChainError(

@@ -136,8 +136,7 @@ class _Chunk:
         if max(self.highest, -self.lowest) > _HIGHEST or self.rounds > _MANY:
             raise AccuracyError(
                 "weeks is {weeks}, but by week {week} a rating is beyond {highest} "
-                "points, or a player has played more than {many} matches. Play fewer "
-                "weeks.",
+                "points, or a player has played more than {many} matches. Play fewer weeks.",
                 weeks=self.season.weeks,
                 week=week,
                 highest=_HIGHEST,

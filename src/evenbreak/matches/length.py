@@ -258,8 +258,7 @@ class MatchLength(Generic[ChanceT, MeanT]):
         if not self.bounded and ((ends >= q) & (q < 1.0) & ~is_reached).any():
             raise AccuracyError(
                 "the {q:g} quantile lies beyond {span} racks, where the distribution is "
-                "cut off. Give a smaller tail, or use match_odds for the .5 and .9 "
-                "quantiles.",
+                "cut off. Give a smaller tail, or use match_odds for the .5 and .9 quantiles.",
                 q=q,
                 span=self.span,
             )

@@ -189,8 +189,7 @@ def _check_over(
         if state not in over and (winner := winner_in(state)) is not None:
             raise GameError(
                 "player {winner} has won in {state!r}, but there are moves from it. Give "
-                "no moves from a state in which the game is over, and no winner in any "
-                "other.",
+                "no moves from a state in which the game is over, and no winner in any other.",
                 winner=winner,
                 state=state,
             )

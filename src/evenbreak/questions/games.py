@@ -168,8 +168,7 @@ class OneBall(Question):
         Field(
             Choice(LOOK_AHEADS),
             "How to rank shots: by the first two, repeated until one is made (infinite); or by "
-            "the first two (two) or all of them (all), assuming that the game is even after "
-            "that.",
+            "the first two (two) or all of them (all), assuming that the game is even after that.",
             usual="all if there is a P3, otherwise infinite",
         ),
     ] = None

@@ -71,8 +71,7 @@ class TournamentPlan(Format, Question):
             },
             more="`blind` is drawn at random. `drawn` means that the draw has already been "
             "made: the first two players in the file meet, then the next two, and so on. "
-            "The file has 2, 4, 8, 16 … rows, some of which may be named `bye 1`, `bye 2` "
-            "…",
+            "The file has 2, 4, 8, 16 … rows, some of which may be named `bye 1`, `bye 2` …",
         ),
     ] = None
     chips: Annotated[

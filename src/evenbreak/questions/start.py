@@ -124,8 +124,7 @@ class Serve(Question):
             Flag(),
             "Open a sample tournament, half played.",
             more="The tournament has 16 players, some results, matches on tables and one match "
-            "to call. Its file name is printed; the file is in a temporary folder of its "
-            "own.",
+            "to call. Its file name is printed; the file is in a temporary folder of its own.",
         ),
     ] = False
     open: Annotated[

@@ -91,8 +91,7 @@ Order: TypeAlias = Annotated[
     Field(
         Text("PATTERN"),
         "Who names first in each set: A (you), B (them), = (both, blind), W or L (whoever won "
-        "or lost the last set), such as ABABA; or alternate, home, blind, winner, loser or "
-        "sealed.",
+        "or lost the last set), such as ABABA; or alternate, home, blind, winner, loser or sealed.",
         titles=ORDERS,
         more="A shorter pattern is repeated. `sealed`: both lineups are handed in before the "
         "match.",

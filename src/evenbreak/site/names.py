@@ -71,8 +71,7 @@ class PublicNames:
             if place is None:
                 problems.append(
                     f"{where or 'names'}: {quoted(name)} isn't a player in this "
-                    f"league{known.hint(clean_name(name))}. Write the name as it is in "
-                    "the results."
+                    f"league{known.hint(clean_name(name))}. Write the name as it is in the results."
                 )
             else:
                 chosen[order[place]] = way

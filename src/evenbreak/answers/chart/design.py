@@ -127,8 +127,7 @@ def _in_words(found: ChartMeasure, target: float) -> str:
         f"At differences up to {found.up_to}, the stronger player's chance is within "
         f"{100 * found.worst_unfairness:.1f} percentage points of {percent(target)}, and is "
         f"off by {100 * found.mean_unfairness:.1f} on average. A match takes "
-        f"{found.mean_games:.1f} "
-        f"games on average; 9 out of 10 end within {found.games_p90}."
+        f"{found.mean_games:.1f} games on average; 9 out of 10 end within {found.games_p90}."
     )
 
 
@@ -168,8 +167,7 @@ def _compared(chart: Chart, found: ChartMeasure, spans: Sequence[_Span], target:
         f"For comparison, {chart.name} stays within {100 * found.worst_unfairness:.1f} percentage "
         f"points of {percent(target)}, and is off by {100 * found.mean_unfairness:.1f} on "
         f"average. A match takes {found.mean_games:.1f} games on average; 9 out of 10 end within "
-        f"{found.games_p90}. The "
-        f"two charts have {races} {found.up_to + 1} differences."
+        f"{found.games_p90}. The two charts have {races} {found.up_to + 1} differences."
     )
 
 

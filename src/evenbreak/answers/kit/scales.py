@@ -329,8 +329,7 @@ def form_words(form: DayForm | None, scale: Scale) -> Iterator[str]:
     points, error = scale.points(form.sd), scale.points(form.sd_error)
     yield (
         f"Day-to-day form: from match to match the difference in strength between two players "
-        f"varies by "
-        f"{points:.0f} ± {error:.0f} points, so sweeps are likelier and hill-hill "
+        f"varies by {points:.0f} ± {error:.0f} points, so sweeps are likelier and hill-hill "
         "games rarer than ratings alone would suggest. This list of ratings includes that figure "
         f"({form.sd:.2f} in log-odds). The errors on the list allow for it, and so do the "
         f"commands odds, fair, live and matchups."

@@ -202,8 +202,7 @@ def chart_for(system: handicaps.StepSystem, name: str | None) -> tuple[handicaps
     if not isinstance(chart, handicaps.Chart):
         refuse(
             "{chart} {name!r} is a chart of skill levels, and levels don't move by points after "
-            "a match. Give a chart of rating differences, such as npl_10, or {system} "
-            "level-steps.",
+            "a match. Give a chart of rating differences, such as npl_10, or {system} level-steps.",
             name=name,
         )
     return chart, [*warnings, *chart_doubts(chart, system.scale)]

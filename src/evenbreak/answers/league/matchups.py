@@ -403,8 +403,7 @@ def points_matchups_answer(
             "The chances are based on an assumption, not on measurements: players of every "
             "level are "
             f"assumed to need about {INNINGS:.0f} innings to reach their points, and to have "
-            f"the same "
-            "chance on each shot.",
+            f"the same chance on each shot.",
         ],
         warnings=[*file.warnings, *warnings],
         data={"chart": chart.name, "innings": INNINGS},

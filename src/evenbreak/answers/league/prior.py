@@ -62,9 +62,8 @@ def level_words(ratings: Ratings, choice: PriorChoice | None) -> Iterator[str]:
         error = _error(choice, "joined", points(1.0), _ONE, "")
         yield (
             f"Players who joined after the first {OPENING / 7:.0f} weeks are expected to be "
-            f"{_ONE(abs(points(levels.joined)))}{error} points {side} those who were there from "
-            f"the "
-            f"start."
+            f"{_ONE(abs(points(levels.joined)))}{error} points {side} those who were there "
+            f"from the start."
         )
     if levels.newcomers:
         below = ratings.newcomer
@@ -100,7 +99,7 @@ def _beginning_words(ratings: Ratings) -> Iterator[str]:
     others = [name for name in ratings.players if name not in set(beginning.players)]
     known = len(ratings.players) - len(others)
     if beginning.unknown_error and not off:
-        yield ("The ratings from elsewhere don't help predict these results, so they aren't used.")
+        yield "The ratings from elsewhere don't help predict these results, so they aren't used."
         return
     text = f"{known:,} of {count_of(len(ratings.players), 'player')} came with a rating"
     if 0 < len(others) <= _FEW:
@@ -150,8 +149,7 @@ def _field_words(share: float, error: float | None) -> Sentence:
         )
     return say(
         "Where newcomers start depends on the field at their first event: {share} (± {error}) "
-        "of the difference between that field and the usual one is added to their starting "
-        "rating.",
+        "of the difference between that field and the usual one is added to their starting rating.",
         share=Figure(share, ".0%"),
         error=Figure(error, ".0%"),
     )

@@ -105,8 +105,7 @@ def _error_of_errors_in_words(ratings: Ratings) -> Iterator[str]:
     if ratings.error_of_errors:
         yield (
             "With this many players, the standard errors are estimated from random draws: for "
-            "every "
-            f"player, the estimate is within {percent(ratings.error_of_errors)} of the exact "
+            f"every player, the estimate is within {percent(ratings.error_of_errors)} of the exact "
             "value at least two times in three."
         )
 
@@ -250,8 +249,7 @@ def unlinked_words(ratings: Ratings) -> Iterator[str]:
             f"{len(sizes):,} groups of players "
             f"({listed([*(f'{size:,}' for size in sizes[:SIZES]), *more])}) have never "
             "met: compare ratings only within a group. All groups are assumed to be equally "
-            "strong on average; "
-            "a match or two between them would link them."
+            "strong on average; a match or two between them would link them."
         )
     idle = int(ratings.idle.sum())
     if idle:

@@ -186,8 +186,7 @@ def _luck(data: Mapping[str, Any]) -> str:
         f"How much of the table is luck? About {100 * share:.0f}% of the differences in one "
         "season's table; the rest comes from who the players are and how often they play. From "
         f"luck alone, a player's wins typically vary by {luck:.1f} from season to season; the "
-        f"players' averages "
-        f"differ by {between:.1f}."
+        f"players' averages differ by {between:.1f}."
     )
 
 

@@ -71,8 +71,7 @@ def tidy_answer(
         if unknown:
             text += (
                 f". The winner isn't given for {count_of(unknown, 'forfeit')}, so the table "
-                f"leaves {'it' if unknown == 1 else 'them'} out. Add a winner column to "
-                f"the file"
+                f"leaves {'it' if unknown == 1 else 'them'} out. Add a winner column to the file"
             )
         parts.append(text + ".")
     if changes["doubt"]:

@@ -249,8 +249,7 @@ def _unfair(one: HandicapFairness, starts: Starts | None, scale: Scale) -> str:
     )
     return (
         f"A head start of {count_of(games, 'game')} gives too {_little(way)}: the player who "
-        f"gave it "
-        f"won {one.won:,} of {one.matches:,} ({percent(one.share)}).{should}"
+        f"gave it won {one.won:,} of {one.matches:,} ({percent(one.share)}).{should}"
     )
 
 

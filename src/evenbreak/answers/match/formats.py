@@ -188,8 +188,7 @@ def breaks_answer(
             "deviation of "
             "A's points over N racks. 'Left after a rack': how much of the first break's effect is "
             "left one rack later (the second eigenvalue of the chain of breakers); if it is "
-            "below 0, "
-            "the advantage changes sides."
+            "below 0, the advantage changes sides."
         ],
     )
 

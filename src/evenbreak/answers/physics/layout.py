@@ -159,8 +159,7 @@ def _refuse_places(layout: Layout, apart: float, diameter: float) -> NoReturn:
     if apart < diameter * (1.0 + 1e-9):
         refuse(
             "{cue_ball} and {object_ball} touch: apart from throw the object ball goes "
-            "along the line through them wherever you aim. Put them more than {touching} "
-            "apart.",
+            "along the line through them wherever you aim. Put them more than {touching} apart.",
             touching=touching,
         )
     name = layout.pocket.name if layout.pocket else ""

@@ -270,8 +270,7 @@ def _tests(analysis: LogAnalysis) -> Iterator[Part]:
     """Yield the log's tests, one paragraph each."""
     test = analysis.difference
     yield (
-        f"Levels: if you went on forever with these success rates, {100 * test.seen:.0f} "
-        f"attempts "
+        f"Levels: if you went on forever with these success rates, {100 * test.seen:.0f} attempts "
         f"in 100 would be at different levels than so far; in simulated sessions like yours, "
         f"{100 * test.by_chance:.0f} in 100 are ({_p(test)})."
     )

@@ -303,8 +303,7 @@ def new_score_answer(file: ScoresFile, score: float, *, confidence: float = 0.95
         f"{score:g} after {count_of(luck.n, 'score')} in {file.source}",
         [_luck_in_words(luck), Quantities(quantities)],
         details=[
-            "The answer uses Student's t, which allows for the average and the spread being "
-            f"known "
+            f"The answer uses Student's t, which allows for the average and the spread being known "
             "only from your earlier scores. The normal distribution ignores that and is "
             f"overconfident. "
             f"The cautious measure counts from the nearer end of the {share} interval of the "

@@ -59,8 +59,7 @@ def shots_answer(file: ShotsFile, found: ShotAnalysis, *, confidence: float = 0.
         [*parts, Quantities(quantities_of(values)), table],
         details=[
             f"'Between' and 'and' are the ends of the exact {100 * confidence:g}% interval from "
-            f"the "
-            f"shot's own tries. A shot's chance is pulled toward the chances of your other "
+            f"the shot's own tries. A shot's chance is pulled toward the chances of your other "
             f"shots, more strongly if it has only a few tries; how strongly is estimated from all "
             f"shots together. 'Weakest' is the probability that it is the shot you miss most.",
             "'Before' and 'since' are the earlier and the later half of your tries. The change "

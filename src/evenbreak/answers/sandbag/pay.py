@@ -132,8 +132,7 @@ _EXPLANATION = (
     "wins': how many more of the matches that count the sandbagger wins; 'from the last': how "
     "many of these come from the last match dumped. 'Pays from': for sandbagging to pay, a win "
     "that counts must be worth at least this many times as much as a win in a dumped match. "
-    "'Profit': how much more the player gains than an honest one, in the same unit as the "
-    "stakes."
+    "'Profit': how much more the player gains than an honest one, in the same unit as the stakes."
 )
 
 
@@ -234,8 +233,7 @@ def sandbag_charts_answer(found: Sequence[PayFindings], question: PayQuestion) -
             Table("charts", columns, rows),
             "Each row is for the number of dumped matches that pays most. 'Pays from': for "
             f"sandbagging to pay, a win that counts must be worth at least this many times as "
-            f"much as a "
-            f"win in a dumped match. 'Enters low': how many more of their first "
+            f"much as a win in a dumped match. 'Enters low': how many more of their first "
             f"{question.earnest} matches are won by a player who enters the league "
             f"{found[0].doubling} points underrated.",
         ],

@@ -233,8 +233,7 @@ def _strengths(
     if not isinstance(chart, handicaps.LevelChart):
         refuse(
             f"{file.source} has skill levels, which the system {own.name} doesn't use. "
-            "Give the league's own system first, such as --chart apa_8ball --system "
-            "level-review."
+            "Give the league's own system first, such as --chart apa_8ball --system level-review."
         )
     skills = handicaps.level_skills(chart)
     scale = SCALES["fargo"]

@@ -155,8 +155,7 @@ def _by_all_results(asked: Rate, system: handicaps.System, roster: str) -> Answe
     first = int(other[0])
     doubt = (
         f"{last.source}: {len(other)} of the ratings can't be ratings in the system "
-        f"{system.name}, such as {stated[first]:g}; these players start at "
-        f"{begun[first]:g}"
+        f"{system.name}, such as {stated[first]:g}; these players start at {begun[first]:g}"
     )
     return replace(answer, warnings=[*answer.warnings, doubt])
 

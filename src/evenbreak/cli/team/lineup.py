@@ -158,8 +158,7 @@ def _check_score(asked: Lineup, meeting: Meeting, score: tuple[int, int], over: 
         possible = {(a + x, b + y) for a, b in possible for x, y in each}
     if score not in possible:
         asked.refuse(
-            "{score} {a}-{b} is impossible: going by the players used, {sets}, and {counted} "
-            "count"
+            "{score} {a}-{b} is impossible: going by the players used, {sets}, and {counted} count"
             + (
                 ". List those who have played with {used}."
                 if asked.count == "sets" and not over

@@ -105,8 +105,7 @@ class Candidates:
         if most * cells > _MOST_CELLS_IN_ROWS:
             raise InputError(
                 "{rows} is {most}, and {races} races at {differences} differences are "
-                "too many to try for each number of rows. Narrow {games}, lower {rows} "
-                "or {up_to}.",
+                "too many to try for each number of rows. Narrow {games}, lower {rows} or {up_to}.",
                 rows=Parameter("rows"),
                 most=most,
                 races=self.m.size,
